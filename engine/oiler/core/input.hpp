@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace oiler {
+
+/// The keys that a game can ask for; a surface translates its own codes to these.
+enum class Key : std::uint8_t {
+    space,
+    enter,
+    escape,
+    left,
+    right,
+    up,
+    down,
+    a,
+    d,
+    p,
+    q,
+    s,
+    w,
+    period,
+    minus,
+    equals,
+};
+
+/// The keyboard as one fixed step sees it: a plain value, so that a step is a pure function of the
+/// state and of this, and a recording is a list of these.
+class Input {
+public:
+    /// The key is down during this step.
+    [[nodiscard]] bool held(Key key) const { return (held_ & bit(key)) != 0; }
+    /// The key went down since the step before; true for one step however long it is held.
+    [[nodiscard]] bool pressed(Key key) const { return (pressed_ & bit(key)) != 0; }
+
+    void press(Key key) {
+        held_ |= bit(key);
+        pressed_ |= bit(key);
+    }
+    void release(Key key) { held_ &= ~bit(key); }
+    /// Takes over what is held in `frame`, and adds its presses to those that no step has seen yet.
+    void gather(const Input& frame) {
+        held_ = frame.held_;
+        pressed_ |= frame.pressed_;
+    }
+    /// To be called when a step has seen the presses.
+    void forget_presses() { pressed_ = 0; }
+
+    friend bool operator==(const Input&, const Input&) = default;
+
+private:
+    static constexpr std::uint32_t bit(Key key) { return 1U << static_cast<unsigned>(key); }
+
+    std::uint32_t held_ = 0;
+    std::uint32_t pressed_ = 0;
+};
+
+}  // namespace oiler
