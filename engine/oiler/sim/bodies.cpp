@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/sim/bodies.hpp"
+
+#include <cassert>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr std::string_view axis_names = "xyz";
+
+template <class T, int Axes>
+Vec<T, Axes> narrow(const Vec3& given) {
+    for (int i = Axes; i < 3; ++i)
+        assert(given[i] == 0 && "a number for an axis that the world lacks");
+    return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
+}
+
+template <class T, int Axes>
+T narrow_field(const double& given, const T&) {
+    return static_cast<T>(given);
+}
+template <class T, int Axes>
+Vec<T, Axes> narrow_field(const Vec3& given, const Vec<T, Axes>&) {
+    return narrow<T, Axes>(given);
+}
+
+/// The user's force per unit mass in the columns' precision and axes.
+template <class To, class T, int Axes, class From>
+To stored_form(const From& given, double mass) {
+    const From specific = given.per_unit_mass(mass);
+    To force;
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        constexpr auto to = To::fields();
+        constexpr auto from = From::fields();
+        ((force.*std::get<I>(to) =
+              narrow_field<T, Axes>(specific.*std::get<I>(from), force.*std::get<I>(to))),
+         ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
+    return force;
+}
+
+template <class Force>
+void check_finite(Force force) {
+    for_each_number(force, [](double number) {
+        if (!std::isfinite(number))
+            fail(Exit::usage, "{}: a number of it is not finite; give finite numbers", Force::name);
+    });
+}
+
+void check(const Body& body) {
+    if (!(body.mass > 0) || !std::isfinite(body.mass))
+        fail(Exit::usage, "a body of mass {} kg cannot be moved: give a positive, finite mass",
+             body.mass);
+    for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(body.position[i]) || !std::isfinite(body.velocity[i]))
+            fail(Exit::usage, "a body's {} is not finite: give a finite position and velocity",
+                 axis_names[static_cast<std::size_t>(i)]);
+}
+
+/// Calls f(index, the stored columns, the given force) for every kind of force.
+template <class T, int Axes, class F>
+void for_each_force(Columns<T, Axes>& columns, const GivenForces& given, F f) {
+    generate<force_count>([&](auto i) {
+        f(i, std::get<i>(columns.forces), std::get<i>(given));
+        return 0;
+    });
+}
+
+template <class Force, class T>
+void make_present(ForceColumns<Force, T>& stored, std::size_t rows) {
+    if (stored.present) return;
+    stored.present = true;
+    for (Parameter<T>& parameter : stored.numbers) parameter = Parameter<T>(T(0), rows);
+}
+
+template <class T, std::size_t Axes>
+Vec3 widen(const std::array<Column<T>, Axes>& columns, std::size_t row) {
+    Vec3 out{};
+    for (std::size_t i = 0; i < Axes; ++i) out.axis[i] = static_cast<double>(columns[i][row]);
+    return out;
+}
+
+template <class T, std::size_t Axes>
+void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec3& value) {
+    const auto narrowed = narrow<T, int{Axes}>(value);
+    for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
+}
+
+}  // namespace
+
+std::string_view name_of(Precision precision) {
+    return precision == Precision::single ? "float" : "double";
+}
+
+Bodies::Bodies(int axes, Precision precision) {
+    assert(axes >= 1 && axes <= 3);
+    if (precision == Precision::single) {
+        if (axes == 1) columns_.emplace<Columns<float, 1>>();
+        if (axes == 2) columns_.emplace<Columns<float, 2>>();
+        if (axes == 3) columns_.emplace<Columns<float, 3>>();
+    } else {
+        if (axes == 1) columns_.emplace<Columns<double, 1>>();
+        if (axes == 2) columns_.emplace<Columns<double, 2>>();
+        if (axes == 3) columns_.emplace<Columns<double, 3>>();
+    }
+}
+
+int Bodies::axes() const { return static_cast<int>(columns_.index() % 3) + 1; }
+
+Precision Bodies::precision() const {
+    return columns_.index() < 3 ? Precision::single : Precision::double_;
+}
+
+std::size_t Bodies::size() const {
+    return std::visit([](const auto& columns) { return columns.size; }, columns_);
+}
+
+std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
+    check(body);
+    return std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            const std::size_t row = columns.size;
+            for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
+                using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
+                if (given) check_finite(*given);
+                if (given) make_present(stored, row);
+                if (!stored.present) return;
+                Stored force{};
+                if (given) force = stored_form<Stored, T, Axes>(*given, body.mass);
+                std::size_t next = 0;
+                for_each_number(force, [&](T number) {
+                    Parameter<T>& parameter = stored.numbers[next++];
+                    parameter.push(Stored::everywhere ? parameter.data()[0] : number);
+                });
+            });
+            for (std::size_t i = 0; i < Axes; ++i) {
+                columns.position[i].push(T(0));
+                columns.velocity[i].push(T(0));
+            }
+            columns.mass.push(body.mass);
+            assign(columns.position, row, body.position);
+            assign(columns.velocity, row, body.velocity);
+            return columns.size++;
+        },
+        columns_);
+}
+
+void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            assert(row < columns.size);
+            for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
+                using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
+                if (!given) return;
+                check_finite(*given);
+                make_present(stored, columns.size);
+                Stored force = stored_form<Stored, T, Axes>(*given, columns.mass[row]);
+                std::size_t next = 0;
+                for_each_number(force, [&](T number) { stored.numbers[next++].set(row, number); });
+            });
+        },
+        columns_);
+}
+
+void Bodies::remove(std::size_t row) {
+    std::visit(
+        [&](auto& columns) {
+            assert(row < columns.size);
+            for (auto& column : columns.position) column.swap_remove(row);
+            for (auto& column : columns.velocity) column.swap_remove(row);
+            columns.mass.swap_remove(row);
+            const auto remove_from = [&](auto& stored) {
+                if (stored.present)
+                    for (auto& parameter : stored.numbers) parameter.swap_remove(row);
+            };
+            std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
+            --columns.size;
+        },
+        columns_);
+}
+
+void Bodies::set_gravity(const Vec3& acceleration) {
+    const Gravity<double, 3> gravity{acceleration};
+    check_finite(gravity);
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            auto& stored = std::get<ForceColumns<Gravity<T, Axes>, T>>(columns.forces);
+            stored.present = true;
+            const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
+            for (std::size_t i = 0; i < Axes; ++i)
+                stored.numbers[i] = Parameter<T>(g.axis[i], columns.size);
+        },
+        columns_);
+}
+
+double Bodies::mass(std::size_t row) const {
+    return std::visit([&](const auto& columns) { return columns.mass[row]; }, columns_);
+}
+
+Vec3 Bodies::position(std::size_t row) const {
+    return std::visit([&](const auto& columns) { return widen(columns.position, row); }, columns_);
+}
+
+Vec3 Bodies::velocity(std::size_t row) const {
+    return std::visit([&](const auto& columns) { return widen(columns.velocity, row); }, columns_);
+}
+
+void Bodies::set_position(std::size_t row, const Vec3& position) {
+    std::visit([&](auto& columns) { assign(columns.position, row, position); }, columns_);
+}
+
+void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
+    std::visit([&](auto& columns) { assign(columns.velocity, row, velocity); }, columns_);
+}
+
+void Bodies::step(const Method& method, const Steps& steps) {
+    const auto diverged = std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            return step_rows(columns, make_plan<T>(method, steps.rate.dt<T>()), steps);
+        },
+        columns_);
+    if (!diverged) return;
+    fail(Exit::diverged,
+         "diverged at step {} (t = {} s): {} {} of body {} is no longer finite; "
+         "take a higher rate, or another method than {}",
+         diverged->tick, steps.rate.time(diverged->tick),
+         diverged->velocity ? "velocity" : "position",
+         axis_names[static_cast<std::size_t>(diverged->axis)], diverged->row, method.name);
+}
+
+Energy Bodies::energy() const {
+    constexpr std::size_t lanes = 8;
+    std::array<double, lanes> kinetic{};
+    std::array<double, lanes> potential{};
+    std::visit(
+        [&](const auto& columns) {
+            for (std::size_t row = 0; row < columns.size; ++row) {
+                const auto state = state_of<double>(columns, row);
+                const double mass = columns.mass[row];
+                kinetic[row % lanes] += 0.5 * mass * squared_length(state.v);
+                potential[row % lanes] += mass * forces_of<double>(columns, row).potential(state);
+            }
+        },
+        columns_);
+    Energy sum;
+    for (std::size_t i = 0; i < lanes; ++i) {
+        sum.kinetic += kinetic[i];
+        sum.potential += potential[i];
+    }
+    return sum;
+}
+
+void Bodies::hash_into(StateHash& hash) const {
+    std::visit(
+        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+            hash.add(columns.size);
+            hash.add(static_cast<std::uint64_t>(Axes));
+            hash.add(static_cast<std::uint64_t>(sizeof(T)));
+            for (const auto& column : columns.position)
+                hash.add(std::span<const T>(column.data(), columns.size));
+            for (const auto& column : columns.velocity)
+                hash.add(std::span<const T>(column.data(), columns.size));
+        },
+        columns_);
+}
+
+}  // namespace oiler

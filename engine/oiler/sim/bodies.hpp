@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "oiler/core/state_hash.hpp"
+#include "oiler/sim/columns.hpp"
+#include "oiler/sim/methods.hpp"
+#include "oiler/sim/step_rows.hpp"
+
+namespace oiler {
+
+enum class Precision { single, double_ };
+
+/// "float" or "double", as the options and files say it.
+[[nodiscard]] std::string_view name_of(Precision precision);
+
+/// A body as a user describes it. Axes that the world does not have must be zero.
+struct Body {
+    double mass = 1;  ///< kg, positive
+    Vec3 position{};  ///< m
+    Vec3 velocity{};  ///< m/s
+};
+
+struct Energy {
+    double kinetic = 0;    ///< J
+    double potential = 0;  ///< J
+    [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
+template <class List>
+struct OptionalOf;
+template <class... Force>
+struct OptionalOf<std::tuple<Force...>> {
+    using type = std::tuple<std::optional<Force>...>;
+};
+/// At most one force of each kind, as a user writes them.
+using GivenForces = OptionalOf<ForceList<double, 3>>::type;
+
+/// A force that acts on a body of its own: AnchoredSpring, LinearDragForce, QuadraticDragForce.
+template <class Force>
+concept BodyForce = !Force::everywhere && requires(GivenForces given) {
+    std::get<std::optional<Force>>(given);
+};
+
+/// All moving bodies of a world and the forces on them, in columns of the precision and the number
+/// of axes chosen at run time. A value: a copy is a snapshot.
+class Bodies {
+public:
+    /// `axes` from 1 to 3.
+    Bodies(int axes, Precision precision);
+
+    [[nodiscard]] int axes() const;
+    [[nodiscard]] Precision precision() const;
+    [[nodiscard]] std::size_t size() const;
+
+    /// A new last row, with at most one force of each kind. Bodies that agree on a force's numbers
+    /// share them in memory when the force is given here. Throws Error{usage} for a mass that is
+    /// not positive or a number that is not finite.
+    template <BodyForce... Force>
+    std::size_t add(const Body& body, const Force&... force) {
+        return add_given(body, given(force...));
+    }
+    /// Gives row `row` a force, or other numbers for the one that it has.
+    template <BodyForce... Force>
+    void attach(std::size_t row, const Force&... force) {
+        attach_given(row, given(force...));
+    }
+    /// The last row takes the place of `row`.
+    void remove(std::size_t row);
+
+    /// For all bodies, m/s²; without this call no gravity is evaluated.
+    void set_gravity(const Vec3& acceleration);
+
+    [[nodiscard]] double mass(std::size_t row) const;
+    [[nodiscard]] Vec3 position(std::size_t row) const;
+    [[nodiscard]] Vec3 velocity(std::size_t row) const;
+    void set_position(std::size_t row, const Vec3& position);
+    void set_velocity(std::size_t row, const Vec3& velocity);
+
+    /// Throws Error{diverged} naming step, body and field when a number stops being finite; the
+    /// bodies are then of no further use.
+    void step(const Method& method, const Steps& steps);
+
+    /// Summed in double in eight fixed lanes, so that it does not depend on the machine.
+    [[nodiscard]] Energy energy() const;
+
+    /// Appends count, axes, bytes per number, then the columns: positions axis by axis, velocities
+    /// axis by axis, rows in order.
+    void hash_into(StateHash& hash) const;
+
+private:
+    template <class... Force>
+    static GivenForces given(const Force&... force) {
+        GivenForces all;
+        ((std::get<std::optional<Force>>(all) = force), ...);
+        return all;
+    }
+    std::size_t add_given(const Body& body, const GivenForces& forces);
+    void attach_given(std::size_t row, const GivenForces& forces);
+
+    std::variant<Columns<float, 1>, Columns<float, 2>, Columns<float, 3>, Columns<double, 1>,
+                 Columns<double, 2>, Columns<double, 3>>
+        columns_;
+};
+
+}  // namespace oiler

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/sim/closed_forms.hpp"
+
+#include <cmath>
+
+namespace oiler {
+namespace {
+
+/// γ < ω0: x = e^(−γt)·(x0·cos ωt + (v0 + γx0)·sin ωt / ω).
+template <class T>
+Motion<T> underdamped(T gamma, T stiffness, T omega, Motion<T> start, T t) {
+    const T decay = std::exp(-gamma * t);
+    const T c = std::cos(omega * t);
+    const T s = std::sin(omega * t) / omega;
+    return {decay * (start.x * c + (start.v + gamma * start.x) * s),
+            decay * (start.v * c - (stiffness * start.x + gamma * start.v) * s)};
+}
+
+/// γ ≥ ω0, with δ = √(γ² − ω0²) and the rates of decay fast = γ + δ and slow = ω0²/fast, which
+/// unlike γ − δ does not cancel: x = x0·e^(−slow·t) + (v0 + slow·x0)·(e^(−slow·t) −
+/// e^(−fast·t))/2δ.
+template <class T>
+Motion<T> overdamped(T gamma, T stiffness, T delta, Motion<T> start, T t) {
+    const T fast = gamma + delta;
+    const T slow = fast > 0 ? stiffness / fast : T(0);
+    const T slow_decay = std::exp(-slow * t);
+    const T fast_decay = std::exp(-fast * t);
+    const T spread = 2 * delta;
+    const T difference = spread > 0 ? -std::expm1(-spread * t) / spread : t;
+    const T w = start.v + slow * start.x;
+    const T x = slow_decay * (start.x + w * difference);
+    return {x, w * fast_decay - slow * x};
+}
+
+/// (1 − e^(−z))/z, 1 at 0.
+template <class T>
+T phi1(T z) {
+    return z == 0 ? T(1) : -std::expm1(-z) / z;
+}
+
+/// (z − 1 + e^(−z))/z², ½ at 0; by its series where the formula would cancel.
+template <class T>
+T phi2(T z) {
+    if (std::abs(z) > T(1)) return (z + std::expm1(-z)) / (z * z);
+    T term = T(0.5);
+    T sum = term;
+    for (int n = 3; n < 30; ++n) {
+        term *= -z / static_cast<T>(n);
+        sum += term;
+    }
+    return sum;
+}
+
+}  // namespace
+
+template <class T>
+Motion<T> constant_acceleration(Motion<T> start, T acceleration, T t) {
+    return {start.x + start.v * t + acceleration * t * t / 2, start.v + acceleration * t};
+}
+
+template <class T>
+Motion<T> damped_oscillator(T m, T k, T b, Motion<T> start, T t) {
+    const T gamma = b / (2 * m);
+    const T stiffness = k / m;
+    const T omega0 = std::sqrt(stiffness);
+    const T discriminant = (omega0 - gamma) * (omega0 + gamma);
+    return discriminant > 0 ? underdamped(gamma, stiffness, std::sqrt(discriminant), start, t)
+                            : overdamped(gamma, stiffness, std::sqrt(-discriminant), start, t);
+}
+
+template <class T>
+Motion<T> linear_drag_motion(Motion<T> start, T acceleration, T c, T t) {
+    const T z = c * t;
+    return {start.x + start.v * t * phi1(z) + acceleration * t * t * phi2(z),
+            start.v * std::exp(-z) + acceleration * t * phi1(z)};
+}
+
+template Motion<double> constant_acceleration(Motion<double>, double, double);
+template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);
+template Motion<double> linear_drag_motion(Motion<double>, double, double, double);
+template Motion<long double> constant_acceleration(Motion<long double>, long double, long double);
+template Motion<long double> damped_oscillator(long double, long double, long double,
+                                               Motion<long double>, long double);
+template Motion<long double> linear_drag_motion(Motion<long double>, long double, long double,
+                                                long double);
+
+}  // namespace oiler

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace oiler {
+
+// Exact motions along one axis, to measure methods against. They call the C library's exp, sin and
+// cos, whose last bit may differ between machines: nothing of them may reach a simulation's state.
+// Instantiated for double and long double.
+
+/// Where a body is along one axis (m) and how fast it goes (m/s).
+template <class T>
+struct Motion {
+    T x;
+    T v;
+};
+
+/// Under a constant acceleration (m/s²) after `t` s: the motion of a projectile without drag, axis
+/// by axis.
+template <class T>
+[[nodiscard]] Motion<T> constant_acceleration(Motion<T> start, T acceleration, T t);
+
+/// A mass m (kg) on a spring of stiffness k (N/m) and damping b (N·s/m), anchored at 0, after `t`
+/// s. Over-, critically and underdamped; k = 0 and b = 0 are allowed. Accurate to a few units of
+/// round-off times the number of radians turned or time constants passed, also for b ≫ √(km).
+template <class T>
+[[nodiscard]] Motion<T> damped_oscillator(T m, T k, T b, Motion<T> start, T t);
+
+/// Under a constant acceleration (m/s²) and linear drag −c·v, c = b/m (1/s), after `t` s: a
+/// projectile with linear drag, axis by axis; c = 0 is allowed.
+template <class T>
+[[nodiscard]] Motion<T> linear_drag_motion(Motion<T> start, T acceleration, T c, T t);
+
+}  // namespace oiler

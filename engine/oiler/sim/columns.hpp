@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <vector>
+
+#include "oiler/sim/forces.hpp"
+
+namespace oiler {
+
+/// Columns end on a multiple of this many rows, so that a whole batch can be loaded from anywhere,
+/// whatever the machine's registers hold. The rows beyond the last body are scratch.
+inline constexpr std::size_t row_padding = 64;
+inline constexpr std::size_t column_alignment = 64;
+
+[[nodiscard]] constexpr std::size_t padded(std::size_t rows) {
+    return (rows + row_padding - 1) / row_padding * row_padding;
+}
+
+template <class T>
+struct AlignedAllocator {
+    using value_type = T;
+
+    AlignedAllocator() = default;
+    template <class U>
+    AlignedAllocator(const AlignedAllocator<U>&) {}
+
+    T* allocate(std::size_t count) {
+        return static_cast<T*>(
+            ::operator new(count * sizeof(T), std::align_val_t(column_alignment)));
+    }
+    void deallocate(T* at, std::size_t) {
+        ::operator delete(at, std::align_val_t(column_alignment));
+    }
+    friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
+};
+
+/// One number for each row, aligned and padded with zeros.
+template <class T>
+class Column {
+public:
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] T* data() { return values_.data(); }
+    [[nodiscard]] const T* data() const { return values_.data(); }
+    T& operator[](std::size_t row) { return values_[row]; }
+    const T& operator[](std::size_t row) const { return values_[row]; }
+
+    void push(T value) {
+        values_.resize(padded(size_ + 1));
+        values_[size_++] = value;
+    }
+    /// The last row takes the place of `row`.
+    void swap_remove(std::size_t row) {
+        values_[row] = values_[--size_];
+        values_[size_] = T(0);
+    }
+
+private:
+    std::vector<T, AlignedAllocator<T>> values_;
+    std::size_t size_ = 0;
+};
+
+/// A number that belongs to each row, stored once while all rows agree on it and as a column from
+/// the first that differs: a scene pays for what varies.
+template <class T>
+class Parameter {
+public:
+    Parameter() = default;
+    /// `rows` rows that agree on `value`.
+    Parameter(T value, std::size_t rows) : size_(rows) { column_.push(value); }
+
+    [[nodiscard]] bool shared() const { return shared_; }
+    [[nodiscard]] const T* data() const { return column_.data(); }
+    T operator[](std::size_t row) const { return column_[shared_ ? 0 : row]; }
+
+    void push(T value) {
+        if (size_ == 0) {
+            *this = Parameter(value, 1);
+            return;
+        }
+        if (shared_ && value != column_[0]) spread();
+        if (!shared_) column_.push(value);
+        ++size_;
+    }
+    void set(std::size_t row, T value) {
+        if (shared_ && value != column_[0] && size_ > 1) spread();
+        column_[shared_ ? 0 : row] = value;
+    }
+    void swap_remove(std::size_t row) {
+        --size_;
+        if (!shared_) column_.swap_remove(row);
+    }
+
+private:
+    void spread() {
+        const T value = column_[0];
+        while (column_.size() < size_) column_.push(value);
+        shared_ = false;
+    }
+
+    Column<T> column_;
+    std::size_t size_ = 0;
+    bool shared_ = true;
+};
+
+/// A force's numbers for all rows.
+template <class Force, class T>
+struct ForceColumns {
+    bool present = false;
+    std::array<Parameter<T>, number_count<Force>()> numbers;
+};
+
+template <class List, class T>
+struct ForceColumnsOf;
+template <class... Force, class T>
+struct ForceColumnsOf<std::tuple<Force...>, T> {
+    using type = std::tuple<ForceColumns<Force, T>...>;
+};
+
+/// All bodies of a world: what every step touches in columns of their own, what it does not
+/// (masses) apart.
+template <std::floating_point T, int Axes>
+struct Columns {
+    std::size_t size = 0;
+    std::array<Column<T>, Axes> position;  ///< m
+    std::array<Column<T>, Axes> velocity;  ///< m/s
+    Parameter<double> mass;                ///< kg
+    typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
+};
+
+/// Row `row` as a value of the Number `V` (double for measuring, T for reading).
+template <Number V, std::floating_point T, int Axes>
+[[nodiscard]] State<V, Axes> state_of(const Columns<T, Axes>& columns, std::size_t row) {
+    return {{generate<Axes>([&](auto i) { return V(columns.position[i][row]); })},
+            {generate<Axes>([&](auto i) { return V(columns.velocity[i][row]); })}};
+}
+
+/// The forces on row `row`, per unit mass, as the step evaluates them.
+template <Number V, std::floating_point T, int Axes>
+[[nodiscard]] Forces<V, Axes> forces_of(const Columns<T, Axes>& columns, std::size_t row) {
+    Forces<V, Axes> forces;
+    generate<force_count>([&](auto i) {
+        const auto& stored = std::get<i>(columns.forces);
+        forces.present[i] = stored.present;
+        std::size_t next = 0;
+        if (stored.present)
+            for_each_number(std::get<i>(forces.list),
+                            [&](V& number) { number = V(stored.numbers[next++][row]); });
+        return 0;
+    });
+    return forces;
+}
+
+}  // namespace oiler

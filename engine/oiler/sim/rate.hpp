@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+namespace oiler {
+
+/// A fixed step as a ratio of integers, so that time is never accumulated: `steps` steps in every
+/// `seconds` seconds.
+struct Rate {
+    std::int64_t steps = 60;
+    std::int64_t seconds = 1;
+
+    /// dt in s, rounded once.
+    template <std::floating_point T = double>
+    [[nodiscard]] constexpr T dt() const {
+        return static_cast<T>(seconds) / static_cast<T>(steps);
+    }
+    /// When tick `tick` is, in s.
+    [[nodiscard]] constexpr double time(std::int64_t tick) const {
+        return static_cast<double>(tick * seconds) / static_cast<double>(steps);
+    }
+    friend bool operator==(const Rate&, const Rate&) = default;
+};
+
+}  // namespace oiler

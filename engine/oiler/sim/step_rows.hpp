@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "oiler/sim/advance.hpp"
+#include "oiler/sim/columns.hpp"
+#include "oiler/sim/rate.hpp"
+
+namespace oiler {
+
+/// Which steps to take: `count` of them from tick `first` on.
+struct Steps {
+    Rate rate;
+    std::int64_t first = 0;
+    std::int64_t count = 1;
+};
+
+/// Where a run stopped being finite.
+struct Divergence {
+    std::int64_t tick;  ///< the first after which it was not
+    std::size_t row;
+    int axis;
+    bool velocity;  ///< a velocity, else a position
+};
+
+/// Steps all rows. Each block of rows is loaded into registers, stepped `count` times and stored,
+/// so that a run nobody looks into pays for memory once; one step at a time gives the same bits.
+/// Returns the earliest divergence, after which the columns are of no use.
+template <std::floating_point T, int Axes>
+[[nodiscard]] std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
+                                                  const Steps& steps);
+
+}  // namespace oiler

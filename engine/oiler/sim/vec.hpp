@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace oiler {
+
+/// What the physics is written over: float and double for a reader, long double for a reference, a
+/// Batch of bodies for the run. One text serves them all.
+template <class V>
+concept Number = requires(V a, V b) {
+    { a + b } -> std::convertible_to<V>;
+    { a - b } -> std::convertible_to<V>;
+    { a* b } -> std::convertible_to<V>;
+    { -a } -> std::convertible_to<V>;
+};
+
+/// What a Number is made of: the type that the time step and a method's coefficients have.
+template <class V>
+struct ScalarOf {
+    using type = V;
+};
+template <class V>
+using Scalar = typename ScalarOf<V>::type;
+
+/// Calls `f` with 0, 1, … N−1 as compile-time constants and gathers what it returns. Unlike a loop
+/// it leaves no indexed array behind, so that optimisers keep the elements in registers.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr auto generate(F f) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        return std::array{f(std::integral_constant<std::size_t, I>{})...};
+    }
+    (std::make_index_sequence<N>{});
+}
+
+/// A position, velocity or acceleration with one Number for each axis.
+template <Number V, int Axes>
+struct Vec {
+    std::array<V, Axes> axis;
+
+    constexpr V& operator[](int i) { return axis[static_cast<std::size_t>(i)]; }
+    constexpr const V& operator[](int i) const { return axis[static_cast<std::size_t>(i)]; }
+
+    [[gnu::always_inline]] friend constexpr Vec operator+(const Vec& a, const Vec& b) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] + b.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator-(const Vec& a, const Vec& b) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] - b.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator-(const Vec& a) {
+        return {generate<Axes>([&](auto i) { return V(-a.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator*(const Vec& a, const V& s) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] * s); })};
+    }
+    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+};
+
+/// What a user hands over and gets back, whatever the axes and the precision of the columns; axes
+/// that a world does not have are zero.
+using Vec3 = Vec<double, 3>;
+
+/// |a|², summed from the first axis to the last.
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr V squared_length(const Vec<V, Axes>& a) {
+    V sum = a[0] * a[0];
+    if constexpr (Axes > 1) sum = sum + a[1] * a[1];
+    if constexpr (Axes > 2) sum = sum + a[2] * a[2];
+    return sum;
+}
+
+/// Where a body is (m) and how fast it goes (m/s): the article's State.
+template <Number V, int Axes>
+struct State {
+    Vec<V, Axes> x;
+    Vec<V, Axes> v;
+};
+
+}  // namespace oiler
