@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/world/world.hpp"
+
+namespace oiler {
+namespace {
+
+/// The component of a body that was teleported; others do not pay for it.
+struct Jumps {
+    std::uint32_t count = 0;
+};
+
+}  // namespace
+
+World::World(int axes, const Settings& settings)
+    : settings_(settings), bodies_(axes, settings.precision) {}
+
+World::World(const World& other)
+    : settings_(other.settings_),
+      tick_(other.tick_),
+      generations_(other.generations_),
+      free_(other.free_),
+      bodies_(other.bodies_),
+      rows_(other.rows_) {
+    for (const TaggedPool& entry : other.pools_) pools_.push_back({entry.tag, entry.pool->clone()});
+}
+
+World& World::operator=(const World& other) {
+    if (this != &other) *this = World(other);
+    return *this;
+}
+
+Entity World::create() {
+    if (free_.empty()) {
+        generations_.push_back(0);
+        return {static_cast<std::uint32_t>(generations_.size() - 1), 0};
+    }
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    return {slot, generations_[slot]};
+}
+
+void World::destroy(Entity entity) {
+    assert(alive(entity));
+    for (const TaggedPool& entry : pools_) entry.pool->erase(entity.index);
+    if (has_body(entity)) remove_body(entity);
+    ++generations_[entity.index];
+    free_.push_back(entity.index);
+}
+
+bool World::alive(Entity entity) const {
+    return entity.index < generations_.size() && generations_[entity.index] == entity.generation;
+}
+
+std::size_t World::entity_count() const { return generations_.size() - free_.size(); }
+
+void World::remove_body(Entity entity) {
+    bodies_.remove(row(entity));
+    rows_.remove(entity.index);
+}
+
+bool World::has_body(Entity entity) const {
+    return alive(entity) && rows_.place(entity.index) != SlotSet::absent;
+}
+
+std::size_t World::row(Entity entity) const {
+    assert(has_body(entity));
+    return rows_.place(entity.index);
+}
+
+Entity World::entity_of_row(std::size_t row) const {
+    return {rows_[row], generations_[rows_[row]]};
+}
+
+void World::teleport(Entity entity, const Vec3& position) {
+    bodies_.set_position(row(entity), position);
+    if (!find<Jumps>(entity)) add(entity, Jumps{});
+    ++get<Jumps>(entity).count;
+}
+
+std::uint32_t World::jumps(Entity entity) const {
+    const Jumps* const jumps = find<Jumps>(entity);
+    return jumps ? jumps->count : 0;
+}
+
+void World::step(std::int64_t count) {
+    assert(count >= 0);
+    bodies_.step(*settings_.method, {settings_.rate, tick_, count});
+    tick_ += count;
+}
+
+std::uint64_t World::state_hash() const {
+    StateHash hash;
+    hash.add(static_cast<std::uint64_t>(tick_));
+    bodies_.hash_into(hash);
+    return hash.value();
+}
+
+}  // namespace oiler

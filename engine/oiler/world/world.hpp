@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "oiler/sim/bodies.hpp"
+#include "oiler/world/entity.hpp"
+#include "oiler/world/pool.hpp"
+
+namespace oiler {
+
+/// How a world steps. `seed` is for the game's own random numbers.
+struct Settings {
+    Rate rate{100};
+    const Method* method = &find_method("semi_implicit_euler");
+    Precision precision = Precision::double_;
+    std::uint64_t seed = 0;
+};
+
+/// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
+/// stepping the copy gives what stepping the original gives.
+///
+/// Stale handles assert, and `alive` tells; `find` answers null for them.
+class World {
+public:
+    explicit World(int axes, const Settings& settings = {});
+    World(const World& other);
+    World& operator=(const World& other);
+    World(World&&) noexcept = default;
+    World& operator=(World&&) noexcept = default;
+    ~World() = default;
+
+    [[nodiscard]] Entity create();
+    /// With all its components and its body.
+    void destroy(Entity entity);
+    [[nodiscard]] bool alive(Entity entity) const;
+    [[nodiscard]] std::size_t entity_count() const;
+
+    /// Gives the entity a component of a type that it does not have yet. The reference holds until
+    /// the next add or remove of this type.
+    template <std::movable T>
+    T& add(Entity entity, T component) {
+        assert(alive(entity) && !find<T>(entity));
+        return pool<T>().add(entity.index, std::move(component));
+    }
+    template <std::movable T>
+    void remove(Entity entity) {
+        assert(find<T>(entity));
+        pool<T>().erase(entity.index);
+    }
+    /// Null where the entity has none, or is no more.
+    template <std::movable T>
+    [[nodiscard]] T* find(Entity entity) {
+        Pool<T>* const found = find_pool<T>();
+        return found && alive(entity) ? found->find(entity.index) : nullptr;
+    }
+    template <std::movable T>
+    [[nodiscard]] const T* find(Entity entity) const {
+        return const_cast<World*>(this)->find<T>(entity);
+    }
+    template <std::movable T>
+    [[nodiscard]] T& get(Entity entity) {
+        T* const found = find<T>(entity);
+        assert(found);
+        return *found;
+    }
+    template <std::movable T>
+    [[nodiscard]] const T& get(Entity entity) const {
+        return const_cast<World*>(this)->get<T>(entity);
+    }
+
+    /// Calls f(entity, first, rest...) for each entity that has all of these components, in the
+    /// order of `First`: that of adding, where the last takes the place of one that is removed. `f`
+    /// may destroy the entity that it is given, and no other.
+    template <std::movable First, std::movable... Rest, class F>
+    void each(F&& f) {
+        Pool<First>* const first = find_pool<First>();
+        const std::tuple<Pool<Rest>*...> rest{find_pool<Rest>()...};
+        if (!first || !(std::get<Pool<Rest>*>(rest) && ...)) return;
+        const SlotSet& slots = first->slots();
+        for (std::size_t place = 0; place < slots.size();) {
+            const std::uint32_t slot = slots[place];
+            const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
+            if ((std::get<Rest*>(others) && ...))
+                f(Entity{slot, generations_[slot]}, *first->find(slot),
+                  *std::get<Rest*>(others)...);
+            if (place < slots.size() && slots[place] == slot) ++place;
+        }
+    }
+    template <std::movable First, std::movable... Rest, class F>
+    void each(F&& f) const {
+        const_cast<World*>(this)->each<First, Rest...>(
+            [&](Entity entity, const First& first, const Rest&... rest) {
+                f(entity, first, rest...);
+            });
+    }
+
+    /// Makes the entity a moving body, with at most one force of each kind.
+    template <BodyForce... Force>
+    void add_body(Entity entity, const Body& body, const Force&... force) {
+        assert(alive(entity) && !has_body(entity));
+        bodies_.add(body, force...);
+        rows_.add(entity.index);
+    }
+    /// A new entity that is a moving body.
+    template <BodyForce... Force>
+    Entity spawn(const Body& body, const Force&... force) {
+        const Entity entity = create();
+        add_body(entity, body, force...);
+        return entity;
+    }
+    template <BodyForce... Force>
+    void attach(Entity entity, const Force&... force) {
+        bodies_.attach(row(entity), force...);
+    }
+    void remove_body(Entity entity);
+    [[nodiscard]] bool has_body(Entity entity) const;
+    /// The row of the entity's body; rows are in the order of `each`.
+    [[nodiscard]] std::size_t row(Entity entity) const;
+    [[nodiscard]] Entity entity_of_row(std::size_t row) const;
+
+    [[nodiscard]] Vec3 position(Entity entity) const { return bodies_.position(row(entity)); }
+    [[nodiscard]] Vec3 velocity(Entity entity) const { return bodies_.velocity(row(entity)); }
+    void set_velocity(Entity entity, const Vec3& velocity) {
+        bodies_.set_velocity(row(entity), velocity);
+    }
+    /// Puts the body elsewhere, and tells pictures not to draw it in between.
+    void teleport(Entity entity, const Vec3& position);
+    /// How often the body was teleported: the `jump` of a picture's element.
+    [[nodiscard]] std::uint32_t jumps(Entity entity) const;
+
+    [[nodiscard]] const Bodies& bodies() const { return bodies_; }
+    void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
+
+    /// Steps all bodies `count` times. One call with `count` and as many calls with 1 give the same
+    /// bits. Throws Error{diverged}.
+    void step(std::int64_t count = 1);
+    [[nodiscard]] std::int64_t tick() const { return tick_; }
+    /// In s, from the tick.
+    [[nodiscard]] double time() const { return settings_.rate.time(tick_); }
+    [[nodiscard]] const Settings& settings() const { return settings_; }
+
+    /// Of the tick and of all bodies, see Bodies::hash_into.
+    [[nodiscard]] std::uint64_t state_hash() const;
+
+private:
+    /// Its address is a type's identity.
+    template <class T>
+    static constexpr char tag = 0;
+    struct TaggedPool {
+        const char* tag;
+        std::unique_ptr<AnyPool> pool;
+    };
+
+    template <class T>
+    [[nodiscard]] Pool<T>* find_pool() {
+        for (const TaggedPool& entry : pools_)
+            if (entry.tag == &tag<T>) return static_cast<Pool<T>*>(entry.pool.get());
+        return nullptr;
+    }
+    template <class T>
+    Pool<T>& pool() {
+        if (Pool<T>* const found = find_pool<T>()) return *found;
+        pools_.push_back({&tag<T>, std::make_unique<Pool<T>>()});
+        return *find_pool<T>();
+    }
+
+    Settings settings_;
+    std::int64_t tick_ = 0;
+    std::vector<std::uint32_t> generations_;
+    std::vector<std::uint32_t> free_;
+    std::vector<TaggedPool> pools_;
+    Bodies bodies_;
+    SlotSet rows_;
+};
+
+}  // namespace oiler
