@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/picture/picture.hpp"
+
+/// Colours that readers with any colour vision tell apart: Okabe and Ito, Color Universal Design,
+/// 2008.
+namespace oiler::palette {
+
+inline constexpr Colour black{0, 0, 0};
+inline constexpr Colour orange{230, 159, 0};
+inline constexpr Colour sky_blue{86, 180, 233};
+inline constexpr Colour green{0, 158, 115};
+inline constexpr Colour blue{0, 114, 178};
+inline constexpr Colour vermilion{213, 94, 0};
+inline constexpr Colour purple{204, 121, 167};
+
+inline constexpr Colour ink{40, 44, 52};
+inline constexpr Colour grey{128, 132, 140};
+inline constexpr Colour pale{222, 225, 230};
+inline constexpr Colour paper{255, 255, 255};
+
+/// The same colour, less opaque.
+[[nodiscard]] constexpr Colour faded(Colour colour, std::uint8_t alpha) {
+    colour.a = alpha;
+    return colour;
+}
+
+}  // namespace oiler::palette

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/picture/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <unordered_map>
+
+namespace oiler {
+namespace {
+
+struct KeyHash {
+    std::size_t operator()(const ElementKey& key) const {
+        // Fibonacci hashing (Knuth, TAOCP 3, 6.4): object numbers are mostly consecutive.
+        const std::uint64_t rest = (std::uint64_t{key.part} << 32U) | key.jump;
+        return static_cast<std::size_t>((key.object ^ (rest * 0xbf58476d1ce4e5b9U)) *
+                                        0x9e3779b97f4a7c15U);
+    }
+};
+
+Point mix(Point from, Point to, float alpha) {
+    return {std::lerp(from.x, to.x, alpha), std::lerp(from.y, to.y, alpha)};
+}
+
+std::uint8_t mix(std::uint8_t from, std::uint8_t to, float alpha) {
+    return static_cast<std::uint8_t>(
+        std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), alpha)));
+}
+
+Colour mix(Colour from, Colour to, float alpha) {
+    return {mix(from.r, to.r, alpha), mix(from.g, to.g, alpha), mix(from.b, to.b, alpha),
+            mix(from.a, to.a, alpha)};
+}
+
+Camera mix(const Camera& from, const Camera& to, float alpha) {
+    return {mix(from.centre, to.centre, alpha), std::lerp(from.height, to.height, alpha)};
+}
+
+void move(Disc& disc, const Disc& after, float alpha) {
+    disc.centre = mix(disc.centre, after.centre, alpha);
+    disc.radius = std::lerp(disc.radius, after.radius, alpha);
+    disc.colour = mix(disc.colour, after.colour, alpha);
+}
+
+void move(Polyline& line, const Polyline& after, float alpha) {
+    // A line that loses points has no moved shape that would not mislead; it changes at 1.
+    if (line.points.empty() || after.points.size() < line.points.size()) {
+        return;
+    }
+    line.points.resize(after.points.size(), Point(line.points.back()));
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        line.points[i] = mix(line.points[i], after.points[i], alpha);
+    }
+    line.width = std::lerp(line.width, after.width, alpha);
+    line.colour = mix(line.colour, after.colour, alpha);
+}
+
+void move(Label& label, const Label& after, float alpha) {
+    label.at = mix(label.at, after.at, alpha);
+    label.size = std::lerp(label.size, after.size, alpha);
+    label.colour = mix(label.colour, after.colour, alpha);
+}
+
+/// Finds an element by its key. Pictures of successive steps mostly list the same elements in the
+/// same order, so the index is tried first and the table is only built when that fails.
+template <class Element>
+class Finder {
+public:
+    explicit Finder(const std::vector<Element>& elements) : elements_(elements) {}
+
+    const Element* find(const Element& wanted, std::size_t likely) {
+        if (wanted.key.object == 0) {
+            return nullptr;
+        }
+        const Element* found = likely < elements_.size() && elements_[likely].key == wanted.key
+                                   ? &elements_[likely]
+                                   : look_up(wanted.key);
+        return found != nullptr && found->space == wanted.space ? found : nullptr;
+    }
+
+private:
+    const Element* look_up(const ElementKey& key) {
+        if (table_.empty()) {
+            for (const Element& element : elements_) {
+                table_.try_emplace(element.key, &element);
+            }
+        }
+        const auto found = table_.find(key);
+        return found == table_.end() ? nullptr : found->second;
+    }
+
+    const std::vector<Element>& elements_;
+    std::unordered_map<ElementKey, const Element*, KeyHash> table_;
+};
+
+template <class Element>
+void move_all(std::vector<Element>& elements, const std::vector<Element>& after, float alpha) {
+    Finder<Element> finder(after);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (const Element* match = finder.find(elements[i], i)) {
+            move(elements[i], *match, alpha);
+        }
+    }
+}
+
+}  // namespace
+
+Point Camera::to_canvas(Point world) const {
+    const float units_per_metre = canvas_height / height;
+    return {canvas_width / 2 + (world.x - centre.x) * units_per_metre,
+            canvas_height / 2 + (world.y - centre.y) * units_per_metre};
+}
+
+Picture between(const Picture& before, const Picture& after, float alpha) {
+    if (alpha >= 1) {
+        return after;
+    }
+    Picture picture = before;
+    if (!(alpha > 0)) {
+        return picture;
+    }
+    picture.background = mix(before.background, after.background, alpha);
+    picture.camera = mix(before.camera, after.camera, alpha);
+    move_all(picture.polylines, after.polylines, alpha);
+    move_all(picture.discs, after.discs, alpha);
+    move_all(picture.labels, after.labels, alpha);
+    return picture;
+}
+
+}  // namespace oiler

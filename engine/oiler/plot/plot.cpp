@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/plot/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "oiler/picture/palette.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr float tick_size = 9;
+constexpr float label_size = 10;
+constexpr float title_size = 11;
+
+Polyline line(Point from, Point to, Colour colour, float width) {
+    return {.points = {from, to}, .width = width, .colour = colour, .space = Space::canvas};
+}
+
+Label text(Point at, std::string words, float size, Align align) {
+    return {
+        .at = at, .text = std::move(words), .size = size, .colour = palette::ink, .align = align};
+}
+
+float clamped(float low, double value, float high) {
+    return static_cast<float>(std::clamp(value, double{low}, double{high}));
+}
+
+/// The part of a segment within the box, by Liang and Barsky (1984).
+std::optional<std::pair<Point, Point>> clip(DataPoint a, DataPoint b, const Box& box) {
+    double enter = 0;
+    double leave = 1;
+    const auto cut = [&](double from, double to, double low, double high) {
+        const double d = to - from;
+        if (d == 0) return from >= low && from <= high;
+        enter = std::max(enter, std::min((low - from) / d, (high - from) / d));
+        leave = std::min(leave, std::max((low - from) / d, (high - from) / d));
+        return true;
+    };
+    if (!cut(a.x, b.x, box.low.x, box.high.x) || !cut(a.y, b.y, box.low.y, box.high.y) ||
+        enter > leave)
+        return std::nullopt;
+    const auto at = [&](double s) {
+        return Point{clamped(box.low.x, a.x + (b.x - a.x) * s, box.high.x),
+                     clamped(box.low.y, a.y + (b.y - a.y) * s, box.high.y)};
+    };
+    return std::pair(at(enter), at(leave));
+}
+
+DataPoint on_canvas(const Plot& plot, DataPoint p) {
+    const auto map = [](double value, Range range, float low, float high) {
+        return low + (value - range.low) / (range.high - range.low) * (high - low);
+    };
+    return {map(p.x, plot.x, plot.box.low.x, plot.box.high.x),
+            map(p.y, plot.y, plot.box.low.y, plot.box.high.y)};
+}
+
+void draw_grid(const Plot& plot, Picture& picture) {
+    const Box& box = plot.box;
+    for (const double at : ticks(plot.x, 8)) {
+        const float x = plot.to_canvas({at, plot.y.low}).x;
+        picture.polylines.push_back(line({x, box.low.y}, {x, box.high.y}, palette::pale, 0.75F));
+        picture.labels.push_back(
+            text({x, box.low.y - 11}, fmt::format("{:g}", at), tick_size, Align::centre));
+    }
+    for (const double at : ticks(plot.y, 4)) {
+        const float y = plot.to_canvas({plot.x.low, at}).y;
+        picture.polylines.push_back(line({box.low.x, y}, {box.high.x, y}, palette::pale, 0.75F));
+        picture.labels.push_back(
+            text({box.low.x - 4, y - 3}, fmt::format("{:g}", at), tick_size, Align::right));
+    }
+    picture.polylines.push_back(line(box.low, {box.high.x, box.low.y}, palette::ink, 1));
+    picture.polylines.push_back(line(box.low, {box.low.x, box.high.y}, palette::ink, 1));
+}
+
+void draw_words(const Plot& plot, Picture& picture) {
+    const Box& box = plot.box;
+    picture.labels.push_back(
+        text({box.low.x, box.high.y + 6}, plot.y_label, label_size, Align::left));
+    picture.labels.push_back(
+        text({box.high.x, box.low.y - 23}, plot.x_label, label_size, Align::right));
+    picture.labels.push_back(text({(box.low.x + box.high.x) / 2, box.high.y + 6}, plot.title,
+                                  title_size, Align::centre));
+}
+
+/// Names in their curves' colours, from the right end of the title's line leftwards.
+void draw_legend(const Plot& plot, Picture& picture) {
+    float right = plot.box.high.x;
+    for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
+        if (series->name.empty()) continue;
+        Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
+        const float left = right - 0.56F * label_size * static_cast<float>(series->name.size()) - 4;
+        picture.labels.push_back(std::move(name));
+        picture.polylines.push_back(line({left - 16, plot.box.high.y + 9.5F},
+                                         {left, plot.box.high.y + 9.5F}, series->colour, 2.5F));
+        right = left - 28;
+    }
+}
+
+void draw_curve(const Plot& plot, const Series& series, ElementKey key, Picture& picture) {
+    Polyline run{
+        .key = key, .width = series.width, .colour = series.colour, .space = Space::canvas};
+    const auto finish = [&] {
+        if (run.points.size() > 1) picture.polylines.push_back(run);
+        run.points.clear();
+        run.key.object = 0;
+    };
+    for (std::size_t i = 1; i < series.points.size(); ++i) {
+        const auto piece = clip(on_canvas(plot, series.points[i - 1]),
+                                on_canvas(plot, series.points[i]), plot.box);
+        if (!piece || (!run.points.empty() && run.points.back() != piece->first)) finish();
+        if (!piece) continue;
+        if (run.points.empty()) run.points.push_back(piece->first);
+        run.points.push_back(piece->second);
+    }
+    finish();
+}
+
+}  // namespace
+
+void Plot::draw(Picture& picture, ElementKey key) const {
+    draw_grid(*this, picture);
+    draw_words(*this, picture);
+    draw_legend(*this, picture);
+    for (const Series& curve : series) {
+        ++key.part;
+        draw_curve(*this, curve, key, picture);
+    }
+}
+
+Point Plot::to_canvas(DataPoint point) const {
+    const DataPoint at = on_canvas(*this, point);
+    return {static_cast<float>(at.x), static_cast<float>(at.y)};
+}
+
+std::vector<double> ticks(Range range, int count) {
+    const double rough = (range.high - range.low) / count;
+    if (!(rough > 0) || !std::isfinite(rough)) return {};
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    double step = 10 * power;
+    for (const double factor : {5.0, 2.0, 1.0})
+        if (factor * power >= rough * 0.999) step = factor * power;
+    std::vector<double> at;
+    for (double n = std::ceil(range.low / step - 1e-9); n * step <= range.high + step * 1e-9; ++n)
+        at.push_back(n == 0 ? 0.0 : n * step);
+    return at;
+}
+
+}  // namespace oiler
