@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/manifest.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "oiler/core/state_hash.hpp"
+
+namespace oiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dump(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json header(const Manifest& manifest) {
+    return {{"version", manifest.version},
+            {"compiler", manifest.compiler},
+            {"provider", manifest.provider},
+            {"gl_renderer", manifest.gl_renderer},
+            {"gl_version", manifest.gl_version},
+            {"width", manifest.size.width},
+            {"height", manifest.size.height},
+            {"fps", manifest.fps},
+            {"rate", manifest.rate},
+            {"method", manifest.method},
+            {"precision", manifest.precision},
+            {"scene", manifest.scene},
+            {"seed", manifest.seed}};
+}
+
+Json line(const Manifest::Frame& frame) {
+    return {{"index", frame.index},
+            {"file", frame.file},
+            {"tick", frame.tick},
+            {"alpha", frame.alpha},
+            {"state_hash", hash_text(frame.state_hash)},
+            {"pixel_hash", hash_text(frame.pixel_hash)}};
+}
+
+}  // namespace
+
+std::string to_json(const Manifest& manifest) {
+    std::string text = dump(header(manifest), 2);
+    text.resize(text.size() - std::string_view("\n}").size());
+    text += ",\n  \"frames\": [";
+    const char* separator = "\n";
+    for (const Manifest::Frame& frame : manifest.frames) {
+        text += separator;
+        text += "    " + dump(line(frame), -1);
+        separator = ",\n";
+    }
+    text += "\n  ]\n}\n";
+    return text;
+}
+
+std::optional<std::vector<std::string>> frame_files(std::string_view json) {
+    const Json parsed = Json::parse(json, nullptr, false);
+    if (!parsed.is_object() || !parsed.contains("frames") || !parsed["frames"].is_array())
+        return std::nullopt;
+    std::vector<std::string> files;
+    for (const Json& frame : parsed["frames"]) {
+        if (!frame.is_object() || !frame.contains("file") || !frame["file"].is_string())
+            return std::nullopt;
+        files.push_back(frame["file"]);
+    }
+    return files;
+}
+
+}  // namespace oiler

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/png.hpp"
+
+#include <libdeflate.h>
+
+#include <cassert>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "oiler/core/error.hpp"
+
+namespace {
+
+/// What stb calls to compress: a zlib stream in memory from malloc, or null.
+unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_count, int) {
+    constexpr int fastest = 1;
+    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+        libdeflate_alloc_compressor(fastest), libdeflate_free_compressor);
+    if (!compressor) return nullptr;
+    const auto size = static_cast<std::size_t>(count);
+    const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), size);
+    auto* compressed = static_cast<unsigned char*>(std::malloc(bound));
+    if (compressed == nullptr) return nullptr;
+    *compressed_count = static_cast<int>(
+        libdeflate_zlib_compress(compressor.get(), bytes, size, compressed, bound));
+    return compressed;
+}
+
+}  // namespace
+
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#define STBIW_ZLIB_COMPRESS deflate_fast
+#include <stb/stb_image_write.h>
+
+namespace oiler {
+namespace {
+
+constexpr int channels = 3;
+
+/// stb counts in int, and deflate's bound is a little above the bytes that it is given.
+void require_encodable(Size size) {
+    constexpr std::int64_t limit = 1 << 30;
+    const std::int64_t filtered_row = std::int64_t{size.width} * channels + 1;
+    if (size.width < 1 || size.height < 1 || filtered_row > limit / size.height)
+        fail(Exit::usage,
+             "cannot encode a frame of {}x{} pixels; choose a size from 1x1 up to a gigabyte",
+             size.width, size.height);
+}
+
+/// stb takes the filter from a variable of its own; set once, so that threads may encode.
+void choose_filter() {
+    constexpr int up = 2;
+    [[maybe_unused]] static const int chosen = stbi_write_force_png_filter = up;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_png(Size size, std::span<const std::uint8_t> rgb_bottom_up) {
+    require_encodable(size);
+    const int row = size.width * channels;
+    assert(rgb_bottom_up.size() == static_cast<std::size_t>(row) * size.height);
+    choose_filter();
+    const std::uint8_t* top = rgb_bottom_up.data() + std::ptrdiff_t{row} * (size.height - 1);
+    int count = 0;
+    const std::unique_ptr<unsigned char, decltype(&std::free)> png(
+        stbi_write_png_to_mem(top, -row, size.width, size.height, channels, &count), std::free);
+    if (!png) throw std::bad_alloc();
+    const auto* first = reinterpret_cast<const std::byte*>(png.get());
+    return {first, first + count};
+}
+
+}  // namespace oiler
