@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "oiler/app/interrupt.hpp"
+#include "oiler/app/loops.hpp"
+#include "oiler/app/progress.hpp"
+#include "oiler/capture/capture.hpp"
+#include "oiler/core/step_clock.hpp"
+#include "oiler/core/version.hpp"
+#include "oiler/render/renderer.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr int default_fps = 60;
+constexpr int default_seconds = 4;
+
+Manifest describe(const Options& options, const About& about, int fps, const Surface& surface,
+                  const Renderer& renderer) {
+    return {.version = std::string(version()),
+            .compiler = compiler(),
+            .provider = std::string(surface.provider()),
+            .gl_renderer = renderer.gl_renderer(),
+            .gl_version = renderer.gl_version(),
+            .size = options.size,
+            .fps = fps,
+            .rate = static_cast<int>(options.settings.rate.steps),
+            .method = std::string(options.settings.method->name),
+            .precision = std::string(name_of(options.settings.precision)),
+            .scene = std::string(about.name),
+            .seed = options.settings.seed,
+            .frames = {}};
+}
+
+}  // namespace
+
+void run_headless(Playback& playback, const Options& options, const About& about) {
+    const auto surface = open_offscreen(options.offscreen);
+    Renderer renderer([&](const char* name) { return surface->procedure(name); });
+    remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
+
+    const int fps = options.fps.value_or(default_fps);
+    const std::int64_t frames = options.frames.value_or(std::int64_t{fps} * default_seconds);
+    const int rate = static_cast<int>(options.settings.rate.steps);
+    Progress progress(options.quiet, "frames", frames);
+    Pixels pixels;
+    Input nobody;
+    std::optional<Capture> capture;
+    const auto draw = [&](std::int64_t frame) {
+        const HeadlessFrame shown = headless_frame(frame, rate, fps);
+        const Picture picture = playback.show(shown.step, shown.alpha, nobody);
+        if (Interrupt::requested()) return;
+        renderer.draw(picture, options.size);
+        renderer.read(pixels);
+        if (!capture)
+            capture.emplace(options.out, describe(options, about, fps, *surface, renderer));
+        capture->add(shown.step, shown.alpha, playback.state_hash(), pixels.size, pixels.rgb);
+        progress.show(frame + 1);
+    };
+    try {
+        for (std::int64_t frame = 0; frame < frames && !Interrupt::requested(); ++frame)
+            draw(frame);
+    } catch (...) {
+        if (capture) capture->finish();
+        throw;
+    }
+    if (capture) capture->finish();
+    remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
+}
+
+}  // namespace oiler

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+namespace oiler {
+namespace {
+
+constexpr std::string_view axis_names = "xyz";
+
+std::string trace_header(int axes) {
+    std::string header = "tick,time,body";
+    for (const std::string_view prefix : {",", ",v"})
+        for (int i = 0; i < axes; ++i)
+            header.append(prefix).push_back(axis_names[static_cast<std::size_t>(i)]);
+    return header + "\n";
+}
+
+void append_number(std::string& row, double value, Precision precision) {
+    if (precision == Precision::single)
+        fmt::format_to(std::back_inserter(row), ",{}", static_cast<float>(value));
+    else
+        fmt::format_to(std::back_inserter(row), ",{}", value);
+}
+
+}  // namespace
+
+Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,
+                   const World& world) {
+    if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.bodies().axes()));
+    if (!energy.empty()) energy_.emplace(energy).write("tick,time,kinetic,potential,total\n");
+    record(world);
+}
+
+void Recorder::record(const World& world) {
+    if (trace_) record_bodies(world);
+    if (energy_) record_energy(world);
+}
+
+void Recorder::record_bodies(const World& world) {
+    const Bodies& bodies = world.bodies();
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        row_.clear();
+        fmt::format_to(std::back_inserter(row_), "{},{},{}", world.tick(), world.time(),
+                       world.entity_of_row(row).index);
+        for (const Vec3& vector : {bodies.position(row), bodies.velocity(row)})
+            for (int i = 0; i < bodies.axes(); ++i)
+                append_number(row_, vector[i], bodies.precision());
+        row_.push_back('\n');
+        trace_->write(row_);
+    }
+}
+
+void Recorder::record_energy(const World& world) {
+    const Energy energy = world.bodies().energy();
+    energy_->write(fmt::format("{},{},{},{},{}\n", world.tick(), world.time(), energy.kinetic,
+                               energy.potential, energy.total()));
+}
+
+void Recorder::commit() {
+    if (trace_) trace_->commit();
+    if (energy_) energy_->commit();
+}
+
+}  // namespace oiler

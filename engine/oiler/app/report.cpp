@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "oiler/capture/file.hpp"
+#include "oiler/core/state_hash.hpp"
+
+namespace oiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Energy& energy) {
+    return {
+        {"kinetic", energy.kinetic}, {"potential", energy.potential}, {"total", energy.total()}};
+}
+
+double seconds(std::chrono::nanoseconds time) {
+    return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& path, const RunReport& report, const World& world) {
+    const Settings& settings = world.settings();
+    const Json json{
+        {"scene", report.scene},
+        {"method", settings.method->name},
+        {"rate", settings.rate.steps},
+        {"precision", name_of(settings.precision)},
+        {"seed", settings.seed},
+        {"steps", world.tick()},
+        {"time", world.time()},
+        {"bodies", world.bodies().size()},
+        {"state_hash", hash_text(world.state_hash())},
+        {"energy", {{"first", to_json(report.first)}, {"last", to_json(world.bodies().energy())}}},
+        {"dropped_time", seconds(report.dropped)},
+        {"wall_seconds", seconds(report.wall)}};
+    const std::string text = json.dump(2) + "\n";
+    File file(path == "-" ? "/dev/stdout" : path);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace oiler

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/run.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "oiler/app/interrupt.hpp"
+#include "oiler/app/loops.hpp"
+#include "oiler/app/options.hpp"
+#include "oiler/app/progress.hpp"
+#include "oiler/app/report.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/core/floating_point.hpp"
+
+namespace oiler {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void run_steps(Playback& playback, const Options& options) {
+    Progress progress(options.quiet, "steps", *options.steps);
+    const std::int64_t stride = std::max<std::int64_t>(1, *options.steps / 100);
+    Input nobody;
+    for (std::int64_t tick = 0; tick < *options.steps && !Interrupt::requested();) {
+        tick = std::min(tick + stride, *options.steps);
+        playback.step_to(tick, nobody);
+        progress.show(tick);
+    }
+}
+
+std::chrono::nanoseconds loop(Playback& playback, const Options& options, const About& about) {
+    if (options.steps)
+        run_steps(playback, options);
+    else if (options.headless)
+        run_headless(playback, options, about);
+    else
+        return run_window(playback, options, about);
+    return {};
+}
+
+Exit play(const Options& options, const About& about, const MakeGame& make) {
+    const Interrupt interrupt;
+    const Clock::time_point start = Clock::now();
+    const std::unique_ptr<AnyGame> game = make(options.settings);
+    RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
+    Recorder recorder(options.trace, options.energy, game->world());
+    Playback playback(*game, recorder);
+    try {
+        report.dropped = loop(playback, options, about);
+    } catch (const Error& error) {
+        if (error.exit() == Exit::diverged) recorder.commit();
+        throw;
+    }
+    recorder.commit();
+    if (report.dropped.count() > 0)
+        remark(options.quiet, "late frames dropped {:.3f} s",
+               std::chrono::duration<double>(report.dropped).count());
+    report.wall = Clock::now() - start;
+    if (!options.json.empty()) write_report(options.json, report, game->world());
+    return Interrupt::requested() ? Exit::interrupted : Exit::done;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const About& about, const MakeGame& make) {
+    try {
+        require_ieee_arithmetic();
+        const CommandLine line = parse_command_line(argc, argv, about);
+        fmt::print("{}", line.text);
+        return static_cast<int>(line.text.empty() ? play(line.options, about, make) : Exit::done);
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}: {}\n", about.name, error.what());
+        return static_cast<int>(error.exit());
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", about.name, error.what());
+        return static_cast<int>(Exit::io);
+    }
+}
+
+}  // namespace oiler
