@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// A salvo at seven elevations: without drag, with linear and with quadratic drag, over the exact
+// trajectories of those that have a closed form.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "oiler/app/run.hpp"
+#include "oiler/picture/palette.hpp"
+#include "oiler/plot/plot.hpp"
+#include "oiler/sim/closed_forms.hpp"
+
+using namespace oiler;
+
+namespace {
+
+constexpr double gravity = -9.81;                // m/s²
+constexpr double linear_coefficient = 0.25;      // N·s/m
+constexpr double quadratic_coefficient = 0.015;  // N·s²/m²
+constexpr double pause_after_landing = 1.0;      // s
+
+enum class Drag { none, linear, quadratic };
+struct Kind {
+    Drag drag;
+    const char* name;
+    Colour colour;
+};
+constexpr std::array kinds{Kind{Drag::none, "no drag", palette::blue},
+                           Kind{Drag::linear, "linear drag", palette::green},
+                           Kind{Drag::quadratic, "quadratic drag", palette::orange}};
+
+/// Tangents of half the elevation: the direction (1 − u², 2u)/(1 + u²) needs no sine, whose last
+/// bit depends on the machine.
+constexpr std::array half_tangents{0.18, 0.26, 0.34, 0.42, 0.50, 0.58, 0.66};
+
+struct Shot {
+    Drag drag;
+    Vec3 launch;   // m/s
+    double fired;  // s
+};
+struct Trail {
+    std::vector<Point> points;
+};
+
+Point to_point(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
+
+/// Exact position `t` s after the launch, for the kinds of drag that have a closed form.
+Vec3 exact(const Shot& shot, double t) {
+    const double c = shot.drag == Drag::linear ? linear_coefficient : 0;
+    return {linear_drag_motion({0.0, shot.launch[0]}, 0.0, c, t).x,
+            linear_drag_motion({0.0, shot.launch[1]}, gravity, c, t).x};
+}
+
+}  // namespace
+
+struct Projectile {
+    static constexpr About about{.name = "projectile", .title = "Projectiles", .rate = 60};
+
+    World world;
+    std::mt19937_64 random;
+    double last_landing = 0;
+    std::array<double, kinds.size()> largest_error{};  // m, of each kind
+
+    explicit Projectile(const Settings& settings) : world(2, settings), random(settings.seed) {
+        world.set_gravity({0, gravity});
+        fire_salvo();
+    }
+
+    void fire_salvo() {
+        const double speed = 29 + 2 * static_cast<double>(random() >> 11) * 0x1p-53;
+        for (const Kind& kind : kinds)
+            for (const double u : half_tangents)
+                fire({kind.drag,
+                      {speed * (1 - u * u) / (1 + u * u), speed * 2 * u / (1 + u * u)},
+                      world.time()});
+    }
+
+    void fire(const Shot& shot) {
+        const Entity entity = world.create();
+        const Body body{.velocity = shot.launch};
+        if (shot.drag == Drag::none) world.add_body(entity, body);
+        if (shot.drag == Drag::linear)
+            world.add_body(entity, body, LinearDragForce{linear_coefficient});
+        if (shot.drag == Drag::quadratic)
+            world.add_body(entity, body, QuadraticDragForce{quadratic_coefficient});
+        world.add(entity, shot);
+        world.add(entity, Trail{});
+    }
+
+    void update(const Input&) {
+        world.each<Shot, Trail>([&](Entity entity, const Shot& shot, Trail& trail) {
+            if (!world.has_body(entity)) return;
+            const Vec3 at = world.position(entity);
+            trail.points.push_back(to_point(at));
+            if (shot.drag != Drag::quadratic) measure(shot, at);
+            if (at[1] < 0) land(entity);
+        });
+        if (world.bodies().size() == 0 && world.time() - last_landing >= pause_after_landing) {
+            world.each<Shot>([&](Entity entity, const Shot&) { world.destroy(entity); });
+            fire_salvo();
+        }
+    }
+
+    void measure(const Shot& shot, const Vec3& at) {
+        const Vec3 truth = exact(shot, world.time() - shot.fired);
+        double& largest = largest_error[static_cast<std::size_t>(shot.drag)];
+        largest = std::max(largest, std::hypot(at[0] - truth[0], at[1] - truth[1]));
+    }
+
+    void land(Entity entity) {
+        world.remove_body(entity);
+        last_landing = world.time();
+    }
+
+    Picture picture() const {
+        Picture picture{.camera = {.centre = {280 / 6.0F, 140 / 6.0F}, .height = 60}};
+        Plot{.box = {{40, 40}, {628, 310}},
+             .title = "",
+             .x_label = "distance, m",
+             .y_label = "height, m",
+             .x = {0, 98},
+             .y = {0, 45}}
+            .draw(picture, {});
+        world.each<Shot>([&](Entity, const Shot& shot) { draw_exact(picture, shot); });
+        world.each<Shot, Trail>([&](Entity entity, const Shot& shot, const Trail& trail) {
+            draw_shot(picture, entity, shot, trail);
+        });
+        draw_words(picture);
+        return picture;
+    }
+
+    static void draw_exact(Picture& picture, const Shot& shot) {
+        if (shot.drag == Drag::quadratic) return;
+        Polyline curve{.width = 0.75F, .colour = palette::grey};
+        double t = 0;
+        do {
+            curve.points.push_back(to_point(exact(shot, t)));
+            t += 0.05;
+        } while (curve.points.size() == 1 || curve.points.back().y > 0);
+        cut_at_ground(curve.points);
+        picture.polylines.push_back(std::move(curve));
+    }
+
+    /// The last point, which is below the ground, moves up the last segment to it.
+    static void cut_at_ground(std::vector<Point>& points) {
+        const Point above = points[points.size() - 2];
+        Point& below = points.back();
+        below = {above.x + (below.x - above.x) * above.y / (above.y - below.y), 0};
+    }
+
+    void draw_shot(Picture& picture, Entity entity, const Shot& shot, const Trail& trail) const {
+        const Colour colour = kinds[static_cast<std::size_t>(shot.drag)].colour;
+        const ElementKey key{.object = entity.id()};
+        Polyline path{.key = key,
+                      .points = trail.points,
+                      .width = 1.75F,
+                      .colour = palette::faded(colour, 150)};
+        if (world.has_body(entity)) path.points.push_back(to_point(world.position(entity)));
+        if (path.points.empty()) return;
+        picture.discs.push_back(
+            {.key = key, .centre = path.points.back(), .radius = 0.55F, .colour = colour});
+        picture.polylines.push_back(std::move(path));
+    }
+
+    void draw_words(Picture& picture) const {
+        const Settings& settings = world.settings();
+        picture.labels.push_back(
+            {.at = {16, 340},
+             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.method->name,
+                                 settings.rate.steps, name_of(settings.precision), world.time()),
+             .size = 13,
+             .colour = palette::ink});
+        float y = 296;
+        for (const Kind& kind : kinds) {
+            const double error = largest_error[static_cast<std::size_t>(kind.drag)];
+            picture.discs.push_back({.centre = {466, y + 3.5F},
+                                     .radius = 4,
+                                     .colour = kind.colour,
+                                     .space = Space::canvas});
+            picture.labels.push_back(
+                {.at = {476, y},
+                 .text = kind.drag == Drag::quadratic
+                             ? std::string(kind.name)
+                             : fmt::format("{}: {:.2f} m off exact", kind.name, error),
+                 .size = 10,
+                 .colour = palette::ink});
+            y -= 14;
+        }
+        picture.polylines.push_back({.points = {{460, y + 3.5F}, {472, y + 3.5F}},
+                                     .width = 0.75F,
+                                     .colour = palette::grey,
+                                     .space = Space::canvas});
+        picture.labels.push_back(
+            {.at = {476, y}, .text = "exact", .size = 10, .colour = palette::ink});
+    }
+};
+
+int main(int argc, char** argv) { return run<Projectile>(argc, argv); }

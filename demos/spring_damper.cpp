@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The article's spring and damper, its position drawn live over the exact one, and the error of the
+// method below it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/app/run.hpp"
+#include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
+#include "oiler/plot/plot.hpp"
+#include "oiler/sim/closed_forms.hpp"
+
+using namespace oiler;
+
+namespace {
+
+constexpr double stiffness = 15;  // N/m
+constexpr double damping = 0.1;   // N·s/m
+constexpr double start = 1000;    // m
+constexpr double page = 20;       // s of curve that are seen at once
+
+struct Sample {
+    double t, simulated, exact;
+};
+
+double exact_position(double t) {
+    return damped_oscillator(1.0, stiffness, damping, {start, 0.0}, t).x;
+}
+
+/// The smallest of 1, 2, 5, 10, … that is at least `value`.
+double round_up(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-6))));
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (factor * power >= value) return factor * power;
+    return 10 * power;
+}
+
+}  // namespace
+
+struct SpringDamper {
+    static constexpr About about{.name = "spring_damper", .title = "Spring and damper"};
+
+    World world;
+    Entity mass;
+    std::vector<Sample> samples;  // of this page, the last one now
+    double largest_error = 0;
+
+    explicit SpringDamper(const Settings& settings)
+        : world(1, settings),
+          mass(world.spawn(Body{.mass = 1, .position = {start}},
+                           AnchoredSpring{.stiffness = stiffness, .damping = damping})) {}
+
+    void update(const Input&) {
+        const Sample now = sample();
+        if (std::floor(now.t / page) != std::floor(samples.empty() ? 0 : samples.back().t / page))
+            samples.clear();
+        samples.push_back(now);
+        largest_error = std::max(largest_error, std::abs(now.simulated - now.exact));
+    }
+
+    Sample sample() const {
+        return {world.time(), world.position(mass)[0], exact_position(world.time())};
+    }
+
+    Picture picture() const {
+        Picture picture{.camera = {.centre = {0, -560}, .height = 1800}};
+        draw_spring(picture);
+        draw_curves(picture);
+        draw_words(picture);
+        return picture;
+    }
+
+    void draw_spring(Picture& picture) const {
+        const Sample now = sample();
+        const Point at{static_cast<float>(now.simulated), 0};
+        const ElementKey key{.object = mass.id()};
+        picture.polylines.push_back(
+            {.points = {{0, -90}, {0, 90}}, .width = 3, .colour = palette::ink});
+        picture.polylines.push_back({.key = key,
+                                     .points = coil({0, 0}, at, 12, 45),
+                                     .width = 1.5F,
+                                     .colour = palette::grey});
+        picture.discs.push_back(
+            {.key = key, .centre = at, .radius = 60, .colour = palette::vermilion});
+        picture.polylines.push_back({.key = {.object = mass.id(), .part = 1},
+                                     .points = circle({static_cast<float>(now.exact), 0}, 75),
+                                     .width = 2,
+                                     .colour = palette::sky_blue});
+    }
+
+    void draw_curves(Picture& picture) const {
+        std::vector<Sample> shown = samples;
+        shown.push_back(sample());
+        const double from = std::floor(shown.front().t / page) * page;
+        const Range time{from, from + page};
+        Series simulated{
+            .name = "simulated", .colour = palette::vermilion, .points = {}, .width = 1.5F};
+        Series error{.name = "", .colour = palette::vermilion, .points = {}, .width = 1.5F};
+        Series exact{.name = "exact", .colour = palette::sky_blue, .points = {}, .width = 4};
+        double largest = 0;
+        for (const Sample& s : shown) {
+            simulated.points.push_back({s.t, s.simulated});
+            error.points.push_back({s.t, s.simulated - s.exact});
+            largest = std::max(largest, std::abs(s.simulated - s.exact));
+        }
+        for (double t = from; t <= from + page; t += page / 1000)
+            exact.points.push_back({t, exact_position(t)});
+        const ElementKey key{.object = ~mass.id(), .jump = static_cast<std::uint32_t>(from)};
+        Plot{.box = {{56, 152}, {624, 256}},
+             .title = "",
+             .x_label = "",
+             .y_label = "position, m",
+             .x = time,
+             .y = {-1000, 1000},
+             .series = {exact, simulated}}
+            .draw(picture, key);
+        const double reach = round_up(std::max(largest, 1.0));
+        Plot{.box = {{56, 36}, {624, 112}},
+             .title = "",
+             .x_label = "time, s",
+             .y_label = "error: simulated − exact, m",
+             .x = time,
+             .y = {-reach, reach},
+             .series = {error}}
+            .draw(picture, {key.object - 1, 0, static_cast<std::uint32_t>(reach) ^ key.jump});
+    }
+
+    void draw_words(Picture& picture) const {
+        const Sample now = sample();
+        const Settings& settings = world.settings();
+        picture.labels.push_back(
+            {.at = {16, 340},
+             .text = fmt::format("{} at {} Hz, {}", settings.method->name, settings.rate.steps,
+                                 name_of(settings.precision)),
+             .size = 13,
+             .colour = palette::ink});
+        picture.labels.push_back({.at = {624, 340},
+                                  .text = "k = 15 N/m, b = 0.1 N·s/m, m = 1 kg",
+                                  .size = 11,
+                                  .colour = palette::grey,
+                                  .align = Align::right});
+        picture.labels.push_back(
+            {.at = {16, 324},
+             .text = fmt::format(
+                 "t = {:.2f} s   x = {:.1f} m   exact {:.1f} m   largest error {:.2f} m", now.t,
+                 now.simulated, now.exact,
+                 std::max(largest_error, std::abs(now.simulated - now.exact))),
+             .size = 11,
+             .colour = palette::ink});
+    }
+};
+
+int main(int argc, char** argv) { return run<SpringDamper>(argc, argv); }
