@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/platform/library.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+
+Library::Library(const char* soname, const char* remedy)
+    : soname_(soname), handle_(dlopen(soname, RTLD_NOW | RTLD_LOCAL)) {
+    if (handle_ == nullptr) {
+        fail(Exit::no_display, "cannot load {} ({}); {}", soname, dlerror(), remedy);
+    }
+}
+
+Library::~Library() {
+    dlclose(handle_);
+}
+
+void* Library::address(const char* name) const {
+    void* found = dlsym(handle_, name);
+    if (found == nullptr) {
+        fail(Exit::no_display, "{} has no function {}; is it a damaged or very old version?",
+             soname_, name);
+    }
+    return found;
+}
+
+void tame_llvmpipe() {
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
+}
+
+}  // namespace oiler

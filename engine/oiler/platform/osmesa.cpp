@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <GL/osmesa.h>
+
+#include <array>
+
+#include "oiler/core/error.hpp"
+#include "oiler/platform/library.hpp"
+#include "oiler/platform/providers.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr const char* remedy = "install the Debian package libosmesa6, or use --surface egl";
+
+/// Mesa's off-screen rendering, into memory of ours. Mesa 25.1 dropped it; EGL follows on.
+class OsMesa final : public Surface {
+public:
+    OsMesa() : library_("libOSMesa.so.8", remedy) {
+        library_.resolve(create_, "OSMesaCreateContextAttribs");
+        library_.resolve(destroy_, "OSMesaDestroyContext");
+        library_.resolve(make_current_, "OSMesaMakeCurrent");
+        library_.resolve(procedure_, "OSMesaGetProcAddress");
+        open();
+    }
+
+    ~OsMesa() override {
+        make_current_(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+        destroy_(context_);
+    }
+
+    std::string_view provider() const override { return "osmesa"; }
+    Procedure procedure(const char* name) const override { return procedure_(name); }
+
+private:
+    void open() {
+        const std::array attributes{OSMESA_FORMAT,
+                                    OSMESA_RGBA,
+                                    OSMESA_PROFILE,
+                                    OSMESA_CORE_PROFILE,
+                                    OSMESA_CONTEXT_MAJOR_VERSION,
+                                    3,
+                                    OSMESA_CONTEXT_MINOR_VERSION,
+                                    3,
+                                    0};
+        context_ = create_(attributes.data(), nullptr);
+        if (context_ == nullptr) {
+            fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", remedy);
+        }
+        if (make_current_(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
+            destroy_(context_);
+            fail(Exit::no_display, "OSMesa cannot make its context current; {}", remedy);
+        }
+    }
+
+    Library library_;
+    decltype(&OSMesaCreateContextAttribs) create_ = nullptr;
+    decltype(&OSMesaDestroyContext) destroy_ = nullptr;
+    decltype(&OSMesaMakeCurrent) make_current_ = nullptr;
+    decltype(&OSMesaGetProcAddress) procedure_ = nullptr;
+    /// OSMesa insists on a default framebuffer; nothing is ever drawn there.
+    std::array<unsigned char, 4> pixel_{};
+    OSMesaContext context_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> open_osmesa() {
+    return std::make_unique<OsMesa>();
+}
+
+}  // namespace oiler

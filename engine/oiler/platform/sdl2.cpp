@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#define SDL_MAIN_HANDLED
+#include <SDL2/SDL.h>
+
+#include <array>
+#include <cstdlib>
+#include <optional>
+
+#include "oiler/core/error.hpp"
+#include "oiler/platform/library.hpp"
+#include "oiler/platform/surface.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr const char* remedy = "install the Debian package libsdl2-2.0-0, or run with --headless";
+
+struct SdlFunctions {
+    explicit SdlFunctions(const Library& library) {
+        library.resolve(set_hint, "SDL_SetHint");
+        library.resolve(set_main_ready, "SDL_SetMainReady");
+        library.resolve(init, "SDL_InitSubSystem");
+        library.resolve(quit, "SDL_Quit");
+        library.resolve(error, "SDL_GetError");
+        library.resolve(video_driver, "SDL_GetCurrentVideoDriver");
+        library.resolve(create_window, "SDL_CreateWindow");
+        library.resolve(destroy_window, "SDL_DestroyWindow");
+        library.resolve(display_index, "SDL_GetWindowDisplayIndex");
+        library.resolve(display_mode, "SDL_GetCurrentDisplayMode");
+        library.resolve(poll_event, "SDL_PollEvent");
+        library.resolve(set_attribute, "SDL_GL_SetAttribute");
+        library.resolve(create_context, "SDL_GL_CreateContext");
+        library.resolve(delete_context, "SDL_GL_DeleteContext");
+        library.resolve(make_current, "SDL_GL_MakeCurrent");
+        library.resolve(procedure, "SDL_GL_GetProcAddress");
+        library.resolve(swap_interval, "SDL_GL_SetSwapInterval");
+        library.resolve(drawable_size, "SDL_GL_GetDrawableSize");
+        library.resolve(swap_window, "SDL_GL_SwapWindow");
+    }
+
+    decltype(&SDL_SetHint) set_hint = nullptr;
+    decltype(&SDL_SetMainReady) set_main_ready = nullptr;
+    decltype(&SDL_InitSubSystem) init = nullptr;
+    decltype(&SDL_Quit) quit = nullptr;
+    decltype(&SDL_GetError) error = nullptr;
+    decltype(&SDL_GetCurrentVideoDriver) video_driver = nullptr;
+    decltype(&SDL_CreateWindow) create_window = nullptr;
+    decltype(&SDL_DestroyWindow) destroy_window = nullptr;
+    decltype(&SDL_GetWindowDisplayIndex) display_index = nullptr;
+    decltype(&SDL_GetCurrentDisplayMode) display_mode = nullptr;
+    decltype(&SDL_PollEvent) poll_event = nullptr;
+    decltype(&SDL_GL_SetAttribute) set_attribute = nullptr;
+    decltype(&SDL_GL_CreateContext) create_context = nullptr;
+    decltype(&SDL_GL_DeleteContext) delete_context = nullptr;
+    decltype(&SDL_GL_MakeCurrent) make_current = nullptr;
+    decltype(&SDL_GL_GetProcAddress) procedure = nullptr;
+    decltype(&SDL_GL_SetSwapInterval) swap_interval = nullptr;
+    decltype(&SDL_GL_GetDrawableSize) drawable_size = nullptr;
+    decltype(&SDL_GL_SwapWindow) swap_window = nullptr;
+};
+
+struct KeyCode {
+    SDL_Keycode code;
+    Key key;
+};
+
+/// By key code, not scan code: the letter that is printed on the user's key.
+constexpr std::array key_codes{
+    KeyCode{SDLK_SPACE, Key::space},
+    KeyCode{SDLK_RETURN, Key::enter},
+    KeyCode{SDLK_KP_ENTER, Key::enter},
+    KeyCode{SDLK_ESCAPE, Key::escape},
+    KeyCode{SDLK_LEFT, Key::left},
+    KeyCode{SDLK_RIGHT, Key::right},
+    KeyCode{SDLK_UP, Key::up},
+    KeyCode{SDLK_DOWN, Key::down},
+    KeyCode{SDLK_a, Key::a},
+    KeyCode{SDLK_d, Key::d},
+    KeyCode{SDLK_p, Key::p},
+    KeyCode{SDLK_q, Key::q},
+    KeyCode{SDLK_s, Key::s},
+    KeyCode{SDLK_w, Key::w},
+    KeyCode{SDLK_PERIOD, Key::period},
+    KeyCode{SDLK_MINUS, Key::minus},
+    KeyCode{SDLK_KP_MINUS, Key::minus},
+    KeyCode{SDLK_EQUALS, Key::equals},
+    KeyCode{SDLK_KP_PLUS, Key::equals},
+    KeyCode{SDLK_PLUS, Key::equals},
+};
+
+std::optional<Key> translate(SDL_Keycode code) {
+    for (const KeyCode& entry : key_codes) {
+        if (entry.code == code) {
+            return entry.key;
+        }
+    }
+    return std::nullopt;
+}
+
+void apply(const SDL_KeyboardEvent& event, Input& input) {
+    const std::optional<Key> key = translate(event.keysym.sym);
+    if (!key || event.repeat != 0) {
+        return;
+    }
+    if (event.type == SDL_KEYDOWN) {
+        input.press(*key);
+    } else {
+        input.release(*key);
+    }
+}
+
+/// SDL's library and its video system, up for as long as this lives.
+class Sdl {
+public:
+    Sdl() : library_("libSDL2-2.0.so.0", remedy), sdl_(library_) {
+        sdl_.set_main_ready();
+        // Ctrl-C belongs to the program, which has files to complete.
+        sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+        sdl_.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+        // Without that folder there is no Wayland, and its library would say so on standard error.
+        if (std::getenv("XDG_RUNTIME_DIR") == nullptr) {
+            sdl_.set_hint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
+        }
+        if (sdl_.init(SDL_INIT_VIDEO) != 0 || invisible()) {
+            const std::string reason = sdl_.error();
+            sdl_.quit();
+            fail(Exit::no_display, "no display to open a window on (SDL: {}); run with --headless",
+                 reason.empty() ? "only an invisible driver" : reason);
+        }
+    }
+    ~Sdl() { sdl_.quit(); }
+    Sdl(const Sdl&) = delete;
+    Sdl& operator=(const Sdl&) = delete;
+
+    const SdlFunctions* operator->() const { return &sdl_; }
+
+private:
+    /// Without a display SDL does not fail, it runs where nobody sees it.
+    [[nodiscard]] bool invisible() const {
+        const char* driver = sdl_.video_driver();
+        const std::string_view name = driver != nullptr ? driver : "";
+        return name.empty() || name == "offscreen" || name == "dummy" || name == "evdev";
+    }
+
+    Library library_;
+    SdlFunctions sdl_;
+};
+
+class SdlWindow final : public Window {
+public:
+    SdlWindow(Size size, const std::string& title) {
+        request_core_context();
+        window_ = sdl_->create_window(
+            title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
+            SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        context_ = window_ != nullptr ? sdl_->create_context(window_) : nullptr;
+        if (context_ == nullptr) {
+            const std::string reason = sdl_->error();
+            close();
+            fail(Exit::no_display, "cannot open a window with OpenGL 3.3 ({}); run with --headless",
+                 reason);
+        }
+        take_over_thread();
+        sdl_->swap_interval(1);
+    }
+    ~SdlWindow() override { close(); }
+
+    std::string_view provider() const override { return "sdl2"; }
+    Procedure procedure(const char* name) const override {
+        return reinterpret_cast<Procedure>(sdl_->procedure(name));
+    }
+
+    Size size() const override {
+        Size size;
+        sdl_->drawable_size(window_, &size.width, &size.height);
+        return size;
+    }
+
+    int refresh_rate() const override {
+        SDL_DisplayMode mode{};
+        const bool known = sdl_->display_mode(sdl_->display_index(window_), &mode) == 0;
+        return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
+    }
+
+    WindowEvents poll(Input& input) override {
+        WindowEvents events;
+        SDL_Event event;
+        while (sdl_->poll_event(&event) != 0) {
+            if (event.type == SDL_KEYDOWN || event.type == SDL_KEYUP) {
+                apply(event.key, input);
+            }
+            const bool closed =
+                event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
+            events.quit = events.quit || closed || event.type == SDL_QUIT;
+        }
+        return events;
+    }
+
+    void present() override { sdl_->swap_window(window_); }
+
+private:
+    void request_core_context() const {
+        sdl_->set_attribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+        sdl_->set_attribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
+        sdl_->set_attribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
+        sdl_->set_attribute(SDL_GL_DOUBLEBUFFER, 1);
+    }
+
+    /// SDL skips a context that it believes current, while OSMesa may have taken the thread's slot
+    /// in libglapi; so it has to let go first.
+    void take_over_thread() const {
+        sdl_->make_current(window_, nullptr);
+        sdl_->make_current(window_, context_);
+    }
+
+    void close() {
+        if (context_ != nullptr) {
+            sdl_->make_current(window_, nullptr);
+            sdl_->delete_context(context_);
+        }
+        if (window_ != nullptr) {
+            sdl_->destroy_window(window_);
+        }
+    }
+
+    Sdl sdl_;
+    SDL_Window* window_ = nullptr;
+    SDL_GLContext context_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Window> open_window(Size size, const std::string& title) {
+    tame_llvmpipe();
+    return std::make_unique<SdlWindow>(size, title);
+}
+
+}  // namespace oiler

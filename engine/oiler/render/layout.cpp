@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/render/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oiler {
+namespace {
+
+// Pixels; larger letters fill any frame, and a glyph has to fit into a row of the atlas.
+constexpr int largest_em = 512;
+
+/// From a picture's spaces to the pixels of a frame, the lower left corner at (0, 0).
+class Mapping {
+public:
+    Mapping(const Camera& camera, Size frame)
+        : camera_(camera),
+          middle_{static_cast<float>(frame.width) / 2, static_cast<float>(frame.height) / 2},
+          scale_(std::min(static_cast<float>(frame.width) / canvas_width,
+                          static_cast<float>(frame.height) / canvas_height)) {}
+
+    [[nodiscard]] Point pixel(Point p, Space space) const {
+        const Point canvas = space == Space::world ? camera_.to_canvas(p) : p;
+        return {middle_.x + (canvas.x - canvas_width / 2) * scale_,
+                middle_.y + (canvas.y - canvas_height / 2) * scale_};
+    }
+
+    [[nodiscard]] float pixels(float length, Space space) const {
+        return space == Space::world ? length * (canvas_height / camera_.height) * scale_
+                                     : length * scale_;
+    }
+
+private:
+    Camera camera_;
+    Point middle_;
+    float scale_;
+};
+
+bool is_near(Point p, Size frame, float reach) {
+    // Written so that a NaN is far away.
+    return p.x > -reach && p.x < static_cast<float>(frame.width) + reach && p.y > -reach &&
+           p.y < static_cast<float>(frame.height) + reach;
+}
+
+bool runs_along_axes(const Polyline& line) {
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+        const Point from = line.points[i];
+        const Point to = line.points[i + 1];
+        if (from.x != to.x && from.y != to.y) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Puts the edges of an axis, a tick or a frame onto pixel edges: a line of one pixel between two
+/// rows would be two rows of grey. Only what stands still on the canvas is moved so, by at most
+/// half a pixel; a curve, which may happen to be flat, has more points.
+void snap(const Polyline& line, float width, std::vector<Point>& points) {
+    constexpr std::size_t most_corners = 5;
+    if (line.space != Space::canvas || points.size() > most_corners || !runs_along_axes(line)) {
+        return;
+    }
+    const bool odd = std::lround(std::clamp(width, 1.0F, 1e3F)) % 2 != 0;
+    for (Point& p : points) {
+        p = odd ? Point{std::floor(p.x) + 0.5F, std::floor(p.y) + 0.5F}
+                : Point{std::round(p.x), std::round(p.y)};
+    }
+}
+
+void lay_out_line(const Polyline& line, const Mapping& mapping, Size frame, LineMesh& mesh) {
+    std::vector<Point> points;
+    points.reserve(line.points.size());
+    for (const Point& point : line.points) {
+        points.push_back(mapping.pixel(point, line.space));
+    }
+    const Stroke stroke{mapping.pixels(line.width, Space::canvas), line.colour};
+    snap(line, stroke.width, points);
+    append_polyline(points, stroke, frame, mesh);
+}
+
+/// The disc whose soft edge, one pixel wide, covers π·r² pixels: the integral over a ramp from R−½
+/// to R+½ is π(R² + 1/12), and below R = ½ the colour fades instead.
+PlacedDisc with_soft_edge(Point centre, float radius, Colour colour) {
+    const float square = radius * radius;
+    const float smallest = 0.25F + 1.0F / 12;
+    return {centre, std::sqrt(std::max(square, smallest) - 1.0F / 12),
+            std::min(1.0F, square / smallest), colour};
+}
+
+void lay_out_disc(const Disc& disc, const Mapping& mapping, Size frame,
+                  std::vector<PlacedDisc>& discs) {
+    const Point centre = mapping.pixel(disc.centre, disc.space);
+    const float radius = mapping.pixels(disc.radius, disc.space);
+    if (radius > 0 && std::isfinite(radius) && is_near(centre, frame, radius + 1)) {
+        discs.push_back(with_soft_edge(centre, radius, disc.colour));
+    }
+}
+
+void lay_out_label(const Label& label, const Mapping& mapping, Size frame, Glyphs& glyphs,
+                   std::vector<PlacedGlyph>& placed) {
+    const float em = std::round(mapping.pixels(label.size, Space::canvas));
+    const Point at = mapping.pixel(label.at, label.space);
+    const float longest = 65536;  // pixels of text that may still reach into the frame
+    if (em >= 1 && is_near(at, frame, longest)) {
+        glyphs.place(label, at, static_cast<int>(std::min<float>(em, largest_em)), placed);
+    }
+}
+
+}  // namespace
+
+void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout) {
+    const Mapping mapping(picture.camera, frame);
+    layout.lines.clear();
+    for (const Polyline& line : picture.polylines) {
+        lay_out_line(line, mapping, frame, layout.lines);
+    }
+    layout.discs.clear();
+    for (const Disc& disc : picture.discs) {
+        lay_out_disc(disc, mapping, frame, layout.discs);
+    }
+    layout.glyphs.clear();
+    glyphs.tidy();
+    for (const Label& label : picture.labels) {
+        lay_out_label(label, mapping, frame, glyphs, layout.glyphs);
+    }
+}
+
+}  // namespace oiler

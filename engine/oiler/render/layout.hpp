@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "oiler/core/size.hpp"
+#include "oiler/picture/picture.hpp"
+#include "oiler/render/glyphs.hpp"
+#include "oiler/render/polyline_mesh.hpp"
+
+namespace oiler {
+
+/// A disc as its shader takes it.
+struct PlacedDisc {
+    Point centre;    ///< pixels
+    float radius;    ///< pixels
+    float strength;  ///< factor on the colour's alpha, below 1 for discs smaller than a pixel
+    Colour colour;
+};
+
+/// A picture in pixels of one frame, ready to be uploaded: the part of drawing that needs no GL.
+struct Layout {
+    LineMesh lines;
+    std::vector<PlacedDisc> discs;
+    std::vector<PlacedGlyph> glyphs;
+};
+
+/// Lays `picture` out for a frame of that size into `layout`, whose memory is reused.
+void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout);
+
+}  // namespace oiler

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/render/polyline_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/render/plane.hpp"
+
+namespace oiler {
+namespace {
+
+using plane::Box;
+using plane::Vec;
+
+// Pixels; facts measured: points denser than this cost time and add nothing but noise in the turns.
+constexpr double closest = 0.75;
+// Pixels; more than any frame has, and little enough for a rasteriser.
+constexpr float widest = 1e5F;
+// cos 120°: beyond that turn a mitre is longer than the line is wide, and the joint is round.
+constexpr double sharpest_cosine = -0.5;
+
+/// Writes one unbroken run of points as triangles.
+class Strip {
+public:
+    Strip(const Stroke& stroke, LineMesh& mesh)
+        : half_width_(std::max(stroke.width, 1.0F) / 2),
+          strength_(std::min(stroke.width, 1.0F)),
+          outer_(half_width_ + 1.0),
+          colour_(stroke.colour),
+          mesh_(mesh) {}
+
+    void add(std::vector<Vec> points) {
+        const bool closed = points.size() > 2 && length(points.front() - points.back()) == 0;
+        thin_out(points);
+        if (points.size() < 2) {
+            add_dot(points.front());
+        } else if (closed && points.size() > 3) {
+            points.pop_back();
+            add_closed(points);
+        } else {
+            add_open(points);
+        }
+    }
+
+private:
+    /// A joint's two vertices, to the left and the right of the line.
+    struct Cut {
+        std::uint32_t left;
+        std::uint32_t right;
+    };
+
+    static void thin_out(std::vector<Vec>& points) {
+        const Vec last = points.back();
+        std::size_t kept = 1;
+        for (const Vec& point : points) {
+            if (length(point - points[kept - 1]) >= closest) {
+                points[kept++] = point;
+            }
+        }
+        points.resize(kept);
+        // The line must end where it ends.
+        if (kept > 1) {
+            points.back() = last;
+        }
+        if (kept > 2 && length(points[kept - 1] - points[kept - 2]) == 0) {
+            points.pop_back();
+        }
+    }
+
+    void add_dot(Vec centre) {
+        const Vec right{1, 0};
+        const Cut cut = straight_cut(centre, right);
+        add_cap(centre, right, cut);
+        add_cap(centre, -1 * right, {cut.right, cut.left});
+    }
+
+    void add_open(const std::vector<Vec>& points) {
+        Vec direction = towards(points[0], points[1]);
+        Cut cut = straight_cut(points[0], direction);
+        add_cap(points[0], -1 * direction, {cut.right, cut.left});
+        for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+            cut = add_joint(cut, points[i - 1], points[i], points[i + 1]);
+        }
+        direction = towards(points[points.size() - 2], points.back());
+        const Cut end = straight_cut(points.back(), direction);
+        add_quad(cut, end);
+        add_cap(points.back(), direction, end);
+    }
+
+    void add_closed(const std::vector<Vec>& points) {
+        const std::size_t count = points.size();
+        // The joint at the first point is made twice: to leave from, and to arrive at.
+        const auto quads = mesh_.indices.size();
+        Cut cut = add_joint({0, 0}, points[count - 1], points[0], points[1]);
+        mesh_.indices.resize(quads);
+        for (std::size_t i = 1; i <= count; ++i) {
+            cut = add_joint(cut, points[i - 1], points[i % count], points[(i + 1) % count]);
+        }
+    }
+
+    /// Ends the segment that started at `start` and returns where the next one starts.
+    Cut add_joint(Cut start, Vec before, Vec at, Vec after) {
+        const Vec in = towards(before, at);
+        const Vec out = towards(at, after);
+        const double cosine = dot(in, out);
+        const double shorter = std::min(length(at - before), length(after - at));
+        // tan of half the turn, times outer_, is how far the mitre reaches back along the segments;
+        // beyond half of a segment the strip would fold over itself.
+        const double reach = outer_ * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine)));
+        if (cosine < sharpest_cosine || reach > shorter / 2) {
+            return add_round_joint(start, at, in, out);
+        }
+        const Vec mitre = (outer_ / (1 + cosine)) * (left_of(in) + left_of(out));
+        const Cut cut = add_cut(at, mitre);
+        add_quad(start, cut);
+        return cut;
+    }
+
+    /// The half disc before the next segment covers the whole wedge between the two.
+    Cut add_round_joint(Cut start, Vec at, Vec in, Vec out) {
+        add_quad(start, straight_cut(at, in));
+        const Cut next = straight_cut(at, out);
+        add_cap(at, -1 * out, {next.right, next.left});
+        return next;
+    }
+
+    Cut straight_cut(Vec at, Vec direction) { return add_cut(at, outer_ * left_of(direction)); }
+
+    Cut add_cut(Vec at, Vec to_left) {
+        const auto outer = static_cast<float>(outer_);
+        const std::uint32_t left = add_vertex(at + to_left, outer, 0);
+        return {left, add_vertex(at - to_left, -outer, 0)};
+    }
+
+    /// A quad beyond `cut`, in which the distance to the end point makes the half disc.
+    void add_cap(Vec at, Vec direction, Cut cut) {
+        const Vec to_left = outer_ * left_of(direction);
+        const Vec tip = at + outer_ * direction;
+        const auto outer = static_cast<float>(outer_);
+        const std::uint32_t left = add_vertex(tip + to_left, across(cut.left), outer);
+        add_quad(cut, {left, add_vertex(tip - to_left, across(cut.right), outer)});
+    }
+
+    [[nodiscard]] float across(std::uint32_t vertex) const { return mesh_.vertices[vertex].across; }
+
+    std::uint32_t add_vertex(Vec position, float across, float along) {
+        mesh_.vertices.push_back({{static_cast<float>(position.x), static_cast<float>(position.y)},
+                                  across,
+                                  along,
+                                  half_width_,
+                                  strength_,
+                                  colour_});
+        return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+    }
+
+    void add_quad(Cut from, Cut to) {
+        mesh_.indices.insert(mesh_.indices.end(), {from.left, from.right, to.left,  //
+                                                   to.left, from.right, to.right});
+    }
+
+    static Vec towards(Vec from, Vec to) { return (1 / length(to - from)) * (to - from); }
+
+    float half_width_;
+    float strength_;
+    double outer_;  ///< half the strip's width: the line's and its soft edge
+    Colour colour_;
+    LineMesh& mesh_;
+};
+
+}  // namespace
+
+void append_polyline(std::span<const Point> points, const Stroke& stroke, Size frame,
+                     LineMesh& mesh) {
+    if (!(stroke.width > 0)) {
+        return;
+    }
+    const Stroke drawable{std::min(stroke.width, widest), stroke.colour};
+    // Far enough out that no end or mitre made by the clipping shows.
+    const double margin = 2 * (drawable.width + 2.0);
+    const Box box{{-margin, -margin}, {frame.width + margin, frame.height + margin}};
+    Strip strip(drawable, mesh);
+    for (std::vector<Vec>& run : runs_within(box, points)) {
+        strip.add(std::move(run));
+    }
+}
+
+}  // namespace oiler

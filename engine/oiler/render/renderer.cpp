@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/render/renderer.hpp"
+
+#include <cstddef>
+
+#include "oiler/core/error.hpp"
+#include "oiler/render/embedded.hpp"
+#include "oiler/render/framebuffer.hpp"
+#include "oiler/render/gl.hpp"
+#include "oiler/render/layout.hpp"
+
+namespace oiler {
+namespace {
+
+Gl load_functions(const Renderer::LoadProcedure& load) {
+    Gl gl{};
+    const auto call = [](void* user, const char* name) -> GLADapiproc {
+        return (*static_cast<const Renderer::LoadProcedure*>(user))(name);
+    };
+    const int version =
+        gladLoadGLContextUserPtr(&gl, call, const_cast<Renderer::LoadProcedure*>(&load));
+    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33) {
+        fail(Exit::no_display,
+             "this surface offers OpenGL {}.{}, and 3.3 is needed; try --headless",
+             GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
+    }
+    return gl;
+}
+
+/// A buffer, the description of what is in it, and the program that draws it.
+struct Batch {
+    Batch(const Gl& gl, std::string_view vertex, std::string_view fragment)
+        : program(gl, vertex, fragment),
+          array(gl.GenVertexArrays, gl.DeleteVertexArrays),
+          buffer(gl.GenBuffers, gl.DeleteBuffers) {
+        gl.BindVertexArray(array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+    }
+
+    GlProgram program;
+    GlName array;
+    GlName buffer;
+};
+
+/// Where in a vertex or an instance an attribute lies.
+struct Field {
+    std::size_t offset;
+    std::size_t stride;
+    GLuint divisor;
+};
+
+const void* as_pointer(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+void describe_floats(const Gl& gl, GLuint location, GLint count, const Field& field) {
+    gl.VertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(field.stride),
+                           as_pointer(field.offset));
+    gl.VertexAttribDivisor(location, field.divisor);
+    gl.EnableVertexAttribArray(location);
+}
+
+void describe_integers(const Gl& gl, GLuint location, GLint count, const Field& field) {
+    gl.VertexAttribIPointer(location, count, GL_INT, static_cast<GLsizei>(field.stride),
+                            as_pointer(field.offset));
+    gl.VertexAttribDivisor(location, field.divisor);
+    gl.EnableVertexAttribArray(location);
+}
+
+void describe_colour(const Gl& gl, GLuint location, const Field& field) {
+    gl.VertexAttribPointer(location, 4, GL_UNSIGNED_BYTE, GL_TRUE,
+                           static_cast<GLsizei>(field.stride), as_pointer(field.offset));
+    gl.VertexAttribDivisor(location, field.divisor);
+    gl.EnableVertexAttribArray(location);
+}
+
+template <class Item>
+void upload(const Gl& gl, GLenum target, const std::vector<Item>& items) {
+    gl.BufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(),
+                  GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+    explicit Impl(const LoadProcedure& load)
+        : gl(load_functions(load)),
+          framebuffer(gl),
+          lines(gl, embedded::line_vert(), embedded::line_frag()),
+          discs(gl, embedded::disc_vert(), embedded::disc_frag()),
+          text(gl, embedded::text_vert(), embedded::text_frag()),
+          line_indices(gl.GenBuffers, gl.DeleteBuffers),
+          atlas(gl.GenTextures, gl.DeleteTextures) {
+        describe_lines();
+        describe_discs();
+        describe_text();
+        gl.BindTexture(GL_TEXTURE_2D, atlas);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+
+    void describe_lines() const {
+        constexpr std::size_t stride = sizeof(LineVertex);
+        gl.BindVertexArray(lines.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, lines.buffer);
+        gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, line_indices);
+        describe_floats(gl, 0, 2, {offsetof(LineVertex, position), stride, 0});
+        describe_floats(gl, 1, 2, {offsetof(LineVertex, across), stride, 0});
+        describe_floats(gl, 2, 2, {offsetof(LineVertex, half_width), stride, 0});
+        describe_colour(gl, 3, {offsetof(LineVertex, colour), stride, 0});
+    }
+
+    void describe_discs() const {
+        constexpr std::size_t stride = sizeof(PlacedDisc);
+        gl.BindVertexArray(discs.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, discs.buffer);
+        describe_floats(gl, 0, 2, {offsetof(PlacedDisc, centre), stride, 1});
+        describe_floats(gl, 1, 2, {offsetof(PlacedDisc, radius), stride, 1});
+        describe_colour(gl, 2, {offsetof(PlacedDisc, colour), stride, 1});
+    }
+
+    void describe_text() const {
+        constexpr std::size_t stride = sizeof(PlacedGlyph);
+        gl.BindVertexArray(text.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, text.buffer);
+        describe_integers(gl, 0, 4, {offsetof(PlacedGlyph, box), stride, 1});
+        describe_integers(gl, 1, 2, {offsetof(PlacedGlyph, atlas), stride, 1});
+        describe_colour(gl, 2, {offsetof(PlacedGlyph, colour), stride, 1});
+    }
+
+    void clear(Colour colour) const {
+        const auto share = [](std::uint8_t channel) { return static_cast<float>(channel) / 255; };
+        gl.ClearColor(share(colour.r), share(colour.g), share(colour.b), 1);
+        gl.Clear(GL_COLOR_BUFFER_BIT);
+    }
+
+    /// Everything that somebody else in the same context (an inspector) may have changed.
+    void set_state() const {
+        for (const GLenum off : {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
+                                 GL_FRAMEBUFFER_SRGB, GL_DITHER}) {
+            gl.Disable(off);
+        }
+        gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        gl.Enable(GL_BLEND);
+        gl.BlendEquation(GL_FUNC_ADD);
+        gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    }
+
+    void draw_lines(Size size) const {
+        if (layout.lines.indices.empty()) {
+            return;
+        }
+        lines.program.use(size.width, size.height);
+        gl.BindVertexArray(lines.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, lines.buffer);
+        upload(gl, GL_ARRAY_BUFFER, layout.lines.vertices);
+        upload(gl, GL_ELEMENT_ARRAY_BUFFER, layout.lines.indices);
+        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(layout.lines.indices.size()),
+                        GL_UNSIGNED_INT, nullptr);
+    }
+
+    template <class Item>
+    void draw_quads(const Batch& batch, const std::vector<Item>& items, Size size) const {
+        if (items.empty()) {
+            return;
+        }
+        batch.program.use(size.width, size.height);
+        gl.BindVertexArray(batch.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
+        upload(gl, GL_ARRAY_BUFFER, items);
+        gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(items.size()));
+    }
+
+    void bind_atlas() {
+        gl.ActiveTexture(GL_TEXTURE0);
+        gl.BindTexture(GL_TEXTURE_2D, atlas);
+        gl.BindSampler(0, 0);
+        if (atlas_revision == glyphs.revision()) {
+            return;
+        }
+        atlas_revision = glyphs.revision();
+        gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, Glyphs::atlas_width, glyphs.atlas_height(), 0,
+                      GL_RED, GL_UNSIGNED_BYTE, glyphs.atlas().data());
+    }
+
+    Gl gl;
+    Framebuffer framebuffer;
+    Batch lines;
+    Batch discs;
+    Batch text;
+    GlName line_indices;
+    GlName atlas;
+    Glyphs glyphs;
+    std::uint64_t atlas_revision = 0;
+    Layout layout;
+};
+
+Renderer::Renderer(const LoadProcedure& load) : impl_(std::make_unique<Impl>(load)) {}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const Picture& picture, Size size) {
+    impl_->framebuffer.bind(size);
+    impl_->set_state();
+    impl_->clear(picture.background);
+    lay_out(picture, size, impl_->glyphs, impl_->layout);
+    impl_->draw_lines(size);
+    impl_->draw_quads(impl_->discs, impl_->layout.discs, size);
+    impl_->bind_atlas();
+    impl_->draw_quads(impl_->text, impl_->layout.glyphs, size);
+}
+
+void Renderer::read(Pixels& pixels) const {
+    const Size size = impl_->framebuffer.size();
+    pixels.size = size;
+    pixels.rgb.resize(std::size_t{3} * static_cast<std::size_t>(size.width) *
+                      static_cast<std::size_t>(size.height));
+    const Gl& gl = impl_->gl;
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, impl_->framebuffer.name());
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, pixels.rgb.data());
+}
+
+void Renderer::blit(Size window) const {
+    const Size size = impl_->framebuffer.size();
+    const Gl& gl = impl_->gl;
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, impl_->framebuffer.name());
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl.BlitFramebuffer(0, 0, size.width, size.height, 0, 0, window.width, window.height,
+                       GL_COLOR_BUFFER_BIT, size == window ? GL_NEAREST : GL_LINEAR);
+}
+
+std::string Renderer::gl_renderer() const {
+    return reinterpret_cast<const char*>(impl_->gl.GetString(GL_RENDERER));
+}
+
+std::string Renderer::gl_version() const {
+    return reinterpret_cast<const char*>(impl_->gl.GetString(GL_VERSION));
+}
+
+}  // namespace oiler
