@@ -65,7 +65,9 @@ void declare(CLI::App& app, Options& options, Words& words, const About& about) 
     app.add_option("--precision", words.precision, "of positions and velocities")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
-    app.add_option("--seed", words.seed, "of the game's random numbers")->capture_default_str();
+    app.add_option("--seed", words.seed, "of the game's random numbers")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--trace", options.trace, "write each body after each step to this CSV file");
     app.add_option("--energy", options.energy, "write energies after each step to this CSV file");
     app.add_option("--json", options.json, "write what the run was to this file, - for stdout");

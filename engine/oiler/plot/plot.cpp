@@ -30,8 +30,10 @@ float clamped(float low, double value, float high) {
     return static_cast<float>(std::clamp(value, double{low}, double{high}));
 }
 
-/// The part of a segment within the box, by Liang and Barsky (1984).
+/// The part of a segment within the box, by Liang and Barsky (1984); none of one that has no end.
 std::optional<std::pair<Point, Point>> clip(DataPoint a, DataPoint b, const Box& box) {
+    for (const double number : {a.x, a.y, b.x, b.y})
+        if (!std::isfinite(number)) return std::nullopt;
     double enter = 0;
     double leave = 1;
     const auto cut = [&](double from, double to, double low, double high) {

@@ -60,6 +60,14 @@ void check(const Body& body) {
                  axis_names[static_cast<std::size_t>(i)]);
 }
 
+/// Before anything is stored, so that what is refused changes nothing.
+void check(const GivenForces& forces) {
+    const auto check_given = [](const auto& force) {
+        if (force) check_finite(*force);
+    };
+    std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
+}
+
 /// Calls f(index, the stored columns, the given force) for every kind of force.
 template <class T, int Axes, class F>
 void for_each_force(Columns<T, Axes>& columns, const GivenForces& given, F f) {
@@ -120,12 +128,12 @@ std::size_t Bodies::size() const {
 
 std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
     check(body);
+    check(forces);
     return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             const std::size_t row = columns.size;
             for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
                 using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
-                if (given) check_finite(*given);
                 if (given) make_present(stored, row);
                 if (!stored.present) return;
                 Stored force{};
@@ -149,13 +157,13 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
 }
 
 void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
+    check(forces);
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             assert(row < columns.size);
             for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
                 using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
                 if (!given) return;
-                check_finite(*given);
                 make_present(stored, columns.size);
                 Stored force = stored_form<Stored, T, Axes>(*given, columns.mass[row]);
                 std::size_t next = 0;
