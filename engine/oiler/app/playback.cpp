@@ -14,7 +14,8 @@ constexpr std::int64_t steps_between_interrupts = 4096;
 
 }  // namespace
 
-Playback::Playback(AnyGame& game, Recorder& recorder) : game_(game), recorder_(recorder) {}
+Playback::Playback(AnyGame& game, Recorder& recorder, bool hashes)
+    : game_(game), recorder_(recorder), hashes_(hashes) {}
 
 void Playback::step_to(std::int64_t tick, Input& input) {
     const World& world = game_.world();
@@ -44,7 +45,8 @@ Picture Playback::show(std::int64_t tick, double alpha, Input& input) {
 }
 
 Playback::Moment Playback::look() const {
-    return {game_.world().tick(), game_.world().state_hash(), game_.picture()};
+    const World& world = game_.world();
+    return {world.tick(), hashes_ ? world.state_hash() : 0, game_.picture()};
 }
 
 }  // namespace oiler

@@ -12,7 +12,8 @@ namespace oiler {
 /// lies between the states at both, so the game is stepped to the later one.
 class Playback {
 public:
-    Playback(AnyGame& game, Recorder& recorder);
+    /// `hashes`: whether somebody will ask for state_hash().
+    Playback(AnyGame& game, Recorder& recorder, bool hashes);
 
     /// Steps to tick `tick`, which is not before the game's, many steps at once unless they are
     /// recorded. Stops early when interrupted.
@@ -21,7 +22,7 @@ public:
     /// What is to be seen `alpha` of the way from tick `tick` to the next. Ticks may not go back.
     [[nodiscard]] Picture show(std::int64_t tick, double alpha, Input& input);
 
-    /// Of the tick shown last.
+    /// Of the tick shown last; 0 without `hashes`.
     [[nodiscard]] std::uint64_t state_hash() const { return before_.state_hash; }
 
 private:
@@ -35,6 +36,7 @@ private:
 
     AnyGame& game_;
     Recorder& recorder_;
+    bool hashes_;
     Moment before_;
     Moment after_;
 };

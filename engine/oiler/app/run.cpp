@@ -45,7 +45,7 @@ Exit play(const Options& options, const About& about, const MakeGame& make) {
     const std::unique_ptr<AnyGame> game = make(options.settings);
     RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
     Recorder recorder(options.trace, options.energy, game->world());
-    Playback playback(*game, recorder);
+    Playback playback(*game, recorder, options.headless);
     try {
         report.dropped = loop(playback, options, about);
     } catch (const Error& error) {

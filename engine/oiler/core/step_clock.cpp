@@ -101,8 +101,4 @@ HeadlessFrame headless_frame(std::int64_t frame, int rate, int fps) {
     return {frame / fps * rate + rest / fps, static_cast<double>(rest % fps) / fps};
 }
 
-double step_time(std::int64_t tick, int rate) {
-    return static_cast<double>(tick) / rate;
-}
-
 }  // namespace oiler

@@ -93,7 +93,4 @@ struct HeadlessFrame {
 /// nanoseconds in between: rounding to them puts 400 of 600 frames at fps = rate = 60 a step back.
 [[nodiscard]] HeadlessFrame headless_frame(std::int64_t frame, int rate, int fps);
 
-/// Seconds at `tick`: one division, never a sum.
-[[nodiscard]] double step_time(std::int64_t tick, int rate);
-
 }  // namespace oiler

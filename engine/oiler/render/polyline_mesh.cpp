@@ -12,7 +12,7 @@ namespace {
 using plane::Box;
 using plane::Vec;
 
-// Pixels; facts measured: points denser than this cost time and add nothing but noise in the turns.
+// Pixels; denser points cost time and add nothing but noise in the turns.
 constexpr double closest = 0.75;
 // Pixels; more than any frame has, and little enough for a rasteriser.
 constexpr float widest = 1e5F;

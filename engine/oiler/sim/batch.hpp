@@ -28,9 +28,8 @@ public:
         }));
     }
     [[gnu::always_inline]] void store(T* to) const {
-        generate<packs>([&](auto i) {
+        for_each_index<packs>([&](auto i) {
             pack_[i].copy_to(to + i * Pack::size(), std::experimental::vector_aligned);
-            return 0;
         });
     }
 

@@ -2,6 +2,7 @@
 #include "oiler/sim/bodies.hpp"
 
 #include <cassert>
+#include <limits>
 
 #include "oiler/core/error.hpp"
 
@@ -42,39 +43,33 @@ To stored_form(const From& given, double mass) {
     return force;
 }
 
-template <class Force>
-void check_finite(Force force) {
-    for_each_number(force, [](double number) {
-        if (!std::isfinite(number))
-            fail(Exit::usage, "{}: a number of it is not finite; give finite numbers", Force::name);
-    });
+// What is refused is refused before anything is stored.
+
+void check(double number, double largest, std::string_view what) {
+    if (!(std::abs(number) <= largest))
+        fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
+             largest);
 }
 
-void check(const Body& body) {
+void check(const Vec3& vector, double largest, std::string_view what) {
+    for (const double number : vector.axis) check(number, largest, what);
+}
+
+void check(const Body& body, double largest) {
     if (!(body.mass > 0) || !std::isfinite(body.mass))
         fail(Exit::usage, "a body of mass {} kg cannot be moved: give a positive, finite mass",
              body.mass);
-    for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(body.position[i]) || !std::isfinite(body.velocity[i]))
-            fail(Exit::usage, "a body's {} is not finite: give a finite position and velocity",
-                 axis_names[static_cast<std::size_t>(i)]);
+    check(body.position, largest, "a position");
+    check(body.velocity, largest, "a velocity");
 }
 
-/// Before anything is stored, so that what is refused changes nothing.
-void check(const GivenForces& forces) {
-    const auto check_given = [](const auto& force) {
-        if (force) check_finite(*force);
+void check(const GivenForces& forces, double mass, double largest) {
+    const auto check_given = [&]<class Force>(const std::optional<Force>& force) {
+        if (!force) return;
+        Force specific = force->per_unit_mass(mass);
+        for_each_number(specific, [&](double number) { check(number, largest, Force::name); });
     };
     std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
-}
-
-/// Calls f(index, the stored columns, the given force) for every kind of force.
-template <class T, int Axes, class F>
-void for_each_force(Columns<T, Axes>& columns, const GivenForces& given, F f) {
-    generate<force_count>([&](auto i) {
-        f(i, std::get<i>(columns.forces), std::get<i>(given));
-        return 0;
-    });
 }
 
 template <class Force, class T>
@@ -84,11 +79,47 @@ void make_present(ForceColumns<Force, T>& stored, std::size_t rows) {
     for (Parameter<T>& parameter : stored.numbers) parameter = Parameter<T>(T(0), rows);
 }
 
+/// A force's numbers for a new row: what everybody has, what was given, or nothing.
+template <class Force, class T>
+void push_force(ForceColumns<Force, T>& stored, const std::optional<Force>& given) {
+    Force force = given.value_or(Force{});
+    std::size_t next = 0;
+    for_each_number(force, [&](T number) {
+        Parameter<T>& parameter = stored.numbers[next++];
+        parameter.push(Force::everywhere ? parameter.data()[0] : number);
+    });
+}
+
+template <class Force, class T>
+void set_force(ForceColumns<Force, T>& stored, std::size_t row, Force force) {
+    std::size_t next = 0;
+    for_each_number(force, [&](T number) { stored.numbers[next++].set(row, number); });
+}
+
+/// Calls f(the stored columns, the force in their form) for every kind of force; the latter is
+/// empty where none is given.
+template <class T, int Axes, class F>
+void for_each_force(Columns<T, Axes>& columns, const GivenForces& forces, double mass, F f) {
+    for_each_index<force_count>([&](auto i) {
+        using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
+        std::optional<Stored> stored_force;
+        if (const auto& given = std::get<i>(forces))
+            stored_force = stored_form<Stored, T, Axes>(*given, mass);
+        f(std::get<i>(columns.forces), stored_force);
+    });
+}
+
 template <class T, std::size_t Axes>
 Vec3 widen(const std::array<Column<T>, Axes>& columns, std::size_t row) {
     Vec3 out{};
     for (std::size_t i = 0; i < Axes; ++i) out.axis[i] = static_cast<double>(columns[i][row]);
     return out;
+}
+
+template <class T, std::size_t Axes>
+void push(std::array<Column<T>, Axes>& columns, const Vec3& value) {
+    const auto narrowed = narrow<T, int{Axes}>(value);
+    for (std::size_t i = 0; i < Axes; ++i) columns[i].push(narrowed.axis[i]);
 }
 
 template <class T, std::size_t Axes>
@@ -122,53 +153,44 @@ Precision Bodies::precision() const {
     return columns_.index() < 3 ? Precision::single : Precision::double_;
 }
 
+double Bodies::largest() const {
+    return precision() == Precision::single ? static_cast<double>(std::numeric_limits<float>::max())
+                                            : std::numeric_limits<double>::max();
+}
+
 std::size_t Bodies::size() const {
     return std::visit([](const auto& columns) { return columns.size; }, columns_);
 }
 
 std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
-    check(body);
-    check(forces);
+    check(body, largest());
+    check(forces, body.mass, largest());
     return std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        [&](auto& columns) {
             const std::size_t row = columns.size;
-            for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
-                using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
-                if (given) make_present(stored, row);
-                if (!stored.present) return;
-                Stored force{};
-                if (given) force = stored_form<Stored, T, Axes>(*given, body.mass);
-                std::size_t next = 0;
-                for_each_number(force, [&](T number) {
-                    Parameter<T>& parameter = stored.numbers[next++];
-                    parameter.push(Stored::everywhere ? parameter.data()[0] : number);
-                });
+            for_each_force(columns, forces, body.mass, [&](auto& stored, const auto& force) {
+                if (force) make_present(stored, row);
+                if (stored.present) push_force(stored, force);
             });
-            for (std::size_t i = 0; i < Axes; ++i) {
-                columns.position[i].push(T(0));
-                columns.velocity[i].push(T(0));
-            }
+            push(columns.position, body.position);
+            push(columns.velocity, body.velocity);
             columns.mass.push(body.mass);
-            assign(columns.position, row, body.position);
-            assign(columns.velocity, row, body.velocity);
             return columns.size++;
         },
         columns_);
 }
 
 void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
-    check(forces);
+    check(forces, mass(row), largest());
     std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        [&](auto& columns) {
             assert(row < columns.size);
-            for_each_force(columns, forces, [&](auto i, auto& stored, const auto& given) {
-                using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
-                if (!given) return;
-                make_present(stored, columns.size);
-                Stored force = stored_form<Stored, T, Axes>(*given, columns.mass[row]);
-                std::size_t next = 0;
-                for_each_number(force, [&](T number) { stored.numbers[next++].set(row, number); });
-            });
+            for_each_force(columns, forces, columns.mass[row],
+                           [&](auto& stored, const auto& force) {
+                               if (!force) return;
+                               make_present(stored, columns.size);
+                               set_force(stored, row, *force);
+                           });
         },
         columns_);
 }
@@ -191,8 +213,7 @@ void Bodies::remove(std::size_t row) {
 }
 
 void Bodies::set_gravity(const Vec3& acceleration) {
-    const Gravity<double, 3> gravity{acceleration};
-    check_finite(gravity);
+    check(acceleration, largest(), "gravity");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             auto& stored = std::get<ForceColumns<Gravity<T, Axes>, T>>(columns.forces);
@@ -217,10 +238,12 @@ Vec3 Bodies::velocity(std::size_t row) const {
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
+    check(position, largest(), "a position");
     std::visit([&](auto& columns) { assign(columns.position, row, position); }, columns_);
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
+    check(velocity, largest(), "a velocity");
     std::visit([&](auto& columns) { assign(columns.velocity, row, velocity); }, columns_);
 }
 

@@ -59,7 +59,8 @@ public:
 
     /// A new last row, with at most one force of each kind. Bodies that agree on a force's numbers
     /// share them in memory when the force is given here. Throws Error{usage} for a mass that is
-    /// not positive or a number that is not finite.
+    /// not positive or a number that is
+    /// not finite in the columns' precision; then nothing has changed.
     template <BodyForce... Force>
     std::size_t add(const Body& body, const Force&... force) {
         return add_given(body, given(force...));
@@ -99,6 +100,8 @@ private:
         ((std::get<std::optional<Force>>(all) = force), ...);
         return all;
     }
+    /// The largest number that the columns hold.
+    [[nodiscard]] double largest() const;
     std::size_t add_given(const Body& body, const GivenForces& forces);
     void attach_given(std::size_t row, const GivenForces& forces);
 

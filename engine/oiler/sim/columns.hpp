@@ -141,14 +141,13 @@ template <Number V, std::floating_point T, int Axes>
 template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] Forces<V, Axes> forces_of(const Columns<T, Axes>& columns, std::size_t row) {
     Forces<V, Axes> forces;
-    generate<force_count>([&](auto i) {
+    for_each_index<force_count>([&](auto i) {
         const auto& stored = std::get<i>(columns.forces);
         forces.present[i] = stored.present;
         std::size_t next = 0;
         if (stored.present)
             for_each_number(std::get<i>(forces.list),
                             [&](V& number) { number = V(stored.numbers[next++][row]); });
-        return 0;
     });
     return forces;
 }

@@ -139,13 +139,12 @@ struct Forces {
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) const {
         Vec<V, Axes> sum;
         bool started = false;
-        generate<force_count>([&](auto i) __attribute__((always_inline)) {
+        for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
             if (present[i]) {
                 const Vec<V, Axes> a = std::get<i>(list).accelerate(state, t);
                 sum = started ? sum + a : a;
                 started = true;
             }
-            return 0;
         });
         if (!started) sum = {generate<Axes>([](auto) { return V(0); })};
         return sum;
@@ -154,9 +153,8 @@ struct Forces {
     /// Potential energy per unit mass, J/kg.
     V potential(const State<V, Axes>& state) const {
         V sum = V(0);
-        generate<force_count>([&](auto i) {
+        for_each_index<force_count>([&](auto i) {
             if (present[i]) sum = sum + std::get<i>(list).potential(state);
-            return 0;
         });
         return sum;
     }

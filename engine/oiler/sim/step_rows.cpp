@@ -19,17 +19,16 @@ State<Batch<T>, Axes> load_state(const Columns<T, Axes>& columns, std::size_t ro
 
 template <class T, int Axes>
 void store_state(const State<Batch<T>, Axes>& state, Columns<T, Axes>& columns, std::size_t row) {
-    generate<Axes>([&](auto i) {
+    for_each_index<Axes>([&](auto i) {
         state.x.axis[i].store(columns.position[i].data() + row);
         state.v.axis[i].store(columns.velocity[i].data() + row);
-        return 0;
     });
 }
 
 template <class T, int Axes>
 Forces<Batch<T>, Axes> load_forces(const Columns<T, Axes>& columns, std::size_t row) {
     Forces<Batch<T>, Axes> forces;
-    generate<force_count>([&](auto i) {
+    for_each_index<force_count>([&](auto i) {
         const auto& stored = std::get<i>(columns.forces);
         forces.present[i] = stored.present;
         std::size_t next = 0;
@@ -39,7 +38,6 @@ Forces<Batch<T>, Axes> load_forces(const Columns<T, Axes>& columns, std::size_t 
                 number = parameter.shared() ? Batch<T>(parameter.data()[0])
                                             : Batch<T>::load(parameter.data() + row);
             });
-        return 0;
     });
     return forces;
 }

@@ -37,6 +37,15 @@ template <std::size_t N, class F>
     (std::make_index_sequence<N>{});
 }
 
+/// Calls `f` with 0, 1, … N−1 as compile-time constants.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr void for_each_index(F f) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        (f(std::integral_constant<std::size_t, I>{}), ...);
+    }
+    (std::make_index_sequence<N>{});
+}
+
 /// A position, velocity or acceleration with one Number for each axis.
 template <Number V, int Axes>
 struct Vec {
