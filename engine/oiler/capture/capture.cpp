@@ -23,9 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* manifest_name = "manifest.json";
 
-std::string frame_name(std::int64_t index) {
-    return fmt::format("frame_{:06}.png", index);
-}
+std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
 /// Whether frame_name() could have made it; a manifest comes from outside and may name anything.
 bool is_frame_name(std::string_view name) {

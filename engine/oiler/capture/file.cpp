@@ -97,9 +97,7 @@ void File::write(std::span<const std::byte> bytes) {
         fail_write(path_, errno);
 }
 
-void File::write(std::string_view text) {
-    write(std::as_bytes(std::span(text)));
-}
+void File::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
 void File::commit() {
     assert(file_);

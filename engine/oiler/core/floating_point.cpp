@@ -36,9 +36,7 @@ bool keeps_subnormals() {
     return subnormal * 2 == smallest_normal;
 }
 
-bool rounds_to_nearest() {
-    return std::fegetround() == FE_TONEAREST;
-}
+bool rounds_to_nearest() { return std::fegetround() == FE_TONEAREST; }
 
 #endif
 

@@ -26,36 +26,24 @@ const XXH3_state_t* state_in(const std::array<std::byte, 576>& storage) {
 
 }  // namespace
 
-StateHash::StateHash() : state_{} {
-    XXH3_64bits_reset(new (state_.data()) XXH3_state_t);
-}
+StateHash::StateHash() : state_{} { XXH3_64bits_reset(new (state_.data()) XXH3_state_t); }
 
 void StateHash::add(std::span<const std::byte> bytes) {
     XXH3_64bits_update(state_in(state_), bytes.data(), bytes.size());
 }
 
-void StateHash::add(std::uint64_t number) {
-    add(std::as_bytes(std::span(&number, 1)));
-}
+void StateHash::add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
 
-void StateHash::add(std::span<const float> column) {
-    add(std::as_bytes(column));
-}
+void StateHash::add(std::span<const float> column) { add(std::as_bytes(column)); }
 
-void StateHash::add(std::span<const double> column) {
-    add(std::as_bytes(column));
-}
+void StateHash::add(std::span<const double> column) { add(std::as_bytes(column)); }
 
-std::uint64_t StateHash::value() const {
-    return XXH3_64bits_digest(state_in(state_));
-}
+std::uint64_t StateHash::value() const { return XXH3_64bits_digest(state_in(state_)); }
 
 std::uint64_t hash_bytes(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::string hash_text(std::uint64_t hash) {
-    return fmt::format("{:016x}", hash);
-}
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 }  // namespace oiler

@@ -5,9 +5,7 @@
 
 namespace oiler {
 
-std::string_view version() {
-    return OILER_VERSION;
-}
+std::string_view version() { return OILER_VERSION; }
 
 std::string compiler() {
 #ifdef __clang__

@@ -101,8 +101,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Surface> open_egl() {
-    return std::make_unique<Egl>();
-}
+std::unique_ptr<Surface> open_egl() { return std::make_unique<Egl>(); }
 
 }  // namespace oiler

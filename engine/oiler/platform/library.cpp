@@ -16,9 +16,7 @@ Library::Library(const char* soname, const char* remedy)
     }
 }
 
-Library::~Library() {
-    dlclose(handle_);
-}
+Library::~Library() { dlclose(handle_); }
 
 void* Library::address(const char* name) const {
     void* found = dlsym(handle_, name);
@@ -29,8 +27,6 @@ void* Library::address(const char* name) const {
     return found;
 }
 
-void tame_llvmpipe() {
-    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
-}
+void tame_llvmpipe() { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); }
 
 }  // namespace oiler

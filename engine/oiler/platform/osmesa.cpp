@@ -64,8 +64,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Surface> open_osmesa() {
-    return std::make_unique<OsMesa>();
-}
+std::unique_ptr<Surface> open_osmesa() { return std::make_unique<OsMesa>(); }
 
 }  // namespace oiler

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cassert>
+#include <concepts>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "oiler/sim/methods.hpp"
@@ -11,32 +12,27 @@
 
 namespace oiler {
 
-/// A splitting's stages times dt, rounded to T once.
+/// A splitting's stages times dt, in T.
 template <std::floating_point T>
 struct SplittingPlan {
-    static constexpr std::size_t capacity = 64;
     struct ScaledStage {
         Move move;
         T tau;  ///< s
     };
 
     SplittingPlan(const Splitting& rule, T step) {
-        assert(rule.stages.size() <= capacity);
         for (const Stage& stage : rule.stages)
             stages[count++] = {stage.move, static_cast<T>(stage.coefficient) * step};
     }
 
-    std::array<ScaledStage, capacity> stages;
+    std::array<ScaledStage, Splitting::most_stages> stages;
     std::size_t count = 0;
 };
 
-/// A tableau's coefficients times dt, rounded to T once.
+/// A tableau's coefficients times dt, in T.
 template <std::floating_point T>
 struct TableauPlan {
-    static constexpr std::size_t capacity = 4;
-
     TableauPlan(const Tableau& rule, T step) : count(rule.b.size()) {
-        assert(count <= capacity);
         std::size_t next = 0;
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t j = 0; j < i; ++j) a[i][j] = static_cast<T>(rule.a[next++]) * step;
@@ -45,9 +41,9 @@ struct TableauPlan {
         }
     }
 
-    std::array<std::array<T, capacity>, capacity> a;
-    std::array<T, capacity> b;
-    std::array<double, capacity> c;
+    std::array<std::array<T, Tableau::most_stages>, Tableau::most_stages> a;
+    std::array<T, Tableau::most_stages> b;
+    std::array<double, Tableau::most_stages> c;
     std::size_t count;
 };
 
@@ -60,9 +56,9 @@ template <std::floating_point T>
     return std::visit(
         [&]<class Rule>(const Rule& rule) -> Plan<T> {
             if constexpr (std::is_same_v<Rule, Splitting>)
-                return SplittingPlan<T>(rule, dt);
+                return Plan<T>(std::in_place_type<SplittingPlan<T>>, rule, dt);
             else
-                return TableauPlan<T>(rule, dt);
+                return Plan<T>(std::in_place_type<TableauPlan<T>>, rule, dt);
         },
         method.rule);
 }
@@ -97,7 +93,7 @@ template <Number V, int Axes, class Physics>
 [[gnu::always_inline]] inline void advance(const TableauPlan<Scalar<V>>& plan,
                                            State<V, Axes>& state, const Physics& physics,
                                            double t) {
-    std::array<Derivative<V, Axes>, TableauPlan<Scalar<V>>::capacity> k;
+    std::array<Derivative<V, Axes>, Tableau::most_stages> k;
     for (std::size_t i = 0; i < plan.count; ++i) {
         State<V, Axes> at = state;
         for (std::size_t j = 0; j < i; ++j) {

@@ -181,10 +181,10 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
 }
 
 void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
+    assert(row < size());
     check(forces, mass(row), largest());
     std::visit(
         [&](auto& columns) {
-            assert(row < columns.size);
             for_each_force(columns, forces, columns.mass[row],
                            [&](auto& stored, const auto& force) {
                                if (!force) return;

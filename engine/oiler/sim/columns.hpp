@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -37,7 +39,7 @@ struct AlignedAllocator {
     friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
 };
 
-/// One number for each row, aligned and padded with zeros.
+/// One number for each row, aligned and padded.
 template <class T>
 class Column {
 public:
@@ -56,8 +58,11 @@ public:
         values_[row] = values_[--size_];
         values_[size_] = T(0);
     }
+    void clear_padding() { std::fill(values_.begin() + end(), values_.end(), T(0)); }
 
 private:
+    [[nodiscard]] std::ptrdiff_t end() const { return static_cast<std::ptrdiff_t>(size_); }
+
     std::vector<T, AlignedAllocator<T>> values_;
     std::size_t size_ = 0;
 };
@@ -80,12 +85,12 @@ public:
             *this = Parameter(value, 1);
             return;
         }
-        if (shared_ && value != column_[0]) spread();
+        if (shared_ && differ(value, column_[0])) spread();
         if (!shared_) column_.push(value);
         ++size_;
     }
     void set(std::size_t row, T value) {
-        if (shared_ && value != column_[0] && size_ > 1) spread();
+        if (shared_ && differ(value, column_[0]) && size_ > 1) spread();
         column_[shared_ ? 0 : row] = value;
     }
     void swap_remove(std::size_t row) {
@@ -94,6 +99,9 @@ public:
     }
 
 private:
+    /// 0 and −0 do: a body's bits do not depend on which of them a neighbour has.
+    static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
+
     void spread() {
         const T value = column_[0];
         while (column_.size() < size_) column_.push(value);

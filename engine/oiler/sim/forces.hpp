@@ -78,7 +78,8 @@ struct LinearDrag {
     constexpr V potential(const State<V, Axes>&) const { return V(0); }
 };
 
-/// Drag of fast motion through air: force −c·|v|·v.
+/// Drag of fast motion through air: force −c·|v|·v. Where any body has it, |v|² of all must be a
+/// number: speeds stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
 template <Number V, int Axes>
 struct QuadraticDrag {
     V coefficient{};  ///< c, N·s²/m²

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/methods.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "oiler/core/error.hpp"
@@ -28,6 +29,18 @@ constexpr std::array list{
            .source = "Fiedler, Integration Basics, 2004; symplectic: de Vogelaere 1956"},
 };
 
+constexpr bool fits(const Splitting& rule) { return rule.stages.size() <= Splitting::most_stages; }
+
+constexpr bool fits(const Tableau& rule) {
+    const std::size_t stages = rule.b.size();
+    return stages <= Tableau::most_stages && rule.c.size() == stages &&
+           rule.a.size() == stages * (stages - 1) / 2;
+}
+
+static_assert(std::ranges::all_of(list, [](const Method& method) {
+    return std::visit([](const auto& rule) { return fits(rule); }, method.rule);
+}));
+
 }  // namespace
 
 std::span<const Method> methods() { return list; }
@@ -35,7 +48,7 @@ std::span<const Method> methods() { return list; }
 const Method& find_method(std::string_view name) {
     for (const Method& method : list)
         if (method.name == name) return method;
-    fail(Exit::usage, "--method {}: no such method; choose one of: {}", name, method_names());
+    fail(Exit::usage, "method {}: no such method; choose one of: {}", name, method_names());
 }
 
 std::string method_names() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,12 +20,14 @@ struct Stage {
 
 /// A method that moves positions and velocities in turn.
 struct Splitting {
+    static constexpr std::size_t most_stages = 64;
     std::span<const Stage> stages;
 };
 
 /// An explicit Runge–Kutta method. With s stages: `b` and `c` have s numbers, `a` the s(s−1)/2
 /// below the diagonal, row by row.
 struct Tableau {
+    static constexpr std::size_t most_stages = 4;
     std::span<const long double> a;
     std::span<const long double> b;
     std::span<const long double> c;

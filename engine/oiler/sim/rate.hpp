@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <concepts>
 #include <cstdint>
 
@@ -12,9 +13,10 @@ struct Rate {
     std::int64_t steps = 60;
     std::int64_t seconds = 1;
 
-    /// dt in s, rounded once.
+    /// dt in s: the quotient in T, of numbers that T holds exactly up to 2²⁴ (float) or 2⁵³.
     template <std::floating_point T = double>
     [[nodiscard]] constexpr T dt() const {
+        assert(steps > 0 && seconds > 0);
         return static_cast<T>(seconds) / static_cast<T>(steps);
     }
     /// When tick `tick` is, in s.

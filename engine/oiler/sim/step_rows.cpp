@@ -95,6 +95,13 @@ std::optional<Divergence> step_block(Columns<T, Axes>& columns, const Rule& rule
     return std::nullopt;
 }
 
+/// Rows beyond the last body were stepped along; what they came to must not add up over the calls.
+template <class T, int Axes>
+void clear_padding(Columns<T, Axes>& columns) {
+    for (auto* vector : {&columns.position, &columns.velocity})
+        for (Column<T>& column : *vector) column.clear_padding();
+}
+
 bool earlier(const Divergence& a, const std::optional<Divergence>& b) {
     return !b || a.tick < b->tick;
 }
@@ -110,6 +117,7 @@ std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& pl
             for (std::size_t row = 0; row < columns.size; row += Batch<T>::lanes)
                 if (const auto found = step_block(columns, rule, steps, row); found)
                     if (earlier(*found, first)) first = found;
+            clear_padding(columns);
             return first;
         },
         plan);

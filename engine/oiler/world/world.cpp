@@ -31,12 +31,12 @@ World& World::operator=(const World& other) {
 
 Entity World::create() {
     if (free_.empty()) {
-        generations_.push_back(0);
-        return {static_cast<std::uint32_t>(generations_.size() - 1), 0};
+        generations_.push_back(1);
+        return {static_cast<std::uint32_t>(generations_.size() - 1), 1};
     }
     const std::uint32_t slot = free_.back();
     free_.pop_back();
-    return {slot, generations_[slot]};
+    return {slot, ++generations_[slot]};
 }
 
 void World::destroy(Entity entity) {

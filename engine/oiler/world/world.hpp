@@ -73,22 +73,22 @@ public:
         return const_cast<World*>(this)->get<T>(entity);
     }
 
-    /// Calls f(entity, first, rest...) for each entity that has all of these components, in the
-    /// order of `First`: that of adding, where the last takes the place of one that is removed. `f`
-    /// may destroy the entity that it is given, and no other.
+    /// Calls f(entity, first, rest...) for each entity that has all of these components, backwards
+    /// in the order of `First`: that of adding, where the last takes the place of one that is
+    /// removed. Backwards, so that `f` may destroy the entity that it is given and create others,
+    /// which are not visited; it must not destroy others or use its references after adding.
     template <std::movable First, std::movable... Rest, class F>
     void each(F&& f) {
         Pool<First>* const first = find_pool<First>();
         const std::tuple<Pool<Rest>*...> rest{find_pool<Rest>()...};
         if (!first || !(std::get<Pool<Rest>*>(rest) && ...)) return;
         const SlotSet& slots = first->slots();
-        for (std::size_t place = 0; place < slots.size();) {
+        for (std::size_t place = slots.size(); place-- > 0;) {
             const std::uint32_t slot = slots[place];
             const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
             if ((std::get<Rest*>(others) && ...))
                 f(Entity{slot, generations_[slot]}, *first->find(slot),
                   *std::get<Rest*>(others)...);
-            if (place < slots.size() && slots[place] == slot) ++place;
         }
     }
     template <std::movable First, std::movable... Rest, class F>
@@ -109,8 +109,9 @@ public:
     /// A new entity that is a moving body.
     template <BodyForce... Force>
     Entity spawn(const Body& body, const Force&... force) {
+        bodies_.add(body, force...);
         const Entity entity = create();
-        add_body(entity, body, force...);
+        rows_.add(entity.index);
         return entity;
     }
     template <BodyForce... Force>
@@ -119,7 +120,8 @@ public:
     }
     void remove_body(Entity entity);
     [[nodiscard]] bool has_body(Entity entity) const;
-    /// The row of the entity's body; rows are in the order of `each`.
+    /// The row of the entity's body; rows are in the order of adding, where the last
+    /// takes the place of one that is removed.
     [[nodiscard]] std::size_t row(Entity entity) const;
     [[nodiscard]] Entity entity_of_row(std::size_t row) const;
 
@@ -171,6 +173,8 @@ private:
 
     Settings settings_;
     std::int64_t tick_ = 0;
+    /// Odd while an entity lives in the slot, even while it is free: no handle, not even one from
+    /// another copy of the world, fits a free slot.
     std::vector<std::uint32_t> generations_;
     std::vector<std::uint32_t> free_;
     std::vector<TaggedPool> pools_;
