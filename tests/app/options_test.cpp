@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr About about{.name = "demo", .title = "A demo", .rate = 50};
+
+CommandLine parse(const std::string& words) {
+    std::istringstream stream("demo " + words);
+    std::vector<std::string> list;
+    for (std::string word; stream >> word;) list.push_back(word);
+    std::vector<char*> argv;
+    for (std::string& word : list) argv.push_back(word.data());
+    return parse_command_line(static_cast<int>(argv.size()), argv.data(), about);
+}
+
+TEST(Options, AreTheGamesOwnUnlessGiven) {
+    const Options options = parse("").options;
+    EXPECT_EQ(options.settings.rate, Rate{50});
+    EXPECT_EQ(options.settings.method->name, "semi_implicit_euler");
+    EXPECT_EQ(options.settings.precision, Precision::double_);
+    EXPECT_EQ(options.size, (Size{1280, 720}));
+    EXPECT_EQ(options.out, "frames/demo");
+    EXPECT_FALSE(options.headless);
+    EXPECT_FALSE(options.frames || options.fps || options.steps);
+}
+
+TEST(Options, AreReadAsGiven) {
+    const Options options =
+        parse(
+            "--headless --surface egl --frames 7 --fps 30 --size 641x3 --out o --method "
+            "explicit_euler --rate 1000000 --precision float --seed 18446744073709551615 "
+            "--trace t.csv --energy e.csv --json - --quiet")
+            .options;
+    EXPECT_TRUE(options.headless);
+    EXPECT_EQ(options.offscreen, Offscreen::egl);
+    EXPECT_EQ(options.frames, 7);
+    EXPECT_EQ(options.fps, 30);
+    EXPECT_EQ(options.size, (Size{641, 3}));
+    EXPECT_EQ(options.out, "o");
+    EXPECT_EQ(options.settings.method->name, "explicit_euler");
+    EXPECT_EQ(options.settings.rate, Rate{1'000'000});
+    EXPECT_EQ(options.settings.precision, Precision::single);
+    EXPECT_EQ(options.settings.seed, ~std::uint64_t{0});
+    EXPECT_EQ(options.trace, "t.csv");
+    EXPECT_EQ(options.energy, "e.csv");
+    EXPECT_EQ(options.json, "-");
+    EXPECT_TRUE(options.quiet);
+}
+
+TEST(Options, HelpAndVersionAreText) {
+    EXPECT_NE(parse("--help").text.find("--headless"), std::string::npos);
+    EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
+}
+
+struct Wrong {
+    const char* words;
+    const char* named;  ///< what the message must name
+};
+
+class WrongOptions : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongOptions, AreRefusedInOneLineThatNamesThem) {
+    try {
+        (void)parse(GetParam().words);
+        FAIL() << "accepted: " << GetParam().words;
+    } catch (const Error& error) {
+        const std::string line = error.what();
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_NE(line.find(GetParam().named), std::string::npos) << line;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongOptions,
+    testing::Values(
+        Wrong{"--frobnicate", "--frobnicate"}, Wrong{"stray", "stray"}, Wrong{"--rate 0", "--rate"},
+        Wrong{"--rate -5", "--rate"}, Wrong{"--rate 1000001", "--rate"},
+        Wrong{"--rate 1.5", "--rate"}, Wrong{"--rate", "--rate"}, Wrong{"--fps 0", "--fps"},
+        Wrong{"--fps 1001", "--fps"}, Wrong{"--frames 0", "--frames"},
+        Wrong{"--frames x", "--frames"}, Wrong{"--steps -1", "--steps"},
+        Wrong{"--size 99999x1", "99999x1"}, Wrong{"--size 0x10", "0x10"},
+        Wrong{"--size 640", "--size"}, Wrong{"--size 640x", "--size"},
+        Wrong{"--size x480", "--size"}, Wrong{"--size 640x480x2", "--size"},
+        Wrong{"--size 99999999999x1", "--size"}, Wrong{"--method rk5", "semi_implicit_euler"},
+        Wrong{"--precision half", "--precision"}, Wrong{"--surface vulkan", "--surface"},
+        Wrong{"--seed -1", "--seed"}, Wrong{"--surface osmesa", "--headless"},
+        Wrong{"--surface egl", "--headless"}, Wrong{"--headless --surface window", "--headless"},
+        Wrong{"--out o", "--headless"}, Wrong{"--steps 5 --headless", "--headless"},
+        Wrong{"--steps 5 --frames 2", "--frames"}, Wrong{"--steps 5 --size 10x10", "--size"},
+        Wrong{"--record f", "--record"}, Wrong{"--golden d", "--golden"},
+        Wrong{"--video f", "--video"}, Wrong{"--threads 2", "--threads"}));
+
+}  // namespace
+}  // namespace oiler

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/playback.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "oiler/core/step_clock.hpp"
+
+namespace oiler {
+namespace {
+
+/// A free body at 1 m/s and 1 step/s, so that its place is the tick; `update` counts what it is
+/// told.
+struct Walker {
+    static constexpr About about{.name = "walker", .title = "Walker"};
+
+    World world;
+    Entity body;
+    int updates = 0;
+    int presses = 0;
+
+    explicit Walker(const Settings& settings)
+        : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
+
+    void update(const Input& input) {
+        ++updates;
+        presses += input.pressed(Key::space) ? 1 : 0;
+    }
+    Picture picture() const {
+        Picture picture;
+        picture.discs.push_back(
+            {.key = {.object = body.id()},
+             .centre = {static_cast<float>(world.position(body)[0]), static_cast<float>(presses)}});
+        return picture;
+    }
+};
+
+/// The same without rules of its own: stepped many steps at once.
+struct Drifter {
+    static constexpr About about{.name = "drifter", .title = "Drifter"};
+    World world;
+    explicit Drifter(const Settings& settings) : world(1, settings) {
+        (void)world.spawn(Body{.position = {1}, .velocity = {1}},
+                          AnchoredSpring{.stiffness = 0.25, .damping = 0.01});
+    }
+    Picture picture() const { return {}; }
+};
+
+struct Shown {
+    AnyGameOf<Walker> game{Settings{.rate = {1}}};
+    Recorder recorder{{}, {}, game.world()};
+    Playback playback{game, recorder, true};
+    Input input;
+
+    Point at(std::int64_t tick, double alpha) {
+        return playback.show(tick, alpha, input).discs.at(0).centre;
+    }
+};
+
+TEST(Playback, ShowsTheTickAndWhatLiesBehindIt) {
+    Shown shown;
+    EXPECT_EQ(shown.at(0, 0).x, 0);
+    EXPECT_EQ(shown.game.world().tick(), 0) << "nothing between two ticks was asked for";
+    EXPECT_EQ(shown.at(0, 0.25).x, 0.25F);
+    EXPECT_EQ(shown.at(0, 0.75).x, 0.75F);
+    EXPECT_EQ(shown.game.world().tick(), 1) << "both lie before the same tick";
+    EXPECT_EQ(shown.at(1, 0).x, 1);
+    EXPECT_EQ(shown.at(1, 0.5).x, 1.5F);
+    EXPECT_EQ(shown.at(7, 0.5).x, 7.5F) << "a late frame catches up";
+    EXPECT_EQ(shown.at(9, 0).x, 9);
+    EXPECT_EQ(shown.at(9, 0.5).x, 9.5F);
+}
+
+TEST(Playback, AtAnyRateAndFrameRateShowsTheTimeOfTheFrame) {
+    for (const int rate : {1, 30, 60, 100, 144})
+        for (const int fps : {1, 24, 60, 100, 144}) {
+            Shown shown;
+            for (std::int64_t i = 0; i < 200; ++i) {
+                const HeadlessFrame frame = headless_frame(i, rate, fps);
+                const double ticks = static_cast<double>(i * rate) / fps;
+                // Positions are floats of at most 2e4, whose spacing is 2e-3.
+                EXPECT_NEAR(shown.at(frame.step, frame.alpha).x, ticks, 2e-3);
+            }
+        }
+}
+
+TEST(Playback, HashIsOfTheTickThatIsShown) {
+    Shown shown;
+    Walker alone(Settings{.rate = {1}});
+    (void)shown.at(0, 0.5);
+    EXPECT_EQ(shown.playback.state_hash(), alone.world.state_hash());
+    (void)shown.at(3, 0.5);
+    alone.world.step(3);
+    EXPECT_EQ(shown.playback.state_hash(), alone.world.state_hash());
+}
+
+TEST(Playback, APressIsSeenByOneStepHoweverLongItWaits) {
+    Shown shown;
+    shown.input.press(Key::space);
+    EXPECT_EQ(shown.at(0, 0).y, 0) << "no step yet";
+    EXPECT_EQ(shown.at(5, 0).y, 1) << "five steps, one press";
+    EXPECT_TRUE(shown.input.held(Key::space));
+    EXPECT_EQ(shown.at(9, 0).y, 1);
+}
+
+TEST(Playback, ManyStepsAtOnceGiveTheBitsOfOneAtATime) {
+    AnyGameOf<Drifter> together{Settings{.rate = {10}}};
+    AnyGameOf<Drifter> single{Settings{.rate = {10}}};
+    Recorder none{{}, {}, together.world()};
+    Input input;
+    Playback(together, none, false).step_to(10'000, input);
+    for (int i = 0; i < 10'000; ++i) single.step(1, input);
+    EXPECT_EQ(together.world().tick(), 10'000);
+    EXPECT_EQ(together.world().state_hash(), single.world().state_hash());
+}
+
+}  // namespace
+}  // namespace oiler

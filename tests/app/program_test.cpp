@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The demos as their users run them: from a shell, without a display.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/program.hpp"
+
+namespace oiler::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string small = " --headless --quiet --size 160x90 ";
+
+std::string quoted(const std::filesystem::path& path) { return fmt::format("'{}'", path.string()); }
+
+bool is_one_line(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+TEST(Program, CapturesTheSameFolderTwice) {
+    for (const std::string demo : {"hello", "spring_damper", "projectile"}) {
+        const Folder folder;
+        for (const char* name : {"a", "b"})
+            EXPECT_EQ(shell(demo + small + "--frames 12 --out " + quoted(folder / name)).exit, 0);
+        EXPECT_EQ(names_in(folder / "a").size(), 13U);
+        EXPECT_EQ(shell("diff -r " + quoted(folder / "a") + " " + quoted(folder / "b")).exit, 0);
+    }
+}
+
+TEST(Program, OsmesaAndEglDrawTheSamePixels) {
+    const Folder folder;
+    std::vector<Json> frames;
+    for (const std::string surface : {"osmesa", "egl"}) {
+        const Outcome run = shell("spring_damper" + small + "--frames 5 --surface " + surface +
+                                  " --out " + quoted(folder / surface));
+        if (run.exit == 3) GTEST_SKIP() << run.err;
+        frames.push_back(Json::parse(text_of(folder / surface / "manifest.json"))["frames"]);
+    }
+    EXPECT_EQ(frames[0].size(), 5U);
+    EXPECT_EQ(frames[0], frames[1]);
+}
+
+TEST(Program, FramesAreFinePngFiles) {
+    if (shell("command -v pngcheck").exit != 0) GTEST_SKIP() << "pngcheck is not installed";
+    const Folder folder;
+    EXPECT_EQ(shell("projectile" + small + "--frames 3 --out " + quoted(folder / "o")).exit, 0);
+    EXPECT_EQ(shell("pngcheck -q " + quoted(folder / "o") + "/*.png").exit, 0);
+}
+
+TEST(Program, FrameIShowsTickIWhenRateAndFpsAgree) {
+    const Folder folder;
+    EXPECT_EQ(
+        shell("hello" + small + "--rate 60 --fps 60 --frames 40 --out " + quoted(folder / "o"))
+            .exit,
+        0);
+    const Json frames = Json::parse(text_of(folder / "o" / "manifest.json"))["frames"];
+    for (std::size_t i = 0; i < 40; ++i) {
+        EXPECT_EQ(frames[i]["tick"], i);
+        EXPECT_EQ(frames[i]["alpha"], 0.0);
+    }
+}
+
+TEST(Program, WithoutADisplayNamesHeadless) {
+    const Outcome run = shell("hello");
+    EXPECT_EQ(run.exit, 3);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
+}
+
+TEST(Program, WrongUsageIsOneLineAndExitTwo) {
+    for (const std::string words : {"--rate 0", "--nonsense", "--headless --size 99999x1"}) {
+        const Outcome run = shell("hello " + words);
+        EXPECT_EQ(run.exit, 2) << words;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_TRUE(run.out.empty()) << run.out;
+    }
+}
+
+TEST(Program, WhatCannotBeWrittenIsOneLineAndExitFour) {
+    for (const std::string words :
+         {"--headless --quiet --frames 1 --size 16x9 --out /proc/none",
+          "--steps 1 --trace /proc/none", "--steps 1 --quiet --json /dev/full",
+          "--steps 100 --quiet --energy /dev/full"}) {
+        const Outcome run = shell("hello " + words);
+        EXPECT_EQ(run.exit, 4) << words;
+        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    }
+}
+
+TEST(Program, InterruptedCaptureIsCompleteUpToThere) {
+    const Folder folder;
+    const Outcome run = shell("hello" + small + "--frames 100000 --out " + quoted(folder / "o") +
+                              " & while [ ! -e " + quoted(folder / "o" / "frame_000003.png") +
+                              " ]; do sleep 0.05; done; kill -INT $!; wait $!");
+    EXPECT_EQ(run.exit, 130);
+    const Json manifest = Json::parse(text_of(folder / "o" / "manifest.json"));
+    EXPECT_GE(manifest["frames"].size(), 4U);
+    EXPECT_EQ(names_in(folder / "o").size(), manifest["frames"].size() + 1) << "no other file";
+}
+
+TEST(Program, TraceReadsBackAndJsonTellsTheRun) {
+    const Folder folder;
+    const Outcome run = shell("spring_damper --quiet --steps 1000 --json - --trace " +
+                              quoted(folder / "t.csv") + " --energy " + quoted(folder / "e.csv"));
+    EXPECT_EQ(run.exit, 0) << run.err;
+    const Json report = Json::parse(run.out);
+    for (const char* key : {"scene", "method", "rate", "precision", "steps", "time", "bodies",
+                            "state_hash", "energy", "dropped_time", "wall_seconds"})
+        EXPECT_TRUE(report.contains(key)) << key;
+    EXPECT_EQ(report["energy"]["first"]["total"], 7.5e6) << "k·x²/2 of 15 N/m and 1000 m";
+
+    std::istringstream rows(text_of(folder / "t.csv"));
+    std::string row;
+    std::getline(rows, row);
+    EXPECT_EQ(row, "tick,time,body,x,vx");
+    std::getline(rows, row);
+    EXPECT_EQ(row, "0,0,0,1000,0");
+    int count = 1;
+    for (std::string next; std::getline(rows, next); ++count) row = next;
+    EXPECT_EQ(count, 1001);
+    // tests/data/spring_states.json: semi_implicit_euler_kd/E after 1000 steps. Round-off of 1000
+    // steps, each of a few half units in the last place of 1000 m, is below 1e-9.
+    double x = 0;
+    const std::string tail = row.substr(row.find(',', row.find(',') + 1) + 3);
+    std::from_chars(tail.data(), tail.data() + tail.size(), x);
+    EXPECT_NEAR(x, 303.79268459741713, 1e-9) << row;
+}
+
+TEST(Program, DivergedRunNamesStepBodyAndFieldAndKeepsItsTrace) {
+    const Folder folder;
+    const Outcome run = shell(
+        "spring_damper --quiet --method explicit_euler --rate 1 --steps 100000 "
+        "--trace " +
+        quoted(folder / "t.csv"));
+    EXPECT_EQ(run.exit, 5);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    for (const char* word : {"step", "body 0", "explicit_euler"})
+        EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+    const std::string trace = text_of(folder / "t.csv");
+    EXPECT_EQ(trace.back(), '\n');
+    EXPECT_EQ(trace.find("inf"), std::string::npos);
+}
+
+TEST(Program, QuietSaysNothingAndDataComesOnlyWhenAsked) {
+    const Folder folder;
+    const Outcome quiet = shell("hello" + small + "--frames 2 --out " + quoted(folder / "o"));
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    const Outcome loud =
+        shell("hello --headless --size 160x90 --frames 2 --out " + quoted(folder / "p"));
+    EXPECT_EQ(loud.out, "");
+    EXPECT_NE(loud.err.find("osmesa"), std::string::npos) << "auto says which surface it took";
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,55 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# A demo in a real window: pause holds the picture, a single step changes it, Q ends it well.
+# Usage: window_test.sh PROGRAM TITLE. Exit 77: Xvfb or xdotool is not installed.
+set -u
+program=$1
+title=$2
+command -v Xvfb >/dev/null && command -v xdotool >/dev/null || exit 77
+
+folder=$(mktemp -d)
+server=
+game=
+trap 'kill $game $server 2>/dev/null; rm -rf "$folder"' EXIT
+fail() { echo "window_test: $1"; exit 1; }
+
+# until_true COMMAND...: tries for up to 20 s.
+until_true() {
+    for _ in $(seq 200); do
+        "$@" && return 0
+        sleep 0.1
+    done
+    return 1
+}
+screenshot() { cp "$folder/Xvfb_screen0" "$folder/$1"; }
+stands_still() {
+    screenshot paused && sleep 0.2 && screenshot later && cmp -s "$folder/paused" "$folder/later"
+}
+has_changed() { screenshot stepped && ! cmp -s "$folder/paused" "$folder/stepped"; }
+window_focused() { xdotool search --name "$title" windowfocus >/dev/null 2>&1; }
+
+Xvfb -displayfd 3 -screen 0 800x600x24 -fbdir "$folder" 3>"$folder/display" >/dev/null 2>&1 &
+server=$!
+until_true test -s "$folder/display" || fail "Xvfb does not start"
+DISPLAY=:$(cat "$folder/display")
+export DISPLAY
+
+"$program" --size 640x360 >"$folder/out" 2>"$folder/err" &
+game=$!
+until_true window_focused || fail "no window: $(cat "$folder/err")"
+until_true grep -q "drawing with sdl2" "$folder/err" || fail "auto did not take the window"
+sleep 0.5
+stands_still && fail "nothing moves before the pause"
+xdotool key p
+until_true stands_still || fail "P does not pause"
+xdotool key period
+until_true has_changed || fail "a single step shows nothing"
+until_true stands_still || fail "a single step goes on"
+xdotool key p
+sleep 0.5
+stands_still && fail "P does not resume"
+xdotool key q
+wait $game
+status=$?
+[ $status -eq 0 ] || fail "Q leaves with exit code $status"
+echo "window_test: passed"

@@ -1,0 +1,34 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# agree.sh PROGRAM...: all programs that this machine can run print the same. One whose name ends in
+# v4 needs AVX-512.
+set -eu
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+runs_here() {
+    case $1 in
+    *v4) grep -qw avx512vl /proc/cpuinfo && grep -qw avx512dq /proc/cpuinfo ;;
+    *) true ;;
+    esac
+}
+
+first=
+count=0
+for program in "$@"; do
+    if ! runs_here "$program"; then
+        echo "skipped: $program needs AVX-512"
+        continue
+    fi
+    "$program" > "$folder/$count"
+    first=${first:-$program}
+    if ! diff "$folder/0" "$folder/$count"; then
+        echo "$program prints other hashes than $first"
+        exit 1
+    fi
+    count=$((count + 1))
+done
+lines=$(wc -l < "$folder/0")
+echo "$count programs agree on $lines hashes"
+# Two methods, two precisions and three numbers of axes at least, by two programs at least.
+[ "$count" -ge 2 ] && [ "$lines" -ge 12 ]

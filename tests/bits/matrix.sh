@@ -1,0 +1,68 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# The full matrix of compilers, optimisation and instruction sets, with plain compiler calls: prints
+# a line for each with the hash of all that tests/bits/state_hash.cpp prints, and exits with 1 when
+# two differ. As a control, a build that may fuse multiplies with adds must differ. Some minutes.
+#   tests/bits/matrix.sh [FOLDER]    # where the programs are put, a temporary one if absent
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=${1:-$(mktemp -d)}
+mkdir -p "$folder"
+sources=("$root"/tests/bits/state_hash.cpp "$root"/engine/oiler/core/{error,state_hash}.cpp
+         "$root"/engine/oiler/{sim,world}/*.cpp)
+
+# build NAME COMPILER OPTION...
+build() {
+    local name=$1 compiler=$2
+    shift 2
+    "$compiler" -std=c++20 -DNDEBUG -Wno-psabi "$@" -I"$root/engine" "${sources[@]}" \
+        -o "$folder/$name" -lfmt -lxxhash
+}
+
+has() { grep -qw "$1" /proc/cpuinfo; }
+
+runs_here() {
+    case $1 in
+    x86-64-v3) has avx2 && has fma ;;
+    x86-64-v4) has avx512vl && has avx512dq ;;
+    *) true ;;
+    esac
+}
+
+fingerprint() { "$folder/$1" | sha256sum | cut -c1-16; }
+
+reference=
+failed=0
+jobs=()
+variants=()
+for compiler in g++ clang++; do
+    command -v "$compiler" > /dev/null || { echo "skipped: no $compiler"; continue; }
+    for level in -O0 -O3; do
+        for march in x86-64 x86-64-v3 x86-64-v4; do
+            variants+=("$compiler $level $march")
+            build "$compiler$level-$march" "$compiler" "$level" "-march=$march" -ffp-contract=off &
+            jobs+=($!)
+            if [ ${#jobs[@]} -ge 2 ]; then wait "${jobs[0]}"; jobs=("${jobs[@]:1}"); fi
+        done
+    done
+done
+for job in "${jobs[@]}"; do wait "$job"; done
+
+for variant in "${variants[@]}"; do
+    read -r compiler level march <<< "$variant"
+    if ! runs_here "$march"; then echo "skipped: $variant (not this machine)"; continue; fi
+    print=$(fingerprint "$compiler$level-$march")
+    reference=${reference:-$print}
+    verdict=same
+    if [ "$print" != "$reference" ]; then verdict=DIFFERS; failed=1; fi
+    printf '%-8s %-4s %-10s %s %s\n' "$compiler" "$level" "$march" "$print" "$verdict"
+done
+
+if runs_here x86-64-v3; then
+    build fused g++ -O3 -march=x86-64-v3 -ffp-contract=fast
+    print=$(fingerprint fused)
+    verdict='differs, as it must'
+    if [ "$print" = "$reference" ]; then verdict='DOES NOT DIFFER'; failed=1; fi
+    printf '%-8s %-4s %-10s %s %s\n' g++ fused x86-64-v3 "$print" "$verdict"
+fi
+exit $failed

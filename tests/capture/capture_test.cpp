@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/capture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "oiler/core/error.hpp"
+#include "oiler/core/state_hash.hpp"
+#include "support/folder.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using oiler::Capture;
+using oiler::Error;
+using oiler::Exit;
+using oiler::Manifest;
+using oiler::test::Folder;
+using oiler::test::names_in;
+using oiler::test::put;
+using oiler::test::text_of;
+using Names = std::vector<std::string>;
+
+constexpr oiler::Size size{1, 2};
+const std::vector<std::uint8_t> bottom_up = {1, 2, 3, 4, 5, 6};
+
+Manifest header() {
+    Manifest manifest;
+    manifest.version = "0.1.0";
+    manifest.compiler = "g++ 12.2.0";
+    manifest.provider = "osmesa";
+    manifest.gl_renderer = "llvmpipe";
+    manifest.gl_version = "3.3";
+    manifest.size = size;
+    manifest.fps = 60;
+    manifest.rate = 100;
+    manifest.method = "rk4";
+    manifest.precision = "double";
+    manifest.scene = "spring \"damper\" \xff";
+    manifest.seed = 18'446'744'073'709'551'615U;
+    return manifest;
+}
+
+void capture(const fs::path& folder, int frames) {
+    Capture capture(folder, header());
+    for (int i = 0; i < frames; ++i) capture.add(i, 0.1 * i, 0xfedcba9876543210U, size, bottom_up);
+    capture.finish();
+}
+
+void expect_io_error(const fs::path& folder) {
+    try {
+        capture(folder, 1);
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::io);
+    }
+}
+
+TEST(Capture, WritesFramesAndAManifestThatNamesThem) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    EXPECT_EQ(names_in(folder / "out"),
+              (Names{"frame_000000.png", "frame_000001.png", "manifest.json"}));
+    const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
+    EXPECT_EQ(json["width"], 1);
+    EXPECT_EQ(json["height"], 2);
+    EXPECT_EQ(json["seed"], 18'446'744'073'709'551'615U);
+    EXPECT_EQ(json["scene"], "spring \"damper\" \xef\xbf\xbd");
+    EXPECT_EQ(json["frames"].size(), 2U);
+    const auto& frame = json["frames"][1];
+    EXPECT_EQ(frame["index"], 1);
+    EXPECT_EQ(frame["file"], "frame_000001.png");
+    EXPECT_EQ(frame["tick"], 1);
+    EXPECT_EQ(frame["alpha"], 0.1);
+    EXPECT_EQ(frame["state_hash"], "fedcba9876543210");
+    const std::string_view top_down = "\4\5\6\1\2\3";
+    EXPECT_EQ(frame["pixel_hash"],
+              oiler::hash_text(oiler::hash_bytes(std::as_bytes(std::span(top_down)))));
+}
+
+TEST(Capture, ManifestHasOneLinePerFrame) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    const std::string text = text_of(folder / "out/manifest.json");
+    EXPECT_NE(text.find("\n    {\"index\":1,\"file\":\"frame_000001.png\",\"tick\":1,\"alpha\":0.1,"
+                        "\"state_hash\":\"fedcba9876543210\",\"pixel_hash\":\""),
+              std::string::npos)
+        << text;
+    EXPECT_TRUE(text.ends_with("}\n  ]\n}\n"));
+}
+
+TEST(Capture, TheSameRunGivesTheSameBytes) {
+    const Folder folder;
+    capture(folder / "a", 3);
+    capture(folder / "b", 3);
+    ASSERT_EQ(names_in(folder / "a"), names_in(folder / "b"));
+    for (const std::string& name : names_in(folder / "a"))
+        EXPECT_EQ(text_of(folder / "a" / name), text_of(folder / "b" / name)) << name;
+}
+
+TEST(Capture, AShorterRunLeavesNoStaleFrame) {
+    const Folder folder;
+    capture(folder / "out", 5);
+    put(folder / "out/notes.txt", "mine");
+    put(folder / "out/frame_000007.png", "mine: no manifest names it");
+    capture(folder / "out", 1);
+    EXPECT_EQ(names_in(folder / "out"),
+              (Names{"frame_000000.png", "frame_000007.png", "manifest.json", "notes.txt"}));
+}
+
+TEST(Capture, WithoutFramesTheManifestIsStillWhole) {
+    const Folder folder;
+    capture(folder / "out", 0);
+    const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
+    EXPECT_TRUE(json["frames"].empty());
+    capture(folder / "out", 1);
+    EXPECT_EQ(names_in(folder / "out").size(), 2U);
+}
+
+TEST(Capture, AHostileManifestRemovesNothingElse) {
+    const Folder folder;
+    fs::create_directories(folder / "out/sub");
+    const Names kept = {"victim",
+                        "frame_000001.png",
+                        "out/frame_.png",
+                        "out/frame_1.png",
+                        "out/frame_00000a.png",
+                        "out/sub/frame_000001.png",
+                        "out/xframe_000001.png"};
+    std::string frames;
+    for (const std::string& name : kept) {
+        put(folder / name, "keep");
+        frames += R"({"file":"../)" + name + R"("},{"file":")" + (folder / name).string() +
+                  R"("},{"file":")" + fs::relative(folder / name, folder / "out").string() +
+                  R"("},)";
+    }
+    put(folder / "out/manifest.json", R"({"frames":[)" + frames + R"({"file":""}]})");
+    capture(folder / "out", 0);
+    for (const std::string& name : kept) EXPECT_EQ(text_of(folder / name), "keep") << name;
+}
+
+TEST(Capture, AStaleFrameThatIsALinkLosesOnlyTheLink) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    put(folder / "victim", "keep");
+    fs::remove(folder / "out/frame_000001.png");
+    fs::create_symlink("../victim", folder / "out/frame_000001.png");
+    capture(folder / "out", 1);
+    EXPECT_EQ(text_of(folder / "victim"), "keep");
+    EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json"}));
+}
+
+TEST(Capture, SomebodyElsesManifestIsNotTouched) {
+    for (const char* text : {"{}", "[]", "", "{\"frames\":1}", "{\"frames\":{}}",
+                             "{\"frames\":[{}]}", "not json", "{\"name\":\"a web app\"}"}) {
+        const Folder folder;
+        put(folder / "manifest.json", text);
+        expect_io_error(folder.path());
+        EXPECT_EQ(text_of(folder / "manifest.json"), text);
+        EXPECT_EQ(names_in(folder.path()), Names{"manifest.json"});
+    }
+}
+
+TEST(Capture, AFolderThatStayedEmptyIsRemoved) {
+    const Folder folder;
+    { const Capture unused(folder / "out", header()); }
+    EXPECT_FALSE(fs::exists(folder / "out"));
+    fs::create_directory(folder / "mine");
+    { const Capture unused(folder / "mine", header()); }
+    EXPECT_TRUE(fs::exists(folder / "mine"));
+}
+
+TEST(Capture, AFrameThatCannotBeWrittenIsAnError) {
+    const Folder folder;
+    fs::create_directories(folder / "out/frame_000000.png");
+    expect_io_error(folder / "out");
+    EXPECT_EQ(names_in(folder / "out"), Names{"frame_000000.png"});
+    put(folder / "file", "");
+    expect_io_error(folder / "file");
+    expect_io_error("/proc/none");
+}
+
+}  // namespace

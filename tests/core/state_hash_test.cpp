@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/core/state_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using oiler::hash_bytes;
+using oiler::hash_text;
+using oiler::StateHash;
+
+std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text))); }
+
+template <class Number>
+std::uint64_t hash_of_column(const std::vector<Number>& column) {
+    StateHash hash;
+    hash.add(std::span<const Number>(column));
+    return hash.value();
+}
+
+// XXH3_64bits of nothing with seed 0, from xxHash's own sanity checks.
+TEST(StateHash, NothingHashesAsPublished) {
+    EXPECT_EQ(StateHash().value(), 0x2D06800538D394C2U);
+    EXPECT_EQ(hash_bytes({}), 0x2D06800538D394C2U);
+}
+
+// xxHash's sanity checks (cli/xsum_sanity_check.c, XSUM_XXH3_testdata, seed 0): its buffer, lengths
+// and results, one for each of the algorithm's ranges of length.
+TEST(StateHash, TheSanityBufferHashesAsPublished) {
+    std::vector<std::byte> buffer(2367);
+    std::uint64_t generator = 2654435761U;
+    for (std::byte& byte : buffer) {
+        byte = static_cast<std::byte>(generator >> 56);
+        generator *= 11400714785074694797U;
+    }
+    const std::pair<std::size_t, std::uint64_t> published[] = {
+        {1, 0xC44BDFF4074EECDB},   {6, 0x27B56A84CD2D7325},   {12, 0xA713DAF0DFBB77E7},
+        {24, 0xA3FE70BF9D3510EB},  {48, 0x397DA259ECBA1F11},  {80, 0xBCDEFBBB2C47C90A},
+        {195, 0xCD94217EE362EC3A}, {403, 0xCDEB804D65C6DEA4}, {512, 0x617E49599013CB6B},
+        {2048, 0xDD59E2C3A5F038E0}};
+    for (const auto& [length, expected] : published) {
+        StateHash hash;
+        hash.add(std::span<const std::byte>(buffer).first(length));
+        EXPECT_EQ(hash.value(), expected) << length;
+    }
+}
+
+TEST(StateHash, NumbersAreLittleEndianBytes) {
+    StateHash number;
+    number.add(std::uint64_t{0x0807060504030201});
+    EXPECT_EQ(number.value(), hash_of("\x01\x02\x03\x04\x05\x06\x07\x08"));
+    EXPECT_EQ(hash_of_column<float>({1.0F}), hash_of({"\x00\x00\x80\x3f", 4}));
+    EXPECT_EQ(hash_of_column<double>({1.0}), hash_of({"\x00\x00\x00\x00\x00\x00\xf0\x3f", 8}));
+}
+
+TEST(StateHash, OrderShows) {
+    EXPECT_NE(hash_of_column<float>({1, 2}), hash_of_column<float>({2, 1}));
+}
+
+TEST(StateHash, TheSignOfZeroShows) {
+    EXPECT_NE(hash_of_column<double>({0.0}), hash_of_column<double>({-0.0}));
+    EXPECT_NE(hash_of_column<float>({0.0F}), hash_of_column<float>({-0.0F}));
+}
+
+TEST(StateHash, ChunksDoNotShow) {
+    std::vector<double> column(1000);
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = 0.1 * static_cast<double>(i);
+    const std::uint64_t whole = hash_bytes(std::as_bytes(std::span(column)));
+    for (const std::size_t cut : {0, 1, 3, 31, 129, 999, 1000}) {
+        StateHash hash;
+        hash.add(std::span<const double>(column).first(cut));
+        hash.add(std::span<const double>(column).subspan(cut));
+        EXPECT_EQ(hash.value(), whole) << cut;
+    }
+}
+
+TEST(StateHash, IsAValue) {
+    StateHash hash;
+    hash.add(std::uint64_t{1});
+    StateHash copy = hash;
+    const std::uint64_t before = hash.value();
+    copy.add(std::uint64_t{2});
+    EXPECT_EQ(hash.value(), before);
+    EXPECT_NE(copy.value(), before);
+    hash.add(std::uint64_t{2});
+    EXPECT_EQ(hash.value(), copy.value());
+}
+
+TEST(HashText, HasSixteenDigits) {
+    EXPECT_EQ(hash_text(0), "0000000000000000");
+    EXPECT_EQ(hash_text(0x2D06800538D394C2), "2d06800538d394c2");
+}
+
+}  // namespace

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/picture/picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace oiler {
+namespace {
+
+Disc disc(ElementKey key, Point centre, float radius = 1, Colour colour = {}) {
+    return {key, centre, radius, colour, Space::world};
+}
+
+Picture of_discs(std::vector<Disc> discs) {
+    Picture picture;
+    picture.discs = std::move(discs);
+    return picture;
+}
+
+Picture of_line(ElementKey key, std::vector<Point> points) {
+    Picture picture;
+    picture.polylines.push_back({key, std::move(points), 1, {}, Space::world});
+    return picture;
+}
+
+Point centre_at(const Picture& before, const Picture& after, float alpha) {
+    return between(before, after, alpha).discs.at(0).centre;
+}
+
+TEST(Camera, PutsItsCentreInTheMiddleAndItsHeightOverTheCanvas) {
+    const Camera camera{{100, -50}, 20};
+    EXPECT_EQ(camera.to_canvas({100, -50}), (Point{320, 180}));
+    EXPECT_EQ(camera.to_canvas({100, -40}), (Point{320, 360}));
+    EXPECT_EQ(camera.to_canvas({101, -50}), (Point{338, 180}));
+}
+
+TEST(Between, IsExactlyBeforeAtZeroAndAfterAtOne) {
+    // 0.1 and 0.7 have no exact sum or difference in float, so a formula alone would miss.
+    const Picture before = of_discs({disc({1, 0, 0}, {0.1F, 1e7F})});
+    const Picture after = of_discs({disc({1, 0, 0}, {0.7F, -3e-7F}), disc({2, 0, 0}, {5, 5})});
+    EXPECT_EQ(centre_at(before, after, 0), (Point{0.1F, 1e7F}));
+    EXPECT_EQ(centre_at(before, after, 1), (Point{0.7F, -3e-7F}));
+    EXPECT_EQ(between(before, after, 0).discs.size(), 1U);
+    EXPECT_EQ(between(before, after, 1).discs.size(), 2U);
+}
+
+TEST(Between, KeepsAlphaWithinTheStep) {
+    const Picture before = of_discs({disc({1, 0, 0}, {1, 0})});
+    const Picture after = of_discs({disc({1, 0, 0}, {2, 0})});
+    EXPECT_EQ(centre_at(before, after, -1).x, 1);
+    EXPECT_EQ(centre_at(before, after, 2).x, 2);
+    EXPECT_EQ(centre_at(before, after, std::numeric_limits<float>::quiet_NaN()).x, 1);
+}
+
+TEST(Between, MovesDiscsOnStraightLines) {
+    const Picture before = of_discs({disc({1, 0, 0}, {0, 8}, 2, {0, 255, 10, 255})});
+    const Picture after = of_discs({disc({1, 0, 0}, {4, 0}, 4, {255, 0, 20, 0})});
+    const Disc moved = between(before, after, 0.25F).discs.at(0);
+    EXPECT_EQ(moved.centre, (Point{1, 6}));
+    EXPECT_EQ(moved.radius, 2.5F);
+    // 63.75, 191.25, 12.5 and 191.25, rounded to the nearest, halves away from zero.
+    EXPECT_EQ(moved.colour, (Colour{64, 191, 13, 191}));
+}
+
+TEST(Between, LeavesWhatStandsStillExactlyWhereItIs) {
+    const Picture still = of_discs({disc({1, 0, 0}, {0.1F, 1.0F / 3})});
+    for (int i = 0; i <= 100; ++i) {
+        EXPECT_EQ(centre_at(still, still, static_cast<float>(i) / 100), (Point{0.1F, 1.0F / 3}));
+    }
+}
+
+TEST(Between, DoesNotStreakWhatTeleports) {
+    const Picture before = of_discs({disc({1, 0, 0}, {0, 0})});
+    const Picture after = of_discs({disc({1, 0, 1}, {100, 0})});
+    EXPECT_EQ(centre_at(before, after, 0.99F), (Point{0, 0}));
+    EXPECT_EQ(centre_at(before, after, 1), (Point{100, 0}));
+    EXPECT_EQ(between(before, after, 0.99F).discs.size(), 1U);
+}
+
+TEST(Between, ShowsNewAndDropsGoneOnlyAtTheEnd) {
+    const Picture before = of_discs({disc({1, 0, 0}, {0, 0}), disc({2, 0, 0}, {10, 0})});
+    const Picture after = of_discs({disc({2, 0, 0}, {20, 0}), disc({3, 0, 0}, {30, 0})});
+    const Picture half = between(before, after, 0.5F);
+    ASSERT_EQ(half.discs.size(), 2U);
+    EXPECT_EQ(half.discs[0].centre.x, 0);
+    EXPECT_EQ(half.discs[1].centre.x, 15);
+}
+
+TEST(Between, MatchesByKeyWhateverTheOrderAndKeepsTheOrderBefore) {
+    Picture before;
+    Picture after;
+    for (std::uint64_t i = 1; i <= 50; ++i) {
+        before.discs.push_back(disc({i % 10 + 1, static_cast<std::uint32_t>(i), 0}, {0, 0}));
+        after.discs.insert(after.discs.begin(), before.discs.back());
+        after.discs.front().centre.x = static_cast<float>(i) * 2;
+    }
+    const Picture half = between(before, after, 0.5F);
+    for (std::size_t i = 0; i < 50; ++i) {
+        EXPECT_EQ(half.discs.at(i).key, before.discs[i].key);
+        EXPECT_EQ(half.discs.at(i).centre.x, static_cast<float>(i + 1));
+    }
+}
+
+TEST(Between, MatchesNothingWithoutAnObjectOrInAnotherSpace) {
+    Picture before = of_discs({disc({0, 7, 0}, {0, 0}), disc({1, 0, 0}, {0, 0})});
+    Picture after = of_discs({disc({0, 7, 0}, {8, 0}), disc({1, 0, 0}, {8, 0})});
+    after.discs[1].space = Space::canvas;
+    const Picture half = between(before, after, 0.5F);
+    EXPECT_EQ(half.discs.at(0).centre.x, 0);
+    EXPECT_EQ(half.discs.at(1).centre.x, 0);
+    EXPECT_EQ(half.discs.at(1).space, Space::world);
+}
+
+TEST(Between, GrowsATrailOutOfItsLastPoint) {
+    const Picture before = of_line({1, 0, 0}, {{0, 0}, {1, 0}});
+    const Picture after = of_line({1, 0, 0}, {{0, 2}, {1, 0}, {3, 4}});
+    const std::vector<Point> grown{{0, 1}, {1, 0}, {2, 2}};
+    EXPECT_EQ(between(before, after, 0.5F).polylines.at(0).points, grown);
+}
+
+TEST(Between, KeepsALineThatShrinksUntilTheEnd) {
+    const Picture before = of_line({1, 0, 0}, {{0, 0}, {1, 0}, {2, 0}});
+    const Picture after = of_line({1, 0, 0}, {{5, 5}});
+    EXPECT_EQ(between(before, after, 0.9F).polylines[0].points, before.polylines[0].points);
+    EXPECT_EQ(between(before, after, 1).polylines[0].points, after.polylines[0].points);
+    const Picture empty = of_line({1, 0, 0}, {});
+    EXPECT_TRUE(between(empty, after, 0.9F).polylines[0].points.empty());
+}
+
+TEST(Between, MovesLabelsAndChangesTheirTextAtTheEnd) {
+    Picture before;
+    Picture after;
+    before.labels.push_back({{1, 0, 0}, {0, 0}, "1.0 s", 10, {}, Align::left, Space::canvas});
+    after.labels.push_back({{1, 0, 0}, {4, 2}, "1.1 s", 10, {}, Align::left, Space::canvas});
+    const Label moved = between(before, after, 0.5F).labels.at(0);
+    EXPECT_EQ(moved.at, (Point{2, 1}));
+    EXPECT_EQ(moved.text, "1.0 s");
+    EXPECT_EQ(between(before, after, 1).labels.at(0).text, "1.1 s");
+}
+
+TEST(Between, MovesTheCamera) {
+    Picture before;
+    Picture after;
+    before.camera = {{0, 0}, 10};
+    after.camera = {{2, 4}, 20};
+    const Camera moved = between(before, after, 0.5F).camera;
+    EXPECT_EQ(moved.centre, (Point{1, 2}));
+    EXPECT_EQ(moved.height, 15);
+}
+
+}  // namespace
+}  // namespace oiler

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/platform/surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cstdlib>
+#include <filesystem>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+#include "oiler/core/error.hpp"
+#include "oiler/platform/library.hpp"
+#include "render/drawing.hpp"
+
+namespace oiler {
+namespace {
+
+/// What decides about the bits of a sum: rounding, and whether subnormal numbers are flushed. The
+/// six lowest bits of MXCSR only report what has happened.
+unsigned arithmetic() {
+    auto mode = static_cast<unsigned>(std::fegetround());
+#ifdef __SSE__
+    mode ^= _mm_getcsr() & ~0x3FU;
+#endif
+    return mode;
+}
+
+class Provider : public testing::TestWithParam<Offscreen> {
+protected:
+    [[nodiscard]] static std::string expected_name() {
+        return GetParam() == Offscreen::osmesa ? "osmesa" : "egl";
+    }
+};
+
+TEST_P(Provider, OffersOpenGl33WhichAPictureCanBeDrawnWith) {
+    const auto studio = drawing::open_studio(GetParam());
+    if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
+    EXPECT_EQ(studio->surface->provider(), expected_name());
+    EXPECT_NE(studio->surface->procedure("glDrawElements"), nullptr);
+    EXPECT_GE(studio->renderer.gl_version(), "3.3");
+    EXPECT_FALSE(studio->renderer.gl_renderer().empty());
+    EXPECT_EQ(drawing::total_coverage(studio->draw(Picture{}, {3, 2})), 0);
+}
+
+TEST_P(Provider, OpensAgainAndAgain) {
+    Pixels first;
+    for (int i = 0; i < 5; ++i) {
+        const auto studio = drawing::open_studio(GetParam());
+        if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
+        const Pixels pixels = studio->draw(drawing::rich_picture(), {160, 90});
+        if (i == 0) first = pixels;
+        EXPECT_EQ(pixels.rgb, first.rgb);
+    }
+}
+
+TEST_P(Provider, LeavesTheArithmeticAlone) {
+    const unsigned before = arithmetic();
+    const auto studio = drawing::open_studio(GetParam());
+    if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
+    EXPECT_EQ(arithmetic(), before);
+    static_cast<void>(studio->draw(drawing::rich_picture()));
+    EXPECT_EQ(arithmetic(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Offscreen, Provider, testing::Values(Offscreen::osmesa, Offscreen::egl),
+                         [](const auto& chosen) {
+                             return chosen.param == Offscreen::osmesa ? "osmesa" : "egl";
+                         });
+
+TEST(Automatic, TakesWhatIsInstalled) {
+    const auto studio = drawing::open_studio(Offscreen::automatic);
+    if (!studio) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
+    const auto osmesa = drawing::open_studio(Offscreen::osmesa);
+    EXPECT_EQ(studio->surface->provider(), osmesa ? "osmesa" : "egl");
+}
+
+void expect_no_window() {
+    try {
+        static_cast<void>(open_window({64, 36}, "test"));
+        EXPECT_TRUE(std::filesystem::exists("/dev/dri/card0")) << "a window that nobody can see";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::no_display);
+        const std::string line = error.what();
+        EXPECT_NE(line.find("--headless"), std::string::npos) << line;
+        EXPECT_NE(line.find("no display"), std::string::npos) << line;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+}
+
+TEST(Window, WithoutADisplayNamesHeadless) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    unsetenv("SDL_VIDEODRIVER");
+    // SDL falls back to an invisible driver only where that folder is set.
+    setenv("XDG_RUNTIME_DIR", "/nonexistent", 1);
+    expect_no_window();
+    unsetenv("XDG_RUNTIME_DIR");
+    expect_no_window();
+}
+
+TEST(Library, SaysWhatToInstall) {
+    try {
+        const Library library("libOilerHasNoSuchThing.so.9", "install the Debian package x");
+        FAIL() << "loaded a library that does not exist";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::no_display);
+        const std::string line = error.what();
+        EXPECT_NE(line.find("libOilerHasNoSuchThing.so.9"), std::string::npos) << line;
+        EXPECT_NE(line.find("install the Debian package x"), std::string::npos) << line;
+    }
+}
+
+TEST(Llvmpipe, IsTamedUnlessTheUserSaysOtherwise) {
+    unsetenv("LP_NATIVE_VECTOR_WIDTH");
+    tame_llvmpipe();
+    EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
+    setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+    tame_llvmpipe();
+    EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "128");
+}
+
+}  // namespace
+}  // namespace oiler

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/closed_forms.hpp"
+#include "support/reference.hpp"
+#include "support/spring.hpp"
+
+namespace {
+
+using oiler::Bodies;
+using oiler::Body;
+using oiler::find_method;
+using oiler::Precision;
+using oiler::Rate;
+
+struct Row {
+    double label;  // the article's t, which accumulates float steps in double
+    float position;
+    float velocity;
+};
+
+/// The article's program with the engine in place of its two lines of physics.
+std::vector<Row> engine_rows(Rate rate) {
+    Bodies bodies(1, Precision::single);
+    bodies.set_gravity({10, 0, 0});
+    bodies.add(Body{});
+    std::vector<Row> rows;
+    std::int64_t tick = 0;
+    for (double t = 0; t <= 10.0; t += static_cast<double>(rate.dt<float>())) {
+        rows.push_back({t, static_cast<float>(bodies.position(0)[0]),
+                        static_cast<float>(bodies.velocity(0)[0])});
+        bodies.step(find_method("explicit_euler"), {rate, tick++, 1});
+    }
+    return rows;
+}
+
+/// The article's program, word for word but for the printing.
+std::vector<Row> article_rows(float dt) {
+    std::vector<Row> rows;
+    double t = 0.0;
+    float velocity = 0.0f;
+    float position = 0.0f;
+    float force = 10.0f;
+    float mass = 1.0f;
+    while (t <= 10.0) {
+        rows.push_back({t, position, velocity});
+        position = position + velocity * dt;
+        velocity = velocity + (force / mass) * dt;
+        t += static_cast<double>(dt);
+    }
+    return rows;
+}
+
+/// What a compiler makes of the article's program when it may fuse a multiply with an add.
+std::vector<Row> fused_rows(float dt) {
+    std::vector<Row> rows;
+    float velocity = 0;
+    float position = 0;
+    for (double t = 0; t <= 10.0; t += static_cast<double>(dt)) {
+        rows.push_back({t, position, velocity});
+        position = std::fma(velocity, dt, position);
+        velocity = std::fma(10.0F, dt, velocity);
+    }
+    return rows;
+}
+
+bool same_numbers(const Row& a, const Row& b) {
+    return a.position == b.position && a.velocity == b.velocity;
+}
+
+std::string print(const char* format, const Row& row) {
+    char line[128];
+    std::snprintf(line, sizeof line, format, row.label, static_cast<double>(row.position),
+                  static_cast<double>(row.velocity));
+    return line;
+}
+
+constexpr const char* second_format = "t=%.2f: position = %f velocity = %f";
+
+TEST(Article, TheFirstTableComesOut) {
+    const auto table = reference("article").at("table_dt_1");
+    const std::vector<Row> rows = engine_rows({1});
+    ASSERT_EQ(rows.size(), 11U);
+    ASSERT_EQ(table.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(print("t=%g: position = %g velocity = %g", rows[i]), table[i]);
+}
+
+TEST(Article, TheSecondTableComesOut) {
+    const auto table = reference("article").at("table_dt_0.01_last_rows");
+    const std::vector<Row> rows = engine_rows({100});
+    ASSERT_EQ(rows.size(), 1001U);
+    ASSERT_EQ(table.size(), 11U);
+    for (std::size_t i = 0; i < table.size(); ++i)
+        EXPECT_EQ(print(second_format, rows[rows.size() - table.size() + i]), table[i]);
+}
+
+// The eleven printed rows cannot tell whether a compiler fused; the rows before them can.
+TEST(Article, EveryRowOfTheSecondTableIsTheArticlesProgram) {
+    const std::vector<Row> rows = engine_rows({100});
+    const std::vector<Row> article = article_rows(1.0F / 100.0F);
+    ASSERT_EQ(rows.size(), article.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_TRUE(same_numbers(rows[i], article[i])) << print(second_format, article[i]);
+}
+
+// 299 rows print differently when fused, none of them among those that the article prints.
+TEST(Article, TheMiddleOfTheSecondTableTellsFusion) {
+    const std::vector<Row> article = article_rows(1.0F / 100.0F);
+    const std::vector<Row> fused = fused_rows(1.0F / 100.0F);
+    ASSERT_EQ(article.size(), fused.size());
+    int differing = 0;
+    for (std::size_t i = 0; i < article.size(); ++i)
+        if (print(second_format, article[i]) != print(second_format, fused[i])) ++differing;
+    EXPECT_EQ(differing, 299);
+    for (std::size_t i = article.size() - 11; i < article.size(); ++i)
+        EXPECT_EQ(print(second_format, article[i]), print(second_format, fused[i]));
+}
+
+TEST(Article, TheEnginesOwnTimeIsNotAccumulated) {
+    EXPECT_EQ(Rate{100}.time(1000), 10.0);
+    EXPECT_LT(engine_rows({100}).back().label, 10.0);
+}
+
+struct Expected {
+    double x;
+    double v;
+};
+
+Expected expected_state(const char* run, const char* method) {
+    const auto state = reference("spring_states").at(run).at("state").at(method);
+    return {number(state[0]), number(state[1])};
+}
+
+/// `operations` roundings a step: 4 in the kick, 2 in the drift, and dt's own.
+void expect_state(const Bodies& bodies, const Expected& expected, int steps, double amplitude) {
+    const double tolerance = drift_of_rounding(steps, 7, amplitude);
+    EXPECT_NEAR(bodies.position(0)[0], expected.x, tolerance);
+    EXPECT_NEAR(bodies.velocity(0)[0], expected.v, tolerance * omega);
+}
+
+TEST(ArticleSpring, ExplicitEulerEndsWhereTheoryEnds) {
+    Bodies bodies = article_spring(damping);
+    bodies.step(find_method("explicit_euler"), {{100}, 0, 1000});
+    // It has grown by √det per step, to 1.284 times.
+    expect_state(bodies, expected_state("damped_dt0.01_n1000", "explicit_euler"), 1000,
+                 1.29 * start_x);
+}
+
+TEST(ArticleSpring, SemiImplicitEulerEndsWhereTheoryEnds) {
+    Bodies bodies = article_spring(damping);
+    bodies.step(find_method("semi_implicit_euler"), {{100}, 0, 1000});
+    expect_state(bodies, expected_state("damped_dt0.01_n1000", "semi_implicit_euler_kd/E"), 1000,
+                 start_x);
+}
+
+TEST(ArticleSpring, UndampedExplicitEulerEndsWhereTheoryEnds) {
+    Bodies bodies = article_spring(0);
+    bodies.step(find_method("explicit_euler"), {{10}, 0, 900});
+    const Expected expected = expected_state("undamped_dt0.1_n900", "explicit_euler");
+    const double amplitude = std::hypot(expected.x, expected.v / omega);
+    ASSERT_GT(amplitude, 1e30);
+    expect_state(bodies, expected, 900, amplitude);
+}
+
+TEST(ArticleSpring, UndampedSemiImplicitEulerEndsWhereTheoryEnds) {
+    Bodies bodies = article_spring(0);
+    bodies.step(find_method("semi_implicit_euler"), {{10}, 0, 900});
+    // The rounding errors' own ellipse has the axes √((2 + h)/(2 − h)) apart, here 1.22.
+    expect_state(bodies, expected_state("undamped_dt0.1_n900", "semi_implicit_euler_kd"), 900,
+                 1.22 * start_x);
+}
+
+// The step matrix A = [[1, dt], [−k·dt, 1 − b·dt]] has det A = 1 − b·dt + k·dt². For every 2×2
+// matrix the area z ∧ Az = x·(Az)_v − v·(Az)_x grows by det A from step to step; over −dt that area
+// is the form k·x² + b·x·v + v². It differs from twice the energy by b·x·v alone, |b·x·v| ≤
+// (b/ω)·E.
+long double explicit_form(const Bodies& bodies) {
+    const long double x = bodies.position(0)[0];
+    const long double v = bodies.velocity(0)[0];
+    return stiffness * x * x + damping * x * v + v * v;
+}
+
+TEST(ArticleSpring, ExplicitEulersEnergyGrowsAsTheoryGives) {
+    const auto threshold = reference("article").at("explicit_euler_threshold");
+    const double per_step =
+        number(threshold.at("amplitude_factor_per_step_dt_0.01=sqrt(1-b dt+k dt^2)"));
+    const double after_90_s = number(threshold.at("amplitude_factor_after_90s"));
+    Bodies bodies = article_spring(damping);
+    const long double form = explicit_form(bodies);
+    const double energy = bodies.energy().total();
+    constexpr int steps = 9000;
+    for (int i = 0; i < steps; ++i) {
+        const long double before = explicit_form(bodies);
+        bodies.step(find_method("explicit_euler"), {{100}, i, 1});
+        // A form of squares doubles the step's relative error: 2 · 7 roundings.
+        ASSERT_NEAR(static_cast<double>(explicit_form(bodies) / before), per_step * per_step,
+                    14 * round_off)
+            << i;
+    }
+    EXPECT_NEAR(static_cast<double>(std::sqrt(explicit_form(bodies) / form)), after_90_s,
+                drift_of_rounding(steps, 7, after_90_s));
+    EXPECT_NEAR(bodies.energy().total() / energy, after_90_s * after_90_s,
+                after_90_s * after_90_s * damping / omega);
+}
+
+// Semi-implicit Euler ends 16.466 m from the truth after 10 s.
+TEST(ArticleSpring, SemiImplicitEulersErrorAgainstTheTruth) {
+    constexpr double truth = 320.2588219577760048309;
+    ASSERT_EQ(truth, number(reference("article").at("exact_damped").at("table").at("10")[0]));
+    const double error =
+        truth - expected_state("damped_dt0.01_n1000", "semi_implicit_euler_kd/E").x;
+    ASSERT_NEAR(error, 16.466137, 1e-6);
+    Bodies bodies = article_spring(damping);
+    bodies.step(find_method("semi_implicit_euler"), {{100}, 0, 1000});
+    EXPECT_NEAR(truth - bodies.position(0)[0], error, drift_of_rounding(1000, 7, start_x));
+}
+
+/// The largest position error over the first `seconds`, against the exact motion.
+double largest_error(const char* method, int seconds) {
+    Bodies bodies = article_spring(damping);
+    double largest = 0;
+    for (int i = 1; i <= 100 * seconds; ++i) {
+        bodies.step(find_method(method), {{100}, i - 1, 1});
+        const auto exact =
+            oiler::damped_oscillator(1.0, stiffness, damping, {start_x, 0.0}, i / 100.0);
+        largest = std::max(largest, std::abs(bodies.position(0)[0] - exact.x));
+    }
+    return largest;
+}
+
+// The reference prints ten digits.
+TEST(ArticleSpring, LargestErrorsAreTheReferences) {
+    const auto errors = reference("article").at("damped_dt_0.01_max_abs_x_error");
+    for (const auto& [method, name] : {std::pair("semi_implicit_euler", "semi_implicit_euler_kd/E"),
+                                       std::pair("explicit_euler", "explicit_euler")}) {
+        const double expected = number(errors.at(name).at("0..90s")[0]);
+        EXPECT_NEAR(largest_error(method, 90), expected, 5e-10 * expected) << method;
+    }
+}
+
+}  // namespace

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <new>
+
+// Replaces the global allocation functions of the program that includes it, once, with counting
+// ones; what is not defined here calls these. Not inlined, since g++ then takes the free for a
+// mistake.
+
+inline long allocations = 0;
+
+inline void* counted(void* memory) {
+    ++allocations;
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+[[gnu::noinline]] void* operator new(std::size_t size) { return counted(std::malloc(size)); }
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+    const auto align = static_cast<std::size_t>(alignment);
+    return counted(std::aligned_alloc(align, (size + align - 1) / align * align));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}

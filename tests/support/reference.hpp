@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// The `values` of a reference file in tests/data.
+inline nlohmann::json reference(const std::string& name) {
+    std::ifstream file(std::string(OILER_TEST_DATA) + "/" + name + ".json");
+    return nlohmann::json::parse(file).at("values");
+}
+
+/// A number that the reference files hold as text, to keep all of its digits.
+template <class T = double>
+T number(const nlohmann::json& text) {
+    return static_cast<T>(std::strtold(text.get_ref<const std::string&>().c_str(), nullptr));
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "oiler/world/world.hpp"
+#include "support/counting_new.hpp"
+
+namespace {
+
+using oiler::Method;
+using oiler::Precision;
+using oiler::World;
+
+World busy_world(const Method& method, Precision precision) {
+    World world(2, {.rate = {100}, .method = &method, .precision = precision});
+    world.set_gravity({0, -9.81, 0});
+    for (int i = 0; i < 100; ++i) {
+        const double place = i;
+        world.spawn({.mass = 1 + place, .position = {place, 1, 0}},
+                    oiler::AnchoredSpring{.stiffness = 2 + place, .damping = 1},
+                    oiler::LinearDragForce{0.1}, oiler::QuadraticDragForce{0.001 * place});
+    }
+    return world;
+}
+
+TEST(Allocations, AreCounted) {
+    const long before = allocations;
+    busy_world(oiler::methods().front(), Precision::single);
+    EXPECT_GT(allocations, before);
+}
+
+TEST(Allocations, StepsMakeNone) {
+    for (const Method& method : oiler::methods())
+        for (const Precision precision : {Precision::single, Precision::double_})
+            for (const int at_once : {1, 10}) {
+                World world = busy_world(method, precision);
+                world.step(at_once);
+                const long before = allocations;
+                for (int i = 0; i < 1000; ++i) world.step(at_once);
+                EXPECT_EQ(allocations, before) << method.name << ", " << name_of(precision);
+            }
+}
+
+TEST(Allocations, LookingAtAWorldMakesNone) {
+    const World world = busy_world(oiler::methods().front(), Precision::single);
+    const long before = allocations;
+    const std::uint64_t hash = world.state_hash();
+    const double energy = world.bodies().energy().total();
+    EXPECT_EQ(allocations, before) << hash << energy;
+}
+
+}  // namespace

@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/world/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+
+namespace {
+
+using oiler::AnchoredSpring;
+using oiler::Body;
+using oiler::Entity;
+using oiler::Error;
+using oiler::LinearDragForce;
+using oiler::Precision;
+using oiler::Vec3;
+using oiler::World;
+
+struct Health {
+    int points = 0;
+};
+struct Name {
+    std::string text;
+};
+struct Marked {};
+
+TEST(Entities, LiveUntilDestroyed) {
+    World world(1);
+    const Entity first = world.create();
+    const Entity second = world.create();
+    EXPECT_NE(first, second);
+    EXPECT_EQ(world.entity_count(), 2U);
+    world.destroy(first);
+    EXPECT_FALSE(world.alive(first));
+    EXPECT_TRUE(world.alive(second));
+    EXPECT_EQ(world.entity_count(), 1U);
+}
+
+TEST(Entities, NoneIsAliveByDefault) {
+    const World world(1);
+    EXPECT_FALSE(world.alive(Entity{}));
+    EXPECT_FALSE(world.has_body(Entity{}));
+    EXPECT_EQ(world.find<Health>(Entity{}), nullptr);
+    EXPECT_EQ(world.jumps(Entity{}), 0U);
+}
+
+TEST(Entities, StaleHandlesAreKnownAlsoWhenTheSlotIsUsedAgain) {
+    World world(1);
+    const Entity old = world.spawn({});
+    world.add(old, Health{3});
+    world.destroy(old);
+    EXPECT_EQ(world.find<Health>(old), nullptr);
+    const Entity next = world.spawn({});
+    world.add(next, Health{5});
+    ASSERT_EQ(next.index, old.index);
+    EXPECT_NE(next, old);
+    EXPECT_NE(next.id(), old.id());
+    EXPECT_FALSE(world.alive(old));
+    EXPECT_EQ(world.find<Health>(old), nullptr);
+    EXPECT_FALSE(world.has_body(old));
+    EXPECT_EQ(world.jumps(old), 0U);
+    EXPECT_EQ(world.get<Health>(next).points, 5);
+}
+
+TEST(Entities, HaveIdsThatAreNeverZero) {
+    World world(1);
+    EXPECT_NE(world.create().id(), 0U);
+}
+
+TEST(Entities, ComeWithoutWhatTheSlotHadBefore) {
+    World world(1);
+    const Entity old = world.spawn({});
+    world.add(old, Health{3});
+    world.teleport(old, {1, 0, 0});
+    world.destroy(old);
+    const Entity next = world.create();
+    EXPECT_EQ(world.find<Health>(next), nullptr);
+    EXPECT_FALSE(world.has_body(next));
+    EXPECT_EQ(world.jumps(next), 0U);
+}
+
+TEST(Components, AreAddedFoundAndRemoved) {
+    World world(1);
+    const Entity entity = world.create();
+    EXPECT_EQ(world.find<Health>(entity), nullptr);
+    world.add(entity, Health{3}).points += 1;
+    world.add(entity, Name{"a name that is too long for the small-string buffer"});
+    EXPECT_EQ(world.get<Health>(entity).points, 4);
+    world.remove<Health>(entity);
+    EXPECT_EQ(world.find<Health>(entity), nullptr);
+    EXPECT_EQ(std::as_const(world).get<Name>(entity).text.size(), 51U);
+}
+
+TEST(Components, StayWithTheirEntityWhenOthersLeave) {
+    World world(1);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 10; ++i) {
+        entities.push_back(world.create());
+        world.add(entities.back(), Name{"the name of entity number " + std::to_string(i)});
+    }
+    world.remove<Name>(entities[2]);
+    world.destroy(entities[9]);
+    world.destroy(entities[0]);
+    for (const std::size_t i : {1U, 3U, 4U, 5U, 6U, 7U, 8U})
+        EXPECT_EQ(world.get<Name>(entities[i]).text,
+                  "the name of entity number " + std::to_string(i));
+}
+
+TEST(Components, MayBeMoveOnly) {
+    World world(1);
+    const Entity first = world.create();
+    const Entity second = world.create();
+    world.add(first, std::make_unique<int>(1));
+    world.add(second, std::make_unique<int>(2));
+    world.remove<std::unique_ptr<int>>(first);
+    EXPECT_EQ(*world.get<std::unique_ptr<int>>(second), 2);
+    World moved = std::move(world);
+    EXPECT_EQ(*moved.get<std::unique_ptr<int>>(second), 2);
+    EXPECT_THROW(World{moved}, std::logic_error);
+}
+
+// Counted in moves of components, which a search or a shift would make many of.
+struct Counted {
+    static inline int moves = 0;
+    Counted() = default;
+    Counted(Counted&&) noexcept { ++moves; }
+    Counted& operator=(Counted&&) noexcept {
+        ++moves;
+        return *this;
+    }
+};
+
+TEST(Components, LeaveWithoutMovingMoreThanOneOther) {
+    World world(1);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 1000; ++i) {
+        entities.push_back(world.create());
+        world.add(entities.back(), Counted{});
+    }
+    for (const Entity entity : entities) {
+        Counted::moves = 0;
+        world.remove<Counted>(entity);
+        EXPECT_LE(Counted::moves, 1);
+    }
+}
+
+/// The indices of the entities in the order of `each<First, Rest...>`, which goes backwards.
+template <class First, class... Rest>
+std::vector<std::uint32_t> order(World& world) {
+    std::vector<std::uint32_t> indices;
+    world.each<First, Rest...>(
+        [&](Entity entity, First&, Rest&...) { indices.push_back(entity.index); });
+    std::ranges::reverse(indices);
+    return indices;
+}
+
+TEST(Each, GoesInTheOrderOfAddingWithTheLastInTheHole) {
+    World world(1);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 6; ++i) entities.push_back(world.create());
+    for (const std::size_t i : {3U, 1U, 5U, 0U, 4U}) world.add(entities[i], Health{});
+    EXPECT_EQ(order<Health>(world), (std::vector<std::uint32_t>{3, 1, 5, 0, 4}));
+    world.remove<Health>(entities[1]);
+    EXPECT_EQ(order<Health>(world), (std::vector<std::uint32_t>{3, 4, 5, 0}));
+    world.remove<Health>(entities[0]);
+    world.add(entities[2], Health{});
+    EXPECT_EQ(order<Health>(world), (std::vector<std::uint32_t>{3, 4, 5, 2}));
+}
+
+TEST(Each, VisitsThoseThatHaveAll) {
+    World world(1);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 30; ++i) {
+        entities.push_back(world.create());
+        if (i % 2 == 0) world.add(entities.back(), Health{i});
+    }
+    for (int i = 29; i >= 0; --i)
+        if (i % 3 == 0) world.add(entities[static_cast<std::size_t>(i)], Name{std::to_string(i)});
+    EXPECT_EQ((order<Health, Name>(world)), (std::vector<std::uint32_t>{0, 6, 12, 18, 24}));
+    EXPECT_EQ((order<Name, Health>(world)), (std::vector<std::uint32_t>{24, 18, 12, 6, 0}));
+    EXPECT_TRUE((order<Health, Marked>(world)).empty());
+    std::as_const(world).each<Health, Name>([](Entity, const Health& health, const Name& name) {
+        EXPECT_EQ(std::to_string(health.points), name.text);
+    });
+}
+
+/// Adds and removes Health by a fixed sequence; with `noise` other components and bodies come and
+/// go in between, and their pools exist first.
+World with_history(bool noise) {
+    World world(1);
+    std::mt19937_64 random(7);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 50; ++i) entities.push_back(world.create());
+    if (noise)
+        for (int i = 49; i > 0; i -= 2) world.add(entities[static_cast<std::size_t>(i)], Name{"x"});
+    for (int i = 0; i < 500; ++i) {
+        const Entity entity = entities[random() % entities.size()];
+        if (world.find<Health>(entity))
+            world.remove<Health>(entity);
+        else
+            world.add(entity, Health{i});
+        if (!noise) continue;
+        const Entity other = entities[static_cast<std::size_t>(i * 7 % 50)];
+        if (world.find<Name>(other)) world.remove<Name>(other);
+        if (world.has_body(other))
+            world.remove_body(other);
+        else
+            world.add_body(other, {});
+    }
+    return world;
+}
+
+TEST(Each, HasAnOrderThatDependsOnItsOwnAddsAndRemovesAlone) {
+    World quiet = with_history(false);
+    World noisy = with_history(true);
+    EXPECT_GT(order<Health>(quiet).size(), 10U);
+    EXPECT_EQ(order<Health>(quiet), order<Health>(noisy));
+}
+
+TEST(Each, MayDestroyTheEntityItIsAt) {
+    for (const int keep : {0, 1, 2, 3}) {
+        World world(1);
+        for (int i = 0; i < 20; ++i) world.add(world.spawn({}), Health{i});
+        std::map<int, int> visits;
+        world.each<Health>([&](Entity entity, Health& health) {
+            ++visits[health.points];
+            if (keep == 0 || health.points % keep != 0) world.destroy(entity);
+        });
+        EXPECT_EQ(visits.size(), 20U);
+        for (const auto& [points, count] : visits) EXPECT_EQ(count, 1) << points;
+        const std::size_t left = keep == 0 ? 0 : static_cast<std::size_t>((20 + keep - 1) / keep);
+        EXPECT_EQ(world.entity_count(), left);
+        EXPECT_EQ(world.bodies().size(), left);
+    }
+}
+
+TEST(Each, MayCreateOthersAndVisitsNoneOfThem) {
+    World world(1);
+    for (int i = 0; i < 20; ++i) world.add(world.create(), Health{i});
+    std::map<int, int> visits;
+    world.each<Health>([&](Entity entity, const Health& health) {
+        const int points = health.points;
+        ++visits[points];
+        world.add(world.create(), Health{100 + points});
+        if (points % 2 == 0) world.destroy(entity);
+        if (points % 3 == 0) world.add(world.create(), Health{200 + points});
+    });
+    EXPECT_EQ(visits.size(), 20U);
+    for (const auto& [points, count] : visits) EXPECT_TRUE(points < 20 && count == 1) << points;
+}
+
+TEST(World, ARefusedBodyLeavesNoEntity) {
+    World world(1);
+    EXPECT_THROW((void)world.spawn({.mass = 0}), Error);
+    EXPECT_EQ(world.entity_count(), 0U);
+    EXPECT_EQ(world.bodies().size(), 0U);
+}
+
+/// What a world should hold, the simple way.
+struct Model {
+    Vec3 position;
+    int points;
+};
+
+bool agrees(const World& world, Entity entity, const Model& model) {
+    return world.alive(entity) && world.has_body(entity) &&
+           world.entity_of_row(world.row(entity)) == entity &&
+           world.position(entity) == model.position &&
+           world.get<Health>(entity).points == model.points;
+}
+
+TEST(World, AgreesWithASimpleModelWhateverComesAndGoes) {
+    std::mt19937_64 random(20240229);
+    World world(2);
+    std::map<std::uint64_t, std::pair<Entity, Model>> model;
+    std::vector<Entity> gone;
+    for (int i = 0; i < 5000; ++i) {
+        const std::uint64_t choice = random() % 100;
+        if (choice < 55 || model.empty()) {
+            const Model body{{static_cast<double>(i), -1, 0}, i};
+            const Entity entity = world.spawn({.position = body.position});
+            world.add(entity, Health{i});
+            ASSERT_TRUE(model.emplace(entity.id(), std::pair(entity, body)).second);
+        } else {
+            const auto at =
+                std::next(model.begin(), static_cast<std::ptrdiff_t>(random() % model.size()));
+            if (choice < 90) {
+                world.destroy(at->second.first);
+                gone.push_back(at->second.first);
+                model.erase(at);
+            } else {
+                at->second.second.position = {0.5, static_cast<double>(i), 0};
+                world.teleport(at->second.first, at->second.second.position);
+            }
+        }
+        ASSERT_EQ(world.entity_count(), model.size());
+        ASSERT_EQ(world.bodies().size(), model.size());
+        if (i % 50 != 0) continue;
+        for (const auto& [id, pair] : model) ASSERT_TRUE(agrees(world, pair.first, pair.second));
+    }
+    EXPECT_GT(gone.size(), 1000U);
+    for (const Entity entity : gone) ASSERT_FALSE(world.alive(entity));
+}
+
+/// A swarm with forces, components and a few holes in its history.
+World swarm() {
+    World world(2, {.rate = {100}});
+    world.set_gravity({0, -9.81, 0});
+    std::vector<Entity> entities;
+    for (int i = 0; i < 100; ++i) {
+        const double place = i;
+        entities.push_back(world.spawn({.mass = 1 + place, .position = {place, -place, 0}},
+                                       AnchoredSpring{.stiffness = 10 + place, .damping = 0.1},
+                                       LinearDragForce{0.1}));
+        world.add(entities.back(), Name{std::to_string(i)});
+    }
+    for (const std::size_t i : {3U, 50U, 99U}) world.destroy(entities[i]);
+    return world;
+}
+
+TEST(World, ACopyIsASnapshot) {
+    World world = swarm();
+    const std::uint64_t start = world.state_hash();
+    World copy = world;
+    EXPECT_EQ(copy.state_hash(), start);
+    copy.step(10);
+    EXPECT_EQ(world.state_hash(), start);
+    EXPECT_EQ(world.tick(), 0);
+    EXPECT_NE(copy.state_hash(), start);
+    world.step(10);
+    EXPECT_EQ(world.state_hash(), copy.state_hash());
+    const World snapshot = world;
+    world.step(5);
+    world = snapshot;
+    EXPECT_EQ(world.state_hash(), copy.state_hash());
+    EXPECT_EQ(world.tick(), 10);
+}
+
+TEST(World, ACopysComponentsAndEntitiesAreItsOwn) {
+    World world(1);
+    world.destroy(world.create());
+    const Entity entity = world.create();
+    world.destroy(world.create());
+    world.add(entity, Name{"original"});
+    World copy = world;
+    EXPECT_EQ(copy.entity_count(), 1U);
+    copy.get<Name>(entity).text = "copy";
+    const Entity later = copy.create();
+    EXPECT_EQ(world.get<Name>(entity).text, "original");
+    EXPECT_FALSE(world.alive(later));
+    copy.destroy(entity);
+    EXPECT_TRUE(world.alive(entity));
+    // Both go on handing out the same handles.
+    EXPECT_EQ(world.create(), later);
+}
+
+TEST(World, StepsAtOnceAreSingleSteps) {
+    World at_once = swarm();
+    World one_by_one = at_once;
+    at_once.step(25);
+    for (int i = 0; i < 25; ++i) one_by_one.step();
+    EXPECT_EQ(at_once.state_hash(), one_by_one.state_hash());
+    EXPECT_EQ(at_once.tick(), 25);
+}
+
+TEST(World, SettingsSayHowItSteps) {
+    World world(1, {.rate = {1},
+                    .method = &oiler::find_method("explicit_euler"),
+                    .precision = Precision::single});
+    const Entity entity =
+        world.spawn({.position = {1, 0, 0}, .velocity = {2, 0, 0}}, AnchoredSpring{.stiffness = 4});
+    world.step();
+    EXPECT_EQ(world.position(entity), (Vec3{3, 0, 0}));
+    EXPECT_EQ(world.velocity(entity), (Vec3{-2, 0, 0}));
+    EXPECT_EQ(world.bodies().precision(), Precision::single);
+}
+
+TEST(World, TimeComesFromTheTick) {
+    World world(1, {.rate = {10}});
+    double accumulated = 0;
+    for (int i = 1; i <= 1000; ++i) {
+        world.step();
+        accumulated += 0.1;
+        ASSERT_EQ(world.time(), i / 10.0);
+    }
+    EXPECT_NE(accumulated, 100.0);
+    World thirds(1, {.rate = {1, 3}});
+    thirds.step(5);
+    EXPECT_EQ(thirds.time(), 15);
+}
+
+TEST(World, TeleportsPutABodyElsewhereAndCount) {
+    World world(2);
+    const Entity entity = world.spawn({.velocity = {1, 2, 0}});
+    const Entity other = world.spawn({});
+    EXPECT_EQ(world.jumps(entity), 0U);
+    world.teleport(entity, {5, 6, 0});
+    EXPECT_EQ(world.position(entity), (Vec3{5, 6, 0}));
+    EXPECT_EQ(world.velocity(entity), (Vec3{1, 2, 0}));
+    EXPECT_EQ(world.jumps(entity), 1U);
+    world.teleport(entity, {7, 8, 0});
+    EXPECT_EQ(world.jumps(entity), 2U);
+    EXPECT_EQ(world.jumps(other), 0U);
+    world.step();
+    EXPECT_EQ(world.jumps(entity), 2U);
+}
+
+TEST(World, ForcesAreAttachedToTheRightBody) {
+    World world(1, {.rate = {1}});
+    const Entity first = world.spawn({.position = {1, 0, 0}});
+    const Entity second = world.spawn({.position = {1, 0, 0}});
+    world.destroy(first);
+    const Entity third = world.spawn({.position = {1, 0, 0}});
+    world.attach(second, AnchoredSpring{.stiffness = 4});
+    world.step();
+    EXPECT_EQ(world.velocity(second), (Vec3{-4, 0, 0}));
+    EXPECT_EQ(world.velocity(third), (Vec3{}));
+}
+
+TEST(StateHash, ShowsASingleBitOfOneVelocity) {
+    World world = swarm();
+    const std::uint64_t hash = world.state_hash();
+    const Entity entity = world.entity_of_row(96);
+    const Vec3 velocity = world.velocity(entity);
+    world.set_velocity(entity, {velocity[0], std::nextafter(velocity[1], 1.0), 0});
+    EXPECT_NE(world.state_hash(), hash);
+    world.set_velocity(entity, velocity);
+    EXPECT_EQ(world.state_hash(), hash);
+    world.set_velocity(entity, {-0.0, velocity[1], 0});
+    ASSERT_EQ(world.velocity(entity), velocity);
+    EXPECT_NE(world.state_hash(), hash);
+}
+
+TEST(StateHash, ShowsTheTick) {
+    World world(1);
+    const std::uint64_t hash = world.state_hash();
+    world.step();
+    EXPECT_NE(world.state_hash(), hash);
+}
+
+TEST(StateHash, IsOfTickAndBodiesAlone) {
+    World world = swarm();
+    const std::uint64_t hash = world.state_hash();
+    world.set_gravity({1, 2, 0});
+    world.attach(world.entity_of_row(0), AnchoredSpring{.stiffness = 99});
+    world.add(world.create(), Health{3});
+    EXPECT_EQ(world.state_hash(), hash);
+}
+
+TEST(World, ARunThatDivergesSaysSo) {
+    World world(1, {.rate = {1}, .precision = Precision::single});
+    world.spawn({.velocity = {1, 0, 0}}, LinearDragForce{3});
+    try {
+        world.step(1000);
+        FAIL() << "nothing thrown";
+    } catch (const oiler::Error& error) {
+        EXPECT_EQ(error.exit(), oiler::Exit::diverged);
+        EXPECT_NE(std::string(error.what()).find("step 128 "), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
