@@ -64,6 +64,8 @@ TEST(Options, HelpAndVersionAreText) {
 struct Wrong {
     const char* words;
     const char* named;  ///< what the message must name
+
+    friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.words; }
 };
 
 class WrongOptions : public testing::TestWithParam<Wrong> {};
