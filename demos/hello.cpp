@@ -15,15 +15,15 @@ struct Hello {
     explicit Hello(const Settings& settings)
         : world(1, settings),
           mass(world.spawn(Body{.mass = 1, .position = {2}},
-                           AnchoredSpring{.stiffness = 40, .damping = 0.8})) {}
+                           Spring{.stiffness = 40, .damping = 0.8})) {}
 
     void update(const Input& input) {
         if (input.pressed(Key::space)) world.set_velocity(mass, {world.velocity(mass)[0] + 15});
     }
 
     Picture picture() const {
-        const Point at{static_cast<float>(world.position(mass)[0]), 0};
-        const ElementKey key{.object = mass.id()};
+        const Point at = to_point(world.position(mass));
+        const ElementKey key = key_of(world, mass);
         return {.camera = {.height = 6},
                 .polylines = {{.key = key,
                                .points = coil({-5, 0}, at, 14, 0.3F),

@@ -45,13 +45,28 @@ struct Trail {
     std::vector<Point> points;
 };
 
-Point to_point(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
-
 /// Exact position `t` s after the launch, for the kinds of drag that have a closed form.
 Vec3 exact(const Shot& shot, double t) {
     const double c = shot.drag == Drag::linear ? linear_coefficient : 0;
     return {linear_drag_motion({0.0, shot.launch[0]}, 0.0, c, t).x,
             linear_drag_motion({0.0, shot.launch[1]}, gravity, c, t).x};
+}
+
+/// The last point, which is below the ground, moves up the last segment to it.
+void cut_at_ground(std::vector<Point>& points) {
+    const Point above = points[points.size() - 2];
+    Point& below = points.back();
+    below = {above.x + (below.x - above.x) * above.y / (above.y - below.y), 0};
+}
+
+/// Points closer than this would cost memory and show nothing.
+constexpr float trail_spacing = 0.1F;  // m
+
+void extend(Trail& trail, Point at, bool landed) {
+    if (trail.points.empty() || landed ||
+        std::hypot(at.x - trail.points.back().x, at.y - trail.points.back().y) >= trail_spacing)
+        trail.points.push_back(at);
+    if (landed) cut_at_ground(trail.points);
 }
 
 }  // namespace
@@ -82,10 +97,9 @@ struct Projectile {
         const Entity entity = world.create();
         const Body body{.velocity = shot.launch};
         if (shot.drag == Drag::none) world.add_body(entity, body);
-        if (shot.drag == Drag::linear)
-            world.add_body(entity, body, LinearDragForce{linear_coefficient});
+        if (shot.drag == Drag::linear) world.add_body(entity, body, LinearDrag{linear_coefficient});
         if (shot.drag == Drag::quadratic)
-            world.add_body(entity, body, QuadraticDragForce{quadratic_coefficient});
+            world.add_body(entity, body, QuadraticDrag{quadratic_coefficient});
         world.add(entity, shot);
         world.add(entity, Trail{});
     }
@@ -94,7 +108,7 @@ struct Projectile {
         world.each<Shot, Trail>([&](Entity entity, const Shot& shot, Trail& trail) {
             if (!world.has_body(entity)) return;
             const Vec3 at = world.position(entity);
-            trail.points.push_back(to_point(at));
+            extend(trail, to_point(at), at[1] < 0);
             if (shot.drag != Drag::quadratic) measure(shot, at);
             if (at[1] < 0) land(entity);
         });
@@ -144,16 +158,9 @@ struct Projectile {
         picture.polylines.push_back(std::move(curve));
     }
 
-    /// The last point, which is below the ground, moves up the last segment to it.
-    static void cut_at_ground(std::vector<Point>& points) {
-        const Point above = points[points.size() - 2];
-        Point& below = points.back();
-        below = {above.x + (below.x - above.x) * above.y / (above.y - below.y), 0};
-    }
-
     void draw_shot(Picture& picture, Entity entity, const Shot& shot, const Trail& trail) const {
         const Colour colour = kinds[static_cast<std::size_t>(shot.drag)].colour;
-        const ElementKey key{.object = entity.id()};
+        const ElementKey key = key_of(world, entity);
         Polyline path{.key = key,
                       .points = trail.points,
                       .width = 1.75F,
@@ -176,25 +183,25 @@ struct Projectile {
         float y = 296;
         for (const Kind& kind : kinds) {
             const double error = largest_error[static_cast<std::size_t>(kind.drag)];
-            picture.discs.push_back({.centre = {466, y + 3.5F},
+            picture.discs.push_back({.centre = {446, y + 3.5F},
                                      .radius = 4,
                                      .colour = kind.colour,
                                      .space = Space::canvas});
             picture.labels.push_back(
-                {.at = {476, y},
+                {.at = {456, y},
                  .text = kind.drag == Drag::quadratic
                              ? std::string(kind.name)
-                             : fmt::format("{}: {:.2f} m off exact", kind.name, error),
+                             : fmt::format("{}: at most {:.2g} m off", kind.name, error),
                  .size = 10,
                  .colour = palette::ink});
             y -= 14;
         }
-        picture.polylines.push_back({.points = {{460, y + 3.5F}, {472, y + 3.5F}},
+        picture.polylines.push_back({.points = {{440, y + 3.5F}, {452, y + 3.5F}},
                                      .width = 0.75F,
                                      .colour = palette::grey,
                                      .space = Space::canvas});
         picture.labels.push_back(
-            {.at = {476, y}, .text = "exact", .size = 10, .colour = palette::ink});
+            {.at = {456, y}, .text = "exact", .size = 10, .colour = palette::ink});
     }
 };
 

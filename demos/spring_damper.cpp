@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "oiler/app/run.hpp"
@@ -20,6 +21,7 @@ constexpr double stiffness = 15;  // N/m
 constexpr double damping = 0.1;   // N·s/m
 constexpr double start = 1000;    // m
 constexpr double page = 20;       // s of curve that are seen at once
+constexpr double spacing = 0.01;  // s between two points of it
 
 struct Sample {
     double t, simulated, exact;
@@ -29,12 +31,18 @@ double exact_position(double t) {
     return damped_oscillator(1.0, stiffness, damping, {start, 0.0}, t).x;
 }
 
-/// The smallest of 1, 2, 5, 10, … that is at least `value`.
+/// The smallest of 1, 2, 5 times a power of ten that is at least `value`; 1 for 0.
 double round_up(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-6))));
+    if (value == 0 || !std::isfinite(value)) return 1;
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double factor : {1.0, 2.0, 5.0})
         if (factor * power >= value) return factor * power;
     return 10 * power;
+}
+
+/// Tells pictures apart that are drawn to different scales, so that none is drawn in between.
+std::uint32_t scale_of(double scale) {
+    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(scale) >> 32U);
 }
 
 }  // namespace
@@ -44,19 +52,19 @@ struct SpringDamper {
 
     World world;
     Entity mass;
-    std::vector<Sample> samples;  // of this page, the last one now
+    std::vector<Sample> samples;  // of this page
     double largest_error = 0;
 
     explicit SpringDamper(const Settings& settings)
         : world(1, settings),
           mass(world.spawn(Body{.mass = 1, .position = {start}},
-                           AnchoredSpring{.stiffness = stiffness, .damping = damping})) {}
+                           Spring{.stiffness = stiffness, .damping = damping})) {}
 
     void update(const Input&) {
         const Sample now = sample();
         if (std::floor(now.t / page) != std::floor(samples.empty() ? 0 : samples.back().t / page))
             samples.clear();
-        samples.push_back(now);
+        if (samples.empty() || now.t - samples.back().t >= spacing) samples.push_back(now);
         largest_error = std::max(largest_error, std::abs(now.simulated - now.exact));
     }
 
@@ -74,8 +82,8 @@ struct SpringDamper {
 
     void draw_spring(Picture& picture) const {
         const Sample now = sample();
-        const Point at{static_cast<float>(now.simulated), 0};
-        const ElementKey key{.object = mass.id()};
+        const Point at = to_point(world.position(mass));
+        const ElementKey key = key_of(world, mass);
         picture.polylines.push_back(
             {.points = {{0, -90}, {0, 90}}, .width = 3, .colour = palette::ink});
         picture.polylines.push_back({.key = key,
@@ -84,7 +92,7 @@ struct SpringDamper {
                                      .colour = palette::grey});
         picture.discs.push_back(
             {.key = key, .centre = at, .radius = 60, .colour = palette::vermilion});
-        picture.polylines.push_back({.key = {.object = mass.id(), .part = 1},
+        picture.polylines.push_back({.key = key_of(world, mass, 1),
                                      .points = circle({static_cast<float>(now.exact), 0}, 75),
                                      .width = 2,
                                      .colour = palette::sky_blue});
@@ -107,7 +115,7 @@ struct SpringDamper {
         }
         for (double t = from; t <= from + page; t += page / 1000)
             exact.points.push_back({t, exact_position(t)});
-        const ElementKey key{.object = ~mass.id(), .jump = static_cast<std::uint32_t>(from)};
+        const ElementKey key{.object = mass.id(), .part = 10, .jump = scale_of(from)};
         Plot{.box = {{56, 152}, {624, 256}},
              .title = "",
              .x_label = "",
@@ -116,7 +124,7 @@ struct SpringDamper {
              .y = {-1000, 1000},
              .series = {exact, simulated}}
             .draw(picture, key);
-        const double reach = round_up(std::max(largest, 1.0));
+        const double reach = round_up(largest);
         Plot{.box = {{56, 36}, {624, 112}},
              .title = "",
              .x_label = "time, s",
@@ -124,7 +132,7 @@ struct SpringDamper {
              .x = time,
              .y = {-reach, reach},
              .series = {error}}
-            .draw(picture, {key.object - 1, 0, static_cast<std::uint32_t>(reach) ^ key.jump});
+            .draw(picture, {key.object, 20, scale_of(from + reach)});
     }
 
     void draw_words(Picture& picture) const {
@@ -144,7 +152,7 @@ struct SpringDamper {
         picture.labels.push_back(
             {.at = {16, 324},
              .text = fmt::format(
-                 "t = {:.2f} s   x = {:.1f} m   exact {:.1f} m   largest error {:.2f} m", now.t,
+                 "t = {:.2f} s   x = {:.1f} m   exact {:.1f} m   largest error {:.3g} m", now.t,
                  now.simulated, now.exact,
                  std::max(largest_error, std::abs(now.simulated - now.exact))),
              .size = 11,

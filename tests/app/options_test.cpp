@@ -56,6 +56,10 @@ TEST(Options, AreReadAsGiven) {
     EXPECT_TRUE(options.quiet);
 }
 
+TEST(Options, ALeadingZeroIsNoOctal) {
+    EXPECT_EQ(parse("--rate 010").options.settings.rate, Rate{10});
+}
+
 TEST(Options, HelpAndVersionAreText) {
     EXPECT_NE(parse("--help").text.find("--headless"), std::string::npos);
     EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
@@ -95,12 +99,16 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--size x480", "--size"}, Wrong{"--size 640x480x2", "--size"},
         Wrong{"--size 99999999999x1", "--size"}, Wrong{"--method rk5", "semi_implicit_euler"},
         Wrong{"--precision half", "--precision"}, Wrong{"--surface vulkan", "--surface"},
-        Wrong{"--seed -1", "--seed"}, Wrong{"--surface osmesa", "--headless"},
-        Wrong{"--surface egl", "--headless"}, Wrong{"--headless --surface window", "--headless"},
-        Wrong{"--out o", "--headless"}, Wrong{"--steps 5 --headless", "--headless"},
-        Wrong{"--steps 5 --frames 2", "--frames"}, Wrong{"--steps 5 --size 10x10", "--size"},
-        Wrong{"--record f", "--record"}, Wrong{"--golden d", "--golden"},
-        Wrong{"--video f", "--video"}, Wrong{"--threads 2", "--threads"}));
+        Wrong{"--seed -1", "--seed"}, Wrong{"--seed 18446744073709551616", "--seed"},
+        Wrong{"--rate 1e3", "--rate"}, Wrong{"--rate 0x10", "--rate"},
+        Wrong{"--headless=3", "headless"}, Wrong{"--trace a.csv --energy ./a.csv", "--energy"},
+        Wrong{"--json - --trace -", "--trace"}, Wrong{"--json=", "--json"},
+        Wrong{"--surface osmesa", "--headless"}, Wrong{"--surface egl", "--headless"},
+        Wrong{"--headless --surface window", "--headless"}, Wrong{"--out o", "--headless"},
+        Wrong{"--steps 5 --headless", "--headless"}, Wrong{"--steps 5 --frames 2", "--frames"},
+        Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
+        Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
+        Wrong{"--threads 2", "--threads"}));
 
 }  // namespace
 }  // namespace oiler

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <algorithm>
 
 #include "oiler/core/step_clock.hpp"
 
@@ -19,6 +19,7 @@ struct Walker {
     Entity body;
     int updates = 0;
     int presses = 0;
+    std::int64_t teleport_after = -1;
 
     explicit Walker(const Settings& settings)
         : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
@@ -26,11 +27,12 @@ struct Walker {
     void update(const Input& input) {
         ++updates;
         presses += input.pressed(Key::space) ? 1 : 0;
+        if (world.tick() == teleport_after) world.teleport(body, {1000});
     }
     Picture picture() const {
         Picture picture;
         picture.discs.push_back(
-            {.key = {.object = body.id()},
+            {.key = key_of(world, body),
              .centre = {static_cast<float>(world.position(body)[0]), static_cast<float>(presses)}});
         return picture;
     }
@@ -42,7 +44,7 @@ struct Drifter {
     World world;
     explicit Drifter(const Settings& settings) : world(1, settings) {
         (void)world.spawn(Body{.position = {1}, .velocity = {1}},
-                          AnchoredSpring{.stiffness = 0.25, .damping = 0.01});
+                          Spring{.stiffness = 0.25, .damping = 0.01});
     }
     Picture picture() const { return {}; }
 };
@@ -102,6 +104,25 @@ TEST(Playback, APressIsSeenByOneStepHoweverLongItWaits) {
     EXPECT_EQ(shown.at(5, 0).y, 1) << "five steps, one press";
     EXPECT_TRUE(shown.input.held(Key::space));
     EXPECT_EQ(shown.at(9, 0).y, 1);
+}
+
+/// A walker that is put at 1000 m before its third step.
+struct Jumper : Walker {
+    explicit Jumper(const Settings& settings) : Walker(settings) { teleport_after = 2; }
+};
+
+TEST(Playback, ATeleportIsNotDrawnInBetween) {
+    AnyGameOf<Jumper> game{Settings{.rate = {1}}};
+    Recorder none{{}, {}, game.world()};
+    Playback playback{game, none, false};
+    Input input;
+    for (int i = 0; i < 40; ++i) {
+        const double t = 0.1 * i;
+        const auto tick = static_cast<std::int64_t>(t + 1e-9);
+        const double alpha = std::max(0.0, t - static_cast<double>(tick));
+        const float x = playback.show(tick, alpha, input).discs.at(0).centre.x;
+        EXPECT_TRUE(x <= 2.0F || x >= 1001.0F) << "at " << t << " s: " << x;
+    }
 }
 
 TEST(Playback, ManyStepsAtOnceGiveTheBitsOfOneAtATime) {

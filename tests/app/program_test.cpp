@@ -37,7 +37,7 @@ TEST(Program, OsmesaAndEglDrawTheSamePixels) {
     const Folder folder;
     std::vector<Json> frames;
     for (const std::string surface : {"osmesa", "egl"}) {
-        const Outcome run = shell("spring_damper" + small + "--frames 5 --surface " + surface +
+        const Outcome run = shell("projectile" + small + "--fps 2 --frames 5 --surface " + surface +
                                   " --out " + quoted(folder / surface));
         if (run.exit == 3) GTEST_SKIP() << run.err;
         frames.push_back(Json::parse(text_of(folder / surface / "manifest.json"))["frames"]);
@@ -95,9 +95,10 @@ TEST(Program, WhatCannotBeWrittenIsOneLineAndExitFour) {
 
 TEST(Program, InterruptedCaptureIsCompleteUpToThere) {
     const Folder folder;
-    const Outcome run = shell("hello" + small + "--frames 100000 --out " + quoted(folder / "o") +
-                              " & while [ ! -e " + quoted(folder / "o" / "frame_000003.png") +
-                              " ]; do sleep 0.05; done; kill -INT $!; wait $!");
+    const Outcome run =
+        shell("hello" + small + "--frames 100000 --out " + quoted(folder / "o") +
+              " & for i in $(seq 400); do [ -e " + quoted(folder / "o" / "frame_000003.png") +
+              " ] && break; sleep 0.05; done; kill -INT $!; wait $!");
     EXPECT_EQ(run.exit, 130);
     const Json manifest = Json::parse(text_of(folder / "o" / "manifest.json"));
     EXPECT_GE(manifest["frames"].size(), 4U);
@@ -145,6 +146,35 @@ TEST(Program, DivergedRunNamesStepBodyAndFieldAndKeepsItsTrace) {
     const std::string trace = text_of(folder / "t.csv");
     EXPECT_EQ(trace.back(), '\n');
     EXPECT_EQ(trace.find("inf"), std::string::npos);
+}
+
+TEST(Program, ClosedOrFullStreamsDoNoHarm) {
+    const Folder folder;
+    const std::string trace = quoted(folder / "t.csv");
+    EXPECT_EQ(shell("hello --steps 5 --trace " + trace + " 2>&-").exit, 0);
+    EXPECT_TRUE(text_of(folder / "t.csv").starts_with("tick,")) << text_of(folder / "t.csv");
+    EXPECT_EQ(shell("hello --rate 0 2>&-").exit, 2);
+    EXPECT_EQ(shell("hello --rate 0 2>/dev/full").exit, 2);
+    EXPECT_EQ(shell("hello --help >/dev/full").exit, 4);
+    EXPECT_EQ(shell("hello --steps 5 --json - >/dev/full").exit, 4);
+    EXPECT_EQ(shell("(hello --steps 300000 --trace -; echo $? >" + trace + ") | head -1").exit, 0);
+    EXPECT_EQ(text_of(folder / "t.csv"), "4\n") << "the reader went away";
+}
+
+TEST(Program, ALinkToNothingIsNotReplaced) {
+    const Folder folder;
+    std::filesystem::create_symlink("nothing", folder / "link");
+    EXPECT_EQ(shell("hello --steps 5 --quiet --json " + quoted(folder / "link")).exit, 4);
+    EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"link"}));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+}
+
+TEST(Program, AnEnergyThatOverflowsIsADivergence) {
+    const Outcome run =
+        shell("spring_damper --quiet --method explicit_euler --rate 1 --steps 300 --json -");
+    EXPECT_EQ(run.exit, 5);
+    EXPECT_EQ(run.out, "");
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
 }
 
 TEST(Program, QuietSaysNothingAndDataComesOnlyWhenAsked) {

@@ -35,11 +35,11 @@ void spawn_assorted(World& world, int i) {
         .mass = mass, .position = assorted(i, axes), .velocity = assorted(i + 7, axes)};
     const oiler::Entity entity = world.spawn(body);
     if (i % 4 != 3)
-        world.attach(entity, oiler::AnchoredSpring{.anchor = assorted(i + 13, axes),
-                                                   .stiffness = mass * (1 + i % 24),
-                                                   .damping = mass * (1 + i % 5) / 8.0});
-    if (i % 3 == 1) world.attach(entity, oiler::LinearDragForce{(1 + i % 7) / 64.0});
-    if (i % 5 == 2) world.attach(entity, oiler::QuadraticDragForce{(1 + i % 3) / 128.0});
+        world.attach(entity, oiler::Spring{.anchor = assorted(i + 13, axes),
+                                           .stiffness = mass * (1 + i % 24),
+                                           .damping = mass * (1 + i % 5) / 8.0});
+    if (i % 3 == 1) world.attach(entity, oiler::LinearDrag{(1 + i % 7) / 64.0});
+    if (i % 5 == 2) world.attach(entity, oiler::QuadraticDrag{(1 + i % 3) / 128.0});
 }
 
 std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision precision, int axes) {

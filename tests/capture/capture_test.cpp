@@ -103,19 +103,19 @@ TEST(Capture, AShorterRunLeavesNoStaleFrame) {
     const Folder folder;
     capture(folder / "out", 5);
     put(folder / "out/notes.txt", "mine");
-    put(folder / "out/frame_000007.png", "mine: no manifest names it");
     capture(folder / "out", 1);
-    EXPECT_EQ(names_in(folder / "out"),
-              (Names{"frame_000000.png", "frame_000007.png", "manifest.json", "notes.txt"}));
+    EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json", "notes.txt"}));
 }
 
-TEST(Capture, WithoutFramesTheManifestIsStillWhole) {
+TEST(Capture, AKilledRunLeavesNoStaleFrameEither) {
     const Folder folder;
-    capture(folder / "out", 0);
-    const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
-    EXPECT_TRUE(json["frames"].empty());
+    {
+        Capture killed(folder / "out", header());
+        EXPECT_TRUE(fs::exists(folder / "out/manifest.json")) << "there from the start";
+        for (int i = 0; i < 5; ++i) killed.add(i, 0, 0, size, bottom_up);
+    }
     capture(folder / "out", 1);
-    EXPECT_EQ(names_in(folder / "out").size(), 2U);
+    EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json"}));
 }
 
 TEST(Capture, AHostileManifestRemovesNothingElse) {
@@ -135,7 +135,8 @@ TEST(Capture, AHostileManifestRemovesNothingElse) {
                   R"("},{"file":")" + fs::relative(folder / name, folder / "out").string() +
                   R"("},)";
     }
-    put(folder / "out/manifest.json", R"({"frames":[)" + frames + R"({"file":""}]})");
+    put(folder / "out/manifest.json",
+        R"({"gl_renderer":"x","frames":[)" + frames + R"({"file":""}]})");
     capture(folder / "out", 0);
     for (const std::string& name : kept) EXPECT_EQ(text_of(folder / name), "keep") << name;
 }
@@ -152,8 +153,9 @@ TEST(Capture, AStaleFrameThatIsALinkLosesOnlyTheLink) {
 }
 
 TEST(Capture, SomebodyElsesManifestIsNotTouched) {
-    for (const char* text : {"{}", "[]", "", "{\"frames\":1}", "{\"frames\":{}}",
-                             "{\"frames\":[{}]}", "not json", "{\"name\":\"a web app\"}"}) {
+    for (const char* text :
+         {"{}", "[]", "", "{\"frames\":1}", "{\"gl_renderer\":\"x\"}", "{\"frames\":{}}",
+          "{\"frames\":[{}]}", "not json", "{\"name\":\"a web app\"}"}) {
         const Folder folder;
         put(folder / "manifest.json", text);
         expect_io_error(folder.path());

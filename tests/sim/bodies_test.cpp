@@ -13,18 +13,18 @@
 
 namespace {
 
-using oiler::AnchoredSpring;
 using oiler::Bodies;
 using oiler::Body;
 using oiler::Error;
 using oiler::Exit;
 using oiler::find_method;
-using oiler::LinearDragForce;
+using oiler::LinearDrag;
 using oiler::Method;
 using oiler::methods;
 using oiler::Precision;
-using oiler::QuadraticDragForce;
+using oiler::QuadraticDrag;
 using oiler::Rate;
+using oiler::Spring;
 using oiler::Vec3;
 
 constexpr Rate rate{64};
@@ -45,7 +45,7 @@ Body assorted_body(std::size_t i, int axes) {
             .velocity = assorted(i + 3, axes, 0.9)};
 }
 
-AnchoredSpring assorted_spring(std::size_t i, int axes) {
+Spring assorted_spring(std::size_t i, int axes) {
     return {.anchor = assorted(i + 11, axes, 0.1),
             .stiffness = 3.1 + static_cast<double>(i % 4),
             .damping = 0.1 * static_cast<double>(i % 3)};
@@ -55,8 +55,8 @@ void add_assorted(Bodies& bodies, std::size_t i) {
     const int axes = bodies.axes();
     const std::size_t row = bodies.add(assorted_body(i, axes));
     if (i % 2 == 1) bodies.attach(row, assorted_spring(i, axes));
-    if (i % 3 == 1) bodies.attach(row, LinearDragForce{0.05 * static_cast<double>(1 + i % 7)});
-    if (i % 5 == 1) bodies.attach(row, QuadraticDragForce{0.01 * static_cast<double>(1 + i % 3)});
+    if (i % 3 == 1) bodies.attach(row, LinearDrag{0.05 * static_cast<double>(1 + i % 7)});
+    if (i % 5 == 1) bodies.attach(row, QuadraticDrag{0.01 * static_cast<double>(1 + i % 3)});
 }
 
 Bodies assorted_bodies(int axes, Precision precision, std::size_t count) {
@@ -107,10 +107,10 @@ TEST(Bodies, MoveTheSameWithSharedAndWithDifferingNumbers) {
         Bodies differing(axes, precision);
         for (std::size_t i = 0; i < 130; ++i) {
             const Body body{.position = assorted(i, axes, 1), .velocity = assorted(i + 1, axes, 1)};
-            shared.add(body, assorted_spring(5, axes), LinearDragForce{0.3});
-            differing.add(body, assorted_spring(5, axes), LinearDragForce{0.3});
+            shared.add(body, assorted_spring(5, axes), LinearDrag{0.3});
+            differing.add(body, assorted_spring(5, axes), LinearDrag{0.3});
         }
-        differing.add(assorted_body(3, axes), assorted_spring(8, axes), LinearDragForce{0.4});
+        differing.add(assorted_body(3, axes), assorted_spring(8, axes), LinearDrag{0.4});
         differing.remove(130);
         shared.step(method, {rate, 0, 50});
         differing.step(method, {rate, 0, 50});
@@ -211,11 +211,10 @@ TEST(Bodies, ForcesMayBeAttachedLater) {
     Bodies at_once(2, Precision::single);
     Bodies later(2, Precision::single);
     for (std::size_t i = 0; i < 70; ++i) {
-        at_once.add(assorted_body(i, 2), assorted_spring(i, 2), LinearDragForce{0.2});
+        at_once.add(assorted_body(i, 2), assorted_spring(i, 2), LinearDrag{0.2});
         later.add(assorted_body(i, 2), assorted_spring(i + 1, 2));
     }
-    for (std::size_t i = 0; i < 70; ++i)
-        later.attach(i, assorted_spring(i, 2), LinearDragForce{0.2});
+    for (std::size_t i = 0; i < 70; ++i) later.attach(i, assorted_spring(i, 2), LinearDrag{0.2});
     at_once.step(find_method("semi_implicit_euler"), {rate, 0, 9});
     later.step(find_method("semi_implicit_euler"), {rate, 0, 9});
     EXPECT_EQ(hash_of(at_once), hash_of(later));
@@ -228,21 +227,20 @@ TEST(Bodies, AxesAreIndependent) {
             Bodies space(3, precision);
             space.set_gravity({1, 2, 3});
             space.add({.mass = 2, .position = {4, 5, 6}, .velocity = {7, 8, 9}},
-                      AnchoredSpring{.anchor = {1, 0, 2}, .stiffness = 3, .damping = 0.3},
-                      LinearDragForce{0.1});
+                      Spring{.anchor = {1, 0, 2}, .stiffness = 3, .damping = 0.3}, LinearDrag{0.1});
             space.step(method, {rate, 0, 100});
             for (int axis = 0; axis < 3; ++axis) {
                 const double a = axis;
                 Bodies line(1, precision);
                 line.set_gravity({1 + a, 0, 0});
                 line.add({.mass = 2, .position = {4 + a, 0, 0}, .velocity = {7 + a, 0, 0}},
-                         AnchoredSpring{.anchor = {axis == 0   ? 1.0
-                                                   : axis == 1 ? 0.0
-                                                               : 2.0,
-                                                   0, 0},
-                                        .stiffness = 3,
-                                        .damping = 0.3},
-                         LinearDragForce{0.1});
+                         Spring{.anchor = {axis == 0   ? 1.0
+                                           : axis == 1 ? 0.0
+                                                       : 2.0,
+                                           0, 0},
+                                .stiffness = 3,
+                                .damping = 0.3},
+                         LinearDrag{0.1});
                 line.step(method, {rate, 0, 100});
                 EXPECT_EQ(space.position(0)[axis], line.position(0)[0]) << axis;
                 EXPECT_EQ(space.velocity(0)[axis], line.velocity(0)[0]) << axis;
@@ -269,21 +267,19 @@ void expect_first_step(const Vec3& acceleration, const Force&... force) {
 }
 
 // −(1/2)·5·(3, 4).
-TEST(FirstStep, QuadraticDragByHand) { expect_first_step({-7.5, -10, 0}, QuadraticDragForce{1}); }
+TEST(FirstStep, QuadraticDragByHand) { expect_first_step({-7.5, -10, 0}, QuadraticDrag{1}); }
 
 // −(1/2)·(3, 4).
-TEST(FirstStep, LinearDragByHand) { expect_first_step({-1.5, -2, 0}, LinearDragForce{1}); }
+TEST(FirstStep, LinearDragByHand) { expect_first_step({-1.5, -2, 0}, LinearDrag{1}); }
 
 // −(8/2)·(8 − 2, 16 − 20) − (1/2)·(3, 4).
 TEST(FirstStep, SpringByHand) {
-    expect_first_step({-25.5, 14, 0},
-                      AnchoredSpring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
+    expect_first_step({-25.5, 14, 0}, Spring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
 }
 
 TEST(FirstStep, ForcesAddUp) {
-    expect_first_step({-7.5 - 1.5 - 25.5, -10 - 2 + 14, 0}, QuadraticDragForce{1},
-                      LinearDragForce{1},
-                      AnchoredSpring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
+    expect_first_step({-7.5 - 1.5 - 25.5, -10 - 2 + 14, 0}, QuadraticDrag{1}, LinearDrag{1},
+                      Spring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
 }
 
 /// How far from where the reference has the first projectile at 2 s.
@@ -297,7 +293,7 @@ double projectile_error(int steps_per_second) {
     bodies.add({.mass = mass,
                 .position = {number(run.at("x0")), number(run.at("y0")), 0},
                 .velocity = {number(run.at("vx0")), number(run.at("vy0")), 0}},
-               QuadraticDragForce{mass * number(run.at("k_per_m"))});
+               QuadraticDrag{mass * number(run.at("k_per_m"))});
     bodies.step(find_method("semi_implicit_euler"), {{steps_per_second}, 0, 2 * steps_per_second});
     return std::hypot(bodies.position(0)[0] - number(state.at("x")),
                       bodies.position(0)[1] - number(state.at("y")));
@@ -344,12 +340,12 @@ TEST(Bodies, NumbersAreFinite) {
             line_of_error(Exit::usage, [&] { bodies.add({.position = vector}); });
             line_of_error(Exit::usage, [&] { bodies.add({.velocity = vector}); });
             line_of_error(Exit::usage, [&] { bodies.set_gravity(vector); });
-            line_of_error(Exit::usage, [&] { bodies.add({}, AnchoredSpring{.anchor = vector}); });
+            line_of_error(Exit::usage, [&] { bodies.add({}, Spring{.anchor = vector}); });
         }
-        line_of_error(Exit::usage, [&] { bodies.add({}, AnchoredSpring{.stiffness = bad}); });
-        line_of_error(Exit::usage, [&] { bodies.add({}, AnchoredSpring{.damping = bad}); });
-        line_of_error(Exit::usage, [&] { bodies.add({}, LinearDragForce{bad}); });
-        line_of_error(Exit::usage, [&] { bodies.add({}, QuadraticDragForce{bad}); });
+        line_of_error(Exit::usage, [&] { bodies.add({}, Spring{.stiffness = bad}); });
+        line_of_error(Exit::usage, [&] { bodies.add({}, Spring{.damping = bad}); });
+        line_of_error(Exit::usage, [&] { bodies.add({}, LinearDrag{bad}); });
+        line_of_error(Exit::usage, [&] { bodies.add({}, QuadraticDrag{bad}); });
         EXPECT_EQ(bodies.size(), 0U);
     }
 }
@@ -359,7 +355,7 @@ TEST(Bodies, NumbersAreFinite) {
 // finite. Explicit Euler's x lags a step behind.
 Bodies doubling(Precision precision, std::size_t count) {
     Bodies bodies(1, precision);
-    for (std::size_t i = 0; i < count; ++i) bodies.add({}, LinearDragForce{3});
+    for (std::size_t i = 0; i < count; ++i) bodies.add({}, LinearDrag{3});
     return bodies;
 }
 
@@ -393,7 +389,7 @@ TEST(Divergence, NamesStepBodyAndField) {
 
 TEST(Divergence, NamesTheAxis) {
     Bodies bodies(3, Precision::single);
-    bodies.add({.velocity = {0, 0, 1}}, LinearDragForce{3});
+    bodies.add({.velocity = {0, 0, 1}}, LinearDrag{3});
     expect_start(divergence(bodies, "explicit_euler", 200, 1),
                  "diverged at step 128 (t = 128 s): velocity z of body 0 ");
 }
@@ -429,7 +425,7 @@ TEST(Divergence, RowsBeyondTheLastBodyDoNotCount) {
 TEST(Hash, IsOfTheStateAlone) {
     Bodies bodies = assorted_bodies(2, Precision::double_, 70);
     const std::uint64_t hash = hash_of(bodies);
-    bodies.attach(5, AnchoredSpring{.stiffness = 1});
+    bodies.attach(5, Spring{.stiffness = 1});
     bodies.set_gravity({1, 1, 0});
     EXPECT_EQ(hash_of(bodies), hash);
     const Vec3 velocity = bodies.velocity(69);
@@ -455,13 +451,29 @@ TEST(Bodies, TellWhatTheyAre) {
 // A body that was refused must leave the others as they were.
 TEST(Bodies, ARefusedBodyChangesNothing) {
     Bodies bodies(1, Precision::double_);
-    bodies.add({.position = {1, 0, 0}}, AnchoredSpring{.stiffness = 1}, LinearDragForce{1});
-    line_of_error(Exit::usage, [&] {
-        bodies.add({}, AnchoredSpring{.stiffness = 2}, LinearDragForce{not_a_number});
-    });
+    bodies.add({.position = {1, 0, 0}}, Spring{.stiffness = 1}, LinearDrag{1});
+    line_of_error(Exit::usage,
+                  [&] { bodies.add({}, Spring{.stiffness = 2}, LinearDrag{not_a_number}); });
     ASSERT_EQ(bodies.size(), 1U);
-    bodies.add({.position = {1, 0, 0}}, AnchoredSpring{.stiffness = 4}, LinearDragForce{1});
+    bodies.add({.position = {1, 0, 0}}, Spring{.stiffness = 4}, LinearDrag{1});
     EXPECT_EQ(bodies.energy().potential, 0.5 * 1 + 0.5 * 4);
+}
+
+TEST(Bodies, ANumberForAnAxisThatIsNotThereIsRefused) {
+    Bodies bodies(2, Precision::double_);
+    EXPECT_THROW(bodies.add({.position = {0, 0, 1}}), Error);
+    EXPECT_THROW(bodies.add({.velocity = {0, 0, 1}}), Error);
+    EXPECT_THROW(bodies.set_gravity({0, 0, -9.81}), Error);
+    EXPECT_EQ(bodies.size(), 0U);
+    bodies.add({});
+    EXPECT_THROW(bodies.set_velocity(0, {0, 0, 1}), Error);
+}
+
+TEST(Bodies, ANumberThatFloatCannotHoldIsRefused) {
+    Bodies bodies(1, Precision::single);
+    EXPECT_THROW(bodies.add({.position = {1e39}}), Error);
+    EXPECT_THROW(bodies.add({.mass = 1e-30}, Spring{.stiffness = 1e20}), Error);
+    EXPECT_EQ(bodies.add({.mass = 1e30}, Spring{.stiffness = 1e20}), 0U);
 }
 
 }  // namespace

@@ -10,15 +10,15 @@
 
 namespace {
 
-using oiler::AnchoredSpring;
 using oiler::Bodies;
 using oiler::Body;
 using oiler::find_method;
-using oiler::LinearDragForce;
+using oiler::LinearDrag;
 using oiler::Method;
 using oiler::Precision;
-using oiler::QuadraticDragForce;
+using oiler::QuadraticDrag;
 using oiler::Rate;
+using oiler::Spring;
 
 /// A quadratic form xx·x² + xv·x·v + vv·v² on the states of the spring.
 struct Form {
@@ -278,16 +278,15 @@ TEST(Energy, GravityByHand) {
 
 // ½·6·(3² + 4²), from the anchor and whatever the mass; 6/3 is exact.
 TEST(Energy, SpringByHand) {
-    const auto energy =
-        energy_of(heavy, AnchoredSpring{.anchor = {1, 2, 0}, .stiffness = 6, .damping = 9});
+    const auto energy = energy_of(heavy, Spring{.anchor = {1, 2, 0}, .stiffness = 6, .damping = 9});
     EXPECT_EQ(energy.potential, 75);
     EXPECT_EQ(energy.kinetic, 7.5);
 }
 
 TEST(Energy, DragHasNoPotential) {
-    EXPECT_EQ(energy_of(heavy, LinearDragForce{2}).potential, 0);
-    EXPECT_EQ(energy_of(heavy, QuadraticDragForce{2}).potential, 0);
-    EXPECT_EQ(energy_of(heavy, QuadraticDragForce{2}).kinetic, 7.5);
+    EXPECT_EQ(energy_of(heavy, LinearDrag{2}).potential, 0);
+    EXPECT_EQ(energy_of(heavy, QuadraticDrag{2}).potential, 0);
+    EXPECT_EQ(energy_of(heavy, QuadraticDrag{2}).kinetic, 7.5);
 }
 
 // Body i of 20 has mass i + 1 and velocity 2: kinetic Σ 2(i + 1) = 420; height i over the origin
@@ -299,7 +298,7 @@ TEST(Energy, SumsOverBodies) {
         for (int i = 0; i < 20; ++i) {
             const Body body{.mass = i + 1.0, .position = {double(i), 0, 0}, .velocity = {2, 0, 0}};
             if (i % 4 == 0)
-                bodies.add(body, AnchoredSpring{.stiffness = 2});
+                bodies.add(body, Spring{.stiffness = 2});
             else
                 bodies.add(body);
         }

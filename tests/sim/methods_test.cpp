@@ -71,7 +71,7 @@ constexpr Number k = 15;
 /// The engine's own spring, so that a method may treat its damping in its own way.
 oiler::Forces<Number, 1> spring(Number b) {
     oiler::Forces<Number, 1> forces;
-    using Force = oiler::Spring<Number, 1>;
+    using Force = oiler::SpringForce<Number, 1>;
     std::get<Force>(forces.list) = Force{.anchor = {0}, .stiffness = k, .damping = b};
     forces.present[1] = true;
     return forces;

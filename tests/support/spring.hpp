@@ -17,7 +17,7 @@ inline oiler::Bodies article_spring(double b,
                                     oiler::Precision precision = oiler::Precision::double_) {
     oiler::Bodies bodies(1, precision);
     bodies.add({.position = {start_x, 0, 0}},
-               oiler::AnchoredSpring{.stiffness = stiffness, .damping = b});
+               oiler::Spring{.stiffness = stiffness, .damping = b});
     return bodies;
 }
 

@@ -16,8 +16,8 @@ World busy_world(const Method& method, Precision precision) {
     for (int i = 0; i < 100; ++i) {
         const double place = i;
         world.spawn({.mass = 1 + place, .position = {place, 1, 0}},
-                    oiler::AnchoredSpring{.stiffness = 2 + place, .damping = 1},
-                    oiler::LinearDragForce{0.1}, oiler::QuadraticDragForce{0.001 * place});
+                    oiler::Spring{.stiffness = 2 + place, .damping = 1}, oiler::LinearDrag{0.1},
+                    oiler::QuadraticDrag{0.001 * place});
     }
     return world;
 }

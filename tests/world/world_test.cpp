@@ -16,12 +16,12 @@
 
 namespace {
 
-using oiler::AnchoredSpring;
 using oiler::Body;
 using oiler::Entity;
 using oiler::Error;
-using oiler::LinearDragForce;
+using oiler::LinearDrag;
 using oiler::Precision;
+using oiler::Spring;
 using oiler::Vec3;
 using oiler::World;
 
@@ -319,8 +319,8 @@ World swarm() {
     for (int i = 0; i < 100; ++i) {
         const double place = i;
         entities.push_back(world.spawn({.mass = 1 + place, .position = {place, -place, 0}},
-                                       AnchoredSpring{.stiffness = 10 + place, .damping = 0.1},
-                                       LinearDragForce{0.1}));
+                                       Spring{.stiffness = 10 + place, .damping = 0.1},
+                                       LinearDrag{0.1}));
         world.add(entities.back(), Name{std::to_string(i)});
     }
     for (const std::size_t i : {3U, 50U, 99U}) world.destroy(entities[i]);
@@ -377,7 +377,7 @@ TEST(World, SettingsSayHowItSteps) {
                     .method = &oiler::find_method("explicit_euler"),
                     .precision = Precision::single});
     const Entity entity =
-        world.spawn({.position = {1, 0, 0}, .velocity = {2, 0, 0}}, AnchoredSpring{.stiffness = 4});
+        world.spawn({.position = {1, 0, 0}, .velocity = {2, 0, 0}}, Spring{.stiffness = 4});
     world.step();
     EXPECT_EQ(world.position(entity), (Vec3{3, 0, 0}));
     EXPECT_EQ(world.velocity(entity), (Vec3{-2, 0, 0}));
@@ -420,7 +420,7 @@ TEST(World, ForcesAreAttachedToTheRightBody) {
     const Entity second = world.spawn({.position = {1, 0, 0}});
     world.destroy(first);
     const Entity third = world.spawn({.position = {1, 0, 0}});
-    world.attach(second, AnchoredSpring{.stiffness = 4});
+    world.attach(second, Spring{.stiffness = 4});
     world.step();
     EXPECT_EQ(world.velocity(second), (Vec3{-4, 0, 0}));
     EXPECT_EQ(world.velocity(third), (Vec3{}));
@@ -451,20 +451,57 @@ TEST(StateHash, IsOfTickAndBodiesAlone) {
     World world = swarm();
     const std::uint64_t hash = world.state_hash();
     world.set_gravity({1, 2, 0});
-    world.attach(world.entity_of_row(0), AnchoredSpring{.stiffness = 99});
+    world.attach(world.entity_of_row(0), Spring{.stiffness = 99});
     world.add(world.create(), Health{3});
     EXPECT_EQ(world.state_hash(), hash);
 }
 
 TEST(World, ARunThatDivergesSaysSo) {
     World world(1, {.rate = {1}, .precision = Precision::single});
-    world.spawn({.velocity = {1, 0, 0}}, LinearDragForce{3});
+    world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});
     try {
         world.step(1000);
         FAIL() << "nothing thrown";
     } catch (const oiler::Error& error) {
         EXPECT_EQ(error.exit(), oiler::Exit::diverged);
         EXPECT_NE(std::string(error.what()).find("step 128 "), std::string::npos) << error.what();
+    }
+}
+
+// Carrying on would change the entity that lives in the slot now, so these hold in every build.
+TEST(WorldDeathTest, MistakesEndTheProgramAndSayWhich) {
+    World world(2);
+    const Entity gone = world.spawn({});
+    world.destroy(gone);
+    const Entity now = world.spawn({});
+    world.add(now, Health{});
+    ASSERT_EQ(gone.index, now.index);
+    EXPECT_DEATH((void)world.position(gone), "no body, or is gone");
+    EXPECT_DEATH(world.set_velocity(gone, {1}), "no body, or is gone");
+    EXPECT_DEATH(world.teleport(gone, {1}), "no body, or is gone");
+    EXPECT_DEATH(world.destroy(gone), "the entity is gone");
+    EXPECT_DEATH(world.add(gone, Name{}), "the entity is gone");
+    EXPECT_DEATH(world.add_body(gone, {}), "the entity is gone");
+    EXPECT_DEATH((void)world.get<Health>(gone), "no component of this type");
+    EXPECT_DEATH(world.remove<Health>(gone), "no component of this type");
+    EXPECT_DEATH(world.add(now, Health{}), "already");
+    EXPECT_DEATH(world.add_body(now, {}), "already");
+    EXPECT_DEATH((void)world.bodies().position(1), "no body in this row");
+    EXPECT_DEATH(World(4), "1, 2 or 3 axes");
+}
+
+TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
+    World world(1, {.rate = {1}, .method = &oiler::find_method("explicit_euler")});
+    const Entity first = world.spawn({});
+    (void)world.spawn({});
+    const Entity last = world.spawn({.position = {1e300}}, Spring{.stiffness = 1e9});
+    world.destroy(first);
+    ASSERT_EQ(world.row(last), 0U);
+    try {
+        world.step(100);
+        FAIL() << "nothing diverged";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("body 2"), std::string::npos) << error.what();
     }
 }
 

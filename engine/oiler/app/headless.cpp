@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/app/progress.hpp"
 #include "oiler/capture/capture.hpp"
+#include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/render/renderer.hpp"
@@ -63,11 +64,12 @@ void run_headless(Playback& playback, const Options& options, const About& about
     try {
         for (std::int64_t frame = 0; frame < frames && !Interrupt::requested(); ++frame)
             draw(frame);
-    } catch (...) {
-        if (capture) capture->finish();
+    } catch (const Error& error) {
+        if (capture && error.exit() != Exit::io) capture->finish();
         throw;
     }
-    if (capture) capture->finish();
+    if (!capture) return;
+    capture->finish();
     remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
 }
 

@@ -13,15 +13,18 @@ void remember(int) { requested_flag = 1; }
 Interrupt::Interrupt() {
     requested_flag = 0;
     struct sigaction action {};
-    action.sa_handler = remember;
     action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, &former_int_);
-    sigaction(SIGTERM, &action, &former_term_);
+    auto former = former_.begin();
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        action.sa_handler = signal == SIGPIPE ? SIG_IGN : remember;
+        former->signal = signal;
+        sigaction(signal, &action, &former->action);
+        ++former;
+    }
 }
 
 Interrupt::~Interrupt() {
-    sigaction(SIGINT, &former_int_, nullptr);
-    sigaction(SIGTERM, &former_term_, nullptr);
+    for (const Former& former : former_) sigaction(former.signal, &former.action, nullptr);
 }
 
 bool Interrupt::requested() { return requested_flag != 0; }

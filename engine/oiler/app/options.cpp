@@ -2,7 +2,9 @@
 #include "oiler/app/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <charconv>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
@@ -39,39 +41,89 @@ Size parse_size(const std::string& words) {
          largest_side);
 }
 
-void declare(CLI::App& app, Options& options, Words& words, const About& about) {
+/// An option that takes a whole number in decimal digits: a leading 0 is no octal and 1e3 no
+/// number.
+template <class Whole>
+CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Whole low, Whole high,
+                       const std::string& help) {
+    const auto parse = [=, &target](const std::string& words) {
+        const char* const end = words.data() + words.size();
+        Whole value = 0;
+        const auto [last, error] = std::from_chars(words.data(), end, value);
+        if (error != std::errc() || last != end || value < low || value > high)
+            throw CLI::ValidationError(
+                fmt::format("{} {}: give a whole number from {} to {}", name, words, low, high));
+        target = value;
+    };
+    return app.add_option_function<std::string>(name, parse, help)->type_name("N");
+}
+
+void declare_drawing(CLI::App& app, Options& options, Words& words, const About& about) {
+    app.add_flag("--headless", options.headless, "draw frames into a folder, without a window")
+        ->disable_flag_override();
+    app.add_option("--surface", words.surface, "who draws: a window, or without one OSMesa or EGL")
+        ->check(CLI::IsMember({"auto", "window", "osmesa", "egl"}))
+        ->type_name("NAME")
+        ->capture_default_str();
+    add_whole<std::int64_t>(app, "--frames", words.frames, 1, 1'000'000,
+                            "how many frames; headless, 4 s of them if not given");
+    add_whole<int>(app, "--fps", words.fps, 1, 1000,
+                   "frames per second, 60 if not given; in a window at most, the display's");
+    app.add_option("--size", words.size, "of frames and window in pixels; pictures are 16:9")
+        ->type_name("WxH")
+        ->capture_default_str();
+    app.add_option("--out", options.out, "folder for headless frames")
+        ->type_name("DIR")
+        ->default_str("frames/" + std::string(about.name));
+    add_whole<std::int64_t>(app, "--steps", words.steps, 0, 1'000'000'000'000,
+                            "take that many steps and draw nothing");
+}
+
+void declare_stepping(CLI::App& app, Words& words, const About& about) {
     words.method = about.method;
     words.precision = name_of(about.precision);
     words.rate = about.rate;
-    app.add_flag("--headless", options.headless, "draw frames into a folder, without a window");
-    app.add_option("--surface", words.surface, "who draws: a window, or without one OSMesa or EGL")
-        ->check(CLI::IsMember({"auto", "window", "osmesa", "egl"}))
-        ->capture_default_str();
-    app.add_option("--frames", words.frames, "how many frames; headless: 4 s unless given")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}));
-    app.add_option("--fps", words.fps, "frames per second; in a window: at most")
-        ->check(CLI::Range(1, 1000))
-        ->default_str("60, in a window the display's");
-    app.add_option("--size", words.size, "of frames and window, in pixels")->capture_default_str();
-    app.add_option("--out", options.out, "folder for headless frames")
-        ->default_str("frames/" + std::string(about.name));
-    app.add_option("--steps", words.steps, "take that many steps and draw nothing")
-        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000'000}));
     app.add_option("--method", words.method, "how to step: " + method_names())
+        ->type_name("NAME")
         ->capture_default_str();
-    app.add_option("--rate", words.rate, "steps per second: dt = 1/RATE s")
-        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
-        ->capture_default_str();
-    app.add_option("--precision", words.precision, "of positions and velocities")
+    add_whole<std::int64_t>(app, "--rate", words.rate, 1, 1'000'000, "steps per second: dt = 1/N s")
+        ->default_str(std::to_string(about.rate));
+    app.add_option("--precision", words.precision, "of positions and velocities: float, double")
         ->check(CLI::IsMember({"float", "double"}))
+        ->type_name("NAME")
         ->capture_default_str();
-    app.add_option("--seed", words.seed, "of the game's random numbers")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    app.add_option("--trace", options.trace, "write each body after each step to this CSV file");
-    app.add_option("--energy", options.energy, "write energies after each step to this CSV file");
-    app.add_option("--json", options.json, "write what the run was to this file, - for stdout");
-    app.add_flag("--quiet", options.quiet, "no remarks and no progress on standard error");
+    add_whole<std::uint64_t>(app, "--seed", words.seed, 0, ~std::uint64_t{0},
+                             "of the game's random numbers")
+        ->default_str("0");
+}
+
+void declare_output(CLI::App& app, Options& options) {
+    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* help) {
+        app.add_option(name, path, help)->type_name("FILE");
+    };
+    add_file("--trace", options.trace, "write each body after each step as CSV, - for stdout");
+    add_file("--energy", options.energy, "write energies after each step as CSV, - for stdout");
+    add_file("--json", options.json, "write what the run was, - for stdout");
+    app.add_flag("--quiet", options.quiet, "no remarks and no progress on standard error")
+        ->disable_flag_override();
+}
+
+/// Every path names something, and no two name the same.
+void check_paths(const CLI::App& app, const Options& options) {
+    const std::array<std::pair<const char*, const std::filesystem::path*>, 4> paths{{
+        {"--trace", &options.trace},
+        {"--energy", &options.energy},
+        {"--json", &options.json},
+        {"--out", &options.out},
+    }};
+    for (const auto& [option, path] : paths) {
+        if (app.count(option) > 0 && path->empty()) fail(Exit::usage, "{}: give a path", option);
+        for (const auto& [other, same] : paths)
+            if (option != other && !path->empty() &&
+                path->lexically_normal() == same->lexically_normal())
+                fail(Exit::usage, "{} and {}: both are {}; give two paths", option, other,
+                     path->string());
+    }
 }
 
 /// Options that contradict each other.
@@ -94,6 +146,7 @@ void check_together(const CLI::App& app, const Options& options, const Words& wo
 
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
     check_together(app, options, words);
+    check_paths(app, options);
     options.settings = {
         .rate = {words.rate},
         .method = &find_method(words.method),
@@ -121,7 +174,9 @@ CommandLine parse_command_line(int argc, char** argv, const About& about) {
     app.set_version_flag("--version", name + " " + std::string(version()));
     CommandLine line;
     Words words;
-    declare(app, line.options, words, about);
+    declare_drawing(app, line.options, words, about);
+    declare_stepping(app, words, about);
+    declare_output(app, line.options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 #include <string_view>
 
+#include "oiler/core/error.hpp"
+
 namespace oiler {
 namespace {
-
-constexpr std::string_view axis_names = "xyz";
 
 std::string trace_header(int axes) {
     std::string header = "tick,time,body";
@@ -27,6 +28,12 @@ void append_number(std::string& row, double value, Precision precision) {
 }
 
 }  // namespace
+
+void require_finite(const Energy& energy) {
+    if (!std::isfinite(energy.total()))
+        fail(Exit::diverged,
+             "the energy is no longer finite; take a higher rate, or another method");
+}
 
 Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,
                    const World& world) {
@@ -56,6 +63,7 @@ void Recorder::record_bodies(const World& world) {
 
 void Recorder::record_energy(const World& world) {
     const Energy energy = world.bodies().energy();
+    require_finite(energy);
     energy_->write(fmt::format("{},{},{},{},{}\n", world.tick(), world.time(), energy.kinetic,
                                energy.potential, energy.total()));
 }

@@ -10,6 +10,9 @@
 
 namespace oiler {
 
+/// Throws Error{diverged}: states may still be finite when their squares no longer are.
+void require_finite(const Energy& energy);
+
 /// Writes a row per body and a row of energies after each step, where asked to. Numbers read back
 /// to the same bits.
 class Recorder {

@@ -2,7 +2,9 @@
 #include "oiler/app/report.hpp"
 
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "oiler/app/recorder.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/state_hash.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Energy& energy) {
+    require_finite(energy);
     return {
         {"kinetic", energy.kinetic}, {"potential", energy.potential}, {"total", energy.total()}};
 }
@@ -38,9 +41,7 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
         {"dropped_time", seconds(report.dropped)},
         {"wall_seconds", seconds(report.wall)}};
     const std::string text = json.dump(2) + "\n";
-    File file(path == "-" ? "/dev/stdout" : path);
-    file.write(text);
-    file.commit();
+    write_file(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace oiler

@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <exception>
+#include <span>
 
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
-#include "oiler/app/progress.hpp"
 #include "oiler/app/report.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/floating_point.hpp"
 
@@ -65,16 +66,15 @@ Exit play(const Options& options, const About& about, const MakeGame& make) {
 
 int run_program(int argc, char** argv, const About& about, const MakeGame& make) {
     try {
+        fill_closed_streams();
         require_ieee_arithmetic();
         const CommandLine line = parse_command_line(argc, argv, about);
-        fmt::print("{}", line.text);
-        return static_cast<int>(line.text.empty() ? play(line.options, about, make) : Exit::done);
+        if (line.text.empty()) return static_cast<int>(play(line.options, about, make));
+        write_file("-", std::as_bytes(std::span(line.text)));
+        return static_cast<int>(Exit::done);
     } catch (const Error& error) {
-        fmt::print(stderr, "{}: {}\n", about.name, error.what());
+        say(fmt::format("{}: {}", about.name, error.what()));
         return static_cast<int>(error.exit());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", about.name, error.what());
-        return static_cast<int>(Exit::io);
     }
 }
 

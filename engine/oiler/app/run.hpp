@@ -14,7 +14,7 @@ using MakeGame = std::function<std::unique_ptr<AnyGame>(const Settings&)>;
 int run_program(int argc, char** argv, const About& about, const MakeGame& make);
 
 /// All of main: `return oiler::run<Hello>(argc, argv);`
-template <Game G>
+template <class G>
 int run(int argc, char** argv) {
     return run_program(argc, argv, G::about, [](const Settings& settings) {
         return std::make_unique<AnyGameOf<G>>(settings);

@@ -5,9 +5,9 @@
 #include <string>
 #include <thread>
 
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/app/progress.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/render/renderer.hpp"
@@ -52,9 +52,17 @@ void add_status(Picture& picture, const StepClock& clock, const Pace& pace) {
     if (status.empty()) return;
     picture.labels.push_back({.at = {canvas_width / 2, 4},
                               .text = std::move(status),
-                              .size = 10,
+                              .size = 11,
                               .colour = palette::vermilion,
                               .align = Align::centre});
+}
+
+void show(const Picture& picture, Renderer& renderer, Window& window) {
+    const Size size = window.size();
+    if (size.width == 0 || size.height == 0) return;  // minimised
+    renderer.draw(picture, size);
+    renderer.blit();
+    window.present();
 }
 
 /// Where the display does not hold frames back, the loop does.
@@ -82,15 +90,13 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
     for (std::int64_t frame = 0; !quit && !Interrupt::requested(); ++frame) {
         const std::chrono::nanoseconds start = now();
         keys.forget_presses();
-        quit = window->poll(keys).quit || (options.frames && frame + 1 >= *options.frames);
+        quit = window->poll(keys) || (options.frames && frame + 1 >= *options.frames);
         quit = control(keys, clock, pace) || quit;
         for_step.gather(keys);
         clock.advance(start);
         Picture picture = playback.show(clock.ticks(), clock.alpha(), for_step);
         add_status(picture, clock, pace);
-        renderer.draw(picture, window->size());
-        renderer.blit(window->size());
-        window->present();
+        show(picture, renderer, *window);
         hold_back(start, fps);
     }
     return clock.dropped_time();

@@ -25,7 +25,7 @@ constexpr const char* manifest_name = "manifest.json";
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
-/// Whether frame_name() could have made it; a manifest comes from outside and may name anything.
+/// Whether frame_name() could have made it.
 bool is_frame_name(std::string_view name) {
     constexpr std::string_view head = "frame_";
     constexpr std::string_view tail = ".png";
@@ -49,17 +49,16 @@ void remove_if_present(const fs::path& path) {
              path.string(), error.message());
 }
 
-/// The manifest goes last: if removing fails half-way, the next run still knows what is left.
+/// The manifest goes last: if removing fails half-way, the next run still knows whose the rest is.
 void remove_earlier_capture(const fs::path& folder) {
     const fs::path manifest = folder / manifest_name;
     std::error_code unreadable;
     if (!fs::exists(manifest, unreadable)) return;
-    const auto files = frame_files(read_text(manifest));
-    if (!files)
+    if (!fs::is_regular_file(manifest, unreadable) || !is_manifest(read_text(manifest)))
         fail(Exit::io, "{} is not from a capture and would be lost; choose another folder",
              manifest.string());
-    for (const std::string& file : *files)
-        if (is_frame_name(file)) remove_if_present(folder / file);
+    for (const auto& entry : fs::directory_iterator(folder, unreadable))
+        if (is_frame_name(entry.path().filename().string())) remove_if_present(entry.path());
     remove_if_present(manifest);
 }
 
@@ -78,11 +77,13 @@ Capture::Capture(fs::path folder, Manifest header)
     assert(manifest_.frames.empty());
     made_folder_ = make_folder(folder_);
     remove_earlier_capture(folder_);
+    finish();
 }
 
 Capture::~Capture() {
-    std::error_code not_empty;
-    if (made_folder_) fs::remove(folder_, not_empty);
+    std::error_code ignored;
+    if (manifest_.frames.empty()) fs::remove(folder_ / manifest_name, ignored);
+    if (made_folder_) fs::remove(folder_, ignored);
 }
 
 void Capture::add(std::int64_t tick, double alpha, std::uint64_t state_hash, Size size,

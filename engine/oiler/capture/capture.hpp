@@ -10,10 +10,11 @@
 
 namespace oiler {
 
-/// A folder of frames that is always one run's: what an earlier capture's manifest names there is
-/// removed first, or a shorter run would leave the longer one's last frames between its own. Only
-/// names of the form frame_000000.png are removed, and the manifest itself; everything else in the
-/// folder stays. A folder that it made and that stayed empty is removed again.
+/// A folder of frames that is always one run's: where an earlier capture's manifest is, its frames
+/// are removed first, or a shorter run would leave the longer one's last frames between its own.
+/// The manifest is there from the start, so that this holds after a run that was killed, too. Only
+/// names of the form frame_000000.png are removed; everything else in the folder stays. Without a
+/// frame, nothing is left.
 class Capture {
 public:
     /// `header` is a manifest without frames. Throws Error(Exit::io), also when the folder holds a
@@ -28,8 +29,8 @@ public:
     void add(std::int64_t tick, double alpha, std::uint64_t state_hash, Size size,
              std::span<const std::uint8_t> rgb_bottom_up);
 
-    /// Writes manifest.json, which names the frames so far: last, so that a manifest never names
-    /// a frame that is missing. Throws Error(Exit::io).
+    /// Writes manifest.json, which names the frames so far, and never one that is missing. Throws
+    /// Error(Exit::io).
     void finish() const;
 
 private:

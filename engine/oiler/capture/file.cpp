@@ -47,6 +47,7 @@ bool is_same_file(int descriptor, const struct stat& other) {
 
 /// A descriptor, -1 with errno set, or nothing when the path names no file or a replaceable one.
 std::optional<int> open_in_place(const fs::path& path) {
+    if (path == "-") return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
     struct stat named = {};
     if (stat(path.c_str(), &named) != 0) return std::nullopt;
     // Duplicated, not opened again, to share the offset with what else is printed there.
@@ -61,6 +62,7 @@ std::optional<int> open_in_place(const fs::path& path) {
 File::File(const fs::path& path) : path_(path), target_(path) {
     std::error_code missing;
     if (fs::path followed = fs::canonical(path, missing); !missing) target_ = std::move(followed);
+    if (missing && fs::is_symlink(fs::symlink_status(path, missing))) fail_write(path_, ENOENT);
     const std::optional<int> in_place = open_in_place(path);
     const int descriptor = in_place ? *in_place : open_temporary();
     if (descriptor < 0) fail_write(path_, errno);

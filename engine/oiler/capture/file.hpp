@@ -12,9 +12,9 @@ namespace oiler {
 
 /// A file that is written whole or not at all, so that a failed or interrupted run never leaves
 /// half a frame under a good name: bytes go to a temporary file in the same folder, which takes the
-/// name at commit() and is removed without one. A device, a pipe, and whatever standard output or
-/// standard error goes to (/dev/stdout) cannot be replaced: they are written in place.
-/// Every failure throws Error(Exit::io) with the path, the reason and a remedy.
+/// name at commit() and is removed without one. "-" is standard output. A device, a pipe, and
+/// whatever standard output or standard error goes to (/dev/stdout) cannot be replaced: they are
+/// written in place. Every failure throws Error(Exit::io) with the path, the reason and a remedy.
 class File {
 public:
     explicit File(const std::filesystem::path& path);

@@ -55,17 +55,9 @@ std::string to_json(const Manifest& manifest) {
     return text;
 }
 
-std::optional<std::vector<std::string>> frame_files(std::string_view json) {
+bool is_manifest(std::string_view json) {
     const Json parsed = Json::parse(json, nullptr, false);
-    if (!parsed.is_object() || !parsed.contains("frames") || !parsed["frames"].is_array())
-        return std::nullopt;
-    std::vector<std::string> files;
-    for (const Json& frame : parsed["frames"]) {
-        if (!frame.is_object() || !frame.contains("file") || !frame["file"].is_string())
-            return std::nullopt;
-        files.push_back(frame["file"]);
-    }
-    return files;
+    return parsed.is_object() && parsed.contains("gl_renderer") && parsed.contains("frames");
 }
 
 }  // namespace oiler

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +43,7 @@ struct Manifest {
 /// a double. Text that is not UTF-8 is replaced, not refused.
 [[nodiscard]] std::string to_json(const Manifest& manifest);
 
-/// The files that a manifest's frames name, unchecked; nothing when `json` is no manifest of ours.
-[[nodiscard]] std::optional<std::vector<std::string>> frame_files(std::string_view json);
+/// Whether `json` is a manifest that to_json() could have made.
+[[nodiscard]] bool is_manifest(std::string_view json);
 
 }  // namespace oiler

@@ -5,7 +5,8 @@
 
 namespace oiler {
 
-/// The keys that a game can ask for; a surface translates its own codes to these.
+/// The keys that a game can ask for; a surface translates its own codes to these. P, Q, Escape,
+/// period, minus and equals also control the loop.
 enum class Key : std::uint8_t {
     space,
     enter,

@@ -61,7 +61,8 @@ struct Polyline {
 
 enum class Align : std::uint8_t { left, centre, right };
 
-/// A line of text. `at` is on the baseline; `align` tells which end of the line is there.
+/// A line of text. `at` is on the baseline; `align` tells which end of the line is there. Between
+/// two steps the text is that of the step before.
 struct Label {
     ElementKey key{};
     Point at{};

@@ -9,8 +9,10 @@
 
 namespace oiler {
 
+// A driver that was loaded stays: it keeps threads and memory of its own, and does not survive
+// being unmapped under them.
 Library::Library(const char* soname, const char* remedy)
-    : soname_(soname), handle_(dlopen(soname, RTLD_NOW | RTLD_LOCAL)) {
+    : soname_(soname), handle_(dlopen(soname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
     if (handle_ == nullptr) {
         fail(Exit::no_display, "cannot load {} ({}); {}", soname, dlerror(), remedy);
     }

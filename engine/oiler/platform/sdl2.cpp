@@ -182,8 +182,8 @@ public:
         return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
     }
 
-    WindowEvents poll(Input& input) override {
-        WindowEvents events;
+    bool poll(Input& input) override {
+        bool quit = false;
         SDL_Event event;
         while (sdl_->poll_event(&event) != 0) {
             if (event.type == SDL_KEYDOWN || event.type == SDL_KEYUP) {
@@ -191,9 +191,9 @@ public:
             }
             const bool closed =
                 event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
-            events.quit = events.quit || closed || event.type == SDL_QUIT;
+            quit = quit || closed || event.type == SDL_QUIT;
         }
-        return events;
+        return quit;
     }
 
     void present() override { sdl_->swap_window(window_); }

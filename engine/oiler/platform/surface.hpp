@@ -29,11 +29,6 @@ protected:
     Surface() = default;
 };
 
-/// What happened at a window since it was last asked.
-struct WindowEvents {
-    bool quit = false;
-};
-
 /// A surface that somebody looks at.
 class Window : public Surface {
 public:
@@ -41,8 +36,9 @@ public:
     [[nodiscard]] virtual Size size() const = 0;
     /// Display refresh in Hz; 60 where the system does not tell.
     [[nodiscard]] virtual int refresh_rate() const = 0;
-    /// Moves keys pressed and released since the last call into `input`.
-    virtual WindowEvents poll(Input& input) = 0;
+    /// Moves keys pressed and released since the last call into `input`; says whether the user has
+    /// closed the window.
+    [[nodiscard]] virtual bool poll(Input& input) = 0;
     /// Shows what was drawn into framebuffer 0.
     virtual void present() = 0;
 };

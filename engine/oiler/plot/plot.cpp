@@ -89,13 +89,19 @@ void draw_words(const Plot& plot, Picture& picture) {
                                   title_size, Align::centre));
 }
 
-/// Names in their curves' colours, from the right end of the title's line leftwards.
+/// How many letters UTF-8 text has: its bytes without the continuations.
+float letters(const std::string& words) {
+    return static_cast<float>(
+        std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Names beside their curves' colours, from the right end of the title's line leftwards.
 void draw_legend(const Plot& plot, Picture& picture) {
     float right = plot.box.high.x;
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
         if (series->name.empty()) continue;
         Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
-        const float left = right - 0.56F * label_size * static_cast<float>(series->name.size()) - 4;
+        const float left = right - 0.56F * label_size * letters(series->name) - 4;
         picture.labels.push_back(std::move(name));
         picture.polylines.push_back(line({left - 16, plot.box.high.y + 9.5F},
                                          {left, plot.box.high.y + 9.5F}, series->colour, 2.5F));
@@ -147,8 +153,12 @@ std::vector<double> ticks(Range range, int count) {
     for (const double factor : {5.0, 2.0, 1.0})
         if (factor * power >= rough * 0.999) step = factor * power;
     std::vector<double> at;
-    for (double n = std::ceil(range.low / step - 1e-9); n * step <= range.high + step * 1e-9; ++n)
-        at.push_back(n == 0 ? 0.0 : n * step);
+    const double first = std::ceil(range.low / step - 1e-9);
+    for (int i = 0; i <= 2 * count; ++i) {
+        const double tick = (first + i) * step;
+        if (tick > range.high + step * 1e-9) break;
+        at.push_back(tick == 0 ? 0.0 : tick);
+    }
     return at;
 }
 

@@ -220,13 +220,13 @@ void Renderer::read(Pixels& pixels) const {
     gl.ReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, pixels.rgb.data());
 }
 
-void Renderer::blit(Size window) const {
+void Renderer::blit() const {
     const Size size = impl_->framebuffer.size();
     const Gl& gl = impl_->gl;
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, impl_->framebuffer.name());
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    gl.BlitFramebuffer(0, 0, size.width, size.height, 0, 0, window.width, window.height,
-                       GL_COLOR_BUFFER_BIT, size == window ? GL_NEAREST : GL_LINEAR);
+    gl.BlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,
+                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 std::string Renderer::gl_renderer() const {

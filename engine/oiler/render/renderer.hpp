@@ -34,8 +34,8 @@ public:
     void draw(const Picture& picture, Size size);
     /// What was drawn last; `pixels` is reused.
     void read(Pixels& pixels) const;
-    /// Copies what was drawn last to framebuffer 0, a window's, scaled to `window`.
-    void blit(Size window) const;
+    /// Copies what was drawn last to framebuffer 0, a window's of the same size.
+    void blit() const;
 
     [[nodiscard]] std::string gl_renderer() const;
     [[nodiscard]] std::string gl_version() const;

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
-#include <cassert>
 #include <limits>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/require.hpp"
 
 namespace oiler {
 namespace {
 
-constexpr std::string_view axis_names = "xyz";
-
 template <class T, int Axes>
 Vec<T, Axes> narrow(const Vec3& given) {
-    for (int i = Axes; i < 3; ++i)
-        assert(given[i] == 0 && "a number for an axis that the world lacks");
     return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
 }
 
@@ -45,29 +41,47 @@ To stored_form(const From& given, double mass) {
 
 // What is refused is refused before anything is stored.
 
-void check(double number, double largest, std::string_view what) {
-    if (!(std::abs(number) <= largest))
+/// What columns can hold.
+struct Limits {
+    double largest;
+    int axes;
+};
+
+Limits limits_of(const Bodies& bodies) {
+    const double largest = bodies.precision() == Precision::single
+                               ? static_cast<double>(std::numeric_limits<float>::max())
+                               : std::numeric_limits<double>::max();
+    return {largest, bodies.axes()};
+}
+
+void check(double number, const Limits& limits, std::string_view what) {
+    if (!(std::abs(number) <= limits.largest))
         fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
-             largest);
+             limits.largest);
 }
 
-void check(const Vec3& vector, double largest, std::string_view what) {
-    for (const double number : vector.axis) check(number, largest, what);
+void check(const Vec3& vector, const Limits& limits, std::string_view what) {
+    for (const double number : vector.axis) check(number, limits, what);
+    for (int i = limits.axes; i < 3; ++i)
+        if (vector[i] != 0)
+            fail(Exit::usage, "{} has {} = {}, but the world has {} axes: leave it 0", what,
+                 axis_names[static_cast<std::size_t>(i)], vector[i], limits.axes);
 }
 
-void check(const Body& body, double largest) {
+void check(const Body& body, const Limits& limits) {
     if (!(body.mass > 0) || !std::isfinite(body.mass))
         fail(Exit::usage, "a body of mass {} kg cannot be moved: give a positive, finite mass",
              body.mass);
-    check(body.position, largest, "a position");
-    check(body.velocity, largest, "a velocity");
+    check(body.position, limits, "a position");
+    check(body.velocity, limits, "a velocity");
 }
 
-void check(const GivenForces& forces, double mass, double largest) {
+void check(const GivenForces& forces, double mass, const Limits& limits) {
     const auto check_given = [&]<class Force>(const std::optional<Force>& force) {
         if (!force) return;
-        Force specific = force->per_unit_mass(mass);
-        for_each_number(specific, [&](double number) { check(number, largest, Force::name); });
+        const Force specific = force->per_unit_mass(mass);
+        std::apply([&](auto... field) { (check(specific.*field, limits, Force::name), ...); },
+                   Force::fields());
     };
     std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
 }
@@ -135,7 +149,7 @@ std::string_view name_of(Precision precision) {
 }
 
 Bodies::Bodies(int axes, Precision precision) {
-    assert(axes >= 1 && axes <= 3);
+    require(axes >= 1 && axes <= 3, "a world has 1, 2 or 3 axes");
     if (precision == Precision::single) {
         if (axes == 1) columns_.emplace<Columns<float, 1>>();
         if (axes == 2) columns_.emplace<Columns<float, 2>>();
@@ -153,9 +167,8 @@ Precision Bodies::precision() const {
     return columns_.index() < 3 ? Precision::single : Precision::double_;
 }
 
-double Bodies::largest() const {
-    return precision() == Precision::single ? static_cast<double>(std::numeric_limits<float>::max())
-                                            : std::numeric_limits<double>::max();
+void Bodies::require_row(std::size_t row) const {
+    require(row < size(), "there is no body in this row");
 }
 
 std::size_t Bodies::size() const {
@@ -163,8 +176,8 @@ std::size_t Bodies::size() const {
 }
 
 std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
-    check(body, largest());
-    check(forces, body.mass, largest());
+    check(body, limits_of(*this));
+    check(forces, body.mass, limits_of(*this));
     return std::visit(
         [&](auto& columns) {
             const std::size_t row = columns.size;
@@ -181,8 +194,7 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
 }
 
 void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
-    assert(row < size());
-    check(forces, mass(row), largest());
+    check(forces, mass(row), limits_of(*this));
     std::visit(
         [&](auto& columns) {
             for_each_force(columns, forces, columns.mass[row],
@@ -196,9 +208,9 @@ void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
 }
 
 void Bodies::remove(std::size_t row) {
+    require_row(row);
     std::visit(
         [&](auto& columns) {
-            assert(row < columns.size);
             for (auto& column : columns.position) column.swap_remove(row);
             for (auto& column : columns.velocity) column.swap_remove(row);
             columns.mass.swap_remove(row);
@@ -213,10 +225,10 @@ void Bodies::remove(std::size_t row) {
 }
 
 void Bodies::set_gravity(const Vec3& acceleration) {
-    check(acceleration, largest(), "gravity");
+    check(acceleration, limits_of(*this), "gravity");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            auto& stored = std::get<ForceColumns<Gravity<T, Axes>, T>>(columns.forces);
+            auto& stored = std::get<ForceColumns<GravityForce<T, Axes>, T>>(columns.forces);
             stored.present = true;
             const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
             for (std::size_t i = 0; i < Axes; ++i)
@@ -226,40 +238,50 @@ void Bodies::set_gravity(const Vec3& acceleration) {
 }
 
 double Bodies::mass(std::size_t row) const {
+    require_row(row);
     return std::visit([&](const auto& columns) { return columns.mass[row]; }, columns_);
 }
 
 Vec3 Bodies::position(std::size_t row) const {
+    require_row(row);
     return std::visit([&](const auto& columns) { return widen(columns.position, row); }, columns_);
 }
 
 Vec3 Bodies::velocity(std::size_t row) const {
+    require_row(row);
     return std::visit([&](const auto& columns) { return widen(columns.velocity, row); }, columns_);
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
-    check(position, largest(), "a position");
+    require_row(row);
+    check(position, limits_of(*this), "a position");
     std::visit([&](auto& columns) { assign(columns.position, row, position); }, columns_);
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
-    check(velocity, largest(), "a velocity");
+    require_row(row);
+    check(velocity, limits_of(*this), "a velocity");
     std::visit([&](auto& columns) { assign(columns.velocity, row, velocity); }, columns_);
 }
 
 void Bodies::step(const Method& method, const Steps& steps) {
-    const auto diverged = std::visit(
+    if (const auto at = try_step(method, steps)) fail_diverged(*at, at->row, steps.rate, method);
+}
+
+std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {
+    return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             return step_rows(columns, make_plan<T>(method, steps.rate.dt<T>()), steps);
         },
         columns_);
-    if (!diverged) return;
+}
+
+void fail_diverged(const Divergence& at, std::size_t body, const Rate& rate, const Method& method) {
     fail(Exit::diverged,
          "diverged at step {} (t = {} s): {} {} of body {} is no longer finite; "
          "take a higher rate, or another method than {}",
-         diverged->tick, steps.rate.time(diverged->tick),
-         diverged->velocity ? "velocity" : "position",
-         axis_names[static_cast<std::size_t>(diverged->axis)], diverged->row, method.name);
+         at.tick, rate.time(at.tick), at.velocity ? "velocity" : "position",
+         axis_names[static_cast<std::size_t>(at.axis)], body, method.name);
 }
 
 Energy Bodies::energy() const {

@@ -40,7 +40,7 @@ struct OptionalOf<std::tuple<Force...>> {
 /// At most one force of each kind, as a user writes them.
 using GivenForces = OptionalOf<ForceList<double, 3>>::type;
 
-/// A force that acts on a body of its own: AnchoredSpring, LinearDragForce, QuadraticDragForce.
+/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);
@@ -59,8 +59,8 @@ public:
 
     /// A new last row, with at most one force of each kind. Bodies that agree on a force's numbers
     /// share them in memory when the force is given here. Throws Error{usage} for a mass that is
-    /// not positive or a number that is
-    /// not finite in the columns' precision; then nothing has changed.
+    /// not positive, a number that is not finite in the columns' precision, or one for an axis that
+    /// the world lacks; then nothing has changed.
     template <BodyForce... Force>
     std::size_t add(const Body& body, const Force&... force) {
         return add_given(body, given(force...));
@@ -82,9 +82,11 @@ public:
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
 
-    /// Throws Error{diverged} naming step, body and field when a number stops being finite; the
+    /// Throws Error{diverged} naming step, row and field when a number stops being finite; the
     /// bodies are then of no further use.
     void step(const Method& method, const Steps& steps);
+    /// The same for who names bodies in another way: returns where instead.
+    [[nodiscard]] std::optional<Divergence> try_step(const Method& method, const Steps& steps);
 
     /// Summed in double in eight fixed lanes, so that it does not depend on the machine.
     [[nodiscard]] Energy energy() const;
@@ -94,14 +96,19 @@ public:
     void hash_into(StateHash& hash) const;
 
 private:
+    /// How many of `All` are a `Force`.
+    template <class Force, class... All>
+    static constexpr int count = (int{std::same_as<Force, All>} + ... + 0);
+
     template <class... Force>
     static GivenForces given(const Force&... force) {
+        static_assert(((count<Force, Force...> == 1) && ...),
+                      "a body has at most one force of each kind");
         GivenForces all;
         ((std::get<std::optional<Force>>(all) = force), ...);
         return all;
     }
-    /// The largest number that the columns hold.
-    [[nodiscard]] double largest() const;
+    void require_row(std::size_t row) const;
     std::size_t add_given(const Body& body, const GivenForces& forces);
     void attach_given(std::size_t row, const GivenForces& forces);
 
@@ -109,5 +116,9 @@ private:
                  Columns<double, 2>, Columns<double, 3>>
         columns_;
 };
+
+/// Throws Error{diverged} that names step, body and field.
+[[noreturn]] void fail_diverged(const Divergence& at, std::size_t body, const Rate& rate,
+                                const Method& method);
 
 }  // namespace oiler

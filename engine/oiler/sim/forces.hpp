@@ -18,13 +18,13 @@ namespace oiler {
 
 /// The same acceleration for every body. Potential −g·x, zero at the origin.
 template <Number V, int Axes>
-struct Gravity {
+struct GravityForce {
     Vec<V, Axes> acceleration{};  ///< m/s²
 
     static constexpr std::string_view name = "gravity";
     static constexpr bool everywhere = true;
-    static constexpr auto fields() { return std::tuple(&Gravity::acceleration); }
-    constexpr Gravity per_unit_mass(V) const { return *this; }
+    static constexpr auto fields() { return std::tuple(&GravityForce::acceleration); }
+    constexpr GravityForce per_unit_mass(V) const { return *this; }
 
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>&, double) const {
         return acceleration;
@@ -38,7 +38,7 @@ struct Gravity {
 
 /// A spring and damper from the body to a fixed anchor: force −k·d − b·v, d = x − anchor.
 template <Number V, int Axes>
-struct Spring {
+struct SpringForce {
     Vec<V, Axes> anchor{};  ///< m
     V stiffness{};          ///< k, N/m
     V damping{};            ///< b, N·s/m
@@ -46,9 +46,9 @@ struct Spring {
     static constexpr std::string_view name = "spring";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(&Spring::anchor, &Spring::stiffness, &Spring::damping);
+        return std::tuple(&SpringForce::anchor, &SpringForce::stiffness, &SpringForce::damping);
     }
-    constexpr Spring per_unit_mass(V mass) const {
+    constexpr SpringForce per_unit_mass(V mass) const {
         return {anchor, stiffness / mass, damping / mass};
     }
 
@@ -63,13 +63,13 @@ struct Spring {
 
 /// Drag of slow motion through a thick fluid: force −b·v.
 template <Number V, int Axes>
-struct LinearDrag {
+struct LinearDragForce {
     V coefficient{};  ///< b, N·s/m
 
     static constexpr std::string_view name = "linear_drag";
     static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&LinearDrag::coefficient); }
-    constexpr LinearDrag per_unit_mass(V mass) const { return {coefficient / mass}; }
+    static constexpr auto fields() { return std::tuple(&LinearDragForce::coefficient); }
+    constexpr LinearDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
 
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
                                                              double) const {
@@ -81,13 +81,13 @@ struct LinearDrag {
 /// Drag of fast motion through air: force −c·|v|·v. Where any body has it, |v|² of all must be a
 /// number: speeds stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
 template <Number V, int Axes>
-struct QuadraticDrag {
+struct QuadraticDragForce {
     V coefficient{};  ///< c, N·s²/m²
 
     static constexpr std::string_view name = "quadratic_drag";
     static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&QuadraticDrag::coefficient); }
-    constexpr QuadraticDrag per_unit_mass(V mass) const { return {coefficient / mass}; }
+    static constexpr auto fields() { return std::tuple(&QuadraticDragForce::coefficient); }
+    constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
 
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
                                                              double) const {
@@ -99,15 +99,15 @@ struct QuadraticDrag {
 
 /// Every force there is; the order is the order in which accelerations are summed.
 template <Number V, int Axes>
-using ForceList =
-    std::tuple<Gravity<V, Axes>, Spring<V, Axes>, LinearDrag<V, Axes>, QuadraticDrag<V, Axes>>;
+using ForceList = std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
+                             QuadraticDragForce<V, Axes>>;
 
 inline constexpr std::size_t force_count = std::tuple_size_v<ForceList<double, 1>>;
 
 /// How a user writes a force on a body, with as many axes of the vectors as the world has.
-using AnchoredSpring = Spring<double, 3>;
-using LinearDragForce = LinearDrag<double, 3>;
-using QuadraticDragForce = QuadraticDrag<double, 3>;
+using Spring = SpringForce<double, 3>;
+using LinearDrag = LinearDragForce<double, 3>;
+using QuadraticDrag = QuadraticDragForce<double, 3>;
 
 /// Calls `f` with each number of a force, in the order of its fields, vectors axis by axis.
 template <class Force, class F>

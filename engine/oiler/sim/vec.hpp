@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -69,6 +70,8 @@ struct Vec {
     }
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
+
+inline constexpr std::string_view axis_names = "xyz";
 
 /// What a user hands over and gets back, whatever the axes and the precision of the columns; axes
 /// that a world does not have are zero.

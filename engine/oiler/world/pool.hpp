@@ -62,7 +62,7 @@ protected:
 };
 
 /// The components of one type, side by side in the order of `slots()`.
-template <std::movable T>
+template <class T>
 class Pool final : public AnyPool {
     static_assert(!std::is_same_v<T, bool>, "wrap a bool in a struct that says what is true");
 

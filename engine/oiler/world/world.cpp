@@ -40,7 +40,7 @@ Entity World::create() {
 }
 
 void World::destroy(Entity entity) {
-    assert(alive(entity));
+    require(alive(entity), gone);
     for (const TaggedPool& entry : pools_) entry.pool->erase(entity.index);
     if (has_body(entity)) remove_body(entity);
     ++generations_[entity.index];
@@ -63,11 +63,12 @@ bool World::has_body(Entity entity) const {
 }
 
 std::size_t World::row(Entity entity) const {
-    assert(has_body(entity));
+    require(has_body(entity), "the entity has no body, or is gone");
     return rows_.place(entity.index);
 }
 
 Entity World::entity_of_row(std::size_t row) const {
+    require(row < rows_.size(), "there is no body in this row");
     return {rows_[row], generations_[rows_[row]]};
 }
 
@@ -83,8 +84,10 @@ std::uint32_t World::jumps(Entity entity) const {
 }
 
 void World::step(std::int64_t count) {
-    assert(count >= 0);
-    bodies_.step(*settings_.method, {settings_.rate, tick_, count});
+    require(count >= 0, "steps only go forward");
+    const Steps steps{settings_.rate, tick_, count};
+    if (const auto at = bodies_.try_step(*settings_.method, steps))
+        fail_diverged(*at, entity_of_row(at->row).index, settings_.rate, *settings_.method);
     tick_ += count;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "oiler/core/require.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/world/entity.hpp"
 #include "oiler/world/pool.hpp"
@@ -24,7 +25,8 @@ struct Settings {
 /// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
 /// stepping the copy gives what stepping the original gives.
 ///
-/// Stale handles assert, and `alive` tells; `find` answers null for them.
+/// A handle whose entity is gone is known to be: `alive` and `find` say so, and everything else
+/// ends the program with a line that says what it did.
 class World {
 public:
     explicit World(int axes, const Settings& settings = {});
@@ -42,33 +44,35 @@ public:
 
     /// Gives the entity a component of a type that it does not have yet. The reference holds until
     /// the next add or remove of this type.
-    template <std::movable T>
+    template <class T>
     T& add(Entity entity, T component) {
-        assert(alive(entity) && !find<T>(entity));
+        static_assert(std::movable<T>, "a component can be moved");
+        require(alive(entity), gone);
+        require(!find<T>(entity), "the entity has a component of this type already");
         return pool<T>().add(entity.index, std::move(component));
     }
-    template <std::movable T>
+    template <class T>
     void remove(Entity entity) {
-        assert(find<T>(entity));
+        require(find<T>(entity), "the entity has no component of this type");
         pool<T>().erase(entity.index);
     }
     /// Null where the entity has none, or is no more.
-    template <std::movable T>
+    template <class T>
     [[nodiscard]] T* find(Entity entity) {
         Pool<T>* const found = find_pool<T>();
         return found && alive(entity) ? found->find(entity.index) : nullptr;
     }
-    template <std::movable T>
+    template <class T>
     [[nodiscard]] const T* find(Entity entity) const {
         return const_cast<World*>(this)->find<T>(entity);
     }
-    template <std::movable T>
+    template <class T>
     [[nodiscard]] T& get(Entity entity) {
         T* const found = find<T>(entity);
-        assert(found);
+        require(found, "the entity has no component of this type, or is gone");
         return *found;
     }
-    template <std::movable T>
+    template <class T>
     [[nodiscard]] const T& get(Entity entity) const {
         return const_cast<World*>(this)->get<T>(entity);
     }
@@ -77,7 +81,7 @@ public:
     /// in the order of `First`: that of adding, where the last takes the place of one that is
     /// removed. Backwards, so that `f` may destroy the entity that it is given and create others,
     /// which are not visited; it must not destroy others or use its references after adding.
-    template <std::movable First, std::movable... Rest, class F>
+    template <class First, class... Rest, class F>
     void each(F&& f) {
         Pool<First>* const first = find_pool<First>();
         const std::tuple<Pool<Rest>*...> rest{find_pool<Rest>()...};
@@ -91,7 +95,7 @@ public:
                   *std::get<Rest*>(others)...);
         }
     }
-    template <std::movable First, std::movable... Rest, class F>
+    template <class First, class... Rest, class F>
     void each(F&& f) const {
         const_cast<World*>(this)->each<First, Rest...>(
             [&](Entity entity, const First& first, const Rest&... rest) {
@@ -102,7 +106,8 @@ public:
     /// Makes the entity a moving body, with at most one force of each kind.
     template <BodyForce... Force>
     void add_body(Entity entity, const Body& body, const Force&... force) {
-        assert(alive(entity) && !has_body(entity));
+        require(alive(entity), gone);
+        require(!has_body(entity), "the entity has a body already");
         bodies_.add(body, force...);
         rows_.add(entity.index);
     }
@@ -150,6 +155,8 @@ public:
     [[nodiscard]] std::uint64_t state_hash() const;
 
 private:
+    static constexpr const char* gone = "the entity is gone";
+
     /// Its address is a type's identity.
     template <class T>
     static constexpr char tag = 0;

@@ -4,16 +4,22 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 namespace oiler {
 
-/// A line on standard error for whoever runs the program, unless it is to be quiet.
+/// Where standard input, output or error is closed, puts nothing in its place: the first file
+/// opened would take it, and remarks would land in a user's data.
+void fill_closed_streams();
+
+/// A line on standard error. One that nobody can read is no reason to stop.
+void say(const std::string& line);
+
+/// A line for whoever runs the program, unless it is to be quiet.
 template <class... Args>
 void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
-    if (!quiet) fmt::print(stderr, "{}\n", fmt::format(line, std::forward<Args>(args)...));
+    if (!quiet) say(fmt::format(line, std::forward<Args>(args)...));
 }
 
 /// How far long work has come: a bar on standard error where that is a terminal, nothing elsewhere.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/console.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace oiler {
+
+void fill_closed_streams() {
+    // open() takes the lowest free descriptor: each closed one in turn, then one that is not
+    // needed.
+    int descriptor = 0;
+    while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
+    if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
+void say(const std::string& line) {
+    std::fputs(line.c_str(), stderr);
+    std::fputc('\n', stderr);
+}
+
+Progress::Progress(bool quiet, std::string what, std::int64_t total)
+    : what_(std::move(what)), total_(total), visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (shown_percent_ >= 0) std::fputc('\n', stderr);
+}
+
+void Progress::show(std::int64_t done) {
+    const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1;
+    const int percent = static_cast<int>(100 * share);
+    if (!visible_ || percent == shown_percent_) return;
+    shown_percent_ = percent;
+    const std::string filled(static_cast<std::size_t>(percent * 40 / 100), '#');
+    std::fputs(fmt::format("\r[{:<40}] {}/{} {}", filled, done, total_, what_).c_str(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace oiler
