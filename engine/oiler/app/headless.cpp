@@ -36,41 +36,43 @@ Manifest describe(const Options& options, const About& about, int fps, const Sur
             .frames = {}};
 }
 
+/// Draws the frames that `header` is the manifest of into the folder; its `frames` is empty.
+void film(Playback& playback, Renderer& renderer, const Manifest& header, std::int64_t frames,
+          const Options& options) {
+    std::optional<Capture>
+        capture;  // made with the first frame, so that failing to draw leaves none
+    Progress progress(options.quiet, "frames", frames);
+    Pixels pixels;
+    Input nobody;
+    try {
+        for (std::int64_t frame = 0; frame < frames; ++frame) {
+            const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
+            const Picture picture = playback.show(at.step, at.alpha, nobody);
+            if (Interrupt::requested()) break;
+            renderer.draw(picture, header.size);
+            renderer.read(pixels);
+            if (!capture) capture.emplace(options.out, header);
+            capture->add(at.step, at.alpha, playback.state_hash(), pixels.size, pixels.rgb);
+            progress.show(frame + 1);
+        }
+    } catch (const Error& error) {
+        if (capture && error.exit() != Exit::io) capture->finish();
+        throw;
+    }
+    if (capture) capture->finish();
+}
+
 }  // namespace
 
 void run_headless(Playback& playback, const Options& options, const About& about) {
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
-
     const int fps = options.fps.value_or(default_fps);
     const std::int64_t frames = options.frames.value_or(std::int64_t{fps} * default_seconds);
-    const int rate = static_cast<int>(options.settings.rate.steps);
-    Progress progress(options.quiet, "frames", frames);
-    Pixels pixels;
-    Input nobody;
-    std::optional<Capture> capture;
-    const auto draw = [&](std::int64_t frame) {
-        const HeadlessFrame shown = headless_frame(frame, rate, fps);
-        const Picture picture = playback.show(shown.step, shown.alpha, nobody);
-        if (Interrupt::requested()) return;
-        renderer.draw(picture, options.size);
-        renderer.read(pixels);
-        if (!capture)
-            capture.emplace(options.out, describe(options, about, fps, *surface, renderer));
-        capture->add(shown.step, shown.alpha, playback.state_hash(), pixels.size, pixels.rgb);
-        progress.show(frame + 1);
-    };
-    try {
-        for (std::int64_t frame = 0; frame < frames && !Interrupt::requested(); ++frame)
-            draw(frame);
-    } catch (const Error& error) {
-        if (capture && error.exit() != Exit::io) capture->finish();
-        throw;
-    }
-    if (!capture) return;
-    capture->finish();
-    remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
+    film(playback, renderer, describe(options, about, fps, *surface, renderer), frames, options);
+    if (!Interrupt::requested())
+        remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
 }
 
 }  // namespace oiler

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
-#include <limits>
-
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 
@@ -37,53 +35,6 @@ To stored_form(const From& given, double mass) {
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
     return force;
-}
-
-// What is refused is refused before anything is stored.
-
-/// What columns can hold.
-struct Limits {
-    double largest;
-    int axes;
-};
-
-Limits limits_of(const Bodies& bodies) {
-    const double largest = bodies.precision() == Precision::single
-                               ? static_cast<double>(std::numeric_limits<float>::max())
-                               : std::numeric_limits<double>::max();
-    return {largest, bodies.axes()};
-}
-
-void check(double number, const Limits& limits, std::string_view what) {
-    if (!(std::abs(number) <= limits.largest))
-        fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
-             limits.largest);
-}
-
-void check(const Vec3& vector, const Limits& limits, std::string_view what) {
-    for (const double number : vector.axis) check(number, limits, what);
-    for (int i = limits.axes; i < 3; ++i)
-        if (vector[i] != 0)
-            fail(Exit::usage, "{} has {} = {}, but the world has {} axes: leave it 0", what,
-                 axis_names[static_cast<std::size_t>(i)], vector[i], limits.axes);
-}
-
-void check(const Body& body, const Limits& limits) {
-    if (!(body.mass > 0) || !std::isfinite(body.mass))
-        fail(Exit::usage, "a body of mass {} kg cannot be moved: give a positive, finite mass",
-             body.mass);
-    check(body.position, limits, "a position");
-    check(body.velocity, limits, "a velocity");
-}
-
-void check(const GivenForces& forces, double mass, const Limits& limits) {
-    const auto check_given = [&]<class Force>(const std::optional<Force>& force) {
-        if (!force) return;
-        const Force specific = force->per_unit_mass(mass);
-        std::apply([&](auto... field) { (check(specific.*field, limits, Force::name), ...); },
-                   Force::fields());
-    };
-    std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
 }
 
 template <class Force, class T>
@@ -144,10 +95,6 @@ void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec3& v
 
 }  // namespace
 
-std::string_view name_of(Precision precision) {
-    return precision == Precision::single ? "float" : "double";
-}
-
 Bodies::Bodies(int axes, Precision precision) {
     require(axes >= 1 && axes <= 3, "a world has 1, 2 or 3 axes");
     if (precision == Precision::single) {
@@ -176,8 +123,9 @@ std::size_t Bodies::size() const {
 }
 
 std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
-    check(body, limits_of(*this));
-    check(forces, body.mass, limits_of(*this));
+    const Limits limits(precision(), axes());
+    limits.check(body);
+    limits.check(forces, body.mass);
     return std::visit(
         [&](auto& columns) {
             const std::size_t row = columns.size;
@@ -194,7 +142,7 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
 }
 
 void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
-    check(forces, mass(row), limits_of(*this));
+    Limits(precision(), axes()).check(forces, mass(row));
     std::visit(
         [&](auto& columns) {
             for_each_force(columns, forces, columns.mass[row],
@@ -225,7 +173,7 @@ void Bodies::remove(std::size_t row) {
 }
 
 void Bodies::set_gravity(const Vec3& acceleration) {
-    check(acceleration, limits_of(*this), "gravity");
+    Limits(precision(), axes()).check(acceleration, "gravity");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             auto& stored = std::get<ForceColumns<GravityForce<T, Axes>, T>>(columns.forces);
@@ -254,13 +202,13 @@ Vec3 Bodies::velocity(std::size_t row) const {
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
     require_row(row);
-    check(position, limits_of(*this), "a position");
+    Limits(precision(), axes()).check(position, "a position");
     std::visit([&](auto& columns) { assign(columns.position, row, position); }, columns_);
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
     require_row(row);
-    check(velocity, limits_of(*this), "a velocity");
+    Limits(precision(), axes()).check(velocity, "a velocity");
     std::visit([&](auto& columns) { assign(columns.velocity, row, velocity); }, columns_);
 }
 

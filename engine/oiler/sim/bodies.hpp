@@ -3,47 +3,20 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <variant>
 
 #include "oiler/core/state_hash.hpp"
+#include "oiler/sim/body.hpp"
 #include "oiler/sim/columns.hpp"
 #include "oiler/sim/methods.hpp"
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {
 
-enum class Precision { single, double_ };
-
-/// "float" or "double", as the options and files say it.
-[[nodiscard]] std::string_view name_of(Precision precision);
-
-/// A body as a user describes it. Axes that the world does not have must be zero.
-struct Body {
-    double mass = 1;  ///< kg, positive
-    Vec3 position{};  ///< m
-    Vec3 velocity{};  ///< m/s
-};
-
 struct Energy {
     double kinetic = 0;    ///< J
     double potential = 0;  ///< J
     [[nodiscard]] double total() const { return kinetic + potential; }
-};
-
-template <class List>
-struct OptionalOf;
-template <class... Force>
-struct OptionalOf<std::tuple<Force...>> {
-    using type = std::tuple<std::optional<Force>...>;
-};
-/// At most one force of each kind, as a user writes them.
-using GivenForces = OptionalOf<ForceList<double, 3>>::type;
-
-/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag.
-template <class Force>
-concept BodyForce = !Force::everywhere && requires(GivenForces given) {
-    std::get<std::optional<Force>>(given);
 };
 
 /// All moving bodies of a world and the forces on them, in columns of the precision and the number

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/sim/body.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+
+std::string_view name_of(Precision precision) {
+    return precision == Precision::single ? "float" : "double";
+}
+
+Limits::Limits(Precision precision, int axes)
+    : largest_(precision == Precision::single
+                   ? static_cast<double>(std::numeric_limits<float>::max())
+                   : std::numeric_limits<double>::max()),
+      axes_(axes) {}
+
+void Limits::check(double number, std::string_view what) const {
+    if (!(std::abs(number) <= largest_))
+        fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
+             largest_);
+}
+
+void Limits::check(const Vec3& vector, std::string_view what) const {
+    for (const double number : vector.axis) check(number, what);
+    for (int i = axes_; i < 3; ++i)
+        if (vector[i] != 0)
+            fail(Exit::usage, "{} has {} = {}, but the world has {} axes: leave it 0", what,
+                 axis_names[static_cast<std::size_t>(i)], vector[i], axes_);
+}
+
+void Limits::check(const Body& body) const {
+    if (!(body.mass > 0) || !std::isfinite(body.mass))
+        fail(Exit::usage, "a body of mass {} kg cannot be moved: give a positive, finite mass",
+             body.mass);
+    check(body.position, "a position");
+    check(body.velocity, "a velocity");
+}
+
+void Limits::check(const GivenForces& forces, double mass) const {
+    const auto check_given = [&]<class Force>(const std::optional<Force>& force) {
+        if (!force) return;
+        const Force specific = force->per_unit_mass(mass);
+        std::apply([&](auto... field) { (check(specific.*field, Force::name), ...); },
+                   Force::fields());
+    };
+    std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
+}
+
+}  // namespace oiler

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "oiler/sim/forces.hpp"
+
+namespace oiler {
+
+enum class Precision { single, double_ };
+
+/// "float" or "double", as the options and files say it.
+[[nodiscard]] std::string_view name_of(Precision precision);
+
+/// A body as a user describes it. Axes that the world does not have must be zero.
+struct Body {
+    double mass = 1;  ///< kg, positive
+    Vec3 position{};  ///< m
+    Vec3 velocity{};  ///< m/s
+};
+
+template <class List>
+struct OptionalOf;
+template <class... Force>
+struct OptionalOf<std::tuple<Force...>> {
+    using type = std::tuple<std::optional<Force>...>;
+};
+/// At most one force of each kind, as a user writes them.
+using GivenForces = OptionalOf<ForceList<double, 3>>::type;
+
+/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag.
+template <class Force>
+concept BodyForce = !Force::everywhere && requires(GivenForces given) {
+    std::get<std::optional<Force>>(given);
+};
+
+/// What columns of a precision and a number of axes can hold. What is refused is refused before
+/// anything is stored; all throw Error{usage}.
+class Limits {
+public:
+    Limits(Precision precision, int axes);
+
+    /// Finite numbers for the axes that there are, 0 for the others; `what` is for the message.
+    void check(const Vec3& vector, std::string_view what) const;
+    void check(const Body& body) const;
+    /// Per unit mass, as they are stored.
+    void check(const GivenForces& forces, double mass) const;
+
+private:
+    void check(double number, std::string_view what) const;
+
+    double largest_;
+    int axes_;
+};
+
+}  // namespace oiler
