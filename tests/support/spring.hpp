@@ -16,8 +16,7 @@ inline constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 inline oiler::Bodies article_spring(double b,
                                     oiler::Precision precision = oiler::Precision::double_) {
     oiler::Bodies bodies(1, precision);
-    bodies.add({.position = {start_x, 0, 0}},
-               oiler::Spring{.stiffness = stiffness, .damping = b});
+    bodies.add({.position = {start_x, 0, 0}}, oiler::Spring{.stiffness = stiffness, .damping = b});
     return bodies;
 }
 
