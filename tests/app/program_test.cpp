@@ -151,7 +151,10 @@ TEST(Program, DivergedRunNamesStepBodyAndFieldAndKeepsItsTrace) {
 TEST(Program, ClosedOrFullStreamsDoNoHarm) {
     const Folder folder;
     const std::string trace = quoted(folder / "t.csv");
-    EXPECT_EQ(shell("hello --steps 5 --trace " + trace + " 2>&-").exit, 0);
+    EXPECT_EQ(shell("hello --headless --size 16x9 --frames 1 --out " + quoted(folder / "o") +
+                    " --trace " + trace + " 2>&-")
+                  .exit,
+              0);
     EXPECT_TRUE(text_of(folder / "t.csv").starts_with("tick,")) << text_of(folder / "t.csv");
     EXPECT_EQ(shell("hello --rate 0 2>&-").exit, 2);
     EXPECT_EQ(shell("hello --rate 0 2>/dev/full").exit, 2);

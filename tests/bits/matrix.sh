@@ -8,7 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$(mktemp -d)}
 mkdir -p "$folder"
-sources=("$root"/tests/bits/state_hash.cpp "$root"/engine/oiler/core/{error,state_hash}.cpp
+sources=("$root"/tests/bits/state_hash.cpp "$root"/engine/oiler/core/{error,require,state_hash}.cpp
          "$root"/engine/oiler/{sim,world}/*.cpp)
 
 # build NAME COMPILER OPTION...
