@@ -28,8 +28,8 @@ public:
     [[nodiscard]] int denominator() const { return 1 << std::max(-exponent_, 0); }
     [[nodiscard]] std::string text() const {
         if (exponent_ == 0) return {};
-        return exponent_ > 0 ? fmt::format("{}×", numerator())
-                             : fmt::format("1/{}×", denominator());
+        return exponent_ > 0 ? fmt::format("{}× (- slower)", numerator())
+                             : fmt::format("1/{}× (= faster)", denominator());
     }
 
 private:
