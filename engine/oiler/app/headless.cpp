@@ -36,6 +36,14 @@ Manifest describe(const Options& options, const About& about, int fps, const Sur
             .frames = {}};
 }
 
+/// After a failure: that one is to be told, not a second one of the same disk.
+void finish_anyhow(const Capture& capture) {
+    try {
+        capture.finish();
+    } catch (const Error&) {
+    }
+}
+
 /// Draws the frames that `header` is the manifest of into the folder; its `frames` is empty.
 void film(Playback& playback, Renderer& renderer, const Manifest& header, std::int64_t frames,
           const Options& options) {
@@ -55,8 +63,8 @@ void film(Playback& playback, Renderer& renderer, const Manifest& header, std::i
             capture->add(at.step, at.alpha, playback.state_hash(), pixels.size, pixels.rgb);
             progress.show(frame + 1);
         }
-    } catch (const Error& error) {
-        if (capture && error.exit() != Exit::io) capture->finish();
+    } catch (const Error&) {
+        if (capture) finish_anyhow(*capture);
         throw;
     }
     if (capture) capture->finish();
