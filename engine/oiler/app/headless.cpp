@@ -47,8 +47,8 @@ void finish_anyhow(const Capture& capture) {
 /// Draws the frames that `header` is the manifest of into the folder; its `frames` is empty.
 void film(Playback& playback, Renderer& renderer, const Manifest& header, std::int64_t frames,
           const Options& options) {
-    std::optional<Capture>
-        capture;  // made with the first frame, so that failing to draw leaves none
+    // Made with the first frame, so that failing to draw leaves no folder.
+    std::optional<Capture> capture;
     Progress progress(options.quiet, "frames", frames);
     Pixels pixels;
     Input nobody;

@@ -40,10 +40,6 @@ void StateHash::add(std::span<const double> column) { add(std::as_bytes(column))
 
 std::uint64_t StateHash::value() const { return XXH3_64bits_digest(state_in(state_)); }
 
-std::uint64_t hash_bytes(std::span<const std::byte> bytes) {
-    return XXH3_64bits(bytes.data(), bytes.size());
-}
-
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 }  // namespace oiler

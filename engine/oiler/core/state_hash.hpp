@@ -31,9 +31,6 @@ private:
     alignas(64) std::array<std::byte, 576> state_;
 };
 
-/// The same hash of bytes that are all at hand.
-[[nodiscard]] std::uint64_t hash_bytes(std::span<const std::byte> bytes);
-
 /// Sixteen lower-case hexadecimal digits, the most significant first.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
