@@ -18,13 +18,14 @@ endforeach()
 # oiler_bits(NAME option...): the program bits_NAME, compiled with these options last.
 function(oiler_bits name)
   add_executable(bits_${name} ${bits_sources})
-  target_link_libraries(bits_${name} PRIVATE oiler_options fmt::fmt PkgConfig::bits_xxhash)
+  target_link_libraries(bits_${name} PRIVATE oiler_options fmt::fmt Eigen3::Eigen PkgConfig::bits_xxhash)
   target_compile_definitions(bits_${name} PRIVATE OILER_VERSION="${PROJECT_VERSION}")
   target_compile_options(bits_${name} PRIVATE -Wno-psabi ${ARGN})
 endfunction()
 
 pkg_check_modules(bits_xxhash REQUIRED IMPORTED_TARGET libxxhash)
 find_package(fmt REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
 
 set(bits_programs)
 foreach(variant "o0 -O0 -march=x86-64" "o3 -O3 -march=x86-64" "v4 -O3 -march=x86-64-v4")

@@ -15,9 +15,12 @@ World busy_world(const Method& method, Precision precision) {
     world.set_gravity({0, -9.81, 0});
     for (int i = 0; i < 100; ++i) {
         const double place = i;
-        world.spawn({.mass = 1 + place, .position = {place, 1, 0}},
-                    oiler::Spring{.stiffness = 2 + place, .damping = 1}, oiler::LinearDrag{0.1},
-                    oiler::QuadraticDrag{0.001 * place});
+        const oiler::Entity entity = world.spawn(
+            {.mass = 1 + place, .position = {place, 1, 0}},
+            oiler::Spring{.stiffness = 2 + place, .damping = 1}, oiler::LinearDrag{0.1});
+        if (method.order != oiler::exact_order)
+            world.attach(entity, oiler::QuadraticDrag{0.001 * place},
+                         oiler::CoilSpring{.stiffness = 3, .damping = 1, .rest_length = 1});
     }
     return world;
 }

@@ -2,118 +2,133 @@
 #pragma once
 
 #include <array>
-#include <concepts>
-#include <type_traits>
-#include <utility>
-#include <variant>
+#include <cmath>
+#include <limits>
 
-#include "oiler/sim/methods.hpp"
+#include "oiler/sim/plan.hpp"
 #include "oiler/sim/vec.hpp"
 
 namespace oiler {
 
-/// A splitting's stages times dt, in T.
-template <std::floating_point T>
-struct SplittingPlan {
-    struct ScaledStage {
-        Move move;
-        T tau;  ///< s
-    };
+// The methods, each written once: over one body or a batch of them (State and RowPhysics), or over
+// all bodies that links couple (MotionColumns and LinkedRows). A reader or a test hands over any
+// type with `accelerate(state, t)`; the engine's two add what their methods need beyond that.
 
-    SplittingPlan(const Splitting& rule, T step) {
-        for (const Stage& stage : rule.stages)
-            stages[count++] = {stage.move, static_cast<T>(stage.coefficient) * step};
-    }
-
-    std::array<ScaledStage, Splitting::most_stages> stages;
-    std::size_t count = 0;
+/// What treats damping apart from the kicks.
+template <class Physics, class State>
+concept Flowing = requires(Physics& physics, State& state, double t) {
+    physics.kick(state, t);
 };
 
-/// A tableau's coefficients times dt, in T.
-template <std::floating_point T>
-struct TableauPlan {
-    TableauPlan(const Tableau& rule, T step) : count(rule.b.size()) {
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t j = 0; j < i; ++j) a[i][j] = static_cast<T>(rule.a[next++]) * step;
-            b[i] = static_cast<T>(rule.b[i]) * step;
-            c[i] = static_cast<double>(rule.c[i]) * static_cast<double>(step);
-        }
-    }
-
-    std::array<std::array<T, Tableau::most_stages>, Tableau::most_stages> a;
-    std::array<T, Tableau::most_stages> b;
-    std::array<double, Tableau::most_stages> c;
-    std::size_t count;
-};
-
-/// A method made ready for one dt.
-template <std::floating_point T>
-using Plan = std::variant<SplittingPlan<T>, TableauPlan<T>>;
-
-template <std::floating_point T>
-[[nodiscard]] Plan<T> make_plan(const Method& method, T dt) {
-    return std::visit(
-        [&]<class Rule>(const Rule& rule) -> Plan<T> {
-            if constexpr (std::is_same_v<Rule, Splitting>)
-                return Plan<T>(std::in_place_type<SplittingPlan<T>>, rule, dt);
-            else
-                return Plan<T>(std::in_place_type<TableauPlan<T>>, rule, dt);
-        },
-        method.rule);
-}
-
-/// One step of a splitting from time `t` (s): kicks and drifts in turn. `Physics` has
-/// `accelerate(state, t)`.
-template <Number V, int Axes, class Physics>
-[[gnu::always_inline]] inline void advance(const SplittingPlan<Scalar<V>>& plan,
-                                           State<V, Axes>& state, const Physics& physics,
-                                           double t) {
+/// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
+/// whatever drag is not linear.
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const SplittingPlan<T>& plan, State& state,
+                                           Physics& physics, double t) {
+    constexpr bool flowing = Flowing<Physics, State>;
+    if constexpr (flowing) physics.slow_before(state, plan);
     for (std::size_t i = 0; i < plan.count; ++i) {
-        const V tau(plan.stages[i].tau);
-        if (plan.stages[i].move == Move::kick) {
-            state.v = state.v + physics.accelerate(state, t) * tau;
+        const auto& stage = plan.stages[i];
+        if (stage.move == Move::kick) {
+            if constexpr (flowing)
+                add_scaled(state.v, physics.kick(state, t), stage.tau);
+            else
+                add_scaled(state.v, physics.accelerate(state, t), stage.tau);
         } else {
-            state.x = state.x + state.v * tau;
-            t += static_cast<double>(plan.stages[i].tau);
+            if constexpr (flowing)
+                physics.drift(state, stage.flow, stage.tau);
+            else
+                add_scaled(state.x, state.v, stage.tau);
+            t += static_cast<double>(stage.tau);
         }
     }
+    if constexpr (flowing) physics.slow_after(state, plan);
 }
 
 /// The rates of change at some state: the article's Derivative.
-template <Number V, int Axes>
+template <class State>
 struct Derivative {
-    Vec<V, Axes> dx;
-    Vec<V, Axes> dv;
+    decltype(State::v) dx;
+    decltype(State::v) dv;
 };
 
-/// One step of a Runge–Kutta method from time `t` (s): each stage evaluates the derivatives where
-/// the stages before it lead, and their weighted sum moves the state.
-template <Number V, int Axes, class Physics>
-[[gnu::always_inline]] inline void advance(const TableauPlan<Scalar<V>>& plan,
-                                           State<V, Axes>& state, const Physics& physics,
-                                           double t) {
-    std::array<Derivative<V, Axes>, Tableau::most_stages> k;
-    for (std::size_t i = 0; i < plan.count; ++i) {
-        State<V, Axes> at = state;
-        for (std::size_t j = 0; j < i; ++j) {
-            const V tau(plan.a[i][j]);
-            at.x = at.x + k[j].dx * tau;
-            at.v = at.v + k[j].dv * tau;
-        }
-        k[i] = {at.v, physics.accelerate(at, t + plan.c[i])};
+/// The rates of change where the ones before, each for its own part of the step, lead: the
+/// article's evaluate.
+template <std::size_t N, std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline Derivative<State> evaluate(const State& initial,
+                                                         const std::array<Derivative<State>, N>& k,
+                                                         const std::array<T, N>& tau,
+                                                         std::size_t count, Physics& physics,
+                                                         double t) {
+    State at = initial;
+    for (std::size_t j = 0; j < count; ++j) {
+        add_scaled(at.x, k[j].dx, tau[j]);
+        add_scaled(at.v, k[j].dv, tau[j]);
     }
+    return {at.v, physics.accelerate(at, t)};
+}
+
+/// One step of a Runge–Kutta method from time `t` (s): the article's integrate, for any tableau.
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const TableauPlan<T>& plan, State& state,
+                                           Physics& physics, double t) {
+    std::array<Derivative<State>, Tableau::most_stages> k;
+    for (std::size_t i = 0; i < plan.count; ++i)
+        k[i] = evaluate(state, k, plan.a[i], i, physics, t + plan.c[i]);
     for (std::size_t i = 0; i < plan.count; ++i) {
-        const V tau(plan.b[i]);
-        state.x = state.x + k[i].dx * tau;
-        state.v = state.v + k[i].dv * tau;
+        add_scaled(state.x, k[i].dx, plan.b[i]);
+        add_scaled(state.v, k[i].dv, plan.b[i]);
     }
 }
 
-/// One step of any method over one state: what a reader or a test calls.
+inline constexpr int most_iterations = 64;
+
+/// One step of an implicit method from time `t` (s): Newton's iteration for the velocity w of the
+/// stage, w = v + τ·a(x + τ·w, w). It ends where a change is lost in the roundings of w, or, once
+/// small, no longer halves. Returns whether it did.
+template <std::floating_point T, class State, class Physics>
+[[nodiscard]] bool advance(const ImplicitPlan<T>& plan, State& state, Physics& physics, double t) {
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    const double stage_t = t + static_cast<double>(plan.tau);
+    State at = state;
+    T before = std::numeric_limits<T>::infinity();
+    for (int i = 0; i < most_iterations; ++i) {
+        at.x = state.x;
+        add_scaled(at.x, at.v, plan.tau);
+        auto residual = at.v;
+        add_scaled(residual, state.v, T(-1));
+        add_scaled(residual, physics.accelerate(at, stage_t), -plan.tau);
+        const auto change = physics.solve(at, plan.tau, residual);
+        add_scaled(at.v, change, T(-1));
+        const T size = largest(change);
+        const T scale = largest(at.v) + largest(state.v);
+        if (!std::isfinite(size)) return false;
+        const bool small = size <= std::sqrt(epsilon) * (scale + largest(at.x) / plan.tau);
+        if (size <= epsilon * scale || (small && size > before / 2)) {
+            add_scaled(state.x, at.v, plan.dt);
+            add_scaled(at.v, state.v, T(-1));
+            add_scaled(state.v, at.v, 1 / plan.a);
+            return true;
+        }
+        before = size;
+    }
+    return false;
+}
+
+/// One step along the exact motion under forces that are linear.
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const ExactPlan<T>&, State& state, Physics& physics,
+                                           double t) {
+    physics.respond(state, t);
+}
+
+/// One step of any explicit method over one state: what a reader or a test calls.
 template <std::floating_point T, int Axes, class Physics>
-void advance(const Plan<T>& plan, State<T, Axes>& state, const Physics& physics, double t) {
-    std::visit([&](const auto& rule) { advance(rule, state, physics, t); }, plan);
+void advance(const Plan<T>& plan, State<T, Axes>& state, Physics& physics, double t) {
+    if (const auto* splitting = std::get_if<SplittingPlan<T>>(&plan))
+        advance(*splitting, state, physics, t);
+    else
+        advance(std::get<TableauPlan<T>>(plan), state, physics, t);
 }
 
 }  // namespace oiler

@@ -42,12 +42,23 @@ public:
     [[gnu::always_inline]] friend Batch operator*(const Batch& a, const Batch& b) {
         return Batch(generate<packs>([&](auto i) { return Pack(a.pack_[i] * b.pack_[i]); }));
     }
+    [[gnu::always_inline]] friend Batch operator/(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) { return Pack(a.pack_[i] / b.pack_[i]); }));
+    }
     [[gnu::always_inline]] friend Batch operator-(const Batch& a) {
         return Batch(generate<packs>([&](auto i) { return Pack(-a.pack_[i]); }));
     }
     [[gnu::always_inline]] friend Batch sqrt(const Batch& a) {
         return Batch(
             generate<packs>([&](auto i) { return Pack(std::experimental::sqrt(a.pack_[i])); }));
+    }
+    /// a/b, and 0 in the lanes where b is 0.
+    [[gnu::always_inline]] friend Batch quotient_or_zero(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) {
+            Pack quotient = a.pack_[i] / b.pack_[i];
+            std::experimental::where(b.pack_[i] == Pack(T(0)), quotient) = Pack(T(0));
+            return quotient;
+        }));
     }
     /// No lane is infinite or NaN.
     [[gnu::always_inline]] friend bool all_finite(const Batch& a) {

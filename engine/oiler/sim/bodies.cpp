@@ -93,26 +93,33 @@ void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec3& v
     for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
 }
 
+/// Without those of `row`; `last` has moved there.
+template <class T>
+void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t last) {
+    std::erase_if(links, [&](const LinkRow<T>& link) { return link.a == row || link.b == row; });
+    for (LinkRow<T>& link : links) {
+        if (link.a == last) link.a = row;
+        if (link.b == last) link.b = row;
+    }
+}
+
 }  // namespace
 
 Bodies::Bodies(int axes, Precision precision) {
     require(axes >= 1 && axes <= 3, "a world has 1, 2 or 3 axes");
-    if (precision == Precision::single) {
-        if (axes == 1) columns_.emplace<Columns<float, 1>>();
-        if (axes == 2) columns_.emplace<Columns<float, 2>>();
-        if (axes == 3) columns_.emplace<Columns<float, 3>>();
-    } else {
-        if (axes == 1) columns_.emplace<Columns<double, 1>>();
-        if (axes == 2) columns_.emplace<Columns<double, 2>>();
-        if (axes == 3) columns_.emplace<Columns<double, 3>>();
-    }
+    const auto choose = [&]<class T>(T) {
+        if (axes == 1) columns_.emplace<Columns<T, 1>>();
+        if (axes == 2) columns_.emplace<Columns<T, 2>>();
+        if (axes == 3) columns_.emplace<Columns<T, 3>>();
+    };
+    if (precision == Precision::single) choose(float{});
+    if (precision == Precision::double_) choose(double{});
+    if (precision == Precision::extended) choose(0.0L);
 }
 
 int Bodies::axes() const { return static_cast<int>(columns_.index() % 3) + 1; }
 
-Precision Bodies::precision() const {
-    return columns_.index() < 3 ? Precision::single : Precision::double_;
-}
+Precision Bodies::precision() const { return static_cast<Precision>(columns_.index() / 3); }
 
 void Bodies::require_row(std::size_t row) const {
     require(row < size(), "there is no body in this row");
@@ -133,9 +140,10 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
                 if (force) make_present(stored, row);
                 if (stored.present) push_force(stored, force);
             });
-            push(columns.position, body.position);
-            push(columns.velocity, body.velocity);
+            push(columns.motion.x, body.position);
+            push(columns.motion.v, body.velocity);
             columns.mass.push(body.mass);
+            columns.forces_changed();
             return columns.size++;
         },
         columns_);
@@ -151,6 +159,7 @@ void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
                                make_present(stored, columns.size);
                                set_force(stored, row, *force);
                            });
+            columns.forces_changed();
         },
         columns_);
 }
@@ -159,15 +168,53 @@ void Bodies::remove(std::size_t row) {
     require_row(row);
     std::visit(
         [&](auto& columns) {
-            for (auto& column : columns.position) column.swap_remove(row);
-            for (auto& column : columns.velocity) column.swap_remove(row);
+            for (auto& column : columns.motion.x) column.swap_remove(row);
+            for (auto& column : columns.motion.v) column.swap_remove(row);
             columns.mass.swap_remove(row);
             const auto remove_from = [&](auto& stored) {
                 if (stored.present)
                     for (auto& parameter : stored.numbers) parameter.swap_remove(row);
             };
             std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
-            --columns.size;
+            remove_links(columns.links, row, --columns.size);
+            columns.forces_changed();
+        },
+        columns_);
+}
+
+void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
+    require_row(a);
+    require_row(b);
+    require(a != b, "a link is between two bodies");
+    Limits(precision(), axes()).check(link);
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            columns.links.push_back({a, b, static_cast<T>(link.stiffness),
+                                     static_cast<T>(link.damping),
+                                     static_cast<T>(link.rest_length)});
+            columns.forces_changed();
+        },
+        columns_);
+}
+
+std::size_t Bodies::link_count() const {
+    return std::visit([](const auto& columns) { return columns.links.size(); }, columns_);
+}
+
+Link Bodies::link_at(std::size_t i) const {
+    return std::visit(
+        [&](const auto& columns) {
+            const auto& link = columns.links[i];
+            return Link{static_cast<double>(link.stiffness), static_cast<double>(link.damping),
+                        static_cast<double>(link.rest_length)};
+        },
+        columns_);
+}
+
+std::array<std::size_t, 2> Bodies::linked_rows(std::size_t i) const {
+    return std::visit(
+        [&](const auto& columns) {
+            return std::array{columns.links[i].a, columns.links[i].b};
         },
         columns_);
 }
@@ -181,6 +228,7 @@ void Bodies::set_gravity(const Vec3& acceleration) {
             const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
             for (std::size_t i = 0; i < Axes; ++i)
                 stored.numbers[i] = Parameter<T>(g.axis[i], columns.size);
+            columns.forces_changed();
         },
         columns_);
 }
@@ -192,78 +240,32 @@ double Bodies::mass(std::size_t row) const {
 
 Vec3 Bodies::position(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.position, row); }, columns_);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); }, columns_);
 }
 
 Vec3 Bodies::velocity(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.velocity, row); }, columns_);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); }, columns_);
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
     require_row(row);
     Limits(precision(), axes()).check(position, "a position");
-    std::visit([&](auto& columns) { assign(columns.position, row, position); }, columns_);
+    std::visit(
+        [&](auto& columns) {
+            assign(columns.motion.x, row, position);
+            columns.state_changed();
+        },
+        columns_);
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
     require_row(row);
     Limits(precision(), axes()).check(velocity, "a velocity");
-    std::visit([&](auto& columns) { assign(columns.velocity, row, velocity); }, columns_);
-}
-
-void Bodies::step(const Method& method, const Steps& steps) {
-    if (const auto at = try_step(method, steps)) fail_diverged(*at, at->row, steps.rate, method);
-}
-
-std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {
-    return std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            return step_rows(columns, make_plan<T>(method, steps.rate.dt<T>()), steps);
-        },
-        columns_);
-}
-
-void fail_diverged(const Divergence& at, std::size_t body, const Rate& rate, const Method& method) {
-    fail(Exit::diverged,
-         "diverged at step {} (t = {} s): {} {} of body {} is no longer finite; "
-         "take a higher rate, or another method than {}",
-         at.tick, rate.time(at.tick), at.velocity ? "velocity" : "position",
-         axis_names[static_cast<std::size_t>(at.axis)], body, method.name);
-}
-
-Energy Bodies::energy() const {
-    constexpr std::size_t lanes = 8;
-    std::array<double, lanes> kinetic{};
-    std::array<double, lanes> potential{};
     std::visit(
-        [&](const auto& columns) {
-            for (std::size_t row = 0; row < columns.size; ++row) {
-                const auto state = state_of<double>(columns, row);
-                const double mass = columns.mass[row];
-                kinetic[row % lanes] += 0.5 * mass * squared_length(state.v);
-                potential[row % lanes] += mass * forces_of<double>(columns, row).potential(state);
-            }
-        },
-        columns_);
-    Energy sum;
-    for (std::size_t i = 0; i < lanes; ++i) {
-        sum.kinetic += kinetic[i];
-        sum.potential += potential[i];
-    }
-    return sum;
-}
-
-void Bodies::hash_into(StateHash& hash) const {
-    std::visit(
-        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            hash.add(columns.size);
-            hash.add(static_cast<std::uint64_t>(Axes));
-            hash.add(static_cast<std::uint64_t>(sizeof(T)));
-            for (const auto& column : columns.position)
-                hash.add(std::span<const T>(column.data(), columns.size));
-            for (const auto& column : columns.velocity)
-                hash.add(std::span<const T>(column.data(), columns.size));
+        [&](auto& columns) {
+            assign(columns.motion.v, row, velocity);
+            columns.state_changed();
         },
         columns_);
 }

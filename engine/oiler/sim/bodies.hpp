@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -43,8 +44,15 @@ public:
     void attach(std::size_t row, const Force&... force) {
         attach_given(row, given(force...));
     }
-    /// The last row takes the place of `row`.
+    /// The last row takes the place of `row`, in its links too; those of `row` go with it.
     void remove(std::size_t row);
+
+    /// A spring between two rows. Throws Error{usage} for a number that is not finite in the
+    /// columns' precision.
+    void link(std::size_t a, std::size_t b, const Link& link);
+    [[nodiscard]] std::size_t link_count() const;
+    [[nodiscard]] Link link_at(std::size_t i) const;
+    [[nodiscard]] std::array<std::size_t, 2> linked_rows(std::size_t i) const;
 
     /// For all bodies, m/s²; without this call no gravity is evaluated.
     void set_gravity(const Vec3& acceleration);
@@ -52,14 +60,26 @@ public:
     [[nodiscard]] double mass(std::size_t row) const;
     [[nodiscard]] Vec3 position(std::size_t row) const;
     [[nodiscard]] Vec3 velocity(std::size_t row) const;
+    /// With all digits of every precision; axes that the world does not have are 0.
+    [[nodiscard]] State<long double, 3> state(std::size_t row) const;
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
 
-    /// Throws Error{diverged} naming step, row and field when a number stops being finite; the
-    /// bodies are then of no further use.
+    /// Throws Error{usage} where the method cannot step these forces: see require_applicable; and
+    /// Error{diverged} naming step, row, field and likely cause when a number stops being finite;
+    /// the bodies are then of no further use.
     void step(const Method& method, const Steps& steps);
     /// The same for who names bodies in another way: returns where instead.
     [[nodiscard]] std::optional<Divergence> try_step(const Method& method, const Steps& steps);
+
+    /// Throws Error{usage} for the exact method where a force is not linear, or bodies are linked.
+    void require_applicable(const Method& method) const;
+
+    /// How often the forces on the first body were evaluated so far.
+    [[nodiscard]] std::int64_t evaluations() const;
+
+    /// The forces on row `row` per unit mass, as the step evaluates them.
+    [[nodiscard]] GivenForces forces_per_mass(std::size_t row) const;
 
     /// Summed in double in eight fixed lanes, so that it does not depend on the machine.
     [[nodiscard]] Energy energy() const;
@@ -82,16 +102,14 @@ private:
         return all;
     }
     void require_row(std::size_t row) const;
+    [[nodiscard]] double link_potential(std::size_t i) const;
     std::size_t add_given(const Body& body, const GivenForces& forces);
     void attach_given(std::size_t row, const GivenForces& forces);
 
     std::variant<Columns<float, 1>, Columns<float, 2>, Columns<float, 3>, Columns<double, 1>,
-                 Columns<double, 2>, Columns<double, 3>>
+                 Columns<double, 2>, Columns<double, 3>, Columns<long double, 1>,
+                 Columns<long double, 2>, Columns<long double, 3>>
         columns_;
 };
-
-/// Throws Error{diverged} that names step, body and field.
-[[noreturn]] void fail_diverged(const Divergence& at, std::size_t body, const Rate& rate,
-                                const Method& method);
 
 }  // namespace oiler

@@ -9,6 +9,7 @@
 namespace oiler {
 
 std::string_view name_of(Precision precision) {
+    if (precision == Precision::extended) return "long double";
     return precision == Precision::single ? "float" : "double";
 }
 
@@ -48,6 +49,14 @@ void Limits::check(const GivenForces& forces, double mass) const {
                    Force::fields());
     };
     std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
+}
+
+void Limits::check(const Link& link) const {
+    check(link.stiffness, "a link's stiffness");
+    check(link.damping, "a link's damping");
+    check(link.rest_length, "a link's rest length");
+    if (link.rest_length < 0)
+        fail(Exit::usage, "a link's rest length of {} m: give 0 or more", link.rest_length);
 }
 
 }  // namespace oiler

@@ -10,9 +10,13 @@
 
 namespace oiler {
 
-enum class Precision { single, double_ };
+enum class Precision {
+    single,
+    double_,
+    extended,  ///< long double: to measure the others against, not to play in
+};
 
-/// "float" or "double", as the options and files say it.
+/// "float" or "double", as the options and files say it, or "long double".
 [[nodiscard]] std::string_view name_of(Precision precision);
 
 /// A body as a user describes it. Axes that the world does not have must be zero.
@@ -20,6 +24,15 @@ struct Body {
     double mass = 1;  ///< kg, positive
     Vec3 position{};  ///< m
     Vec3 velocity{};  ///< m/s
+};
+
+/// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and the
+/// opposite on the second; nothing at d = 0. Without a rest length it is damped in all directions:
+/// −k·d − b·ḋ.
+struct Link {
+    double stiffness = 0;    ///< k, N/m
+    double damping = 0;      ///< b, N·s/m
+    double rest_length = 0;  ///< L, m
 };
 
 template <class List>
@@ -31,7 +44,8 @@ struct OptionalOf<std::tuple<Force...>> {
 /// At most one force of each kind, as a user writes them.
 using GivenForces = OptionalOf<ForceList<double, 3>>::type;
 
-/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag.
+/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag, CoilSpring,
+/// Attractor.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);
@@ -48,6 +62,7 @@ public:
     void check(const Body& body) const;
     /// Per unit mass, as they are stored.
     void check(const GivenForces& forces, double mass) const;
+    void check(const Link& link) const;
 
 private:
     void check(double number, std::string_view what) const;

@@ -1,117 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <new>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "oiler/sim/column.hpp"
 #include "oiler/sim/forces.hpp"
 
 namespace oiler {
-
-/// Columns end on a multiple of this many rows, so that a whole batch can be loaded from anywhere,
-/// whatever the machine's registers hold. The rows beyond the last body are scratch.
-inline constexpr std::size_t row_padding = 64;
-inline constexpr std::size_t column_alignment = 64;
-
-[[nodiscard]] constexpr std::size_t padded(std::size_t rows) {
-    return (rows + row_padding - 1) / row_padding * row_padding;
-}
-
-template <class T>
-struct AlignedAllocator {
-    using value_type = T;
-
-    AlignedAllocator() = default;
-    template <class U>
-    AlignedAllocator(const AlignedAllocator<U>&) {}
-
-    T* allocate(std::size_t count) {
-        return static_cast<T*>(
-            ::operator new(count * sizeof(T), std::align_val_t(column_alignment)));
-    }
-    void deallocate(T* at, std::size_t) {
-        ::operator delete(at, std::align_val_t(column_alignment));
-    }
-    friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
-};
-
-/// One number for each row, aligned and padded.
-template <class T>
-class Column {
-public:
-    [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] T* data() { return values_.data(); }
-    [[nodiscard]] const T* data() const { return values_.data(); }
-    T& operator[](std::size_t row) { return values_[row]; }
-    const T& operator[](std::size_t row) const { return values_[row]; }
-
-    void push(T value) {
-        values_.resize(padded(size_ + 1));
-        values_[size_++] = value;
-    }
-    /// The last row takes the place of `row`.
-    void swap_remove(std::size_t row) {
-        values_[row] = values_[--size_];
-        values_[size_] = T(0);
-    }
-    void clear_padding() { std::fill(values_.begin() + end(), values_.end(), T(0)); }
-
-private:
-    [[nodiscard]] std::ptrdiff_t end() const { return static_cast<std::ptrdiff_t>(size_); }
-
-    std::vector<T, AlignedAllocator<T>> values_;
-    std::size_t size_ = 0;
-};
-
-/// A number that belongs to each row, stored once while all rows agree on it and as a column from
-/// the first that differs: a scene pays for what varies.
-template <class T>
-class Parameter {
-public:
-    Parameter() = default;
-    /// `rows` rows that agree on `value`.
-    Parameter(T value, std::size_t rows) : size_(rows) { column_.push(value); }
-
-    [[nodiscard]] bool shared() const { return shared_; }
-    [[nodiscard]] const T* data() const { return column_.data(); }
-    T operator[](std::size_t row) const { return column_[shared_ ? 0 : row]; }
-
-    void push(T value) {
-        if (size_ == 0) {
-            *this = Parameter(value, 1);
-            return;
-        }
-        if (shared_ && differ(value, column_[0])) spread();
-        if (!shared_) column_.push(value);
-        ++size_;
-    }
-    void set(std::size_t row, T value) {
-        if (shared_ && differ(value, column_[0]) && size_ > 1) spread();
-        column_[shared_ ? 0 : row] = value;
-    }
-    void swap_remove(std::size_t row) {
-        --size_;
-        if (!shared_) column_.swap_remove(row);
-    }
-
-private:
-    /// 0 and −0 do: a body's bits do not depend on which of them a neighbour has.
-    static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
-
-    void spread() {
-        const T value = column_[0];
-        while (column_.size() < size_) column_.push(value);
-        shared_ = false;
-    }
-
-    Column<T> column_;
-    std::size_t size_ = 0;
-    bool shared_ = true;
-};
 
 /// A force's numbers for all rows.
 template <class Force, class T>
@@ -127,22 +26,106 @@ struct ForceColumnsOf<std::tuple<Force...>, T> {
     using type = std::tuple<ForceColumns<Force, T>...>;
 };
 
+/// A vector for each row.
+template <class T, int Axes>
+using VecColumns = std::array<Column<T>, Axes>;
+
+template <class T, std::size_t Axes>
+void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what, T s) {
+    for (std::size_t i = 0; i < Axes; ++i)
+        for (std::size_t row = 0; row < to[i].size(); ++row)
+            to[i][row] = to[i][row] + what[i][row] * s;
+}
+
+template <class T, std::size_t Axes>
+[[nodiscard]] T largest(const std::array<Column<T>, Axes>& columns) {
+    T size = 0;
+    for (const Column<T>& column : columns)
+        for (std::size_t row = 0; row < column.size(); ++row)
+            size = larger(size, std::abs(column[row]));
+    return size;
+}
+
+/// The states of all rows: what a step changes.
+template <std::floating_point T, int Axes>
+struct MotionColumns {
+    VecColumns<T, Axes> x;  ///< m
+    VecColumns<T, Axes> v;  ///< m/s
+};
+
+/// A spring between two rows, per the user's units: it is shared by two masses.
+template <std::floating_point T>
+struct LinkRow {
+    std::size_t a;
+    std::size_t b;
+    T stiffness;    ///< N/m
+    T damping;      ///< N·s/m
+    T rest_length;  ///< m
+};
+
+/// What the exact flows of one length do to each row, see Response.
+template <class T>
+struct FlowColumns {
+    Parameter<T> reach;
+    Parameter<T> sway;
+    Parameter<T> decay;
+};
+
+/// The exact flows that a plan needs, computed once for all steps with it.
+template <class T>
+struct Flows {
+    bool valid = false;
+    bool damped = false;             ///< else drifts are straight
+    std::vector<T> durations;        ///< s
+    std::vector<FlowColumns<T>> of;  ///< each duration
+    T half_step = 0;                 ///< s
+    Parameter<T> coil_loss;          ///< 1 − e^(−b·τ) over a half-step
+};
+
+template <class T>
+class LinkSolver;
+
+/// What steps of linked rows carry on from one to the next.
+template <class T, int Axes>
+struct LinkCache {
+    bool valid = false;           ///< until bodies, masses, forces or links change
+    std::vector<T> inverse_mass;  ///< 1/kg, of each row
+    T half_step = 0;              ///< s
+    std::vector<T> loss;  ///< of each link, 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
+    VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
+    bool field_valid = false;                     ///< until positions change, too
+    std::shared_ptr<const LinkSolver<T>> solver;  ///< where the equations are linear
+    T solver_tau = 0;                             ///< s
+};
+
 /// All bodies of a world: what every step touches in columns of their own, what it does not
 /// (masses) apart.
 template <std::floating_point T, int Axes>
 struct Columns {
     std::size_t size = 0;
-    std::array<Column<T>, Axes> position;  ///< m
-    std::array<Column<T>, Axes> velocity;  ///< m/s
-    Parameter<double> mass;                ///< kg
+    MotionColumns<T, Axes> motion;
+    Parameter<double> mass;  ///< kg
     typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
+    std::vector<LinkRow<T>> links;
+    /// How often the forces on the first row were evaluated.
+    std::int64_t evaluations = 0;
+    /// What a step makes of the forces, as long as they stay as they are.
+    Flows<T> flows;
+    LinkCache<T, Axes> link_cache;
+
+    void forces_changed() {
+        flows.valid = false;
+        link_cache.valid = false;
+        link_cache.field_valid = false;
+    }
+    void state_changed() { link_cache.field_valid = false; }
 };
 
 /// Row `row` as a value of the Number `V` (double for measuring, T for reading).
 template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] State<V, Axes> state_of(const Columns<T, Axes>& columns, std::size_t row) {
-    return {{generate<Axes>([&](auto i) { return V(columns.position[i][row]); })},
-            {generate<Axes>([&](auto i) { return V(columns.velocity[i][row]); })}};
+    return {{generate<Axes>([&](auto i) { return V(columns.motion.x[i][row]); })},
+            {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
 }
 
 /// The forces on row `row`, per unit mass, as the step evaluates them.

@@ -1,106 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
+#include <algorithm>
+#include <array>
 #include <tuple>
+#include <type_traits>
 
+#include "oiler/sim/force_types.hpp"
 #include "oiler/sim/vec.hpp"
 
 namespace oiler {
 
-// A force is one type: its numbers, the acceleration that it gives and the potential that it has,
-// if any. A user gives the numbers in the units below; what the columns hold and the methods
-// evaluate is the force per unit mass, so that no mass is loaded in a step.
-//
-// Every force has: `name`; `everywhere`, whether all bodies have the same one; `fields()`, its
-// numbers in the order in which columns hold them; `per_unit_mass(m)`; `accelerate(state, t)` in
-// m/s²; `potential(state)` in J/kg. `t` is in seconds.
-
-/// The same acceleration for every body. Potential −g·x, zero at the origin.
-template <Number V, int Axes>
-struct GravityForce {
-    Vec<V, Axes> acceleration{};  ///< m/s²
-
-    static constexpr std::string_view name = "gravity";
-    static constexpr bool everywhere = true;
-    static constexpr auto fields() { return std::tuple(&GravityForce::acceleration); }
-    constexpr GravityForce per_unit_mass(V) const { return *this; }
-
-    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>&, double) const {
-        return acceleration;
-    }
-    constexpr V potential(const State<V, Axes>& state) const {
-        V sum = acceleration[0] * state.x[0];
-        for (int i = 1; i < Axes; ++i) sum = sum + acceleration[i] * state.x[i];
-        return -sum;
-    }
-};
-
-/// A spring and damper from the body to a fixed anchor: force −k·d − b·v, d = x − anchor.
-template <Number V, int Axes>
-struct SpringForce {
-    Vec<V, Axes> anchor{};  ///< m
-    V stiffness{};          ///< k, N/m
-    V damping{};            ///< b, N·s/m
-
-    static constexpr std::string_view name = "spring";
-    static constexpr bool everywhere = false;
-    static constexpr auto fields() {
-        return std::tuple(&SpringForce::anchor, &SpringForce::stiffness, &SpringForce::damping);
-    }
-    constexpr SpringForce per_unit_mass(V mass) const {
-        return {anchor, stiffness / mass, damping / mass};
-    }
-
-    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
-                                                             double) const {
-        return (state.x - anchor) * -stiffness - state.v * damping;
-    }
-    constexpr V potential(const State<V, Axes>& state) const {
-        return V(0.5) * stiffness * squared_length(state.x - anchor);
-    }
-};
-
-/// Drag of slow motion through a thick fluid: force −b·v.
-template <Number V, int Axes>
-struct LinearDragForce {
-    V coefficient{};  ///< b, N·s/m
-
-    static constexpr std::string_view name = "linear_drag";
-    static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&LinearDragForce::coefficient); }
-    constexpr LinearDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
-
-    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
-                                                             double) const {
-        return state.v * -coefficient;
-    }
-    constexpr V potential(const State<V, Axes>&) const { return V(0); }
-};
-
-/// Drag of fast motion through air: force −c·|v|·v. Where any body has it, |v|² of all must be a
-/// number: speeds stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
-template <Number V, int Axes>
-struct QuadraticDragForce {
-    V coefficient{};  ///< c, N·s²/m²
-
-    static constexpr std::string_view name = "quadratic_drag";
-    static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&QuadraticDragForce::coefficient); }
-    constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
-
-    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
-                                                             double) const {
-        using std::sqrt;
-        return state.v * (-coefficient * sqrt(squared_length(state.v)));
-    }
-    constexpr V potential(const State<V, Axes>&) const { return V(0); }
-};
-
 /// Every force there is; the order is the order in which accelerations are summed.
 template <Number V, int Axes>
-using ForceList = std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
-                             QuadraticDragForce<V, Axes>>;
+using ForceList =
+    std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
+               QuadraticDragForce<V, Axes>, CoilSpringForce<V, Axes>, AttractorForce<V, Axes>>;
+
+/// Where a type stands in a list of types.
+template <class Type, class... All>
+constexpr std::size_t index_of(const std::tuple<All...>*) {
+    const std::array<bool, sizeof...(All)> same{std::is_same_v<Type, All>...};
+    return static_cast<std::size_t>(std::find(same.begin(), same.end(), true) - same.begin());
+}
 
 inline constexpr std::size_t force_count = std::tuple_size_v<ForceList<double, 1>>;
 
@@ -108,6 +30,8 @@ inline constexpr std::size_t force_count = std::tuple_size_v<ForceList<double, 1
 using Spring = SpringForce<double, 3>;
 using LinearDrag = LinearDragForce<double, 3>;
 using QuadraticDrag = QuadraticDragForce<double, 3>;
+using CoilSpring = CoilSpringForce<double, 3>;
+using Attractor = AttractorForce<double, 3>;
 
 /// Calls `f` with each number of a force, in the order of its fields, vectors axis by axis.
 template <class Force, class F>
@@ -138,26 +62,66 @@ struct Forces {
 
     /// The sum over the forces that are present, in the order of the list, m/s².
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) const {
-        Vec<V, Axes> sum;
-        bool started = false;
+        return sum([&](const auto& force)
+                       __attribute__((always_inline)) { return force.accelerate(state, t); });
+    }
+    /// The part of it that position alone decides.
+    [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& x, double t) const {
+        return sum([&](const auto& force) __attribute__((always_inline)) {
+            if constexpr (requires { force.field(x, t); }) return force.field(x, t);
+        });
+    }
+    [[nodiscard]] Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
+        Jacobian<V, Axes> total;
+        for_each_present([&](const auto& force) {
+            const Jacobian<V, Axes> one = force.jacobian(state);
+            total = {total.dx + one.dx, total.dv + one.dv};
+        });
+        return total;
+    }
+    /// The c of −c·v, 1/s.
+    [[nodiscard]] V damping_rate() const {
+        V total = V(0);
+        for_each_present([&](const auto& force) {
+            if constexpr (requires { force.damping_rate(); }) total = total + force.damping_rate();
+        });
+        return total;
+    }
+    /// Potential energy per unit mass, J/kg.
+    [[nodiscard]] V potential(const State<V, Axes>& state) const {
+        V total = V(0);
+        for_each_present([&](const auto& force) { total = total + force.potential(state); });
+        return total;
+    }
+
+    /// Null where the force is not there.
+    template <template <class, int> class Force>
+    [[nodiscard]] [[gnu::always_inline]] const Force<V, Axes>* find() const {
+        constexpr std::size_t at =
+            index_of<Force<V, Axes>>(static_cast<ForceList<V, Axes>*>(nullptr));
+        return present[at] ? &std::get<at>(list) : nullptr;
+    }
+
+private:
+    template <class F>
+    [[gnu::always_inline]] void for_each_present(F f) const {
         for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
-            if (present[i]) {
-                const Vec<V, Axes> a = std::get<i>(list).accelerate(state, t);
-                sum = started ? sum + a : a;
+            if (present[i]) f(std::get<i>(list));
+        });
+    }
+    /// Of what `f` returns for each force that is present; void is nothing.
+    template <class F>
+    [[gnu::always_inline]] Vec<V, Axes> sum(F f) const {
+        Vec<V, Axes> total{generate<Axes>([](auto) { return V(0); })};
+        bool started = false;
+        for_each_present([&](const auto& force) __attribute__((always_inline)) {
+            if constexpr (!std::is_void_v<decltype(f(force))>) {
+                const Vec<V, Axes> a = f(force);
+                total = started ? total + a : a;
                 started = true;
             }
         });
-        if (!started) sum = {generate<Axes>([](auto) { return V(0); })};
-        return sum;
-    }
-
-    /// Potential energy per unit mass, J/kg.
-    V potential(const State<V, Axes>& state) const {
-        V sum = V(0);
-        for_each_index<force_count>([&](auto i) {
-            if (present[i]) sum = sum + std::get<i>(list).potential(state);
-        });
-        return sum;
+        return total;
     }
 };
 

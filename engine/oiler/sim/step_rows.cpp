@@ -3,102 +3,126 @@
 
 #include <algorithm>
 
-#include "oiler/sim/batch.hpp"
+#include "oiler/sim/advance.hpp"
+#include "oiler/sim/row_physics.hpp"
 
 namespace oiler {
 namespace {
 
+/// What a rule steps through the columns with: a batch of rows, or one row where rows go ways of
+/// their own (an iteration ends when it ends) or T has no registers of several.
+template <class T, class Rule>
+struct StepsWith {
+    using type = Batch<T>;
+};
+template <class T>
+struct StepsWith<T, ImplicitPlan<T>> {
+    using type = T;
+};
+template <class Rule>
+struct StepsWith<long double, Rule> {
+    using type = long double;
+};
+template <>
+struct StepsWith<long double, ImplicitPlan<long double>> {
+    using type = long double;
+};
+
+template <class V>
+constexpr std::size_t lanes_of = 1;
+template <class T>
+constexpr std::size_t lanes_of<Batch<T>> = Batch<T>::lanes;
+
 static_assert(row_padding % Batch<float>::lanes == 0);
 
-template <class T, int Axes>
-State<Batch<T>, Axes> load_state(const Columns<T, Axes>& columns, std::size_t row) {
-    return {
-        {generate<Axes>([&](auto i) { return Batch<T>::load(columns.position[i].data() + row); })},
-        {generate<Axes>([&](auto i) { return Batch<T>::load(columns.velocity[i].data() + row); })}};
+template <std::floating_point T>
+bool all_finite(T number) {
+    return std::isfinite(number);
 }
-
-template <class T, int Axes>
-void store_state(const State<Batch<T>, Axes>& state, Columns<T, Axes>& columns, std::size_t row) {
-    for_each_index<Axes>([&](auto i) {
-        state.x.axis[i].store(columns.position[i].data() + row);
-        state.v.axis[i].store(columns.velocity[i].data() + row);
-    });
-}
-
-template <class T, int Axes>
-Forces<Batch<T>, Axes> load_forces(const Columns<T, Axes>& columns, std::size_t row) {
-    Forces<Batch<T>, Axes> forces;
-    for_each_index<force_count>([&](auto i) {
-        const auto& stored = std::get<i>(columns.forces);
-        forces.present[i] = stored.present;
-        std::size_t next = 0;
-        if (stored.present)
-            for_each_number(std::get<i>(forces.list), [&](Batch<T>& number) {
-                const Parameter<T>& parameter = stored.numbers[next++];
-                number = parameter.shared() ? Batch<T>(parameter.data()[0])
-                                            : Batch<T>::load(parameter.data() + row);
-            });
-    });
-    return forces;
-}
-
-template <class T, int Axes>
-bool all_finite(const State<Batch<T>, Axes>& state) {
+template <class V, int Axes>
+bool all_finite(const State<V, Axes>& state) {
     bool finite = true;
     for (int i = 0; i < Axes; ++i)
         finite = finite && all_finite(state.x[i]) && all_finite(state.v[i]);
     return finite;
 }
 
+template <class T>
+std::array<T, 1> lanes(const T& number) {
+    return {number};
+}
+template <class T>
+std::array<T, Batch<T>::lanes> lanes(const Batch<T>& batch) {
+    alignas(column_alignment) std::array<T, Batch<T>::lanes> lane;
+    batch.store(lane.data());
+    return lane;
+}
+
 /// The first row from `row` on of which `state` holds a number that is not finite. Lanes beyond the
 /// last body do not count.
-template <class T, int Axes>
-std::optional<Divergence> find_divergence(const State<Batch<T>, Axes>& state, std::size_t row,
+template <class V, int Axes>
+std::optional<Divergence> find_divergence(const State<V, Axes>& state, std::size_t row,
                                           std::size_t rows, std::int64_t tick) {
-    alignas(column_alignment) std::array<T, Batch<T>::lanes> lane;
+    using Of = Divergence::Of;
     std::optional<Divergence> found;
-    for (const bool velocity : {false, true})
+    for (const Of of : {Of::position, Of::velocity})
         for (int axis = 0; axis < Axes; ++axis) {
-            (velocity ? state.v : state.x)[axis].store(lane.data());
+            const auto lane = lanes((of == Of::velocity ? state.v : state.x)[axis]);
             const auto end =
-                lane.begin() + static_cast<std::ptrdiff_t>(std::min(rows - row, Batch<T>::lanes));
-            const auto bad = std::find_if(lane.begin(), end, [](T v) { return !std::isfinite(v); });
+                lane.begin() + static_cast<std::ptrdiff_t>(std::min(rows - row, lanes_of<V>));
+            const auto bad =
+                std::find_if(lane.begin(), end, [](auto v) { return !std::isfinite(v); });
             const std::size_t at = row + static_cast<std::size_t>(bad - lane.begin());
-            if (bad != end && (!found || at < found->row)) found = {tick, at, axis, velocity};
+            if (bad != end && (!found || at < found->row)) found = {tick, at, axis, of};
         }
     return found;
 }
 
-template <class T, int Axes, class Rule>
-std::optional<Divergence> replay(State<Batch<T>, Axes> state, const Forces<Batch<T>, Axes>& forces,
-                                 const Rule& rule, const Steps& steps, std::size_t row,
-                                 std::size_t rows) {
+/// One step of a block; whether there was one to be found.
+template <class Rule, class V, int Axes>
+[[gnu::always_inline]] inline bool step_once(const Rule& rule, State<V, Axes>& state,
+                                             RowPhysics<V, Axes>& physics, double t) {
+    if constexpr (std::is_same_v<Rule, ImplicitPlan<Scalar<V>>>) {
+        return advance(rule, state, physics, t);
+    } else {
+        advance(rule, state, physics, t);
+        return true;
+    }
+}
+
+template <class V, class T, int Axes, class Rule>
+std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Plan<T>& plan,
+                                 const Rule& rule, const Steps& steps, std::size_t row) {
+    RowPhysics<V, Axes> physics(columns, row, plan);
+    State<V, Axes> state = load<V>(columns.motion, row);
     for (std::int64_t j = 0; j < steps.count; ++j) {
-        advance(rule, state, forces, steps.rate.time(steps.first + j));
-        if (const auto found = find_divergence(state, row, rows, steps.first + j + 1)) return found;
+        const std::int64_t tick = steps.first + j + 1;
+        if (!step_once(rule, state, physics, steps.rate.time(tick - 1)))
+            return Divergence{tick, row, 0, Divergence::Of::solution};
+        if (const auto found = find_divergence(state, row, columns.size, tick)) return found;
     }
     return std::nullopt;
 }
 
-template <class T, int Axes, class Rule>
-std::optional<Divergence> step_block(Columns<T, Axes>& columns, const Rule& rule,
-                                     const Steps& steps, std::size_t row) {
-    const Forces<Batch<T>, Axes> forces = load_forces(columns, row);
-    State<Batch<T>, Axes> state = load_state(columns, row);
-    for (std::int64_t j = 0; j < steps.count; ++j)
-        advance(rule, state, forces, steps.rate.time(steps.first + j));
-    if (!all_finite(state))
-        if (const auto found =
-                replay(load_state(columns, row), forces, rule, steps, row, columns.size))
-            return found;
-    store_state(state, columns, row);
+template <class V, class T, int Axes, class Rule>
+std::optional<Divergence> step_block(Columns<T, Axes>& columns, const Plan<T>& plan,
+                                     const Rule& rule, const Steps& steps, std::size_t row) {
+    RowPhysics<V, Axes> physics(columns, row, plan);
+    State<V, Axes> state = load<V>(columns.motion, row);
+    bool solved = true;
+    for (std::int64_t j = 0; j < steps.count && solved; ++j)
+        solved = step_once(rule, state, physics, steps.rate.time(steps.first + j));
+    if (!solved || (!all_finite(state) && find_divergence(state, row, columns.size, 0)))
+        return replay<V>(columns, plan, rule, steps, row);
+    store(state, columns.motion, row);
+    if (row == 0) columns.evaluations += physics.evaluations();
     return std::nullopt;
 }
 
 /// Rows beyond the last body were stepped along; what they came to must not add up over the calls.
 template <class T, int Axes>
-void clear_padding(Columns<T, Axes>& columns) {
-    for (auto* vector : {&columns.position, &columns.velocity})
+void clear_padding(MotionColumns<T, Axes>& motion) {
+    for (auto* vector : {&motion.x, &motion.v})
         for (Column<T>& column : *vector) column.clear_padding();
 }
 
@@ -112,12 +136,13 @@ template <std::floating_point T, int Axes>
 std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
                                     const Steps& steps) {
     return std::visit(
-        [&](const auto& rule) {
+        [&]<class Rule>(const Rule& rule) {
+            using V = typename StepsWith<T, Rule>::type;
             std::optional<Divergence> first;
-            for (std::size_t row = 0; row < columns.size; row += Batch<T>::lanes)
-                if (const auto found = step_block(columns, rule, steps, row); found)
+            for (std::size_t row = 0; row < columns.size; row += lanes_of<V>)
+                if (const auto found = step_block<V>(columns, plan, rule, steps, row); found)
                     if (earlier(*found, first)) first = found;
-            clear_padding(columns);
+            clear_padding(columns.motion);
             return first;
         },
         plan);
@@ -131,6 +156,12 @@ template std::optional<Divergence> step_rows(Columns<double, 1>&, const Plan<dou
 template std::optional<Divergence> step_rows(Columns<double, 2>&, const Plan<double>&,
                                              const Steps&);
 template std::optional<Divergence> step_rows(Columns<double, 3>&, const Plan<double>&,
+                                             const Steps&);
+template std::optional<Divergence> step_rows(Columns<long double, 1>&, const Plan<long double>&,
+                                             const Steps&);
+template std::optional<Divergence> step_rows(Columns<long double, 2>&, const Plan<long double>&,
+                                             const Steps&);
+template std::optional<Divergence> step_rows(Columns<long double, 3>&, const Plan<long double>&,
                                              const Steps&);
 
 }  // namespace oiler

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "oiler/sim/advance.hpp"
 #include "oiler/sim/columns.hpp"
+#include "oiler/sim/plan.hpp"
 #include "oiler/sim/rate.hpp"
 
 namespace oiler {
@@ -15,21 +15,31 @@ struct Steps {
     Rate rate;
     std::int64_t first = 0;
     std::int64_t count = 1;
+    /// The method's own where there is none.
+    std::optional<Damping> damping{};
 };
 
-/// Where a run stopped being finite.
+/// Where a run stopped being finite, or an implicit step found no solution.
 struct Divergence {
+    enum class Of { position, velocity, solution };
+
     std::int64_t tick;  ///< the first after which it was not
     std::size_t row;
     int axis;
-    bool velocity;  ///< a velocity, else a position
+    Of of;
 };
 
-/// Steps all rows. Each block of rows is loaded into registers, stepped `count` times and stored,
-/// so that a run nobody looks into pays for memory once; one step at a time gives the same bits.
-/// Returns the earliest divergence, after which the columns are of no use.
+/// Steps all rows; their flows are prepared. Each block of rows is loaded into registers, stepped
+/// `count` times and stored, so that a run nobody looks into pays for memory once; one step at a
+/// time gives the same bits. Returns the earliest divergence, after which the columns are of no
+/// use.
 template <std::floating_point T, int Axes>
 [[nodiscard]] std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
                                                   const Steps& steps);
+
+/// The same for rows of which some are linked: all rows go stage by stage.
+template <std::floating_point T, int Axes>
+[[nodiscard]] std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
+                                                         const Plan<T>& plan, const Steps& steps);
 
 }  // namespace oiler

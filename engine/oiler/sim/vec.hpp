@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -18,6 +19,7 @@ concept Number = requires(V a, V b) {
     { a + b } -> std::convertible_to<V>;
     { a - b } -> std::convertible_to<V>;
     { a* b } -> std::convertible_to<V>;
+    { a / b } -> std::convertible_to<V>;
     { -a } -> std::convertible_to<V>;
 };
 
@@ -77,13 +79,44 @@ inline constexpr std::string_view axis_names = "xyz";
 /// that a world does not have are zero.
 using Vec3 = Vec<double, 3>;
 
-/// |a|², summed from the first axis to the last.
+/// Summed from the first axis to the last.
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr V dot(const Vec<V, Axes>& a, const Vec<V, Axes>& b) {
+    V sum = a[0] * b[0];
+    if constexpr (Axes > 1) sum = sum + a[1] * b[1];
+    if constexpr (Axes > 2) sum = sum + a[2] * b[2];
+    return sum;
+}
+
 template <Number V, int Axes>
 [[gnu::always_inline]] constexpr V squared_length(const Vec<V, Axes>& a) {
-    V sum = a[0] * a[0];
-    if constexpr (Axes > 1) sum = sum + a[1] * a[1];
-    if constexpr (Axes > 2) sum = sum + a[2] * a[2];
-    return sum;
+    return dot(a, a);
+}
+
+/// to += what·s: all that a kick or a drift does.
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr void add_scaled(Vec<V, Axes>& to, const Vec<V, Axes>& what,
+                                                 Scalar<V> s) {
+    to = to + what * V(s);
+}
+
+/// The larger one, and NaN where either is.
+template <std::floating_point T>
+[[nodiscard]] constexpr T larger(T a, T b) {
+    return b > a || b != b ? b : a;
+}
+
+template <std::floating_point T, int Axes>
+[[nodiscard]] T largest(const Vec<T, Axes>& a) {
+    T size = 0;
+    for (const T& number : a.axis) size = larger(size, std::abs(number));
+    return size;
+}
+
+/// a/b, and 0 where b is 0.
+template <std::floating_point T>
+[[gnu::always_inline]] constexpr T quotient_or_zero(T a, T b) {
+    return b == 0 ? T(0) : a / b;
 }
 
 /// Where a body is (m) and how fast it goes (m/s): the article's State.

@@ -85,10 +85,27 @@ std::uint32_t World::jumps(Entity entity) const {
 
 void World::step(std::int64_t count) {
     require(count >= 0, "steps only go forward");
-    const Steps steps{settings_.rate, tick_, count};
+    const Steps steps = next_steps(count);
     if (const auto at = bodies_.try_step(*settings_.method, steps))
-        fail_diverged(*at, entity_of_row(at->row).index, settings_.rate, *settings_.method);
+        fail_diverged(bodies_, *at, *settings_.method, steps, name_of_row());
     tick_ += count;
+}
+
+std::vector<std::string> World::preflight() const {
+    std::vector<std::string> lines;
+    for (const Risk& risk : oiler::preflight(bodies_, *settings_.method, next_steps(1)))
+        lines.push_back(describe(risk, *settings_.method, settings_.rate, name_of_row()));
+    return lines;
+}
+
+void World::link(Entity a, Entity b, const Link& link) { bodies_.link(row(a), row(b), link); }
+
+Steps World::next_steps(std::int64_t count) const {
+    return {settings_.rate, tick_, count, settings_.damping};
+}
+
+NameOfRow World::name_of_row() const {
+    return [this](std::size_t row) { return std::size_t{entity_of_row(row).index}; };
 }
 
 std::uint64_t World::state_hash() const {

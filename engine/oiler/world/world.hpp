@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "oiler/core/require.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "oiler/sim/preflight.hpp"
 #include "oiler/world/entity.hpp"
 #include "oiler/world/pool.hpp"
 
@@ -20,6 +23,7 @@ struct Settings {
     const Method* method = &find_method("semi_implicit_euler");
     Precision precision = Precision::double_;
     std::uint64_t seed = 0;
+    std::optional<Damping> damping{};  ///< the method's own where there is none
 };
 
 /// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
@@ -123,6 +127,8 @@ public:
     void attach(Entity entity, const Force&... force) {
         bodies_.attach(row(entity), force...);
     }
+    /// A spring between the bodies of two entities; it goes with either body.
+    void link(Entity a, Entity b, const Link& link);
     void remove_body(Entity entity);
     [[nodiscard]] bool has_body(Entity entity) const;
     /// The row of the entity's body; rows are in the order of adding, where the last
@@ -142,6 +148,10 @@ public:
 
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
     void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
+
+    /// A line for each spring and damper that the method cannot follow at the rate, with what would
+    /// cure it; the worst first.
+    [[nodiscard]] std::vector<std::string> preflight() const;
 
     /// Steps all bodies `count` times. One call with `count` and as many calls with 1 give the same
     /// bits. Throws Error{diverged}.
@@ -177,6 +187,9 @@ private:
         pools_.push_back({&tag<T>, std::make_unique<Pool<T>>()});
         return *find_pool<T>();
     }
+
+    [[nodiscard]] Steps next_steps(std::int64_t count) const;
+    [[nodiscard]] NameOfRow name_of_row() const;
 
     Settings settings_;
     std::int64_t tick_ = 0;

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace oiler {
+
+/// Columns end on a multiple of this many rows, so that a whole batch can be loaded from anywhere,
+/// whatever the machine's registers hold. The rows beyond the last body are scratch.
+inline constexpr std::size_t row_padding = 64;
+inline constexpr std::size_t column_alignment = 64;
+
+[[nodiscard]] constexpr std::size_t padded(std::size_t rows) {
+    return (rows + row_padding - 1) / row_padding * row_padding;
+}
+
+template <class T>
+struct AlignedAllocator {
+    using value_type = T;
+
+    AlignedAllocator() = default;
+    template <class U>
+    AlignedAllocator(const AlignedAllocator<U>&) {}
+
+    T* allocate(std::size_t count) {
+        return static_cast<T*>(
+            ::operator new(count * sizeof(T), std::align_val_t(column_alignment)));
+    }
+    void deallocate(T* at, std::size_t) {
+        ::operator delete(at, std::align_val_t(column_alignment));
+    }
+    friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
+};
+
+/// One number for each row, aligned and padded.
+template <class T>
+class Column {
+public:
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] T* data() { return values_.data(); }
+    [[nodiscard]] const T* data() const { return values_.data(); }
+    T& operator[](std::size_t row) { return values_[row]; }
+    const T& operator[](std::size_t row) const { return values_[row]; }
+
+    void push(T value) {
+        values_.resize(padded(size_ + 1));
+        values_[size_++] = value;
+    }
+    /// The last row takes the place of `row`.
+    void swap_remove(std::size_t row) {
+        values_[row] = values_[--size_];
+        values_[size_] = T(0);
+    }
+    void clear_padding() { std::fill(values_.begin() + end(), values_.end(), T(0)); }
+
+private:
+    [[nodiscard]] std::ptrdiff_t end() const { return static_cast<std::ptrdiff_t>(size_); }
+
+    std::vector<T, AlignedAllocator<T>> values_;
+    std::size_t size_ = 0;
+};
+
+/// A number that belongs to each row, stored once while all rows agree on it and as a column from
+/// the first that differs: a scene pays for what varies.
+template <class T>
+class Parameter {
+public:
+    Parameter() = default;
+    /// `rows` rows that agree on `value`.
+    Parameter(T value, std::size_t rows) : size_(rows) { column_.push(value); }
+
+    [[nodiscard]] bool shared() const { return shared_; }
+    [[nodiscard]] const T* data() const { return column_.data(); }
+    T operator[](std::size_t row) const { return column_[shared_ ? 0 : row]; }
+
+    void push(T value) {
+        if (size_ == 0) {
+            *this = Parameter(value, 1);
+            return;
+        }
+        if (shared_ && differ(value, column_[0])) spread();
+        if (!shared_) column_.push(value);
+        ++size_;
+    }
+    void set(std::size_t row, T value) {
+        if (shared_ && differ(value, column_[0]) && size_ > 1) spread();
+        column_[shared_ ? 0 : row] = value;
+    }
+    void swap_remove(std::size_t row) {
+        --size_;
+        if (!shared_) column_.swap_remove(row);
+    }
+
+private:
+    /// 0 and −0 do: a body's bits do not depend on which of them a neighbour has.
+    static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
+
+    void spread() {
+        const T value = column_[0];
+        while (column_.size() < size_) column_.push(value);
+        shared_ = false;
+    }
+
+    Column<T> column_;
+    std::size_t size_ = 0;
+    bool shared_ = true;
+};
+
+}  // namespace oiler

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/sim/preflight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "oiler/core/error.hpp"
+#include "oiler/sim/stability.hpp"
+
+namespace oiler {
+namespace {
+
+/// What may swing: a body on its springs, or two bodies on their link.
+struct Swing {
+    std::size_t row;
+    std::optional<std::size_t> linked;
+    Oscillation of;
+};
+
+/// The springs and dampers of each body, all in one.
+std::vector<Oscillation> own_oscillations(const Bodies& bodies) {
+    std::vector<Oscillation> own(bodies.size());
+    for (std::size_t row = 0; row < own.size(); ++row) {
+        const GivenForces forces = bodies.forces_per_mass(row);
+        if (const auto& spring = std::get<std::optional<Spring>>(forces))
+            own[row] = {spring->stiffness, spring->damping};
+        if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
+            own[row] = {own[row].k + coil->stiffness, own[row].c + coil->damping};
+        if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
+            own[row].c += drag->coefficient;
+    }
+    return own;
+}
+
+/// Bodies without links swing as their springs have it. No mode of linked ones is faster than the
+/// fastest link with all that pulls at its two ends: ω² ≤ Σk/m₁ + Σk/m₂ (Anderson and Morley,
+/// Eigenvalues of the Laplacian of a graph, 1985, with masses).
+std::vector<Swing> swings(const Bodies& bodies) {
+    std::vector<Oscillation> all = own_oscillations(bodies);
+    std::vector<bool> linked(bodies.size());
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        for (const std::size_t row : bodies.linked_rows(i)) {
+            const Link link = bodies.link_at(i);
+            all[row].k += link.stiffness / bodies.mass(row);
+            all[row].c += link.damping / bodies.mass(row);
+            linked[row] = true;
+        }
+    std::vector<Swing> found;
+    for (std::size_t row = 0; row < all.size(); ++row)
+        if (!linked[row]) found.push_back({row, std::nullopt, all[row]});
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const auto [a, b] = bodies.linked_rows(i);
+        found.push_back({a, b, {all[a].k + all[b].k, all[a].c + all[b].c}});
+    }
+    return found;
+}
+
+/// Whether the method follows the oscillation at dt and at shorter steps.
+class Region {
+public:
+    Region(const Method& method, Damping damping) : method_(method), damping_(damping) {}
+
+    /// The part of dt = 1 s below which all steps are stable, where that is less than 1.
+    std::optional<double> limit_below_one(const Oscillation& of) {
+        const auto key = std::pair(of.k, of.c);
+        const auto known = known_.find(key);
+        if (known != known_.end()) return known->second;
+        return known_[key] = measure(of);
+    }
+
+private:
+    std::optional<double> measure(const Oscillation& of) const {
+        std::vector<Oscillation> tried;
+        for (const double part : {1.0, 0.8, 0.6, 0.4, 0.2})
+            tried.push_back({of.k * part * part, of.c * part});
+        const auto matrices = step_matrices(method_, damping_, tried);
+        if (std::all_of(matrices.begin(), matrices.end(), is_stable)) return std::nullopt;
+        const double limit = stability_limit(method_, damping_, of);
+        return limit < 1 ? std::optional(limit) : std::nullopt;
+    }
+
+    const Method& method_;
+    Damping damping_;
+    std::map<std::pair<double, double>, std::optional<double>> known_;
+};
+
+/// The lowest rate that the limit leaves.
+std::int64_t rate_above(double limit, const Rate& rate) {
+    const double needed = static_cast<double>(rate.steps) / limit;
+    return static_cast<std::int64_t>(std::floor(needed / static_cast<double>(rate.seconds))) + 1;
+}
+
+std::string cause(const Bodies& bodies, const Divergence& at, const Method& method,
+                  const Steps& steps, const NameOfRow& name) {
+    const std::vector<Risk> risks = preflight(bodies, method, steps);
+    if (risks.empty()) return "take a higher rate, or another method";
+    const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
+        return risk.row == at.row || risk.linked == at.row;
+    });
+    return describe(own == risks.end() ? risks.front() : *own, method, steps.rate, name);
+}
+
+}  // namespace
+
+std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
+    const double dt = steps.rate.dt();
+    Region region(method, steps.damping.value_or(method.damping));
+    std::vector<Risk> risks;
+    for (const Swing& swing : swings(bodies)) {
+        const Oscillation of{swing.of.k * dt * dt, swing.of.c * dt};
+        if (of.k == 0 && of.c == 0) continue;
+        if (const auto limit = region.limit_below_one(of))
+            risks.push_back({swing.row, swing.linked, std::sqrt(of.k), of.c, *limit});
+    }
+    std::stable_sort(risks.begin(), risks.end(),
+                     [](const Risk& a, const Risk& b) { return a.limit < b.limit; });
+    return risks;
+}
+
+std::string describe(const Risk& risk, const Method& method, const Rate& rate,
+                     const NameOfRow& name) {
+    const bool swings = risk.omega_dt > 0;
+    const std::string who =
+        risk.linked
+            ? fmt::format("link of bodies {} and {}", name(risk.row), name(*risk.linked))
+            : fmt::format("{} of body {}", swings ? "spring" : "linear drag", name(risk.row));
+    const double size = swings ? risk.omega_dt : risk.damping_dt;
+    const std::string measure =
+        fmt::format("{} {} {:.4g}", swings ? "ω·dt" : "c·dt", risk.linked ? "up to" : "=", size) +
+        (swings && risk.damping_dt > 0
+             ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
+             : std::string());
+    if (risk.limit == 0)
+        return fmt::format("{}: {}, {} gains energy at any rate: take another, say velocity_verlet",
+                           who, measure, method.name);
+    return fmt::format("{}: {}, {} needs < {:.4g}: rate ≥ {} Hz, or implicit_euler", who, measure,
+                       method.name, risk.limit * size, rate_above(risk.limit, rate));
+}
+
+void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
+                   const Steps& steps, const NameOfRow& name) {
+    const std::string when =
+        fmt::format("diverged at step {} (t = {} s)", at.tick, steps.rate.time(at.tick));
+    if (at.of == Divergence::Of::solution)
+        fail(Exit::diverged,
+             "{}: {} found no solution of its equations for body {}; take a higher rate", when,
+             method.name, name(at.row));
+    fail(Exit::diverged, "{}: {} {} of body {} is no longer finite; {}", when,
+         at.of == Divergence::Of::velocity ? "velocity" : "position",
+         axis_names[static_cast<std::size_t>(at.axis)], name(at.row),
+         cause(bodies, at, method, steps, name));
+}
+
+}  // namespace oiler

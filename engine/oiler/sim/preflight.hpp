@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+
+/// A body, or two that are linked, whose springs and dampers a method cannot follow at a rate.
+struct Risk {
+    std::size_t row;
+    std::optional<std::size_t> linked;  ///< the other row
+    double omega_dt;                    ///< ω·dt; of linked bodies at most so much
+    double damping_dt;                  ///< c·dt, c = 2ζω
+    double limit;  ///< the part of dt below which all steps are stable, 0 where none is
+};
+
+/// How a body is called that stands in a row.
+using NameOfRow = std::function<std::size_t(std::size_t)>;
+
+/// Each body of which springs and dampers are outside of the method's region of stability, the
+/// worst first. It changes nothing.
+[[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,
+                                          const Steps& steps);
+
+/// "spring of body 3: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 74 Hz, or implicit_euler"
+[[nodiscard]] std::string describe(const Risk& risk, const Method& method, const Rate& rate,
+                                   const NameOfRow& name);
+
+/// Throws Error{diverged} that names step, body, field and the likely cause.
+[[noreturn]] void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
+                                const Steps& steps, const NameOfRow& name);
+
+}  // namespace oiler

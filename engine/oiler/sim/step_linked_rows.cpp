@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <type_traits>
+
+#include "oiler/sim/advance.hpp"
+#include "oiler/sim/link_force.hpp"
+#include "oiler/sim/link_solver.hpp"
+#include "oiler/sim/response.hpp"
+#include "oiler/sim/row_physics.hpp"
+#include "oiler/sim/step_rows.hpp"
+
+namespace oiler {
+namespace {
+
+/// All that a method asks of the forces on all rows and the links between them.
+template <std::floating_point T, int Axes>
+class LinkedRows {
+public:
+    using Vectors = VecColumns<T, Axes>;
+
+    LinkedRows(Columns<T, Axes>& columns, const Plan<T>& plan)
+        : columns_(columns),
+          plan_(plan),
+          cache_(columns.link_cache),
+          acceleration_(columns.motion.v) {
+        const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
+        if (splitting) damping_ = splitting->damping;
+        if (damping_ == Damping::in_kick) cache_.field_valid = false;
+        prepare(splitting ? splitting->half_step : T(0));
+    }
+
+    const Vectors& accelerate(const MotionColumns<T, Axes>& motion, double t) {
+        ++columns_.evaluations;
+        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+            store(physics.accelerate(load<T>(motion, row), t), acceleration_, row);
+        });
+        for (const LinkRow<T>& link : columns_.links)
+            push(link, LinkForce<T, Axes>(link).accelerate(between(motion, link)), acceleration_);
+        return acceleration_;
+    }
+
+    /// Where position alone decides it, the acceleration of the last kick holds until the next
+    /// drift, also in a later step.
+    const Vectors& kick(const MotionColumns<T, Axes>& motion, double t) {
+        if (damping_ == Damping::in_kick) return accelerate(motion, t);
+        if (!cache_.field_valid) evaluate_field(motion, t);
+        return cache_.field;
+    }
+
+    void drift(MotionColumns<T, Axes>& motion, std::size_t flow, T tau) {
+        cache_.field_valid = false;
+        if (damping_ == Damping::in_kick || !columns_.flows.damped)
+            add_scaled(motion.x, motion.v, tau);
+        else
+            change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
+                physics.drift(state, flow, tau);
+            });
+    }
+
+    void slow_before(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+        if (damping_ == Damping::in_kick) return;
+        change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
+            physics.slow_before(state, plan);
+        });
+        for (std::size_t i = 0; i < columns_.links.size(); ++i) slow(motion, i);
+    }
+    void slow_after(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+        if (damping_ == Damping::in_kick) return;
+        for (std::size_t i = columns_.links.size(); i-- > 0;) slow(motion, i);
+        change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
+            physics.slow_after(state, plan);
+        });
+    }
+
+    /// The changes of velocity that take `residual` away from w − v − τ·a(x + τ·w, w). Where all
+    /// forces are linear the matrix stays as it is.
+    [[nodiscard]] Vectors solve(const MotionColumns<T, Axes>& at, T tau, const Vectors& residual) {
+        if (!cache_.solver || cache_.solver_tau != tau || !linear()) {
+            cache_.solver =
+                std::make_shared<LinkSolver<T>>(columns_.size * Axes, velocity_entries(at, tau));
+            cache_.solver_tau = tau;
+        }
+        std::vector<T> right(columns_.size * Axes);
+        for (std::size_t i = 0; i < right.size(); ++i) right[i] = residual[i % Axes][i / Axes];
+        const std::vector<T> solution = cache_.solver->solve(right);
+        Vectors change = residual;
+        for (std::size_t i = 0; i < right.size(); ++i) change[i % Axes][i / Axes] = solution[i];
+        return change;
+    }
+
+private:
+    /// What holds as long as bodies, forces and links do.
+    void prepare(T half_step) {
+        if (cache_.valid && cache_.half_step == half_step) return;
+        cache_ = {};
+        cache_.half_step = half_step;
+        for (std::size_t row = 0; row < columns_.size; ++row)
+            cache_.inverse_mass.push_back(static_cast<T>(1 / columns_.mass[row]));
+        for (const LinkRow<T>& link : columns_.links) {
+            const T rate =
+                link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]);
+            cache_.loss.push_back(rate * oscillator_response(T(0), rate, half_step).reach);
+        }
+        cache_.valid = true;
+    }
+
+    template <class F>
+    void for_each_row(F f) {
+        for (std::size_t row = 0; row < columns_.size; ++row) {
+            RowPhysics<T, Axes> physics(columns_, row, plan_);
+            f(physics, row);
+        }
+    }
+    template <class F>
+    void change_each_row(MotionColumns<T, Axes>& motion, F f) {
+        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+            State<T, Axes> state = load<T>(motion, row);
+            f(physics, state);
+            store(state, motion, row);
+        });
+    }
+
+    static Vec<T, Axes> between(const Vectors& columns, const LinkRow<T>& link) {
+        return load<T>(columns, link.a) - load<T>(columns, link.b);
+    }
+    static State<T, Axes> between(const MotionColumns<T, Axes>& motion, const LinkRow<T>& link) {
+        return {between(motion.x, link), between(motion.v, link)};
+    }
+
+    /// Adds what a force on the link's first body and its opposite on the second do to `to`.
+    void push(const LinkRow<T>& link, const Vec<T, Axes>& force, Vectors& to) {
+        for (std::size_t i = 0; i < Axes; ++i) {
+            to[i][link.a] += force.axis[i] * cache_.inverse_mass[link.a];
+            to[i][link.b] -= force.axis[i] * cache_.inverse_mass[link.b];
+        }
+    }
+
+    void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
+        ++columns_.evaluations;
+        cache_.field = motion.x;
+        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+            store(physics.forces().field(load<T>(motion.x, row), t), cache_.field, row);
+        });
+        for (const LinkRow<T>& link : columns_.links)
+            push(link, LinkForce<T, Axes>(link).field(between(motion.x, link)), cache_.field);
+        cache_.field_valid = true;
+    }
+
+    /// A half-step of the damper of link `i` while nothing moves: exact for this one link.
+    void slow(MotionColumns<T, Axes>& motion, std::size_t i) {
+        const LinkRow<T>& link = columns_.links[i];
+        if (link.damping == 0) return;
+        const auto lost = LinkForce<T, Axes>(link).lost(between(motion, link), cache_.loss[i]);
+        const T both = cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b];
+        push(link, -lost * (1 / both), motion.v);
+    }
+
+    [[nodiscard]] bool linear() const {
+        bool all = true;
+        for_each_index<force_count>([&](auto i) {
+            using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
+            all = all && (Force::linear || !std::get<i>(columns_.forces).present);
+        });
+        for (const LinkRow<T>& link : columns_.links) all = all && link.rest_length == 0;
+        return all;
+    }
+
+    [[nodiscard]] std::vector<MatrixEntry<T>> velocity_entries(const MotionColumns<T, Axes>& at,
+                                                               T tau) {
+        std::vector<MatrixEntry<T>> entries;
+        const auto add = [&](std::size_t row, std::size_t column, const Matrix<T, Axes>& block) {
+            for (std::size_t i = 0; i < Axes; ++i)
+                for (std::size_t j = 0; j < Axes; ++j)
+                    entries.push_back({row * Axes + i, column * Axes + j, block.row[i].axis[j]});
+        };
+        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+            add(row, row, velocity_matrix(physics.forces().jacobian(load<T>(at, row)), T(1), tau));
+        });
+        for (const LinkRow<T>& link : columns_.links) {
+            const Matrix<T, Axes> block =
+                velocity_matrix(LinkForce<T, Axes>(link).jacobian(between(at, link)), T(0), tau);
+            const T a = cache_.inverse_mass[link.a];
+            const T b = cache_.inverse_mass[link.b];
+            add(link.a, link.a, block * a);
+            add(link.a, link.b, block * -a);
+            add(link.b, link.b, block * b);
+            add(link.b, link.a, block * -b);
+        }
+        return entries;
+    }
+
+    Columns<T, Axes>& columns_;
+    const Plan<T>& plan_;
+    LinkCache<T, Axes>& cache_;
+    Vectors acceleration_;
+    Damping damping_ = Damping::in_kick;
+};
+
+template <class T, int Axes>
+std::optional<Divergence> find_divergence(const MotionColumns<T, Axes>& motion, std::int64_t tick) {
+    using Of = Divergence::Of;
+    for (std::size_t row = 0; row < motion.x[0].size(); ++row)
+        for (const Of of : {Of::position, Of::velocity})
+            for (std::size_t axis = 0; axis < Axes; ++axis)
+                if (!std::isfinite((of == Of::velocity ? motion.v : motion.x)[axis][row]))
+                    return Divergence{tick, row, static_cast<int>(axis), of};
+    return std::nullopt;
+}
+
+}  // namespace
+
+template <std::floating_point T, int Axes>
+std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
+                                           const Steps& steps) {
+    LinkedRows<T, Axes> physics(columns, plan);
+    return std::visit(
+        [&]<class Rule>(const Rule& rule) -> std::optional<Divergence> {
+            for (std::int64_t j = 0; j < steps.count; ++j) {
+                const std::int64_t tick = steps.first + j + 1;
+                const double t = steps.rate.time(tick - 1);
+                if constexpr (std::is_same_v<Rule, ImplicitPlan<T>>) {
+                    if (!advance(rule, columns.motion, physics, t))
+                        return Divergence{tick, 0, 0, Divergence::Of::solution};
+                } else if constexpr (!std::is_same_v<Rule, ExactPlan<T>>) {
+                    advance(rule, columns.motion, physics, t);
+                }
+                if (const auto found = find_divergence(columns.motion, tick)) return found;
+            }
+            return std::nullopt;
+        },
+        plan);
+}
+
+template std::optional<Divergence> step_linked_rows(Columns<float, 1>&, const Plan<float>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<float, 2>&, const Plan<float>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<float, 3>&, const Plan<float>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 1>&, const Plan<double>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 2>&, const Plan<double>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 3>&, const Plan<double>&,
+                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<long double, 1>&,
+                                                    const Plan<long double>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<long double, 2>&,
+                                                    const Plan<long double>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<long double, 3>&,
+                                                    const Plan<long double>&, const Steps&);
+
+}  // namespace oiler
