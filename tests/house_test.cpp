@@ -34,7 +34,7 @@ const std::map<std::string, Names>& allowed() {
         {"picture", {"core"}},
         {"plot", {"core", "picture"}},
         {"scene", {"core", "sim", "world", "picture"}},
-        {"lab", {"core", "sim", "scene", "plot"}},
+        {"lab", {"core", "sim", "scene", "picture", "plot"}},
         {"platform", {"core"}},
         {"render", {"core", "picture"}},
         {"capture", {"core"}},

@@ -90,5 +90,97 @@ TEST(Plot, LabelsEveryTickAndTheAxes) {
             << words;
 }
 
+const Label& find(const Picture& picture, const std::string& text) {
+    return *std::ranges::find(picture.labels, text, &Label::text);
+}
+
+TEST(Plot, PutsTitleAndRemarkAboveTheLegendAndTheYLabel) {
+    Plot plot = with_curve({{0, 0}, {10, 1}});
+    plot.title = "Title";
+    plot.remark = "remark";
+    plot.y_label = "position, m";
+    Picture picture;
+    plot.draw(picture, {});
+    for (const char* above : {"Title", "remark"})
+        for (const char* below : {"position, m", "curve"})
+            EXPECT_GT(find(picture, above).at.y, find(picture, below).at.y + 11);
+    EXPECT_EQ(find(picture, "Title").at.x, plot.box.low.x);
+    EXPECT_EQ(find(picture, "remark").at.x, plot.box.high.x);
+}
+
+TEST(Plot, WrapsACaptionEvenlyWithinTheBox) {
+    Plot plot = square;
+    plot.x_label = "time, s";
+    plot.caption =
+        "Of two dozen words no line is longer than 200 units of canvas, at 10 units a letter.";
+    Picture picture;
+    plot.draw(picture, {});
+    const float axis_label = find(picture, "time, s").at.y;
+    std::string words;
+    std::vector<std::size_t> lengths;
+    for (const Label& label : picture.labels)
+        if (label.at.y < axis_label && !label.text.empty()) {
+            words += (words.empty() ? "" : " ") + label.text;
+            lengths.push_back(label.text.size());
+            EXPECT_EQ(label.at.x, plot.box.low.x);
+        }
+    EXPECT_EQ(words, plot.caption);
+    ASSERT_EQ(lengths.size(), 3U);
+    for (const std::size_t length : lengths) {
+        EXPECT_LT(length, 36U);
+        EXPECT_GT(length, 20U);
+    }
+}
+
+TEST(Plot, KeepsANumberTogetherWithItsUnitAndName) {
+    for (int letters = 1; letters < 60; ++letters) {
+        Plot plot = square;
+        plot.caption = std::string(static_cast<std::size_t>(letters), 'a') + " and t = 3.65 s then";
+        Picture picture;
+        plot.draw(picture, {});
+        EXPECT_TRUE(std::ranges::any_of(picture.labels, [](const Label& label) {
+            return label.text.find("t = 3.65 s") != std::string::npos;
+        })) << letters;
+    }
+}
+
+TEST(Plot, MarksThePointsWithinItsRangesAndItsLegend) {
+    Plot plot = with_curve({{-1, 0}, {0, 0}, {5, 0.5}, {6, 2}, {10, 1}});
+    Picture picture;
+    plot.draw(picture, {});
+    EXPECT_TRUE(picture.discs.empty());
+    plot.series[0].mark = Mark::disc;
+    plot.draw(picture, {});
+    ASSERT_EQ(picture.discs.size(), 4U);
+    EXPECT_GT(picture.discs[0].centre.y, plot.box.high.y);
+    EXPECT_EQ(picture.discs[1].centre, (Point{100, 100}));
+    EXPECT_EQ(picture.discs[2].centre, (Point{200, 125}));
+    EXPECT_EQ(picture.discs[3].centre, (Point{300, 150}));
+}
+
+TEST(Plot, MarksWithRingsThatLetNothingThrough) {
+    Plot plot = with_curve({{5, 0}});
+    plot.series[0].mark = Mark::ring;
+    Picture picture;
+    plot.draw(picture, {});
+    ASSERT_EQ(picture.discs.size(), 4U);
+    EXPECT_EQ(picture.discs[2].colour, (Colour{255, 0, 0}));
+    EXPECT_EQ(picture.discs[3].colour, picture.background);
+    EXPECT_LT(picture.discs[3].radius, picture.discs[2].radius);
+    EXPECT_EQ(picture.discs[3].centre, picture.discs[2].centre);
+}
+
+TEST(Plot, HasAsManyTicksAsItIsAskedFor) {
+    const auto labels = [](int x_ticks) {
+        Plot plot = square;
+        plot.x_ticks = x_ticks;
+        Picture picture;
+        plot.draw(picture, {});
+        return std::ranges::count(picture.labels, Align::centre, &Label::align);
+    };
+    EXPECT_EQ(labels(2), 3);
+    EXPECT_EQ(labels(10), 11);
+}
+
 }  // namespace
 }  // namespace oiler

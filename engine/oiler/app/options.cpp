@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
 #include <utility>
 
+#include "oiler/app/parse.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
 
 namespace oiler {
 namespace {
-
-constexpr int largest_side = 16384;
 
 /// The options as the command line gives them.
 struct Words {
@@ -20,43 +17,13 @@ struct Words {
     std::string size = "1280x720";
     std::string method;
     std::string precision;
+    std::string damping;
     std::int64_t rate = 0;
     std::int64_t frames = 0;
     std::int64_t steps = 0;
     int fps = 60;
     std::uint64_t seed = 0;
 };
-
-Size parse_size(const std::string& words) {
-    Size size;
-    const char* const end = words.data() + words.size();
-    const auto width = std::from_chars(words.data(), end, size.width);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, size.height);
-        const bool in_range = std::min(size.width, size.height) >= 1 &&
-                              std::max(size.width, size.height) <= largest_side;
-        if (height.ec == std::errc() && height.ptr == end && in_range) return size;
-    }
-    fail(Exit::usage, "--size {}: give WIDTHxHEIGHT, each from 1 to {}, such as 1280x720", words,
-         largest_side);
-}
-
-/// An option that takes a whole number in decimal digits: a leading 0 is no octal and 1e3 no
-/// number.
-template <class Whole>
-CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Whole low, Whole high,
-                       const std::string& help) {
-    const auto parse = [=, &target](const std::string& words) {
-        const char* const end = words.data() + words.size();
-        Whole value = 0;
-        const auto [last, error] = std::from_chars(words.data(), end, value);
-        if (error != std::errc() || last != end || value < low || value > high)
-            throw CLI::ValidationError(
-                fmt::format("{} {}: give a whole number from {} to {}", name, words, low, high));
-        target = value;
-    };
-    return app.add_option_function<std::string>(name, parse, help)->type_name("N");
-}
 
 void declare_drawing(CLI::App& app, Options& options, Words& words, const About& about) {
     app.add_flag("--headless", options.headless, "draw frames into a folder, without a window")
@@ -83,9 +50,12 @@ void declare_stepping(CLI::App& app, Words& words, const About& about) {
     words.method = about.method;
     words.precision = name_of(about.precision);
     words.rate = about.rate;
-    app.add_option("--method", words.method, "how to step: " + method_names())
+    app.add_option("--method", words.method,
+                   "how to step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
+                   "implicit_midpoint, exact, …; `oiler methods` lists all")
         ->type_name("NAME")
         ->capture_default_str();
+    add_damping(app, words.damping);
     add_whole<std::int64_t>(app, "--rate", words.rate, 1, 1'000'000, "steps per second: dt = 1/N s")
         ->default_str(std::to_string(about.rate));
     app.add_option("--precision", words.precision, "of positions and velocities: float, double")
@@ -152,6 +122,8 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
         .method = &find_method(words.method),
         .precision = words.precision == "float" ? Precision::single : Precision::double_,
         .seed = words.seed};
+    if (!words.damping.empty())
+        options.settings.damping = words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
     options.size = parse_size(words.size);
     if (words.surface == "osmesa") options.offscreen = Offscreen::osmesa;
     if (words.surface == "egl") options.offscreen = Offscreen::egl;
@@ -177,17 +149,8 @@ CommandLine parse_command_line(int argc, char** argv, const About& about) {
     declare_drawing(app, line.options, words, about);
     declare_stepping(app, words, about);
     declare_output(app, line.options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        return {{}, app.help()};
-    } catch (const CLI::CallForVersion&) {
-        return {{}, app.version() + "\n"};
-    } catch (const CLI::ParseError& error) {
-        std::string what = error.what();
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        fail(Exit::usage, "{} (see {} --help)", what, name);
-    }
+    line.text = parse(app, argc, argv);
+    if (!line.text.empty()) return line;
     line.options = collect(app, std::move(line.options), words, about);
     return line;
 }

@@ -30,6 +30,7 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
     const Json json{
         {"scene", report.scene},
         {"method", settings.method->name},
+        {"damping", name_of(settings.damping.value_or(settings.method->damping))},
         {"rate", settings.rate.steps},
         {"precision", name_of(settings.precision)},
         {"seed", settings.seed},

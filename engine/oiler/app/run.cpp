@@ -44,6 +44,8 @@ Exit play(const Options& options, const About& about, const MakeGame& make) {
     const Interrupt interrupt;
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<AnyGame> game = make(options.settings);
+    game->world().require_applicable();
+    for (const std::string& line : game->world().preflight()) remark(options.quiet, "{}", line);
     RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
     Recorder recorder(options.trace, options.energy, game->world());
     Playback playback(*game, recorder, options.headless);
@@ -64,18 +66,24 @@ Exit play(const Options& options, const About& about, const MakeGame& make) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, const About& about, const MakeGame& make) {
+int guard_main(std::string_view name, const std::function<Exit()>& program) {
     try {
         fill_closed_streams();
         require_ieee_arithmetic();
-        const CommandLine line = parse_command_line(argc, argv, about);
-        if (line.text.empty()) return static_cast<int>(play(line.options, about, make));
-        write_file("-", std::as_bytes(std::span(line.text)));
-        return static_cast<int>(Exit::done);
+        return static_cast<int>(program());
     } catch (const Error& error) {
-        say(fmt::format("{}: {}", about.name, error.what()));
+        say(fmt::format("{}: {}", name, error.what()));
         return static_cast<int>(error.exit());
     }
+}
+
+int run_program(int argc, char** argv, const About& about, const MakeGame& make) {
+    return guard_main(about.name, [&] {
+        const CommandLine line = parse_command_line(argc, argv, about);
+        if (line.text.empty()) return play(line.options, about, make);
+        write_file("-", std::as_bytes(std::span(line.text)));
+        return Exit::done;
+    });
 }
 
 }  // namespace oiler

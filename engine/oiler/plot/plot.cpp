@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "oiler/picture/palette.hpp"
@@ -15,7 +17,9 @@ namespace {
 
 constexpr float tick_size = 9;
 constexpr float label_size = 10;
-constexpr float title_size = 11;
+constexpr float title_size = 13;
+constexpr float caption_line = 14;
+constexpr float mark_radius = 2.6F;
 
 Polyline line(Point from, Point to, Colour colour, float width) {
     return {.points = {from, to}, .width = width, .colour = colour, .space = Space::canvas};
@@ -63,13 +67,13 @@ DataPoint on_canvas(const Plot& plot, DataPoint p) {
 
 void draw_grid(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
-    for (const double at : ticks(plot.x, 8)) {
+    for (const double at : ticks(plot.x, plot.x_ticks)) {
         const float x = plot.to_canvas({at, plot.y.low}).x;
         picture.polylines.push_back(line({x, box.low.y}, {x, box.high.y}, palette::pale, 0.75F));
         picture.labels.push_back(
             text({x, box.low.y - 11}, fmt::format("{:g}", at), tick_size, Align::centre));
     }
-    for (const double at : ticks(plot.y, 4)) {
+    for (const double at : ticks(plot.y, plot.y_ticks)) {
         const float y = plot.to_canvas({plot.x.low, at}).y;
         picture.polylines.push_back(line({box.low.x, y}, {box.high.x, y}, palette::pale, 0.75F));
         picture.labels.push_back(
@@ -79,32 +83,98 @@ void draw_grid(const Plot& plot, Picture& picture) {
     picture.polylines.push_back(line(box.low, {box.low.x, box.high.y}, palette::ink, 1));
 }
 
+/// How wide a letter is, in ems: a picture does not know its font, so this is DejaVu Sans, rounded.
+/// Bytes that continue a letter of UTF-8 have no width of their own.
+float width_of(char letter) {
+    const auto is_in = [&](std::string_view set) { return set.find(letter) != set.npos; };
+    if ((letter & 0xC0) == 0x80) return 0;
+    if (is_in("ijlI.,:;'!- ")) return 0.32F;
+    if (is_in("frt()/")) return 0.4F;
+    if (is_in("mMwW%")) return 1;
+    if ((letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z')) return 0.66F;
+    return 0.6F;
+}
+
+float width_of(std::string_view words, float size) {
+    float width = 0;
+    for (const char letter : words) width += size * width_of(letter);
+    return width;
+}
+
+/// The words of a text, those together that a line's end must not part: "t = 3.65 s" and "40 %".
+std::vector<std::string> unbreakable(const std::string& text) {
+    const auto binds = [](char c) { return c == '=' || (c >= '0' && c <= '9'); };
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) {
+        if (!parts.empty() && (binds(parts.back().back()) || binds(word.front())))
+            parts.back() += ' ' + word;
+        else
+            parts.push_back(word);
+    }
+    return parts;
+}
+
+std::vector<std::string> lines_of(const std::vector<std::string>& parts, float size, float width) {
+    std::vector<std::string> lines;
+    for (const std::string& part : parts) {
+        if (lines.empty() || width_of(lines.back() + ' ' + part, size) > width)
+            lines.push_back(part);
+        else
+            lines.back() += ' ' + part;
+    }
+    return lines;
+}
+
+/// As few lines as the width allows, and about equally long.
+std::vector<std::string> wrap(const std::string& text, float size, float width) {
+    const std::vector<std::string> parts = unbreakable(text);
+    std::vector<std::string> lines = lines_of(parts, size, width);
+    for (int percent = 99; percent > 0; --percent) {
+        std::vector<std::string> even =
+            lines_of(parts, size, width * static_cast<float>(percent) / 100);
+        if (even.size() > lines.size()) break;
+        lines = std::move(even);
+    }
+    return lines;
+}
+
 void draw_words(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
-    picture.labels.push_back(
-        text({box.low.x, box.high.y + 6}, plot.y_label, label_size, Align::left));
-    picture.labels.push_back(
-        text({box.high.x, box.low.y - 23}, plot.x_label, label_size, Align::right));
-    picture.labels.push_back(text({(box.low.x + box.high.x) / 2, box.high.y + 6}, plot.title,
-                                  title_size, Align::centre));
+    const auto put = [&](Point at, const std::string& words, float size, Align align) -> Label& {
+        return picture.labels.emplace_back(text(at, words, size, align));
+    };
+    put({box.low.x, box.high.y + 25}, plot.title, title_size, Align::left);
+    put({box.high.x, box.high.y + 25}, plot.remark, label_size, Align::right).colour =
+        palette::grey;
+    put({box.low.x, box.high.y + 6}, plot.y_label, label_size, Align::left);
+    put({box.high.x, box.low.y - 23}, plot.x_label, label_size, Align::right);
+    float y = box.low.y - 26;
+    for (const std::string& words : wrap(plot.caption, label_size, box.high.x - box.low.x))
+        put({box.low.x, y -= caption_line}, words, label_size, Align::left);
 }
 
-/// How many letters UTF-8 text has: its bytes without the continuations.
-float letters(const std::string& words) {
-    return static_cast<float>(
-        std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+void draw_mark(const Series& series, Point at, Picture& picture) {
+    if (series.mark == Mark::none) return;
+    const auto disc = [&](float radius, Colour colour) {
+        picture.discs.push_back(
+            {.centre = at, .radius = radius, .colour = colour, .space = Space::canvas});
+    };
+    disc(mark_radius, series.colour);
+    if (series.mark == Mark::ring) disc(mark_radius - 1, picture.background);
 }
 
-/// Names beside their curves' colours, from the right end of the title's line leftwards.
+/// Names beside their curves' colours, from the right end of the y label's line leftwards.
 void draw_legend(const Plot& plot, Picture& picture) {
     float right = plot.box.high.x;
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
         if (series->name.empty()) continue;
         Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
-        const float left = right - 0.56F * label_size * letters(series->name) - 4;
+        const float left = right - width_of(series->name, label_size) - 4;
         picture.labels.push_back(std::move(name));
         picture.polylines.push_back(line({left - 16, plot.box.high.y + 9.5F},
                                          {left, plot.box.high.y + 9.5F}, series->colour, 2.5F));
+        draw_mark(*series, {left - 8, plot.box.high.y + 9.5F}, picture);
         right = left - 28;
     }
 }
@@ -128,6 +198,15 @@ void draw_curve(const Plot& plot, const Series& series, ElementKey key, Picture&
     finish();
 }
 
+void draw_marks(const Plot& plot, const Series& series, Picture& picture) {
+    const auto within = [](double value, Range range) {
+        return value >= range.low && value <= range.high;
+    };
+    for (const DataPoint& at : series.points)
+        if (within(at.x, plot.x) && within(at.y, plot.y))
+            draw_mark(series, plot.to_canvas(at), picture);
+}
+
 }  // namespace
 
 void Plot::draw(Picture& picture, ElementKey key) const {
@@ -137,6 +216,7 @@ void Plot::draw(Picture& picture, ElementKey key) const {
     for (const Series& curve : series) {
         ++key.part;
         draw_curve(*this, curve, key, picture);
+        draw_marks(*this, curve, picture);
     }
 }
 

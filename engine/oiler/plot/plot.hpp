@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,27 +25,36 @@ struct DataPoint {
     double y;
 };
 
+/// What stands at each point of a curve, on the line through them.
+enum class Mark : std::uint8_t { none, disc, ring };
+
 /// One curve of a plot, and its line in the legend.
 struct Series {
     std::string name{};
     Colour colour{};
     std::vector<DataPoint> points{};
     float width = 1.5F;
+    Mark mark = Mark::none;
 };
 
 /// Curves over labelled axes, drawn into a box of the canvas; curves are cut at the box. Labels
-/// stand outside of the box: about 16 units above it, 26 below and 44 to its left.
+/// stand outside of the box: about 16 units above it, or 36 with a title; 26 below, and 14 more for
+/// each line of a caption; and 44 to its left.
 struct Plot {
     Box box{};
-    std::string title{};
+    std::string title{};    ///< on a line of its own, above that of the y label and the legend
+    std::string remark{};   ///< small, at the right end of the title's line
+    std::string caption{};  ///< below all else, wrapped to the width of the box
     std::string x_label{};
     std::string y_label{};
     Range x{};
     Range y{};
     std::vector<Series> series{};
+    int x_ticks = 8;  ///< about how many
+    int y_ticks = 4;
 
     /// `key.object` identifies the plot; a change of `key.jump`, say for other ranges, keeps the
-    /// picture from interpolating curves across it.
+    /// picture from interpolating curves across it. Marks are never interpolated.
     void draw(Picture& picture, ElementKey key) const;
 
     [[nodiscard]] Point to_canvas(DataPoint point) const;

@@ -101,7 +101,7 @@ template <std::floating_point T, class State, class Physics>
         const auto change = physics.solve(at, plan.tau, residual);
         add_scaled(at.v, change, T(-1));
         const T size = largest(change);
-        const T scale = largest(at.v) + largest(state.v);
+        const T scale = largest(at.v) + largest(state.v) + std::numeric_limits<T>::min() / epsilon;
         if (!std::isfinite(size)) return false;
         const bool small = size <= std::sqrt(epsilon) * (scale + largest(at.x) / plan.tau);
         if (size <= epsilon * scale || (small && size > before / 2)) {

@@ -7,8 +7,8 @@
 namespace oiler {
 namespace {
 
-template <class T, int Axes>
-Vec<T, Axes> narrow(const Vec3& given) {
+template <class T, int Axes, class V>
+Vec<T, Axes> narrow(const Vec<V, 3>& given) {
     return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
 }
 
@@ -87,8 +87,8 @@ void push(std::array<Column<T>, Axes>& columns, const Vec3& value) {
     for (std::size_t i = 0; i < Axes; ++i) columns[i].push(narrowed.axis[i]);
 }
 
-template <class T, std::size_t Axes>
-void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec3& value) {
+template <class T, std::size_t Axes, class V>
+void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec<V, 3>& value) {
     const auto narrowed = narrow<T, int{Axes}>(value);
     for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
 }
@@ -246,6 +246,20 @@ Vec3 Bodies::position(std::size_t row) const {
 Vec3 Bodies::velocity(std::size_t row) const {
     require_row(row);
     return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); }, columns_);
+}
+
+void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {
+    require_row(row);
+    const Limits limits(precision(), axes());
+    limits.check(narrow<double, 3>(state.x), "a position");
+    limits.check(narrow<double, 3>(state.v), "a velocity");
+    std::visit(
+        [&](auto& columns) {
+            assign(columns.motion.x, row, state.x);
+            assign(columns.motion.v, row, state.v);
+            columns.state_changed();
+        },
+        columns_);
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {

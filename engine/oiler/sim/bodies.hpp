@@ -62,6 +62,7 @@ public:
     [[nodiscard]] Vec3 velocity(std::size_t row) const;
     /// With all digits of every precision; axes that the world does not have are 0.
     [[nodiscard]] State<long double, 3> state(std::size_t row) const;
+    void set_state(std::size_t row, const State<long double, 3>& state);
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
 
@@ -72,8 +73,10 @@ public:
     /// The same for who names bodies in another way: returns where instead.
     [[nodiscard]] std::optional<Divergence> try_step(const Method& method, const Steps& steps);
 
-    /// Throws Error{usage} for the exact method where a force is not linear, or bodies are linked.
-    void require_applicable(const Method& method) const;
+    /// Throws Error{usage} where no such step can be taken: the exact method of forces that are not
+    /// linear or of linked bodies, and damping that a negative drift runs backwards until it
+    /// overflows.
+    void require_applicable(const Method& method, const Steps& steps) const;
 
     /// How often the forces on the first body were evaluated so far.
     [[nodiscard]] std::int64_t evaluations() const;
@@ -102,6 +105,7 @@ private:
         return all;
     }
     void require_row(std::size_t row) const;
+    void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
     std::size_t add_given(const Body& body, const GivenForces& forces);
     void attach_given(std::size_t row, const GivenForces& forces);

@@ -8,6 +8,14 @@
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {
+namespace {
+
+template <class T>
+Plan<T> plan_for(const Method& method, const Steps& steps) {
+    return make_plan<T>(method, steps.rate.dt<T>(), steps.damping.value_or(method.damping));
+}
+
+}  // namespace
 
 void Bodies::step(const Method& method, const Steps& steps) {
     if (const auto at = try_step(method, steps))
@@ -15,11 +23,10 @@ void Bodies::step(const Method& method, const Steps& steps) {
 }
 
 std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {
-    require_applicable(method);
+    require_forces_for(method);
     return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            const Plan<T> plan =
-                make_plan<T>(method, steps.rate.dt<T>(), steps.damping.value_or(method.damping));
+            const Plan<T> plan = plan_for<T>(method, steps);
             prepare_flows(columns, plan);
             return columns.links.empty() ? step_rows(columns, plan, steps)
                                          : step_linked_rows(columns, plan, steps);
@@ -27,7 +34,14 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
         columns_);
 }
 
-void Bodies::require_applicable(const Method& method) const {
+void Bodies::require_applicable(const Method& method, const Steps& steps) const {
+    require_forces_for(method);
+    std::visit([&]<class T, int Axes>(
+                   Columns<T, Axes> copy) { prepare_flows(copy, plan_for<T>(method, steps)); },
+               columns_);
+}
+
+void Bodies::require_forces_for(const Method& method) const {
     if (!std::holds_alternative<ExactFlow>(method.rule)) return;
     constexpr std::string_view remedy = "choose another method, such as rk4 or velocity_verlet";
     if (link_count() > 0)

@@ -75,9 +75,36 @@ Motion<T> linear_drag_motion(Motion<T> start, T acceleration, T c, T t) {
             start.v * std::exp(-z) + acceleration * t * phi1(z)};
 }
 
+template <class T>
+Motion<T> quadratic_fall(T g, T c, T t) {
+    const T terminal = std::sqrt(g / c);
+    const T z = g * t / terminal;
+    return {-(z + std::log1p(std::exp(-2 * z)) - std::log(T(2))) / c, -terminal * std::tanh(z)};
+}
+
+template <class T>
+State<T, 2> orbit(T gm, T distance, T speed, T t) {
+    const T a = 1 / (2 / distance - speed * speed / gm);
+    const T e = 1 - distance / a;
+    const T n = std::sqrt(gm / a) / a;
+    // Newton's iteration for E − e·sin E = M from above, where it cannot overshoot (Danby, 1988).
+    const T mean = n * t;
+    T eccentric = mean + e;
+    for (int i = 0; i < 64; ++i)
+        eccentric -= (eccentric - e * std::sin(eccentric) - mean) / (1 - e * std::cos(eccentric));
+    const T minor = a * std::sqrt((1 - e) * (1 + e));
+    const T rate = n / (1 - e * std::cos(eccentric));
+    return {{a * (std::cos(eccentric) - e), minor * std::sin(eccentric)},
+            {-a * rate * std::sin(eccentric), minor * rate * std::cos(eccentric)}};
+}
+
 template Motion<double> constant_acceleration(Motion<double>, double, double);
 template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);
 template Motion<double> linear_drag_motion(Motion<double>, double, double, double);
+template Motion<double> quadratic_fall(double, double, double);
+template State<double, 2> orbit(double, double, double, double);
+template Motion<long double> quadratic_fall(long double, long double, long double);
+template State<long double, 2> orbit(long double, long double, long double, long double);
 template Motion<long double> constant_acceleration(Motion<long double>, long double, long double);
 template Motion<long double> damped_oscillator(long double, long double, long double,
                                                Motion<long double>, long double);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "oiler/sim/vec.hpp"
+
 namespace oiler {
 
 // Exact motions along one axis, to measure methods against. They call the C library's exp, sin and
@@ -29,5 +31,16 @@ template <class T>
 /// projectile with linear drag, axis by axis; c = 0 is allowed.
 template <class T>
 [[nodiscard]] Motion<T> linear_drag_motion(Motion<T> start, T acceleration, T c, T t);
+
+/// A fall from rest under gravity g (m/s², downwards) and quadratic drag −c·|v|·v, c > 0 in 1/m,
+/// after `t` s; upwards is positive.
+template <class T>
+[[nodiscard]] Motion<T> quadratic_fall(T g, T c, T t);
+
+/// An orbit around an attractor gm (m³/s²) at the origin, `t` s after its nearest point, at
+/// (distance, 0) m with velocity (0, speed) m/s: an ellipse, so that speed² lies between
+/// gm/distance and twice that. By Kepler's equation.
+template <class T>
+[[nodiscard]] State<T, 2> orbit(T gm, T distance, T speed, T t);
 
 }  // namespace oiler

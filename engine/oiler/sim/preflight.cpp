@@ -56,33 +56,29 @@ std::vector<Swing> swings(const Bodies& bodies) {
     return found;
 }
 
-/// Whether the method follows the oscillation at dt and at shorter steps.
+/// Whether the method follows the oscillation at dt = 1 s and at shorter steps.
 class Region {
 public:
     Region(const Method& method, Damping damping) : method_(method), damping_(damping) {}
 
-    /// The part of dt = 1 s below which all steps are stable, where that is less than 1.
-    std::optional<double> limit_below_one(const Oscillation& of) {
-        const auto key = std::pair(of.k, of.c);
-        const auto known = known_.find(key);
-        if (known != known_.end()) return known->second;
-        return known_[key] = measure(of);
+    bool holds(const Oscillation& of) {
+        const auto [known, is_new] = known_.try_emplace(std::pair(of.k, of.c), false);
+        if (is_new) known->second = measure(of);
+        return known->second;
     }
 
 private:
-    std::optional<double> measure(const Oscillation& of) const {
+    [[nodiscard]] bool measure(const Oscillation& of) const {
         std::vector<Oscillation> tried;
         for (const double part : {1.0, 0.8, 0.6, 0.4, 0.2})
             tried.push_back({of.k * part * part, of.c * part});
         const auto matrices = step_matrices(method_, damping_, tried);
-        if (std::all_of(matrices.begin(), matrices.end(), is_stable)) return std::nullopt;
-        const double limit = stability_limit(method_, damping_, of);
-        return limit < 1 ? std::optional(limit) : std::nullopt;
+        return std::all_of(matrices.begin(), matrices.end(), is_stable);
     }
 
     const Method& method_;
     Damping damping_;
-    std::map<std::pair<double, double>, std::optional<double>> known_;
+    std::map<std::pair<double, double>, bool> known_;
 };
 
 /// The lowest rate that the limit leaves.
@@ -98,7 +94,7 @@ std::string cause(const Bodies& bodies, const Divergence& at, const Method& meth
     const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
         return risk.row == at.row || risk.linked == at.row;
     });
-    return describe(own == risks.end() ? risks.front() : *own, method, steps.rate, name);
+    return describe(own == risks.end() ? risks.front() : *own, method, steps, name);
 }
 
 }  // namespace
@@ -110,15 +106,15 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
     for (const Swing& swing : swings(bodies)) {
         const Oscillation of{swing.of.k * dt * dt, swing.of.c * dt};
         if (of.k == 0 && of.c == 0) continue;
-        if (const auto limit = region.limit_below_one(of))
-            risks.push_back({swing.row, swing.linked, std::sqrt(of.k), of.c, *limit});
+        if (!region.holds(of)) risks.push_back({swing.row, swing.linked, std::sqrt(of.k), of.c});
     }
+    const auto size = [](const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); };
     std::stable_sort(risks.begin(), risks.end(),
-                     [](const Risk& a, const Risk& b) { return a.limit < b.limit; });
+                     [&](const Risk& a, const Risk& b) { return size(a) > size(b); });
     return risks;
 }
 
-std::string describe(const Risk& risk, const Method& method, const Rate& rate,
+std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                      const NameOfRow& name) {
     const bool swings = risk.omega_dt > 0;
     const std::string who =
@@ -131,11 +127,13 @@ std::string describe(const Risk& risk, const Method& method, const Rate& rate,
         (swings && risk.damping_dt > 0
              ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
              : std::string());
-    if (risk.limit == 0)
+    const double limit = stability_limit(method, steps.damping.value_or(method.damping),
+                                         {risk.omega_dt * risk.omega_dt, risk.damping_dt});
+    if (limit == 0)
         return fmt::format("{}: {}, {} gains energy at any rate: take another, say velocity_verlet",
                            who, measure, method.name);
     return fmt::format("{}: {}, {} needs < {:.4g}: rate ≥ {} Hz, or implicit_euler", who, measure,
-                       method.name, risk.limit * size, rate_above(risk.limit, rate));
+                       method.name, limit * size, rate_above(limit, steps.rate));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,

@@ -16,7 +16,6 @@ struct Risk {
     std::optional<std::size_t> linked;  ///< the other row
     double omega_dt;                    ///< ω·dt; of linked bodies at most so much
     double damping_dt;                  ///< c·dt, c = 2ζω
-    double limit;  ///< the part of dt below which all steps are stable, 0 where none is
 };
 
 /// How a body is called that stands in a row.
@@ -28,7 +27,8 @@ using NameOfRow = std::function<std::size_t(std::size_t)>;
                                           const Steps& steps);
 
 /// "spring of body 3: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 74 Hz, or implicit_euler"
-[[nodiscard]] std::string describe(const Risk& risk, const Method& method, const Rate& rate,
+/// Finding the limit takes some tens of milliseconds.
+[[nodiscard]] std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                                    const NameOfRow& name);
 
 /// Throws Error{diverged} that names step, body, field and the likely cause.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/world/world.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
 namespace oiler {
 namespace {
 
@@ -91,10 +96,17 @@ void World::step(std::int64_t count) {
     tick_ += count;
 }
 
-std::vector<std::string> World::preflight() const {
+void World::require_applicable() const {
+    bodies_.require_applicable(*settings_.method, next_steps(1));
+}
+
+std::vector<std::string> World::preflight(std::size_t most) const {
+    const Steps steps = next_steps(1);
+    const std::vector<Risk> risks = oiler::preflight(bodies_, *settings_.method, steps);
     std::vector<std::string> lines;
-    for (const Risk& risk : oiler::preflight(bodies_, *settings_.method, next_steps(1)))
-        lines.push_back(describe(risk, *settings_.method, settings_.rate, name_of_row()));
+    for (const Risk& risk : std::span(risks).first(std::min(most, risks.size())))
+        lines.push_back(describe(risk, *settings_.method, steps, name_of_row()));
+    if (risks.size() > most) lines.push_back(fmt::format("and {} more", risks.size() - most));
     return lines;
 }
 

@@ -149,9 +149,11 @@ public:
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
     void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
 
+    /// Throws Error{usage} where the method cannot step these bodies, before anything is stepped.
+    void require_applicable() const;
     /// A line for each spring and damper that the method cannot follow at the rate, with what would
-    /// cure it; the worst first.
-    [[nodiscard]] std::vector<std::string> preflight() const;
+    /// cure it; the worst first, and after `most` only how many more.
+    [[nodiscard]] std::vector<std::string> preflight(std::size_t most = 5) const;
 
     /// Steps all bodies `count` times. One call with `count` and as many calls with 1 give the same
     /// bits. Throws Error{diverged}.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "oiler/app/console.hpp"
+#include "oiler/cli/commands.hpp"
+#include "oiler/cli/tables.hpp"
+
+namespace oiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "4.00/4.01", of positions and velocities.
+std::string slopes(const Certificate& certificate, std::string_view problem) {
+    for (const MeasuredOrder& order : certificate.orders) {
+        if (order.problem != problem || order.precision != Precision::extended) continue;
+        if (order.exact) return "exact";
+        return fmt::format("{:.2f}/{:.2f}", order.position, order.velocity);
+    }
+    return "-";
+}
+
+constexpr const char* row =
+    "{:<31} {:>5}  {:>9} {:>9} {:>9} {:>9}  {:>7} {:>7}  {:>8} {:>8}  {:>12}  {:>6} {:>17} {:>9}  "
+    "{}\n";
+
+std::string header() {
+    return fmt::format(fmt::runtime(row), "method", "order", "spring", "orbit", "damped", "dragged",
+                       "forces", "alone", "MᵀJM−J", "reversal", "stable ω·dt", "ω·dt", "energy",
+                       "trend", "");
+}
+
+std::string line_of(const Certificate& certificate) {
+    const LongRun& run = certificate.energy;
+    return fmt::format(
+        fmt::runtime(row), certificate.method->name, order_text(certificate.method->order),
+        slopes(certificate, "spring"), slopes(certificate, "orbit"),
+        slopes(certificate, "damped spring"), slopes(certificate, "fall with drag"),
+        fmt::format("{:.3f}", certificate.evaluations),
+        fmt::format("{:.3f}", certificate.single_evaluations),
+        fmt::format("{:.1e}", certificate.symplectic_defect),
+        fmt::format("{:.1e}", certificate.reversal_defect), limit_text(certificate.limit),
+        fmt::format("{:.3g}", run.omega_dt), fmt::format("{:.5g}…{:.5g}", run.lowest, run.highest),
+        fmt::format("{:.1e}", run.trend), certificate.failures.empty() ? "ok" : "FAILS");
+}
+
+std::string legend(std::int64_t steps) {
+    return fmt::format(
+        "\nspring, orbit, damped, dragged: slopes of the errors of positions/velocities over dt, "
+        "in\n"
+        "long double. forces: evaluations per step in a run; alone: where each step is on its "
+        "own.\n"
+        "MᵀJM−J: 0 for a symplectic step; reversal: 0 where stepping back retraces the way.\n"
+        "stable ω·dt: by the step matrix, and confirmed by runs 10⁻⁶ on both sides of it.\n"
+        "energy over that at the start, lowest…highest in a run of up to {} steps at the ω·dt "
+        "before\nit; trend: growth per step of what the method should conserve.\n",
+        steps);
+}
+
+Json to_json(const MeasuredOrder& order) {
+    return {{"problem", order.problem},
+            {"precision", name_of(order.precision)},
+            {"claimed", order.claimed == exact_order ? Json("exact") : Json(order.claimed)},
+            {"exact", order.exact},
+            {"position", number(order.position)},
+            {"velocity", number(order.velocity)}};
+}
+
+Json to_json(const Certificate& certificate) {
+    const LongRun& run = certificate.energy;
+    Json orders = Json::array();
+    for (const MeasuredOrder& order : certificate.orders) orders.push_back(to_json(order));
+    return {{"method", certificate.method->name},
+            {"damping", name_of(certificate.damping)},
+            {"orders", orders},
+            {"symplectic", certificate.method->symplectic},
+            {"symplectic_defect", number(certificate.symplectic_defect)},
+            {"symmetric", certificate.method->symmetric},
+            {"reversal_defect", number(certificate.reversal_defect)},
+            {"evaluations", certificate.evaluations},
+            {"single_evaluations", certificate.single_evaluations},
+            {"stability_limit", number(certificate.limit)},
+            {"stability_limit_confirmed", certificate.limit_confirmed},
+            {"energy",
+             {{"steps", run.steps},
+              {"omega_dt", run.omega_dt},
+              {"lowest", run.lowest},
+              {"highest", run.highest},
+              {"trend", number(run.trend)},
+              {"predicted", run.predicted},
+              {"allowed", run.allowed}}},
+            {"failures", certificate.failures}};
+}
+
+void print(const std::string& text) { write_file("-", std::as_bytes(std::span(text))); }
+
+}  // namespace
+
+Exit CertifyCommand::run() const {
+    const bool table = json != "-";
+    Json certificates = Json::array();
+    std::string failures;
+    if (table) print(header());
+    for (const Method* method : methods) {
+        const Certificate certificate = certify(*method, damping.value_or(method->damping), steps);
+        certificates.push_back(to_json(certificate));
+        if (table) print(line_of(certificate));
+        for (const std::string& failure : certificate.failures)
+            failures += fmt::format("{}: {}\n", method->name, failure);
+    }
+    if (table) print(legend(steps));
+    if (!json.empty()) write_json(json, certificates);
+    if (failures.empty()) return Exit::done;
+    failures.pop_back();
+    say(failures);
+    return Exit::comparison_failed;
+}
+
+}  // namespace oiler

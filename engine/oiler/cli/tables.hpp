@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "oiler/capture/file.hpp"
+#include "oiler/sim/methods.hpp"
+
+namespace oiler {
+
+// How the commands write numbers of methods.
+
+[[nodiscard]] inline std::string order_text(int order) {
+    return order == exact_order ? "exact" : fmt::format("{}", order);
+}
+
+[[nodiscard]] inline const char* yes_or_no(bool yes) { return yes ? "yes" : "no"; }
+
+/// Of ω·dt: ten digits, "none" for 0, "all" for infinity.
+[[nodiscard]] inline std::string limit_text(double limit) {
+    if (limit == 0) return "none";
+    return std::isinf(limit) ? "all" : fmt::format("{:.10g}", limit);
+}
+
+/// JSON has no infinity: "infinite", and null for what is not a number.
+[[nodiscard]] inline nlohmann::ordered_json number(double value) {
+    if (std::isnan(value)) return nullptr;
+    if (std::isinf(value)) return "infinite";
+    return value;
+}
+
+inline void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
+    const std::string text = json.dump(2) + "\n";
+    write_file(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace oiler
