@@ -46,6 +46,58 @@ TEST(Program, OsmesaAndEglDrawTheSamePixels) {
     EXPECT_EQ(frames[0], frames[1]);
 }
 
+// ω = √15 rad/s: at 1 Hz far beyond 2, and explicit Euler at 100 Hz beyond b/k = 1/150 s.
+TEST(Program, WarnsOfASpringThatTheMethodCannotFollow) {
+    const Outcome coarse = shell("spring_damper --steps 1 --rate 1");
+    EXPECT_EQ(coarse.exit, 0);
+    EXPECT_NE(coarse.err.find("spring of body 0: ω·dt = 3.873"), std::string::npos) << coarse.err;
+    EXPECT_NE(coarse.err.find("rate ≥ 2 Hz, or implicit_euler"), std::string::npos) << coarse.err;
+    const Outcome euler = shell("spring_damper --steps 1 --method explicit_euler");
+    EXPECT_NE(euler.err.find("rate ≥ 151 Hz"), std::string::npos) << euler.err;
+    for (const char* fine : {"--rate 2", "--rate 1 --method implicit_euler --quiet",
+                             "--rate 1 --quiet", "--rate 150 --method explicit_euler"})
+        EXPECT_EQ(shell(std::string("spring_damper --steps 1 ") + fine).err, "") << fine;
+}
+
+TEST(Program, NamesTheCauseWhereItDiverges) {
+    const Folder folder;
+    const Outcome run = shell("spring_damper --steps 5000 --rate 1 --quiet --trace " +
+                              quoted(folder / "trace.csv"));
+    EXPECT_EQ(run.exit, 5);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find("semi_implicit_euler needs < 1.974"), std::string::npos) << run.err;
+    // Tick 0 is in the trace, and the tick that diverged is not.
+    const std::string trace = text_of(folder / "trace.csv");
+    const auto tick = std::count(trace.begin(), trace.end(), '\n') - 1;
+    EXPECT_NE(run.err.find("diverged at step " + std::to_string(tick) + " "), std::string::npos)
+        << run.err;
+    EXPECT_EQ(trace.back(), '\n');
+}
+
+TEST(Program, RefusesAMethodThatCannotStepItsForcesBeforeItWrites) {
+    const Folder folder;
+    const Outcome run =
+        shell("projectile --method exact" + small + "--out " + quoted(folder / "o"));
+    EXPECT_EQ(run.exit, 2);
+    EXPECT_TRUE(is_one_line(run.err)) << run.err;
+    EXPECT_NE(run.err.find("quadratic_drag is not linear"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+}
+
+TEST(Program, PutsDampingWhereItIsTold) {
+    const auto position = [](const std::string& options) {
+        const Outcome run =
+            shell("spring_damper --quiet --steps 1000 --json - --trace /dev/null " + options);
+        const Json json = Json::parse(run.out);
+        return std::pair(json.at("damping").get<std::string>(),
+                         json.at("state_hash").get<std::string>());
+    };
+    EXPECT_EQ(position("").first, "kick");
+    EXPECT_EQ(position(""), position("--damping kick"));
+    EXPECT_NE(position("--damping drift").second, position("").second);
+    EXPECT_EQ(position("--method rk4").second, position("--method rk4 --damping kick").second);
+}
+
 TEST(Program, FramesAreFinePngFiles) {
     if (shell("command -v pngcheck").exit != 0) GTEST_SKIP() << "pngcheck is not installed";
     const Folder folder;

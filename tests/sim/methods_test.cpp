@@ -164,22 +164,13 @@ TEST(Methods, ConserveAreaWhenTheySaySo) {
     }
 }
 
-/// The reference's names of the methods that the article names.
-std::string_view name_here(const std::string& name) {
-    if (name == "semi_implicit_euler_kd") return "semi_implicit_euler";
-    if (name == "semi_implicit_euler_dk") return "semi_implicit_euler_drift_kick";
-    if (name == "verlet_velocity_kdk") return "velocity_verlet";
-    if (name == "verlet_position_dkd") return "position_verlet";
-    return name;
-}
-
 // To the last digit of long double, but for one whose 14 published digits leave the kicks' sum
 // 6e-15 too long; here its order conditions hold to 1e-25.
 TEST(Splittings, AreThePublishedOnes) {
     const auto published = reference("splittings");
     ASSERT_GE(published.size(), 27U);
     for (const auto& [name, entry] : published.items()) {
-        const Method& method = find_method(name_here(name));
+        const Method& method = find_method(method_named(name));
         const auto stages = std::get<Splitting>(method.rule).stages();
         ASSERT_EQ(stages.size(), entry.at("stages").size()) << name;
         const long double tolerance = name == "calvo_sanz_serna4" ? 2e-12L : 2e-19L;

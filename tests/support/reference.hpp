@@ -17,3 +17,12 @@ template <class T = double>
 T number(const nlohmann::json& text) {
     return static_cast<T>(std::strtold(text.get_ref<const std::string&>().c_str(), nullptr));
 }
+
+/// The engine's name of a splitting that the reference files name.
+inline std::string method_named(const std::string& reference_name) {
+    if (reference_name == "semi_implicit_euler_kd") return "semi_implicit_euler";
+    if (reference_name == "semi_implicit_euler_dk") return "semi_implicit_euler_drift_kick";
+    if (reference_name == "verlet_velocity_kdk") return "velocity_verlet";
+    if (reference_name == "verlet_position_dkd") return "position_verlet";
+    return reference_name;
+}

@@ -2,9 +2,7 @@
 #include "oiler/lab/certify.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
+#include <unistd.h>
 
 #include "oiler/app/console.hpp"
 #include "oiler/cli/commands.hpp"
@@ -25,41 +23,44 @@ std::string slopes(const Certificate& certificate, std::string_view problem) {
     return "-";
 }
 
-constexpr const char* row =
-    "{:<31} {:>5}  {:>9} {:>9} {:>9} {:>9}  {:>7} {:>7}  {:>8} {:>8}  {:>12}  {:>6} {:>17} {:>9}  "
-    "{}\n";
-
-std::string header() {
-    return fmt::format(fmt::runtime(row), "method", "order", "spring", "orbit", "damped", "dragged",
-                       "forces", "alone", "MᵀJM−J", "reversal", "stable ω·dt", "ω·dt", "energy",
-                       "trend", "");
+template <class... Cells>
+std::string row(const Cells&... cells) {
+    return fmt::format(
+        "{:<31} {:>5}  {:>9} {:>9} {:>9} {:>9}  {:>7} {:>7}  {:>8} {:>8}  {:>12}  {:>5} {:>8} "
+        "{:>8} "
+        "{:>8}  {}\n",
+        cells...);
 }
 
-std::string line_of(const Certificate& certificate) {
+std::string header() {
+    return row("method", "order", "spring", "orbit", "damped", "dragged", "forces", "alone",
+               "MᵀJM−J", "reversal", "stable ω·dt", "ω·dt", "lowest", "highest", "trend", "");
+}
+
+std::string row_of(const Certificate& certificate) {
     const LongRun& run = certificate.energy;
-    return fmt::format(
-        fmt::runtime(row), certificate.method->name, order_text(certificate.method->order),
-        slopes(certificate, "spring"), slopes(certificate, "orbit"),
-        slopes(certificate, "damped spring"), slopes(certificate, "fall with drag"),
-        fmt::format("{:.3f}", certificate.evaluations),
-        fmt::format("{:.3f}", certificate.single_evaluations),
-        fmt::format("{:.1e}", certificate.symplectic_defect),
-        fmt::format("{:.1e}", certificate.reversal_defect), limit_text(certificate.limit),
-        fmt::format("{:.3g}", run.omega_dt), fmt::format("{:.5g}…{:.5g}", run.lowest, run.highest),
-        fmt::format("{:.1e}", run.trend), certificate.failures.empty() ? "ok" : "FAILS");
+    const auto small = [](double number) { return fmt::format("{:.1e}", number); };
+    return row(certificate.method->name, order_text(certificate.method->order),
+               slopes(certificate, "spring"), slopes(certificate, "orbit"),
+               slopes(certificate, "damped spring"), slopes(certificate, "fall with drag"),
+               fmt::format("{:.3f}", certificate.evaluations),
+               fmt::format("{:.3f}", certificate.single_evaluations),
+               small(certificate.symplectic_defect), small(certificate.reversal_defect),
+               limit_text(certificate.limit), fmt::format("{:.3g}", run.omega_dt),
+               small(run.lowest - 1), small(run.highest - 1), small(run.trend),
+               certificate.failures.empty() ? "ok" : "FAILS");
 }
 
 std::string legend(std::int64_t steps) {
-    return fmt::format(
-        "\nspring, orbit, damped, dragged: slopes of the errors of positions/velocities over dt, "
-        "in\n"
-        "long double. forces: evaluations per step in a run; alone: where each step is on its "
-        "own.\n"
-        "MᵀJM−J: 0 for a symplectic step; reversal: 0 where stepping back retraces the way.\n"
-        "stable ω·dt: by the step matrix, and confirmed by runs 10⁻⁶ on both sides of it.\n"
-        "energy over that at the start, lowest…highest in a run of up to {} steps at the ω·dt "
-        "before\nit; trend: growth per step of what the method should conserve.\n",
-        steps);
+    return fmt::format(R"(
+spring, orbit, damped, dragged: slopes of the errors of positions/velocities over dt, in long
+double. forces: evaluations per step in a run; alone: where nothing is left of the step before.
+MᵀJM−J: 0 for a symplectic step; reversal: 0 where stepping back retraces the way. stable ω·dt: by
+the step matrix, and confirmed by runs 10⁻⁶ on both sides of it. lowest, highest: energy less that
+at the start, over it, in a run of up to {} steps at the ω·dt before them; trend: relative
+growth per step of what the method should conserve.
+)",
+                       steps);
 }
 
 Json to_json(const MeasuredOrder& order) {
@@ -105,11 +106,14 @@ Exit CertifyCommand::run() const {
     const bool table = json != "-";
     Json certificates = Json::array();
     std::string failures;
+    Progress progress(quiet || (table && isatty(STDOUT_FILENO) == 1), "methods",
+                      static_cast<std::int64_t>(methods.size()));
     if (table) print(header());
     for (const Method* method : methods) {
         const Certificate certificate = certify(*method, damping.value_or(method->damping), steps);
         certificates.push_back(to_json(certificate));
-        if (table) print(line_of(certificate));
+        if (table) print(row_of(certificate));
+        progress.show(static_cast<std::int64_t>(certificates.size()));
         for (const std::string& failure : certificate.failures)
             failures += fmt::format("{}: {}\n", method->name, failure);
     }

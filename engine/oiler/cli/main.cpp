@@ -66,7 +66,7 @@ class Program {
 public:
     Program() : app_("A fixed timestep, and what it costs", "oiler") {
         app_.set_version_flag("--version", "oiler " + std::string(version()));
-        app_.require_subcommand(1);
+        app_.require_subcommand(0, 1);
         declare_methods();
         declare_certify();
         declare_stability();
@@ -79,7 +79,11 @@ public:
             write_file("-", std::as_bytes(std::span(text)));
             return Exit::done;
         }
-        return app_.get_subcommands().front()->get_name() == "methods" ? methods_.run() : measure();
+        const auto commands = app_.get_subcommands();
+        if (commands.empty())
+            fail(Exit::usage,
+                 "give a command: methods, certify, stability or figures (see oiler --help)");
+        return run(commands.front()->get_name());
     }
 
 private:
@@ -118,21 +122,20 @@ private:
         add_quiet(*command, figures_.quiet);
     }
 
-    Exit measure() {
-        const std::string name = app_.get_subcommands().front()->get_name();
-        if (name == "certify") {
+    Exit run(const std::string& command) {
+        if (command == "methods") return methods_.run();
+        if (command == "certify") {
             certify_.methods = words_.chosen();
             certify_.damping = words_.treatment();
             return certify_.run();
         }
-        const Size size = parse_size(words_.size);
-        if (name == "stability") {
+        if (command == "stability") {
             stability_.methods = words_.chosen();
             stability_.damping = words_.treatment();
-            stability_.size = size;
+            stability_.size = parse_size(words_.size);
             return stability_.run();
         }
-        figures_.size = size;
+        figures_.size = parse_size(words_.size);
         return figures_.run();
     }
 

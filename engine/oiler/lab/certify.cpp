@@ -36,7 +36,7 @@ std::string wrong_property(std::string_view property, bool claimed, double defec
 }
 
 std::string wrong_evaluations(const Certificate& certificate) {
-    const int claimed = certificate.method->evaluations;
+    const int claimed = evaluations_with(*certificate.method, certificate.damping);
     if (claimed == 0 || std::abs(certificate.evaluations - claimed) < 0.01) return "";
     return fmt::format("{:.3f} force evaluations per step, claimed {}", certificate.evaluations,
                        claimed);

@@ -42,12 +42,13 @@ public:
         }
     }
 
-    /// The farthest that each comes in so many steps, looked at every `stride`.
-    std::vector<double> farthest(int steps, int stride) {
+    /// The farthest that each comes in so many looks.
+    std::vector<double> farthest(int looks, int least, int spread) {
         std::vector<double> most(omega_.size());
-        for (int step = 0; step < steps; step += stride) {
-            advance(stride);
-            for (std::size_t i = 0; i < most.size(); ++i) most[i] = std::max(most[i], look(i));
+        for (int i = 0; i < looks; ++i) {
+            advance(least + 7 * i % spread);
+            for (std::size_t cell = 0; cell < most.size(); ++cell)
+                most[cell] = std::max(most[cell], look(cell));
         }
         return most;
     }
@@ -90,9 +91,10 @@ std::vector<bool> bounded(const Method& method, Damping damping,
                           const std::vector<Oscillation>& cells, Precision precision) {
     Swings swings(method, damping, cells, precision);
     // One by one, until hardly any is left that could overflow between two looks.
-    swings.farthest(20, 1);
-    const std::vector<double> before = swings.farthest(1000, 20);
-    const std::vector<double> after = swings.farthest(1000, 20);
+    swings.farthest(20, 1, 1);
+    // After 13 to 23 steps each, so that a swing is not caught at the same phases again and again.
+    const std::vector<double> before = swings.farthest(55, 13, 11);
+    const std::vector<double> after = swings.farthest(55, 13, 11);
     std::vector<bool> found(cells.size());
     for (std::size_t i = 0; i < found.size(); ++i)
         found[i] = !swings.unbounded(i) && after[i] <= 1.05 * before[i];

@@ -33,7 +33,7 @@ struct StabilityRegion {
     std::vector<bool> bounded_float;
 };
 
-/// Simulates each cell's spring over 2000 steps: bounded is what in the second thousand comes no
+/// Simulates each cell's spring over 2000 steps: bounded is what in the second half comes no
 /// further than in the first, but for 5 %. An instability slower than that, below 5·10⁻⁵ a step, is
 /// not seen in a run so short.
 [[nodiscard]] StabilityRegion measure_region(const Method& method, Damping damping,

@@ -54,11 +54,11 @@ public:
     }
     /// a/b, and 0 in the lanes where b is 0.
     [[gnu::always_inline]] friend Batch quotient_or_zero(const Batch& a, const Batch& b) {
-        return Batch(generate<packs>([&](auto i) {
-            Pack quotient = a.pack_[i] / b.pack_[i];
-            std::experimental::where(b.pack_[i] == Pack(T(0)), quotient) = Pack(T(0));
-            return quotient;
-        }));
+        return quotient_where_not(b, a, b);
+    }
+    /// a/b, and 0 in the lanes where a is 0.
+    [[gnu::always_inline]] friend Batch quotient_unless_nothing(const Batch& a, const Batch& b) {
+        return quotient_where_not(a, a, b);
     }
     /// No lane is infinite or NaN.
     [[gnu::always_inline]] friend bool all_finite(const Batch& a) {
@@ -69,6 +69,15 @@ public:
     }
 
 private:
+    [[gnu::always_inline]] static Batch quotient_where_not(const Batch& zero, const Batch& a,
+                                                           const Batch& b) {
+        return Batch(generate<packs>([&](auto i) {
+            Pack quotient = a.pack_[i] / b.pack_[i];
+            std::experimental::where(zero.pack_[i] == Pack(T(0)), quotient) = Pack(T(0));
+            return quotient;
+        }));
+    }
+
     [[gnu::always_inline]] explicit Batch(const std::array<Pack, packs>& pack) : pack_(pack) {}
 
     std::array<Pack, packs> pack_;

@@ -186,7 +186,10 @@ void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     require_row(a);
     require_row(b);
     require(a != b, "a link is between two bodies");
-    Limits(precision(), axes()).check(link);
+    const Limits limits(precision(), axes());
+    limits.check(link);
+    for (const std::size_t row : {a, b})
+        limits.check(1 / mass(row), "the inverse mass of a linked body");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             columns.links.push_back({a, b, static_cast<T>(link.stiffness),

@@ -64,9 +64,9 @@ public:
     void check(const GivenForces& forces, double mass) const;
     void check(const Link& link) const;
 
-private:
     void check(double number, std::string_view what) const;
 
+private:
     double largest_;
     int axes_;
 };

@@ -128,9 +128,10 @@ template <Number V, std::floating_point T, int Axes>
             {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
 }
 
-/// The forces on row `row`, per unit mass, as the step evaluates them.
-template <Number V, std::floating_point T, int Axes>
-[[nodiscard]] Forces<V, Axes> forces_of(const Columns<T, Axes>& columns, std::size_t row) {
+/// The forces on some rows, per unit mass, of which `read` makes each number of its Parameter.
+template <Number V, std::floating_point T, int Axes, class Read>
+[[nodiscard]] [[gnu::always_inline]] inline Forces<V, Axes> read_forces(
+    const Columns<T, Axes>& columns, Read read) {
     Forces<V, Axes> forces;
     for_each_index<force_count>([&](auto i) {
         const auto& stored = std::get<i>(columns.forces);
@@ -138,9 +139,16 @@ template <Number V, std::floating_point T, int Axes>
         std::size_t next = 0;
         if (stored.present)
             for_each_number(std::get<i>(forces.list),
-                            [&](V& number) { number = V(stored.numbers[next++][row]); });
+                            [&](V& number) { number = read(stored.numbers[next++]); });
     });
     return forces;
+}
+
+/// Those on row `row`, as the step evaluates them.
+template <Number V, std::floating_point T, int Axes>
+[[nodiscard]] Forces<V, Axes> forces_of(const Columns<T, Axes>& columns, std::size_t row) {
+    return read_forces<V>(columns,
+                          [&](const Parameter<T>& parameter) { return V(parameter[row]); });
 }
 
 }  // namespace oiler

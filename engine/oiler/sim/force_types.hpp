@@ -124,7 +124,9 @@ struct QuadraticDragForce {
     [[gnu::always_inline]] constexpr void slow(State<V, Axes>& state, const V& tau) const {
         using std::sqrt;
         const V speed = sqrt(squared_length(state.v));
-        state.v = state.v * (V(1) / (V(1) + coefficient * speed * tau));
+        // Not a number where the speed is none, instead of rest.
+        const V nothing = speed - speed;
+        state.v = state.v * (V(1) / (V(1) + coefficient * speed * tau) + nothing);
     }
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         using std::sqrt;
@@ -225,7 +227,9 @@ struct AttractorForce {
         using std::sqrt;
         const Vec<V, Axes> d = x - centre;
         const V squared = squared_length(d);
-        return d * (-gm / (squared * sqrt(squared)));
+        const V cubed = squared * sqrt(squared);
+        // Not a number where the cube is none, instead of no attraction.
+        return d * ((cubed - cubed) - quotient_unless_nothing(gm, cubed));
     }
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
                                                              double t) const {
@@ -234,11 +238,11 @@ struct AttractorForce {
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         using M = Matrix<V, Axes>;
         const Direction<V, Axes> d(state.x - centre);
-        const V pull = gm / (d.length * d.length * d.length);
+        const V pull = quotient_unless_nothing(gm, d.length * d.length * d.length);
         return {M::outer(d.unit, d.unit * (V(3) * pull)) - M::scalar(pull), {}};
     }
     constexpr V potential(const State<V, Axes>& state) const {
-        return -gm / Direction<V, Axes>(state.x - centre).length;
+        return -quotient_unless_nothing(gm, Direction<V, Axes>(state.x - centre).length);
     }
 };
 

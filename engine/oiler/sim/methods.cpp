@@ -363,6 +363,13 @@ std::string method_names() {
 
 std::string_view name_of(Damping damping) { return damping == Damping::in_kick ? "kick" : "drift"; }
 
+int evaluations_with(const Method& method, Damping damping) {
+    const auto* const splitting = std::get_if<Splitting>(&method.rule);
+    const bool shares = splitting && splitting->stages().front().move == Move::kick &&
+                        splitting->stages().back().move == Move::kick;
+    return method.evaluations + (shares && damping == Damping::in_kick ? 1 : 0);
+}
+
 int damped_order(const Method& method, Damping damping) {
     const bool split = std::holds_alternative<Splitting>(method.rule);
     return split && damping == Damping::in_kick ? 1 : method.order;

@@ -108,6 +108,10 @@ struct Method {
 /// "explicit_euler, semi_implicit_euler"
 [[nodiscard]] std::string method_names();
 
+/// How often a step evaluates the forces in a run of many: once more than the method says where
+/// velocities have a say in its last kick, so that the next step's first needs another.
+[[nodiscard]] int evaluations_with(const Method& method, Damping damping);
+
 /// The order that is left with linear damping: what a splitting loses with it in the kicks, and no
 /// other method does.
 [[nodiscard]] int damped_order(const Method& method, Damping damping);

@@ -18,15 +18,22 @@ struct Swing {
     Oscillation of;
 };
 
-/// The springs and dampers of each body, all in one.
-std::vector<Oscillation> own_oscillations(const Bodies& bodies) {
+/// Whether damping along a spring or between bodies flows in half-steps around the step, which are
+/// stable whatever it is.
+bool slows_apart(const Method& method, Damping damping) {
+    return std::holds_alternative<Splitting>(method.rule) && damping == Damping::in_drift;
+}
+
+/// The springs of each body and the dampers that the step has to follow, all in one.
+std::vector<Oscillation> own_oscillations(const Bodies& bodies, bool coils_slow_apart) {
     std::vector<Oscillation> own(bodies.size());
     for (std::size_t row = 0; row < own.size(); ++row) {
         const GivenForces forces = bodies.forces_per_mass(row);
         if (const auto& spring = std::get<std::optional<Spring>>(forces))
             own[row] = {spring->stiffness, spring->damping};
         if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
-            own[row] = {own[row].k + coil->stiffness, own[row].c + coil->damping};
+            own[row] = {own[row].k + coil->stiffness,
+                        own[row].c + (coils_slow_apart ? 0 : coil->damping)};
         if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
             own[row].c += drag->coefficient;
     }
@@ -36,14 +43,14 @@ std::vector<Oscillation> own_oscillations(const Bodies& bodies) {
 /// Bodies without links swing as their springs have it. No mode of linked ones is faster than the
 /// fastest link with all that pulls at its two ends: ω² ≤ Σk/m₁ + Σk/m₂ (Anderson and Morley,
 /// Eigenvalues of the Laplacian of a graph, 1985, with masses).
-std::vector<Swing> swings(const Bodies& bodies) {
-    std::vector<Oscillation> all = own_oscillations(bodies);
+std::vector<Swing> swings(const Bodies& bodies, bool dampers_slow_apart) {
+    std::vector<Oscillation> all = own_oscillations(bodies, dampers_slow_apart);
     std::vector<bool> linked(bodies.size());
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         for (const std::size_t row : bodies.linked_rows(i)) {
             const Link link = bodies.link_at(i);
             all[row].k += link.stiffness / bodies.mass(row);
-            all[row].c += link.damping / bodies.mass(row);
+            if (!dampers_slow_apart) all[row].c += link.damping / bodies.mass(row);
             linked[row] = true;
         }
     std::vector<Swing> found;
@@ -81,10 +88,25 @@ private:
     std::map<std::pair<double, double>, bool> known_;
 };
 
-/// The lowest rate that the limit leaves.
-std::int64_t rate_above(double limit, const Rate& rate) {
-    const double needed = static_cast<double>(rate.steps) / limit;
-    return static_cast<std::int64_t>(std::floor(needed / static_cast<double>(rate.seconds))) + 1;
+/// The lowest rate above that of the limit, a rounding of which must not name it; in words.
+std::string cures(double limit, const Rate& rate) {
+    constexpr double most = 1e6;  // steps per second that programs take
+    const double at_limit =
+        static_cast<double>(rate.steps) / (limit * static_cast<double>(rate.seconds));
+    const double above = std::floor(at_limit * (1 + 1e-9)) + 1;
+    if (above > most) return "take implicit_euler";
+    return fmt::format("rate ≥ {:.0f} Hz, or implicit_euler", above);
+}
+
+/// Farther out than the edge of any method's region.
+constexpr double farthest = 1000;
+
+double size(const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); }
+
+/// The oscillation of this damping ratio whose size, for dt = 1 s, is the one given.
+Oscillation shape(const Risk& risk, double wanted) {
+    const double omega = risk.omega_dt / size(risk) * wanted;
+    return {omega * omega, risk.damping_dt / size(risk) * wanted};
 }
 
 std::string cause(const Bodies& bodies, const Divergence& at, const Method& method,
@@ -101,16 +123,18 @@ std::string cause(const Bodies& bodies, const Divergence& at, const Method& meth
 
 std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
     const double dt = steps.rate.dt();
-    Region region(method, steps.damping.value_or(method.damping));
+    const Damping damping = steps.damping.value_or(method.damping);
+    Region region(method, damping);
     std::vector<Risk> risks;
-    for (const Swing& swing : swings(bodies)) {
-        const Oscillation of{swing.of.k * dt * dt, swing.of.c * dt};
-        if (of.k == 0 && of.c == 0) continue;
-        if (!region.holds(of)) risks.push_back({swing.row, swing.linked, std::sqrt(of.k), of.c});
+    for (const Swing& swing : swings(bodies, slows_apart(method, damping))) {
+        // What pushes goes away by itself, whatever the method.
+        if (swing.of.k < 0 || swing.of.c < 0) continue;
+        const Risk risk{swing.row, swing.linked, std::sqrt(swing.of.k) * dt, swing.of.c * dt};
+        if (size(risk) > 0 && !region.holds(shape(risk, std::min(size(risk), farthest))))
+            risks.push_back(risk);
     }
-    const auto size = [](const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); };
     std::stable_sort(risks.begin(), risks.end(),
-                     [&](const Risk& a, const Risk& b) { return size(a) > size(b); });
+                     [](const Risk& a, const Risk& b) { return size(a) > size(b); });
     return risks;
 }
 
@@ -121,29 +145,35 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
         risk.linked
             ? fmt::format("link of bodies {} and {}", name(risk.row), name(*risk.linked))
             : fmt::format("{} of body {}", swings ? "spring" : "linear drag", name(risk.row));
-    const double size = swings ? risk.omega_dt : risk.damping_dt;
+    const double measured = swings ? risk.omega_dt : risk.damping_dt;
     const std::string measure =
-        fmt::format("{} {} {:.4g}", swings ? "ω·dt" : "c·dt", risk.linked ? "up to" : "=", size) +
+        fmt::format("{} {} {:.4g}", swings ? "ω·dt" : "c·dt", risk.linked ? "up to" : "=",
+                    measured) +
         (swings && risk.damping_dt > 0
              ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
              : std::string());
-    const double limit = stability_limit(method, steps.damping.value_or(method.damping),
-                                         {risk.omega_dt * risk.omega_dt, risk.damping_dt});
+    const double edge =
+        stability_limit(method, steps.damping.value_or(method.damping), shape(risk, 1));
+    const double limit = edge / size(risk);
     if (limit == 0)
         return fmt::format("{}: {}, {} gains energy at any rate: take another, say velocity_verlet",
                            who, measure, method.name);
-    return fmt::format("{}: {}, {} needs < {:.4g}: rate ≥ {} Hz, or implicit_euler", who, measure,
-                       method.name, limit * size, rate_above(limit, steps.rate));
+    return fmt::format("{}: {}, {} needs < {:.4g}: {}", who, measure, method.name, limit * measured,
+                       cures(limit, steps.rate));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
                    const Steps& steps, const NameOfRow& name) {
     const std::string when =
         fmt::format("diverged at step {} (t = {} s)", at.tick, steps.rate.time(at.tick));
-    if (at.of == Divergence::Of::solution)
+    if (at.of == Divergence::Of::solution) {
+        const std::string whose =
+            bodies.link_count() > 0 ? "the linked bodies" : fmt::format("body {}", name(at.row));
         fail(Exit::diverged,
-             "{}: {} found no solution of its equations for body {}; take a higher rate", when,
-             method.name, name(at.row));
+             "{}: {} found no solution of the equations of {}; take a higher rate, or another "
+             "method",
+             when, method.name, whose);
+    }
     fail(Exit::diverged, "{}: {} {} of body {} is no longer finite; {}", when,
          at.of == Divergence::Of::velocity ? "velocity" : "position",
          axis_names[static_cast<std::size_t>(at.axis)], name(at.row),

@@ -54,20 +54,6 @@ template <Number V, class T, int Axes>
     store(state.v, motion.v, row);
 }
 
-template <Number V, class T, int Axes>
-[[nodiscard]] Forces<V, Axes> load_forces(const Columns<T, Axes>& columns, std::size_t row) {
-    Forces<V, Axes> forces;
-    for_each_index<force_count>([&](auto i) {
-        const auto& stored = std::get<i>(columns.forces);
-        forces.present[i] = stored.present;
-        std::size_t next = 0;
-        if (stored.present)
-            for_each_number(std::get<i>(forces.list),
-                            [&](V& number) { number = load<V>(stored.numbers[next++], row); });
-    });
-    return forces;
-}
-
 /// All that a method asks of the forces on one row, or on a batch of rows from `row` on.
 template <Number V, int Axes>
 class RowPhysics {
@@ -75,7 +61,10 @@ public:
     using T = Scalar<V>;
 
     RowPhysics(const Columns<T, Axes>& columns, std::size_t row, const Plan<T>& plan)
-        : forces_(load_forces<V>(columns, row)), flows_(columns.flows), row_(row) {
+        : forces_(read_forces<V>(
+              columns, [&](const Parameter<T>& parameter) { return load<V>(parameter, row); })),
+          flows_(columns.flows),
+          row_(row) {
         const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
         damping_ = splitting ? splitting->damping : Damping::in_kick;
     }

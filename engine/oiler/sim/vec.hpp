@@ -119,6 +119,12 @@ template <std::floating_point T>
     return b == 0 ? T(0) : a / b;
 }
 
+/// a/b, and 0 where a is 0, whatever b is.
+template <std::floating_point T>
+[[gnu::always_inline]] constexpr T quotient_unless_nothing(T a, T b) {
+    return a == 0 ? T(0) : a / b;
+}
+
 /// Where a body is (m) and how fast it goes (m/s): the article's State.
 template <Number V, int Axes>
 struct State {

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Damping from none to so much that the mass only creeps back, by k/b of its distance a second.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "oiler/sim/closed_forms.hpp"
+#include "support/oscillator.hpp"
+
+namespace {
+
+using namespace oiler::test;
+using oiler::Bodies;
+using oiler::Damping;
+using oiler::find_method;
+using oiler::Method;
+using oiler::methods;
+using oiler::Motion;
+using oiler::Move;
+using oiler::Precision;
+using oiler::Rate;
+using oiler::Splitting;
+
+constexpr double k = 15;
+constexpr Rate rate{60};
+
+long double stored(Precision precision, double number) {
+    return precision == Precision::single ? static_cast<float>(number) : number;
+}
+long double stored_dt(Precision precision) {
+    return precision == Precision::single ? static_cast<long double>(rate.dt<float>())
+                                          : static_cast<long double>(rate.dt<double>());
+}
+
+/// After `steps` steps from rest at 1 m.
+Motion<long double> exact_motion(Precision precision, double b, int steps) {
+    return oiler::damped_oscillator<long double>(1, k, stored(precision, b), {1, 0},
+                                                 steps * stored_dt(precision));
+}
+
+// 2·√15 is critical, to within a rounding; beyond 1e4 N·s/m every step is long enough for the
+// velocity to have forgotten the one before, and what it is now has only that step's roundings.
+TEST(Creep, TheExactMethodHasAnyDamping) {
+    constexpr int steps = 600;
+    const Method& method = find_method("exact");
+    for (const Precision precision : precisions)
+        for (const double b :
+             {0.0, 1e-9, 0.1, 2 * std::sqrt(15.0), 10.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12}) {
+            SCOPED_TRACE(testing::Message() << name_of(precision) << ", b = " << b);
+            Bodies bodies = oscillator(precision, k, b, 1);
+            bodies.step(method, {rate, 0, steps});
+            const auto exact = exact_motion(precision, b, steps);
+            const double u = round_off_of(precision);
+            EXPECT_NEAR(x_of(bodies), exact.x, steps * roundings(method) * u);
+            EXPECT_NEAR(v_of(bodies), exact.v, steps * roundings(method) * u * std::sqrt(k));
+            if (b < 1e4) continue;
+            EXPECT_NEAR(v_of(bodies) / x_of(bodies), exact.v / exact.x,
+                        static_cast<double>(8 * u * -exact.v / exact.x));
+        }
+}
+
+std::vector<long double> coefficients(const Method& method, Move move) {
+    std::vector<long double> found;
+    if (const auto* splitting = std::get_if<Splitting>(&method.rule))
+        for (const auto& stage : splitting->stages())
+            if (stage.move == move) found.push_back(stage.coefficient);
+    return found;
+}
+
+/// The longest way that a drift goes back in time, as a part of dt.
+double farthest_back(const Method& method) {
+    long double farthest = 0;
+    for (const long double drift : coefficients(method, Move::drift))
+        farthest = std::max(farthest, -drift);
+    return static_cast<double>(farthest);
+}
+
+/// Those that can take any damping.
+std::vector<const Method*> creeping_methods() {
+    std::vector<const Method*> found;
+    for (const Method& method : methods()) {
+        const bool explicit_tableau = std::holds_alternative<oiler::Tableau>(method.rule);
+        if (!explicit_tableau && farthest_back(method) == 0) found.push_back(&method);
+    }
+    return found;
+}
+
+TEST(Creep, IsOfThePositiveSplittingsTheImplicitAndTheExact) {
+    EXPECT_EQ(creeping_methods().size(), 5U + 2 + 1);
+}
+
+/// How much of the way that a creep of `b` goes a method may be wrong by. With ε = k·dt/b, and each
+/// kick with the drift after it taking its own part of ε, a step is Π(1 − aᵢ·ε) for e^(−ε):
+/// relative to ε, (Σ|aᵢ|)²·ε at most; 1/(1 + ε) for implicit Euler is off by ε/2. Implicit midpoint
+/// rings at k/b², for one part in b·dt·steps. And each move rounds a position of 1 m.
+double creep_error(const Method& method, Precision precision, double b, int steps) {
+    const auto kicks = coefficients(method, Move::kick);
+    long double sum = 1;
+    if (!kicks.empty()) sum = 0;
+    for (const long double kick : kicks) sum += std::abs(kick);
+    const double epsilon = k * rate.dt() / b;
+    const auto moves = static_cast<double>(1 + coefficients(method, Move::drift).size());
+    return static_cast<double>(sum * sum) * epsilon + 2 / (b * rate.dt() * steps) +
+           moves * round_off_of(precision) / epsilon;
+}
+
+/// −ln of what is left of the distance of the first of `steps` + 1 steps, in which half a kick may
+/// still be missing, after the others.
+long double creep(const Method& method, Precision precision, double b, int steps) {
+    Bodies bodies = oscillator(precision, k, b, 1);
+    bodies.step(method, {.rate = rate, .damping = Damping::in_drift});
+    const long double before = x_of(bodies);
+    bodies.step(method, {rate, 1, steps, Damping::in_drift});
+    return -std::log1p((x_of(bodies) - before) / before);
+}
+
+// In double to 0.1 % at 1e12 N·s/m, where the mass goes 2.5e-13 m a step; in float only up to 1e6,
+// see below.
+TEST(Creep, GoesAsFarAsTheClosedForm) {
+    constexpr int steps = 600;
+    for (const Method* method : creeping_methods())
+        for (const Precision precision : precisions)
+            for (double b = 1e4; b <= (precision == Precision::single ? 1e6 : 1e12); b *= 10) {
+                const long double exact = -std::log1p(
+                    (exact_motion(precision, b, steps + 1).x - exact_motion(precision, b, 1).x) /
+                    exact_motion(precision, b, 1).x);
+                const long double creeps = creep(*method, precision, b, steps);
+                EXPECT_NEAR(creeps / exact, 1, creep_error(*method, precision, b, steps))
+                    << method->name << " in " << name_of(precision) << ", b = " << b;
+            }
+}
+
+/// The damping at which a step's way from 1 m is half the distance to the next smaller number.
+double damping_that_stops(Precision precision) {
+    return k * rate.dt() / (round_off_of(precision) / 2);
+}
+
+// What numbers cannot do: from 8.4e6 N·s/m on in float, and 4.5e15 in double, a mass at 1 m stands
+// for good, with the right velocity.
+TEST(Creep, StopsWhereAStepIsLessThanHalfTheDistanceBetweenNumbers) {
+    EXPECT_NEAR(damping_that_stops(Precision::single), 8.39e6, 1e4);
+    EXPECT_NEAR(damping_that_stops(Precision::double_), 4.50e15, 1e13);
+    for (const Method* method : creeping_methods())
+        for (const Precision precision : precisions) {
+            const double b = 1.01 * damping_that_stops(precision);
+            Bodies bodies = oscillator(precision, k, b, 1);
+            bodies.step(*method, {rate, 0, 10'000, Damping::in_drift});
+            EXPECT_EQ(x_of(bodies), 1) << method->name << " in " << name_of(precision);
+            EXPECT_GT(creep(*method, precision, b / 4, 10), 0) << method->name;
+            if (!is_exact(*method)) continue;
+            EXPECT_NEAR(v_of(bodies) * b / -k, 1, 8 * round_off_of(precision));
+        }
+}
+
+// 0.9 of that damping takes a step 0.556 of the distance between numbers, which rounds to 1: 1.8
+// times as fast as it should.
+TEST(Creep, IsAlmostTwiceAsFastJustBelowThat) {
+    for (const Precision precision : precisions) {
+        Bodies bodies = oscillator(precision, k, 0.9 * damping_that_stops(precision), 1);
+        bodies.step(find_method("exact"), {rate, 0, 1000});
+        EXPECT_EQ(x_of(bodies), 1 - 1000 * static_cast<long double>(round_off_of(precision)));
+    }
+}
+
+// A drift back in time undoes damping, by e^(c·|τ|): refused where that is no number, before
+// anything has changed, with what to do instead; and not earlier, but for the room above the
+// largest number that computing with twice the digits takes: in double from e^697 on, not e^709.
+TEST(Creep, IsRefusedWhereADriftBackwardsOverflows) {
+    int refused = 0;
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            if (farthest_back(method) == 0) continue;
+            SCOPED_TRACE(testing::Message() << method.name << " in " << name_of(precision));
+            const double most =
+                std::log(largest_of(precision)) / (farthest_back(method) * rate.dt());
+            Bodies bodies = oscillator(precision, k, 1.01 * most, 1);
+            const std::uint64_t before = hash_of(bodies);
+            const std::string line = line_of_error(oiler::Exit::usage, [&] {
+                bodies.step(method, {rate, 0, 10});
+            });
+            EXPECT_TRUE(holds(line, "backwards")) << line;
+            EXPECT_TRUE(holds(line, "implicit_euler")) << line;
+            EXPECT_EQ(hash_of(bodies), before);
+            Bodies just_less = oscillator(precision, k, 0.97 * most, 1);
+            EXPECT_NO_THROW(static_cast<void>(just_less.try_step(method, {rate, 0, 1})));
+            ++refused;
+        }
+    EXPECT_GE(refused, 2 * 20);
+}
+
+}  // namespace

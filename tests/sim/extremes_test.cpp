@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Stiffness, masses and timesteps far from what a game has.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "oiler/sim/closed_forms.hpp"
+#include "support/oscillator.hpp"
+
+namespace {
+
+using namespace oiler::test;
+using oiler::Bodies;
+using oiler::find_method;
+using oiler::Method;
+using oiler::methods;
+using oiler::Precision;
+using oiler::Rate;
+using oiler::Spring;
+
+constexpr double u = round_off_of(Precision::double_);
+
+/// From 1e-12 to 1e12 N/m; at 100 Hz ω·dt goes from 1e-8 to 1e4.
+template <class F>
+void for_each_stiffness(F f) {
+    for (int power = -12; power <= 12; power += 2) {
+        const double k = std::pow(10.0, power);
+        SCOPED_TRACE(testing::Message() << "k = " << k);
+        f(k, std::sqrt(static_cast<long double>(k)));
+    }
+}
+
+TEST(Stiffness, ImplicitMidpointConservesEnergyAtAny) {
+    const Method& method = find_method("implicit_midpoint");
+    constexpr int steps = 1000;
+    for_each_stiffness([&](double k, long double omega) {
+        Bodies bodies = oscillator(Precision::double_, k, 0, 1);
+        bodies.step(method, {{100}, 0, steps});
+        EXPECT_NE(x_of(bodies), 1);
+        EXPECT_NEAR(amplitude(bodies, omega) / omega, 1, steps * roundings(method) * u);
+    });
+}
+
+// (1 − h·J)⁻¹ of a quarter turn J shrinks every state by √(1 + h²) and turns it by atan h. For h ≫
+// 1 one of x' and v' is what is left of two large numbers, wrong by u·h of the state; but it lies
+// across the state, and of it no more than 1/h is turned along the state: u.
+TEST(Stiffness, ImplicitEulerShrinksBySoMuchAtAny) {
+    const Method& method = find_method("implicit_euler");
+    constexpr int steps = 50;
+    for_each_stiffness([&](double k, long double omega) {
+        const long double h = omega * Rate{100}.dt<double>();
+        Bodies bodies = oscillator(Precision::double_, k, 0, 1);
+        bodies.step(method, {{100}, 0, steps});
+        const long double expected = std::pow(1 + h * h, -steps / 2.0L);
+        EXPECT_NEAR(amplitude(bodies, omega) / omega / expected, 1, steps * roundings(method) * u);
+    });
+}
+
+// Each step's numbers are right to the last place, so that 1000 steps make 1000 errors of a
+// rounding and not of ω·dt roundings. The time is that of the double dt.
+TEST(Stiffness, TheExactMethodIsExactAtAny) {
+    const Method& method = find_method("exact");
+    constexpr int steps = 1000;
+    for_each_stiffness([&](double k, long double omega) {
+        for (const double damping : {0.0, 0.1}) {
+            Bodies bodies = oscillator(Precision::double_, k, damping, 1);
+            bodies.step(method, {{100}, 0, steps});
+            const auto exact = oiler::damped_oscillator<long double>(
+                1, k, damping, {1, 0}, steps * static_cast<long double>(Rate{100}.dt<double>()));
+            const double tolerance = steps * roundings(method) * u;
+            EXPECT_NEAR(x_of(bodies), exact.x, tolerance) << damping;
+            EXPECT_NEAR(v_of(bodies) / omega, exact.v / omega, tolerance) << damping;
+        }
+    });
+}
+
+/// dt = 2⁻ⁿ/100 s.
+Rate rate_times_power_of_two(int n) { return n >= 0 ? Rate{100LL << n} : Rate{100, 1LL << -n}; }
+
+// Nothing but ω·dt and c·dt decides a trajectory in units of dt: k·4ⁿ, c·2ⁿ and dt/2ⁿ change no
+// digit of a position, and every velocity by 2ⁿ. So what holds of a method at one stiffness, its
+// limit too, holds at all of them.
+TEST(Stiffness, WithADtToMatchIsTheSameMotionToTheBit) {
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            Bodies plain = oscillator(precision, 15, 0.1, 1000);
+            plain.step(method, {{100}, 0, 100});
+            for (int n = -20; n <= 20; n += 5) {
+                Bodies scaled =
+                    oscillator(precision, std::ldexp(15, 2 * n), std::ldexp(0.1, n), 1000);
+                scaled.step(method, {rate_times_power_of_two(n), 0, 100});
+                EXPECT_EQ(x_of(scaled), x_of(plain)) << method.name << ", n = " << n;
+                EXPECT_EQ(v_of(scaled), std::ldexp(v_of(plain), n)) << method.name << ", n = " << n;
+            }
+            EXPECT_NE(x_of(plain), 1000);
+        }
+}
+
+/// 1 kg at 1 m and `mass` at 0, linked by 15 N/m.
+Bodies pair(Precision precision, double mass) {
+    Bodies bodies(1, precision);
+    bodies.add({.position = {1}});
+    bodies.add({.mass = mass});
+    bodies.link(0, 1, {.stiffness = 15});
+    return bodies;
+}
+
+long double distance(const Bodies& bodies) { return x_of(bodies, 0) - x_of(bodies, 1); }
+
+constexpr double mass_ratios[] = {1, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12};
+
+// The distance swings with k/μ, μ = m₁m₂/(m₁ + m₂); velocity Verlet's positions from rest are
+// cos(n·θ), sin(θ/2) = ω·dt/2. In float the stored numbers are right to a rounding, which turns θ
+// by as much.
+TEST(MassRatio, ALinkSwingsWithTheReducedMass) {
+    constexpr int steps = 1000;
+    const Method& method = find_method("velocity_verlet");
+    for (const Precision precision : precisions)
+        for (const double mass : mass_ratios) {
+            Bodies bodies = pair(precision, mass);
+            bodies.step(method, {{60}, 0, steps});
+            const long double omega = std::sqrt(15 * (1 + 1 / static_cast<long double>(mass)));
+            const long double theta = 2 * std::asin(omega / 60 / 2);
+            EXPECT_NEAR(distance(bodies), std::cos(steps * theta),
+                        steps * roundings(method) * round_off_of(precision))
+                << name_of(precision) << ", " << mass;
+        }
+}
+
+// The mass cancels from each step of the distance, whatever the method. The two velocities gather
+// what the other mass gives to within the roundings of each step, so that the momentum and the
+// centre of mass, at rest at 1/(1 + m), stay to within as many.
+TEST(MassRatio, EveryMethodMovesALinkAsASpringAndKeepsTheMomentum) {
+    constexpr int steps = 300;
+    for (const Method& method : methods()) {
+        if (is_exact(method)) continue;
+        const double tolerance = steps * roundings(method) * u;
+        for (const double mass : mass_ratios) {
+            SCOPED_TRACE(testing::Message() << method.name << ", " << mass);
+            Bodies linked = pair(Precision::double_, mass);
+            Bodies single = oscillator(Precision::double_, 15 * (1 + 1 / mass), 0, 1);
+            linked.step(method, {{60}, 0, steps});
+            single.step(method, {{60}, 0, steps});
+            const auto size = static_cast<double>(amplitude(single, std::sqrt(15.0L)));
+            EXPECT_NEAR(distance(linked), x_of(single), tolerance * size);
+            EXPECT_NEAR(v_of(linked, 0) + mass * v_of(linked, 1), 0, tolerance * size);
+            EXPECT_NEAR(x_of(linked, 0) + mass * x_of(linked, 1), 1, tolerance * size);
+            EXPECT_NE(v_of(linked, 1), 0);
+        }
+    }
+}
+
+// 1e-6 to 1e6 kg, in powers of two for the quotients to be the same to the bit.
+TEST(MassRatio, TheSameStiffnessPerMassIsTheSameMotion) {
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            Bodies bodies(1, precision);
+            for (int power = -20; power <= 20; ++power) {
+                const double mass = std::ldexp(1, power);
+                bodies.add({.mass = mass, .position = {1}},
+                           Spring{.stiffness = 15 * mass, .damping = 0.1 * mass});
+            }
+            bodies.step(method, {{60}, 0, 100});
+            for (std::size_t row = 1; row < bodies.size(); ++row) {
+                ASSERT_EQ(x_of(bodies, row), x_of(bodies)) << method.name;
+                ASSERT_EQ(v_of(bodies, row), v_of(bodies)) << method.name;
+            }
+            EXPECT_NE(x_of(bodies), 1);
+        }
+}
+
+constexpr Rate timesteps[] = {{1'000'000'000}, {1'000'000}, {1000}, {60}, {1}, {1, 10}};
+
+// From 1 ns to 10 s with ω·dt = 0.1 the positions are those at 1 s. k and dt are each a rounding
+// off, and ω·dt with them, of which 1000 steps make 1000 · 0.1 times as much in phase.
+TEST(Timestep, FromANanosecondToTenSecondsIsTheSameMotion) {
+    constexpr int steps = 1000;
+    for (const Method& method : methods()) {
+        Bodies plain = oscillator(Precision::double_, 0.01, 0, 1);
+        plain.step(method, {{1}, 0, steps});
+        const double tolerance = steps * roundings(method) * u;
+        const auto size = static_cast<double>(amplitude(plain, 0.1L)) / 0.1;
+        for (const Rate rate : timesteps) {
+            const double dt = rate.dt();
+            Bodies bodies = oscillator(Precision::double_, 0.01 / (dt * dt), 0, 1);
+            bodies.step(method, {rate, 0, steps});
+            EXPECT_NEAR(x_of(bodies), x_of(plain), tolerance * size) << method.name << dt;
+            EXPECT_NEAR(v_of(bodies) * dt, v_of(plain), tolerance * size) << method.name << dt;
+        }
+    }
+}
+
+// Five thousand steps of 1 ns move the article's mass by 0.19 µm. A method of order 1 misses x by
+// up to dt·v, v = 0.075 m/s, and v by up to dt·t·a', a' = 0.1·15000 m/s³; to that come roundings of
+// 1000 m and of v.
+TEST(Timestep, OfANanosecondIsNotLost) {
+    constexpr int steps = 5000;
+    constexpr Rate rate{1'000'000'000};
+    EXPECT_EQ(rate.time(steps), 5e-6);
+    const auto exact = oiler::damped_oscillator<long double>(1, 15, 0.1L, {1000, 0}, 5e-6L);
+    for (const Method& method : methods()) {
+        Bodies bodies = oscillator(Precision::double_, 15, 0.1, 1000);
+        bodies.step(method, {rate, 0, steps});
+        const double rounded = steps * roundings(method) * u;
+        EXPECT_NEAR(x_of(bodies), exact.x, 1e-9 * 0.075 + rounded * 1000) << method.name;
+        EXPECT_NEAR(v_of(bodies), exact.v, 1e-9 * 5e-6 * 1500 + rounded * 0.075) << method.name;
+    }
+}
+
+// 38 radians a step, and the damper takes e^(−0.5) of it.
+TEST(Timestep, OfTenSecondsIsExactWhereTheMethodIs) {
+    Bodies bodies = oscillator(Precision::double_, 15, 0.1, 1000);
+    for (int tick = 0; tick < 9; ++tick) {
+        bodies.step(find_method("exact"), {{1, 10}, tick, 1});
+        const long double t = 10.0L * (tick + 1);
+        const auto exact = oiler::damped_oscillator<long double>(1, 15, 0.1, {1000, 0}, t);
+        EXPECT_NEAR(x_of(bodies), exact.x, 8 * (tick + 1) * u * 1000);
+        EXPECT_NEAR(v_of(bodies), exact.v, 8 * (tick + 1) * u * 1000 * std::sqrt(15));
+    }
+}
+
+}  // namespace

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "oiler/sim/bodies.hpp"
+
+namespace {
+
+using oiler::Attractor;
+using oiler::Bodies;
+using oiler::CoilSpring;
+using oiler::Damping;
+using oiler::find_method;
+using oiler::LinearDrag;
+using oiler::Link;
+using oiler::Method;
+using oiler::methods;
+using oiler::Move;
+using oiler::Precision;
+using oiler::QuadraticDrag;
+using oiler::Rate;
+using oiler::Splitting;
+using oiler::Spring;
+using oiler::Steps;
+using oiler::Vec3;
+
+constexpr Rate rate{64};
+
+/// Of row `row`: a power of two, so that forces are shared out and put together without rounding.
+double mass_of(std::size_t row) { return std::ldexp(1, static_cast<int>(row % 4) - 1); }
+
+/// Eight bodies apart from each other, with forces of all kinds.
+Bodies assorted(Precision precision) {
+    Bodies bodies(2, precision);
+    bodies.set_gravity({0.25, -4});
+    for (std::size_t row = 0; row < 8; ++row) {
+        const auto i = static_cast<double>(row);
+        bodies.add({.mass = mass_of(row),
+                    .position = {3 * std::cos(2 * i), i},
+                    .velocity = {std::sin(i), std::cos(3 * i)}});
+        if (row % 2 == 1) bodies.attach(row, Spring{{1, i, 0}, 7 + i, 0.3});
+        if (row % 3 == 1) bodies.attach(row, LinearDrag{0.2});
+        if (row % 4 == 2) bodies.attach(row, QuadraticDrag{0.1}, CoilSpring{{9, 9, 0}, 5, 0.4, 12});
+        if (row % 5 == 3) bodies.attach(row, Attractor{{-50, 0, 0}, 90});
+    }
+    return bodies;
+}
+
+/// Of which rows 0 to 4 are linked.
+Bodies linked(Precision precision) {
+    Bodies bodies = assorted(precision);
+    bodies.link(0, 1, {.stiffness = 12, .damping = 0.3});
+    bodies.link(1, 2, {.stiffness = 20, .damping = 0.6, .rest_length = 1.5});
+    bodies.link(2, 4, {.stiffness = 9, .rest_length = 2});
+    bodies.link(4, 3, {.stiffness = 4, .damping = 2});
+    return bodies;
+}
+
+/// New bodies of the same state, forces and links.
+Bodies rebuilt(const Bodies& from) {
+    Bodies to(from.axes(), from.precision());
+    for (std::size_t row = 0; row < from.size(); ++row) {
+        to.add({from.mass(row), from.position(row), from.velocity(row)});
+        const auto attach = [&]<class Force>(const std::optional<Force>& force) {
+            if (!force) return;
+            if constexpr (Force::everywhere)
+                to.set_gravity(force->acceleration);
+            else
+                to.attach(row, force->per_unit_mass(1 / from.mass(row)));
+        };
+        std::apply([&](const auto&... force) { (attach(force), ...); }, from.forces_per_mass(row));
+    }
+    for (std::size_t i = 0; i < from.link_count(); ++i) {
+        const auto [a, b] = from.linked_rows(i);
+        to.link(a, b, from.link_at(i));
+    }
+    return to;
+}
+
+std::uint64_t hash_of(const Bodies& bodies) {
+    oiler::StateHash hash;
+    bodies.hash_into(hash);
+    return hash.value();
+}
+
+template <class F>
+void for_each_kind(F f) {
+    for (const Method& method : methods())
+        for (const Precision precision : {Precision::single, Precision::double_}) {
+            if (method.order == oiler::exact_order) continue;
+            SCOPED_TRACE(std::string(method.name) + ", " + std::string(name_of(precision)));
+            f(method, precision);
+        }
+}
+
+TEST(LinkedBodies, TakeManyStepsAtOnceAsOneByOne) {
+    for_each_kind([](const Method& method, Precision precision) {
+        Bodies at_once = linked(precision);
+        Bodies one_by_one = at_once;
+        const std::uint64_t start = hash_of(at_once);
+        at_once.step(method, {rate, 5, 33});
+        for (int i = 0; i < 33; ++i) one_by_one.step(method, {rate, 5 + i});
+        EXPECT_EQ(hash_of(at_once), hash_of(one_by_one));
+        EXPECT_NE(hash_of(at_once), start);
+    });
+}
+
+// What a copy shares with the original must not change under it.
+TEST(LinkedBodies, AreCopiedInTheMiddleOfARun) {
+    for_each_kind([](const Method& method, Precision precision) {
+        Bodies original = linked(precision);
+        Bodies alone = original;
+        alone.step(method, {rate, 0, 20});
+        original.step(method, {rate, 0, 10});
+        Bodies copy = original;
+        Bodies changed = original;
+        changed.link(0, 4, {.stiffness = 100});
+        changed.set_position(2, {1, 1, 0});
+        changed.step(method, {rate, 10, 10});
+        copy.step(method, {rate, 10, 10});
+        EXPECT_EQ(hash_of(copy), hash_of(alone));
+        original.step(method, {rate, 10, 10});
+        EXPECT_EQ(hash_of(original), hash_of(alone));
+        EXPECT_NE(hash_of(changed), hash_of(alone));
+    });
+}
+
+struct Change {
+    const char* what;
+    std::function<void(Bodies&)> make;
+};
+
+std::vector<Change> changes() {
+    return {
+        {"none", [](Bodies&) {}},
+        {"a position",
+         [](Bodies& bodies) {
+             bodies.set_position(1, {4, 0.5, 0});
+         }},
+        {"a velocity",
+         [](Bodies& bodies) {
+             bodies.set_velocity(1, {4, 0.5, 0});
+         }},
+        {"a spring",
+         [](Bodies& bodies) {
+             bodies.attach(1, Spring{{0, 0, 0}, 30, 3});
+         }},
+        {"a coil spring",
+         [](Bodies& bodies) {
+             bodies.attach(0, CoilSpring{{9, 0, 0}, 3, 3, 1});
+         }},
+        {"drag", [](Bodies& bodies) { bodies.attach(4, QuadraticDrag{0.5}, LinearDrag{0.5}); }},
+        {"gravity",
+         [](Bodies& bodies) {
+             bodies.set_gravity({0, 4, 0});
+         }},
+        {"a link",
+         [](Bodies& bodies) {
+             bodies.link(0, 3, {11, 0.7, 2});
+         }},
+        {"a body",
+         [](Bodies& bodies) {
+             bodies.link(bodies.add({.mass = 2, .position = {5}}), 1, {3, 0.5});
+         }},
+        {"a body less", [](Bodies& bodies) { bodies.remove(1); }},
+    };
+}
+
+// What steps carry on from one to the next (accelerations, flows, factorised equations) must go
+// when it no longer holds.
+TEST(LinkedBodies, StepAfterAChangeAsNewOnesDo) {
+    for_each_kind([](const Method& method, Precision precision) {
+        Bodies run = linked(precision);
+        run.step(method, {rate, 0, 7});
+        for (const Change& change : changes()) {
+            Bodies changed = run;
+            change.make(changed);
+            Bodies fresh = rebuilt(changed);
+            ASSERT_EQ(hash_of(changed), hash_of(fresh)) << change.what;
+            changed.step(method, {rate, 7, 5});
+            fresh.step(method, {rate, 7, 5});
+            EXPECT_EQ(hash_of(changed), hash_of(fresh)) << change.what;
+        }
+    });
+}
+
+void expect_as_new(Bodies bodies, const Method& method, const Steps& steps) {
+    Bodies fresh = rebuilt(bodies);
+    bodies.step(method, steps);
+    fresh.step(method, steps);
+    EXPECT_EQ(hash_of(bodies), hash_of(fresh)) << method.name;
+}
+
+/// Springs, linear drag and links alone: of implicit methods the equations stay factorised.
+Bodies linear(Precision precision) {
+    Bodies bodies(2, precision);
+    bodies.set_gravity({0.25, -4});
+    for (std::size_t row = 0; row < 3; ++row) {
+        const auto i = static_cast<double>(row);
+        bodies.add({.mass = mass_of(row), .position = {i, 2 - i}}, LinearDrag{0.2 * i});
+    }
+    bodies.attach(1, Spring{{1, 1, 0}, 400, 2});
+    bodies.link(0, 1, {.stiffness = 300, .damping = 0.3});
+    bodies.link(2, 1, {.stiffness = 500});
+    return bodies;
+}
+
+void expect_other_ways_as_new(Bodies run, const Method& method) {
+    run.step(method, {rate, 0, 4});
+    for (const Method& other : methods())
+        if (other.order != oiler::exact_order) expect_as_new(run, other, {rate, 4, 3});
+    for (const Rate& other : {Rate{32}, Rate{128}}) expect_as_new(run, method, {other, 4, 3});
+    for (const Damping damping : {Damping::in_kick, Damping::in_drift}) {
+        expect_as_new(run, method, {rate, 4, 3, damping});
+        Bodies there = run;
+        there.step(method, {rate, 4, 3, damping});
+        expect_as_new(there, method, {rate, 7, 3});
+    }
+}
+
+TEST(LinkedBodies, StepInAnotherWayAsNewOnesDo) {
+    for (const Method& method : methods()) {
+        if (method.order == oiler::exact_order) continue;
+        expect_other_ways_as_new(linked(Precision::single), method);
+        expect_other_ways_as_new(linear(Precision::double_), method);
+    }
+}
+
+// An implicit method solves the equations of all rows at once, each time to a few units of
+// round-off of the fastest, below 8 m/s; these forces do not amplify that.
+TEST(LinkedBodies, LeaveOthersAlone) {
+    constexpr int steps = 64;
+    for_each_kind([](const Method& method, Precision precision) {
+        Bodies with = linked(precision);
+        Bodies without = assorted(precision);
+        with.step(method, {rate, 0, steps});
+        without.step(method, {rate, 0, steps});
+        const double unit = precision == Precision::single ? 0x1p-24 : 0x1p-53;
+        const double slack = method.evaluations == 0 ? 2 * std::sqrt(steps) * unit * 8 : 0;
+        EXPECT_NE(with.position(4), without.position(4));
+        for (const std::size_t row : {5U, 6U, 7U}) {
+            EXPECT_LE(largest(with.position(row) - without.position(row)), slack) << row;
+            EXPECT_LE(largest(with.velocity(row) - without.velocity(row)), slack) << row;
+        }
+    });
+}
+
+int kicks_of(const Method& method) {
+    int kicks = 0;
+    for (const auto& stage : std::get<Splitting>(method.rule).stages())
+        kicks += stage.move == Move::kick ? 1 : 0;
+    return kicks;
+}
+
+// The first kick of a step finds the acceleration that the last kick of the one before left behind,
+// unless somebody has moved a body. Other methods find nothing.
+TEST(LinkedBodies, EvaluateAsOftenAsTheMethodSaysAndOnceMore) {
+    for (const Method& method : methods()) {
+        if (method.evaluations == 0 || method.order == oiler::exact_order) continue;
+        const bool splits = std::holds_alternative<Splitting>(method.rule);
+        const int extra = splits ? kicks_of(method) - method.evaluations : 0;
+        EXPECT_TRUE(extra == 0 || extra == 1) << method.name;
+        Bodies bodies = linked(Precision::double_);
+        const auto step = [&](Damping damping) {
+            const std::int64_t before = bodies.evaluations();
+            bodies.step(method, {rate, 0, 1, damping});
+            return bodies.evaluations() - before;
+        };
+        EXPECT_EQ(step(Damping::in_drift), method.evaluations + extra) << method.name;
+        EXPECT_EQ(step(Damping::in_drift), method.evaluations) << method.name;
+        bodies.set_velocity(3, {1, 1, 0});
+        bodies.set_position(3, {1, 1, 0});
+        EXPECT_EQ(step(Damping::in_drift), method.evaluations + extra) << method.name;
+        EXPECT_EQ(step(Damping::in_kick), method.evaluations + extra) << method.name;
+        EXPECT_EQ(step(Damping::in_kick), method.evaluations + extra) << method.name;
+    }
+}
+
+std::vector<std::array<std::size_t, 2>> rows_of(const Bodies& bodies) {
+    std::vector<std::array<std::size_t, 2>> rows;
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) rows.push_back(bodies.linked_rows(i));
+    return rows;
+}
+
+// Row 7 moves to row 1; links keep their order and their numbers.
+TEST(LinkedBodies, TakeTheirLinksAlongWhenTheyGo) {
+    Bodies bodies = linked(Precision::double_);
+    bodies.link(7, 0, {.stiffness = 5, .damping = 6, .rest_length = 7});
+    bodies.link(5, 7, {.stiffness = 8});
+    bodies.remove(1);
+    EXPECT_EQ(rows_of(bodies),
+              (std::vector<std::array<std::size_t, 2>>{{2, 4}, {4, 3}, {1, 0}, {5, 1}}));
+    const Link link = bodies.link_at(2);
+    EXPECT_EQ(link.stiffness, 5);
+    EXPECT_EQ(link.damping, 6);
+    EXPECT_EQ(link.rest_length, 7);
+    bodies.remove(6);
+    EXPECT_EQ(bodies.link_count(), 4U);
+    bodies.remove(4);
+    EXPECT_EQ(rows_of(bodies), (std::vector<std::array<std::size_t, 2>>{{1, 0}, {4, 1}}));
+    bodies.remove(4);
+    bodies.remove(0);
+    EXPECT_EQ(bodies.link_count(), 0U);
+}
+
+}  // namespace

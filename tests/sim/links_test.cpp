@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/closed_forms.hpp"
+#include "support/convergence.hpp"
+
+namespace {
+
+using oiler::Bodies;
+using oiler::Damping;
+using oiler::find_method;
+using oiler::Method;
+using oiler::methods;
+using oiler::Precision;
+using oiler::Spring;
+using oiler::Vec3;
+using Real = long double;
+
+constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
+
+bool is_exact(const Method& method) { return method.order == oiler::exact_order; }
+/// Six bodies of 0.3 to 13 kg in a ring of damped springs, every other one with a length, and one
+/// across.
+Bodies ring(Precision precision) {
+    Bodies bodies(2, precision);
+    const std::array<double, 6> masses{1, 0.3, 2.5, 13, 0.7, 1.9};
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+        const auto angle = static_cast<double>(i);
+        bodies.add({.mass = masses[i],
+                    .position = {2 * std::cos(angle), 2 * std::sin(angle)},
+                    .velocity = {std::sin(3 * angle), std::cos(5 * angle)}});
+    }
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        bodies.link(i, (i + 1) % masses.size(),
+                    {.stiffness = 20, .damping = 0.5, .rest_length = i % 2 == 0 ? 0.0 : 1.5});
+    bodies.link(0, 3, {.stiffness = 5, .damping = 1});
+    return bodies;
+}
+
+struct Momentum {
+    Vec3 sum{};
+    double mass = 0;
+    double fastest = 0;  ///< m/s
+};
+
+Momentum momentum_of(const Bodies& bodies) {
+    Momentum total;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        const Vec3 v = bodies.velocity(row);
+        total.sum = total.sum + v * bodies.mass(row);
+        total.mass += bodies.mass(row);
+        total.fastest = std::max(total.fastest, largest(v));
+    }
+    return total;
+}
+
+// What a spring gives to one body it takes from the other, but for roundings to either side: a kick
+// makes two of velocities no larger than the fastest, and two of what a link adds to each.
+TEST(Links, ConserveMomentum) {
+    constexpr int steps = 200;
+    for (const Method& method : methods())
+        for (const auto& [precision, unit] :
+             {std::pair(Precision::double_, round_off), {Precision::single, 0x1p-24}}) {
+            if (is_exact(method)) continue;
+            Bodies bodies = ring(precision);
+            const Momentum start = momentum_of(bodies);
+            double fastest = start.fastest;
+            for (int i = 0; i < steps; ++i) {
+                bodies.step(method, {{256}, i, 1});
+                fastest = std::max(fastest, momentum_of(bodies).fastest);
+            }
+            const double roundings = 4.0 * steps * (method.evaluations + 2);
+            EXPECT_LT(largest(momentum_of(bodies).sum - start.sum),
+                      std::sqrt(roundings) * unit * start.mass * fastest)
+                << method.name << ", " << name_of(precision);
+            EXPECT_LT(bodies.energy().total(), 0.95 * ring(precision).energy().total());
+        }
+}
+
+/// 1 kg and 4 kg on a link along a line, 1 m further apart than its length and separating, with a
+/// centre of mass that moves. The reciprocals of the masses are binary fractions.
+struct Pair {
+    double k;
+    double b;
+    double length;
+
+    [[nodiscard]] Bodies bodies(Precision precision) const {
+        Bodies pair(1, precision);
+        pair.add({.mass = 1, .position = {1 + length}, .velocity = {2.5}});
+        pair.add({.mass = 4, .position = {0}, .velocity = {2}});
+        pair.link(0, 1, {.stiffness = k, .damping = b, .rest_length = length});
+        return pair;
+    }
+    /// The relative motion has the reduced mass 1·4/(1 + 4).
+    [[nodiscard]] oiler::Motion<Real> relative(Real t) const {
+        return oiler::damped_oscillator<Real>(0.8L, k, b, {1, 0.5L}, t);
+    }
+    /// ½·5·2.1² of the centre, and that of the relative motion.
+    [[nodiscard]] Real energy(Real t) const {
+        const auto [x, v] = relative(t);
+        return 2.5L * 2.1L * 2.1L + 0.4L * v * v + 0.5L * k * x * x;
+    }
+    /// After 1 s.
+    [[nodiscard]] Real error(const Method& method, int steps_per_second) const {
+        Bodies pair = bodies(Precision::extended);
+        pair.step(method, {{steps_per_second}, 0, steps_per_second});
+        const auto a = pair.state(0);
+        const auto b_ = pair.state(1);
+        const auto exact = relative(1);
+        return std::max(std::abs(a.x[0] - b_.x[0] - length - exact.x),
+                        std::abs(a.v[0] - b_.v[0] - exact.v));
+    }
+};
+
+/// Small enough for the leading term of an error to show, which is slow to come out of drag around
+/// a method of a higher order, and not so small that methods which solve equations take seconds.
+Real ceiling_for(const Method& method, int order) {
+    constexpr std::array<Real, 5> ceilings{0, 3e-2L, 1e-4L, 1e-7L, 1e-9L};
+    if (order > 4) return 1e-12L;
+    return ceilings.at(static_cast<std::size_t>(order)) * (order < method.order ? 0.1L : 1);
+}
+
+void expect_pair(const Method& method, const Pair& pair, int order) {
+    SCOPED_TRACE(std::string(method.name) + ", b = " + std::to_string(pair.b));
+    const auto error = [&](int steps) { return pair.error(method, steps); };
+    const Real omega = std::sqrt(pair.k / 0.8L);
+    expect_convergence(method, order, error, 32, {omega, 50 * omega}, ceiling_for(method, order));
+}
+
+TEST(Links, MoveAPairAsItsRelativeMotionWithTheMethodsOrder) {
+    for (const Method& method : methods())
+        for (const double length : {0.0, 8.0}) {
+            if (is_exact(method)) continue;
+            expect_pair(method, {20, 0, length}, method.order);
+            expect_pair(method, {20, 0.7, length}, dragged_order(method, method.damping));
+        }
+}
+
+// A step of RK4 leaves out (ω·dt)⁵/120 of the amplitude: with ω = 5/s and 1024 steps a
+// second 2.4e-11 in each, and of an energy of 11 J about the centre of mass twice as much.
+TEST(Links, KeepAPairsEnergyAndDampItAsItsRelativeMotionDoes) {
+    for (const double b : {0.0, 0.7})
+        for (const double length : {0.0, 8.0}) {
+            const Pair pair{20, b, length};
+            Bodies bodies = pair.bodies(Precision::double_);
+            EXPECT_NEAR(bodies.energy().total(), static_cast<double>(pair.energy(0)), 1e-14 * 22);
+            for (int second = 1; second <= 3; ++second) {
+                bodies.step(find_method("rk4"), {{1024}, (second - 1) * 1024, 1024});
+                EXPECT_NEAR(bodies.energy().total(), static_cast<double>(pair.energy(second)),
+                            second * 2 * 2.4e-11 * 11);
+            }
+        }
+}
+
+/// Two bodies of 1 kg that a link of stiffness 3 and damping 0.2 couples; each is on a spring
+/// of 15.
+Bodies coupled() {
+    Bodies bodies(3, Precision::double_);
+    bodies.add({.position = {1, 2, -3}, .velocity = {0, 1, 4}}, Spring{.stiffness = 15});
+    bodies.add({.position = {0, 5, 1}, .velocity = {-2, 1, 0}}, Spring{.stiffness = 15});
+    bodies.link(0, 1, {.stiffness = 3, .damping = 0.2});
+    return bodies;
+}
+/// Their sum and their difference, which do not know of each other.
+Bodies modes_of(const Bodies& coupled) {
+    Bodies modes(3, Precision::double_);
+    const Vec3 a = coupled.position(0);
+    const Vec3 b = coupled.position(1);
+    const Vec3 va = coupled.velocity(0);
+    const Vec3 vb = coupled.velocity(1);
+    modes.add({.position = a + b, .velocity = va + vb}, Spring{.stiffness = 15});
+    modes.add({.position = a - b, .velocity = va - vb},
+              Spring{.stiffness = 15 + 2 * 3, .damping = 2 * 0.2});
+    return modes;
+}
+
+// What steps linked bodies has little in common with what steps single ones. No number of this
+// motion gets beyond 30 (m or m/s), and a stage makes 8 roundings at most of it, to either side.
+// With the damping in the kicks a spring's is treated as a link's.
+TEST(Links, MoveAsTheirNormalModesDo) {
+    constexpr int steps = 640;
+    for (const Method& method : methods()) {
+        if (is_exact(method)) continue;
+        Bodies bodies = coupled();
+        Bodies modes = modes_of(bodies);
+        bodies.step(method, {{64}, 0, steps, Damping::in_kick});
+        modes.step(method, {{64}, 0, steps, Damping::in_kick});
+        const Bodies after = modes_of(bodies);
+        const double roundings = 8.0 * steps * (method.evaluations + 2);
+        const double tolerance = std::sqrt(roundings) * round_off * 30;
+        for (const std::size_t row : {0U, 1U}) {
+            EXPECT_LT(largest(after.position(row) - modes.position(row)), tolerance) << method.name;
+            EXPECT_LT(largest(after.velocity(row) - modes.velocity(row)), tolerance) << method.name;
+        }
+    }
+}
+
+// Dampers that meet in a body do not commute. Half a step of them before and, in the other order,
+// after all else leaves the second order, the wrong order of them only the first. RK4 with the
+// smallest dt below is off by less than 1e-9.
+TEST(Links, DampARingInTheSecondOrder) {
+    Bodies truth = ring(Precision::double_);
+    truth.step(find_method("rk4"), {{1024}, 0, 1024});
+    for (const Method& method : methods()) {
+        if (dragged_order(method, Damping::in_drift) != 2) continue;
+        const auto error = [&](int steps) {
+            Bodies bodies = ring(Precision::double_);
+            bodies.step(method, {{steps}, 0, steps, Damping::in_drift});
+            Real largest_error = 0;
+            for (std::size_t row = 0; row < bodies.size(); ++row)
+                largest_error = std::max<Real>(largest_error,
+                                               largest(bodies.position(row) - truth.position(row)));
+            return largest_error;
+        };
+        SCOPED_TRACE(method.name);
+        expect_convergence(method, 2, error, 32, {16, 50}, 1e-5L);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
+
+namespace oiler::test {
+
+/// A run so long that a trend of one rounding a step would show; a hundredth of it where the build
+/// is neither optimised nor free of sanitizers.
+#ifdef NDEBUG
+inline constexpr int long_run = 1'000'000;
+#else
+inline constexpr int long_run = 10'000;
+#endif
+
+inline constexpr std::array precisions{Precision::single, Precision::double_};
+
+/// The most that a rounding changes a number by, relatively.
+constexpr double round_off_of(Precision precision) {
+    return precision == Precision::single ? std::numeric_limits<float>::epsilon() / 2.0
+                                          : std::numeric_limits<double>::epsilon() / 2;
+}
+constexpr double largest_of(Precision precision) {
+    return precision == Precision::single ? double{std::numeric_limits<float>::max()}
+                                          : std::numeric_limits<double>::max();
+}
+
+inline bool is_exact(const Method& method) { return method.order == exact_order; }
+inline bool is_splitting(const Method& method) {
+    return std::holds_alternative<Splitting>(method.rule);
+}
+
+/// The most roundings of numbers of the size of the motion that a step makes: a move of a splitting
+/// forms a force, a product and a sum; each of a tableau's stages, and its end, sums up to `count`
+/// products in x and in v; an implicit step's last iteration and the exact step by counting.
+inline int roundings(const Method& method) {
+    if (const auto* splitting = std::get_if<Splitting>(&method.rule))
+        return 4 * static_cast<int>(splitting->stages().size());
+    if (const auto* tableau = std::get_if<Tableau>(&method.rule))
+        return static_cast<int>(4 * tableau->count * (tableau->count + 1));
+    return is_exact(method) ? 8 : 16;
+}
+
+/// 1 kg on a spring along one axis, `k` in N/m and `c` in N·s/m.
+inline Bodies oscillator(Precision precision, double k, double c, double x, double v = 0) {
+    Bodies bodies(1, precision);
+    bodies.add({.position = {x}, .velocity = {v}}, Spring{.stiffness = k, .damping = c});
+    return bodies;
+}
+
+inline long double x_of(const Bodies& bodies, std::size_t row = 0) {
+    return bodies.state(row).x[0];
+}
+inline long double v_of(const Bodies& bodies, std::size_t row = 0) {
+    return bodies.state(row).v[0];
+}
+/// √(ω²x² + v²), the root of twice the energy per mass.
+inline long double amplitude(const Bodies& bodies, long double omega) {
+    return std::hypot(omega * x_of(bodies), v_of(bodies));
+}
+
+inline std::uint64_t hash_of(const Bodies& bodies) {
+    StateHash hash;
+    bodies.hash_into(hash);
+    return hash.value();
+}
+
+/// What `f` throws, which must be an Error with this exit.
+template <class F>
+std::string line_of_error(Exit exit, F f) {
+    try {
+        f();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), exit) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing thrown";
+    return {};
+}
+
+inline bool holds(const std::string& line, const std::string& part) {
+    return line.find(part) != std::string::npos;
+}
+
+}  // namespace oiler::test

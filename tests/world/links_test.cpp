@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "oiler/core/error.hpp"
+#include "oiler/world/world.hpp"
+
+namespace {
+
+using oiler::Body;
+using oiler::Damping;
+using oiler::Entity;
+using oiler::find_method;
+using oiler::Link;
+using oiler::Rate;
+using oiler::Spring;
+using oiler::World;
+
+constexpr Link stiff{.stiffness = 300, .damping = 0.5, .rest_length = 1};
+
+struct Chain {
+    World world{2, {.rate = Rate{100}, .method = &find_method("velocity_verlet")}};
+    Entity first = world.spawn(Body{.position = {0, 0, 0}});
+    Entity second = world.spawn(Body{.position = {1.5, 0, 0}});
+    Entity third = world.spawn(Body{.position = {3, 0.5, 0}});
+
+    Chain() {
+        world.link(first, second, stiff);
+        world.link(second, third, stiff);
+    }
+};
+
+TEST(WorldLinks, PullTheirBodiesTogether) {
+    Chain chain;
+    chain.world.step(5);
+    EXPECT_GT(chain.world.velocity(chain.first)[0], 0);
+    EXPECT_LT(chain.world.velocity(chain.third)[0], 0);
+}
+
+TEST(WorldLinks, GoWithTheirEntities) {
+    Chain chain;
+    chain.world.destroy(chain.first);
+    EXPECT_EQ(chain.world.bodies().link_count(), 1U);
+    chain.world.step(5);
+    EXPECT_LT(chain.world.velocity(chain.third)[0], 0);
+    chain.world.remove_body(chain.second);
+    EXPECT_EQ(chain.world.bodies().link_count(), 0U);
+    const oiler::Vec3 velocity = chain.world.velocity(chain.third);
+    chain.world.step(5);
+    EXPECT_EQ(chain.world.velocity(chain.third), velocity);
+}
+
+TEST(WorldLinks, AreCopiedWithTheirWorld) {
+    Chain chain;
+    chain.world.step(7);
+    World copy = chain.world;
+    copy.step(20);
+    chain.world.step(20);
+    EXPECT_EQ(copy.state_hash(), chain.world.state_hash());
+}
+
+// A teleport between two steps must not be answered with the acceleration of before.
+TEST(WorldLinks, FeelATeleportAtOnce) {
+    Chain chain;
+    chain.world.step(1);
+    chain.world.teleport(chain.first, {1.5, 0, 0});
+    chain.world.teleport(chain.second, {2.5, 0, 0});
+    chain.world.teleport(chain.third, {3.5, 0, 0});
+    const oiler::Vec3 before = chain.world.velocity(chain.first);
+    chain.world.step(1);
+    // At rest lengths only the relative velocities of the first step pull, by less than 0.1 m/s².
+    EXPECT_NEAR(chain.world.velocity(chain.first)[0], before[0], 0.1);
+}
+
+/// Bodies are named by their entities, also where rows have moved.
+TEST(Preflight, NamesEntities) {
+    World world(1, {.rate = Rate{60}});
+    const Entity gone = world.spawn(Body{});
+    world.spawn(Body{});
+    const Entity stiffest = world.spawn(Body{}, Spring{.stiffness = 144.0 * 144});
+    world.destroy(gone);
+    ASSERT_EQ(world.row(stiffest), 0U);
+    const auto lines = world.preflight();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "spring of body 2: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
+              "implicit_euler");
+}
+
+TEST(Preflight, CountsWhatItDoesNotName) {
+    World world(1, {.rate = Rate{10}});
+    for (int i = 0; i < 9; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});
+    const auto lines = world.preflight(2);
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_TRUE(lines[0].starts_with("spring of body 8:")) << lines[0];
+    EXPECT_EQ(lines[2], "and 7 more");
+}
+
+TEST(Preflight, KnowsWhereDampingIsPut) {
+    const auto warnings = [](Damping damping) {
+        World world(1, {.rate = Rate{10}, .damping = damping});
+        world.spawn(Body{}, Spring{.stiffness = 100, .damping = 18});
+        return world.preflight().size();
+    };
+    // ω·dt = 1 and ζ = 0.9: h² + 4ζh = 4.6 > 4 in the kicks.
+    EXPECT_EQ(warnings(Damping::in_kick), 1U);
+    EXPECT_EQ(warnings(Damping::in_drift), 0U);
+}
+
+TEST(WorldMethods, ThatCannotStepItAreRefusedBeforeAnyStep) {
+    Chain chain;
+    World world = chain.world;
+    EXPECT_NO_THROW(world.require_applicable());
+    World exact(2, {.method = &find_method("exact")});
+    const Entity a = exact.spawn(Body{});
+    const Entity b = exact.spawn(Body{.position = {1, 0, 0}});
+    EXPECT_NO_THROW(exact.require_applicable());
+    exact.link(a, b, stiff);
+    EXPECT_THROW(exact.require_applicable(), oiler::Error);
+    EXPECT_EQ(exact.tick(), 0);
+}
+
+}  // namespace
