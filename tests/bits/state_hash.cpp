@@ -46,8 +46,7 @@ oiler::Entity spawn_assorted(World& world, int i, bool linear) {
                                                .stiffness = mass * (1 + i % 9),
                                                .damping = mass * (1 + i % 4) / 4.0,
                                                .rest_length = 60.0 + i % 5});
-    if (i % 11 == 4)
-        world.attach(entity, oiler::Attractor{.centre = {99}, .gm = 256});
+    if (i % 11 == 4) world.attach(entity, oiler::Attractor{.centre = {99}, .gm = 256});
     return entity;
 }
 

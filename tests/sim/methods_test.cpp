@@ -177,7 +177,8 @@ TEST(Splittings, AreThePublishedOnes) {
         for (std::size_t i = 0; i < stages.size(); ++i) {
             const auto& stage = entry.at("stages")[i];
             EXPECT_EQ(stages[i].move == Move::kick, stage[0] == "K") << name;
-            EXPECT_NEAR(stages[i].coefficient, number<long double>(stage[1]), tolerance) << name;
+            const long double off = stages[i].coefficient - number<long double>(stage[1]);
+            EXPECT_LE(std::abs(off), tolerance) << name;
         }
         EXPECT_EQ(method.order, entry.at("order")) << name;
         EXPECT_EQ(method.evaluations, entry.at("force_evaluations_per_step")) << name;

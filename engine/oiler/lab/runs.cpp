@@ -135,18 +135,20 @@ LongRun run_long(const Method& method, Damping damping, double limit, std::int64
     Bodies bodies = swing(omega_dt);
     const double at_start = energy.of(bodies.state(0));
     LongRun run{.steps = 0, .omega_dt = omega_dt, .lowest = 1, .highest = 1};
+    if (!method.symplectic) run.predicted = 2 * static_cast<double>(std::log(spectral_radius(m)));
+    // No longer than until the energy is e⁵⁰⁰ times larger or smaller.
+    const double most = std::min(static_cast<double>(steps), 500 / std::abs(run.predicted));
+    const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(most) / samples);
     std::vector<double> values;
-    const std::int64_t stride = std::max<std::int64_t>(1, steps / samples);
-    for (double share = 1; run.steps < steps && share > 1e-250 && share < 1e250;) {
+    while (static_cast<double>(run.steps) < most) {
         if (bodies.try_step(method, {each_second, run.steps, stride, damping})) break;
         run.steps += stride;
-        share = energy.of(bodies.state(0)) / at_start;
+        const double share = energy.of(bodies.state(0)) / at_start;
         run.lowest = std::min(run.lowest, share);
         run.highest = std::max(run.highest, share);
         values.push_back(form.of(bodies.state(0)));
     }
     run.trend = relative_trend(values) / static_cast<double>(stride);
-    if (!method.symplectic) run.predicted = 2 * static_cast<double>(std::log(spectral_radius(m)));
     run.allowed =
         allowed_trend(method, static_cast<double>(run.steps)) + 1e-6 * std::abs(run.predicted);
     return run;

@@ -117,6 +117,12 @@ Bodies::Bodies(int axes, Precision precision) {
     if (precision == Precision::extended) choose(0.0L);
 }
 
+Bodies::Bodies(const Bodies&) = default;
+Bodies::Bodies(Bodies&&) noexcept = default;
+Bodies& Bodies::operator=(const Bodies&) = default;
+Bodies& Bodies::operator=(Bodies&&) noexcept = default;
+Bodies::~Bodies() = default;
+
 int Bodies::axes() const { return static_cast<int>(columns_.index() % 3) + 1; }
 
 Precision Bodies::precision() const { return static_cast<Precision>(columns_.index() / 3); }

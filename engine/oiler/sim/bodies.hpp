@@ -26,6 +26,12 @@ class Bodies {
 public:
     /// `axes` from 1 to 3.
     Bodies(int axes, Precision precision);
+    // Not defined here, where every file that includes this would compile them for all columns.
+    Bodies(const Bodies&);
+    Bodies(Bodies&&) noexcept;
+    Bodies& operator=(const Bodies&);
+    Bodies& operator=(Bodies&&) noexcept;
+    ~Bodies();
 
     [[nodiscard]] int axes() const;
     [[nodiscard]] Precision precision() const;
