@@ -59,10 +59,10 @@ std::array<T, Batch<T>::lanes> lanes(const Batch<T>& batch) {
 }
 
 /// The first row from `row` on of which `state` holds a number that is not finite. Lanes beyond the
-/// last body do not count.
+/// last body do not count. By value: a state whose address is taken is not kept in registers.
 template <class V, int Axes>
-std::optional<Divergence> find_divergence(const State<V, Axes>& state, std::size_t row,
-                                          std::size_t rows, std::int64_t tick) {
+std::optional<Divergence> find_divergence(State<V, Axes> state, std::size_t row, std::size_t rows,
+                                          std::int64_t tick) {
     using Of = Divergence::Of;
     std::optional<Divergence> found;
     for (const Of of : {Of::position, Of::velocity})
