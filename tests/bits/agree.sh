@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# agree.sh PROGRAM...: all programs that this machine can run print the same. One whose name ends in
-# v4 needs AVX-512.
+# agree.sh PROGRAM...: all programs that this machine can run print the same, with the kernels of each
+# set of instructions that it has. One whose name ends in v4 needs AVX-512.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -20,15 +20,17 @@ for program in "$@"; do
         echo "skipped: $program needs AVX-512"
         continue
     fi
-    "$program" > "$folder/$count"
-    first=${first:-$program}
-    if ! diff "$folder/0" "$folder/$count"; then
-        echo "$program prints other hashes than $first"
-        exit 1
-    fi
-    count=$((count + 1))
+    for set in baseline avx2 avx512; do
+        if ! OILER_INSTRUCTIONS=$set "$program" > "$folder/$count"; then continue; fi
+        first=${first:-$program with $set}
+        if ! diff "$folder/0" "$folder/$count"; then
+            echo "$program with $set prints other hashes than $first"
+            exit 1
+        fi
+        count=$((count + 1))
+    done
 done
 lines=$(wc -l < "$folder/0")
-echo "$count programs agree on $lines hashes"
+echo "$count runs agree on $lines hashes"
 # Two methods, two precisions and three numbers of axes at least, by two programs at least.
 [ "$count" -ge 2 ] && [ "$lines" -ge 12 ]

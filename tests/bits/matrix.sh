@@ -15,7 +15,7 @@ sources=("$root"/tests/bits/state_hash.cpp "$root"/engine/oiler/core/{error,requ
 build() {
     local name=$1 compiler=$2
     shift 2
-    "$compiler" -std=c++20 -DNDEBUG -Wno-psabi "$@" -I"$root/engine" -I/usr/include/eigen3 "${sources[@]}" \
+    "$compiler" -std=c++20 -DNDEBUG -DOILER_INSTRUCTIONS=baseline -Wno-psabi "$@" -I"$root/engine" -I/usr/include/eigen3 "${sources[@]}" \
         -o "$folder/$name" -lfmt -lxxhash
 }
 

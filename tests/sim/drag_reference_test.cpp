@@ -17,7 +17,6 @@ namespace {
 using oiler::Bodies;
 using oiler::Damping;
 using oiler::find_method;
-using oiler::Forces;
 using oiler::GravityForce;
 using oiler::LinearDrag;
 using oiler::Method;
@@ -226,18 +225,23 @@ TEST(QuadraticDrag, MeetsTheReferencesWithTheOrderThatIsLeft) {
         }
 }
 
-Forces<Real, 2> forces_of(const Flight& flight) {
-    Forces<Real, 2> forces;
-    std::get<GravityForce<Real, 2>>(forces.list) = {.acceleration = {0, -flight.g}};
-    std::get<QuadraticDragForce<Real, 2>>(forces.list) = {flight.drag};
-    forces.present[0] = forces.present[3] = true;
-    return forces;
+struct FlightForces {
+    GravityForce<Real, 2> gravity;
+    QuadraticDragForce<Real, 2> drag;
+
+    [[nodiscard]] Vec<Real, 2> accelerate(const State<Real, 2>& state, double t) const {
+        return gravity.accelerate(state, t) + drag.accelerate(state, t);
+    }
+};
+
+FlightForces forces_of(const Flight& flight) {
+    return {{.acceleration = {0, -flight.g}}, {flight.drag}};
 }
 
 /// At a time that no rate of integers has, with all digits of the start.
 void expect_event(const Method& method, const Flight& flight, const nlohmann::json& event) {
     const Real t = number<Real>(event.at("t"));
-    const Forces<Real, 2> forces = forces_of(flight);
+    const FlightForces forces = forces_of(flight);
     SCOPED_TRACE(flight.name + ", t = " + event.at("t").get<std::string>() + ", " +
                  std::string(method.name));
     const auto error = [&](int steps) {

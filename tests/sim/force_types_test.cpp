@@ -221,31 +221,52 @@ TEST(Forces, AreLinearWhereTheySaySo) {
     });
 }
 
-// Numbers of forces that are not there must not be looked at.
+/// Forces as a test lists them.
+template <int Axes>
+struct Listed {
+    oiler::ForceList<Real, Axes> list{};
+    std::array<std::size_t, oiler::force_count> counts{};
+
+    template <class Force>
+    static constexpr std::size_t at =
+        oiler::index_of<Force>(static_cast<oiler::ForceList<Real, Axes>*>(nullptr));
+    template <class Force>
+    [[nodiscard]] std::size_t count() const {
+        return counts[at<Force>];
+    }
+    template <class Force>
+    [[nodiscard]] const Force& get(std::size_t) const {
+        return std::get<at<Force>>(list);
+    }
+};
+
+// Numbers of forces that are not there must not be looked at; two of a kind act twice.
 TEST(Forces, AddUpThoseThatArePresent) {
     Assorted assorted;
     const State<Real, 2> state = assorted.state<2>();
     for (unsigned set = 0; set < 1U << oiler::force_count; ++set) {
-        Forces<Real, 2> forces;
+        Listed<2> listed;
         Vec<Real, 2> acceleration{};
         Vec<Real, 2> field{};
         Real potential = 0;
         Real rate = 0;
         Jacobian<Real, 2> jacobian;
         oiler::for_each_index<oiler::force_count>([&](auto i) {
-            auto& force = std::get<i>(forces.list);
-            forces.present[i] = (set >> i & 1U) != 0;
+            auto& force = std::get<i>(listed.list);
+            listed.counts[i] = (set >> i & 1U) * (1 + set % 2);
             for_each_number(force, [&](Real& number) {
-                number = forces.present[i] ? assorted.positive() : std::nanl("");
+                number = listed.counts[i] > 0 ? assorted.positive() : std::nanl("");
             });
-            if (!forces.present[i]) return;
-            acceleration = acceleration + force.accelerate(state, 0);
-            field = field + field_of(force, state);
-            potential += force.potential(state);
-            if constexpr (requires { force.damping_rate(); }) rate += force.damping_rate();
-            jacobian = {jacobian.dx + force.jacobian(state).dx,
-                        jacobian.dv + force.jacobian(state).dv};
+            for (std::size_t nth = 0; nth < listed.counts[i]; ++nth) {
+                acceleration = acceleration + force.accelerate(state, 0);
+                field = field + field_of(force, state);
+                potential += force.potential(state);
+                if constexpr (requires { force.damping_rate(); }) rate += force.damping_rate();
+                jacobian = {jacobian.dx + force.jacobian(state).dx,
+                            jacobian.dv + force.jacobian(state).dv};
+            }
         });
+        const Forces<Real, 2, Listed<2>> forces(listed);
         EXPECT_EQ(forces.accelerate(state, 0), acceleration) << set;
         EXPECT_EQ(forces.field(state.x, 0), field) << set;
         EXPECT_EQ(forces.potential(state), potential) << set;

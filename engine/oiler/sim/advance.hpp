@@ -22,26 +22,27 @@ concept Flowing = requires(Physics& physics, State& state, double t) {
 
 /// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
 /// whatever drag is not linear.
-template <std::floating_point T, class State, class Physics>
-[[gnu::always_inline]] inline void advance(const SplittingPlan<T>& plan, State& state,
-                                           Physics& physics, double t) {
+template <SplitsSteps Plan, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+                                           double t) {
     constexpr bool flowing = Flowing<Physics, State>;
     if constexpr (flowing) physics.slow_before(state, plan);
-    for (std::size_t i = 0; i < plan.count; ++i) {
-        const auto& stage = plan.stages[i];
-        if (stage.move == Move::kick) {
-            if constexpr (flowing)
-                add_scaled(state.v, physics.kick(state, t), stage.tau);
-            else
-                add_scaled(state.v, physics.accelerate(state, t), stage.tau);
-        } else {
-            if constexpr (flowing)
-                physics.drift(state, stage.flow, stage.tau);
-            else
-                add_scaled(state.x, state.v, stage.tau);
-            t += static_cast<double>(stage.tau);
-        }
-    }
+    repeat(
+        plan.count, [&](auto i) __attribute__((always_inline)) {
+            const auto& stage = plan.stages[i];
+            if (stage.move == Move::kick) {
+                if constexpr (flowing)
+                    add_scaled(state.v, physics.kick(state, t), stage.tau);
+                else
+                    add_scaled(state.v, physics.accelerate(state, t), stage.tau);
+            } else {
+                if constexpr (flowing)
+                    physics.drift(state, stage.flow, stage.tau);
+                else
+                    add_scaled(state.x, state.v, stage.tau);
+                t += static_cast<double>(stage.tau);
+            }
+        });
     if constexpr (flowing) physics.slow_after(state, plan);
 }
 
@@ -52,33 +53,28 @@ struct Derivative {
     decltype(State::v) dv;
 };
 
-/// The rates of change where the ones before, each for its own part of the step, lead: the
-/// article's evaluate.
-template <std::size_t N, std::floating_point T, class State, class Physics>
-[[gnu::always_inline]] inline Derivative<State> evaluate(const State& initial,
-                                                         const std::array<Derivative<State>, N>& k,
-                                                         const std::array<T, N>& tau,
-                                                         std::size_t count, Physics& physics,
-                                                         double t) {
-    State at = initial;
-    for (std::size_t j = 0; j < count; ++j) {
-        add_scaled(at.x, k[j].dx, tau[j]);
-        add_scaled(at.v, k[j].dv, tau[j]);
-    }
-    return {at.v, physics.accelerate(at, t)};
-}
-
-/// One step of a Runge–Kutta method from time `t` (s): the article's integrate, for any tableau.
-template <std::floating_point T, class State, class Physics>
-[[gnu::always_inline]] inline void advance(const TableauPlan<T>& plan, State& state,
-                                           Physics& physics, double t) {
+/// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
+/// any tableau. Each stage is where the rates of change before it lead, each for its own part of
+/// dt.
+template <IsTableau Plan, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+                                           double t) {
     std::array<Derivative<State>, Tableau::most_stages> k;
-    for (std::size_t i = 0; i < plan.count; ++i)
-        k[i] = evaluate(state, k, plan.a[i], i, physics, t + plan.c[i]);
-    for (std::size_t i = 0; i < plan.count; ++i) {
-        add_scaled(state.x, k[i].dx, plan.b[i]);
-        add_scaled(state.v, k[i].dv, plan.b[i]);
-    }
+    const State initial = state;
+    repeat(
+        plan.count, [&](auto i) __attribute__((always_inline)) {
+            State at = initial;
+            repeat(
+                i, [&](auto j) __attribute__((always_inline)) {
+                    if (!plan.uses(i, j)) return;
+                    add_scaled(at.x, k[j].dx, plan.a[i][j]);
+                    add_scaled(at.v, k[j].dv, plan.a[i][j]);
+                });
+            k[i] = {at.v, physics.accelerate(at, t + plan.c[i])};
+            if (plan.b[i] == 0) return;
+            add_scaled(state.x, k[i].dx, plan.b[i]);
+            add_scaled(state.v, k[i].dv, plan.b[i]);
+        });
 }
 
 inline constexpr int most_iterations = 64;

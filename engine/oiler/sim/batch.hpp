@@ -7,14 +7,14 @@
 
 namespace oiler {
 
-/// Several bodies' numbers as one Number: four SIMD registers of whatever width the file is
-/// compiled for. Four, so that the additions of one register hide the latency of the others'. No
-/// result depends on the width: lanes never meet.
-template <std::floating_point T>
+/// Several bodies' numbers as one Number: a few SIMD registers of one width, so that the additions
+/// of one hide the latency of the others'. No result depends on width or number: lanes never meet.
+template <class PackOfNumbers, std::size_t Packs>
 class Batch {
 public:
-    using Pack = std::experimental::native_simd<T>;
-    static constexpr std::size_t packs = 4;
+    using Pack = PackOfNumbers;
+    using T = typename Pack::value_type;
+    static constexpr std::size_t packs = Packs;
     static constexpr std::size_t lanes = packs * Pack::size();
 
     Batch() = default;
@@ -30,6 +30,18 @@ public:
     [[gnu::always_inline]] void store(T* to) const {
         for_each_index<packs>([&](auto i) {
             pack_[i].copy_to(to + i * Pack::size(), std::experimental::vector_aligned);
+        });
+    }
+
+    /// The same from and to anywhere.
+    [[gnu::always_inline]] static Batch load_unaligned(const T* from) {
+        return Batch(generate<packs>([&](auto i) {
+            return Pack(from + i * Pack::size(), std::experimental::element_aligned);
+        }));
+    }
+    [[gnu::always_inline]] void store_unaligned(T* to) const {
+        for_each_index<packs>([&](auto i) {
+            pack_[i].copy_to(to + i * Pack::size(), std::experimental::element_aligned);
         });
     }
 
@@ -60,12 +72,24 @@ public:
     [[gnu::always_inline]] friend Batch quotient_unless_nothing(const Batch& a, const Batch& b) {
         return quotient_where_not(a, a, b);
     }
-    /// No lane is infinite or NaN.
-    [[gnu::always_inline]] friend bool all_finite(const Batch& a) {
-        const Batch nothing = a - a;
-        const Pack sum =
-            (nothing.pack_[0] + nothing.pack_[1]) + (nothing.pack_[2] + nothing.pack_[3]);
-        return std::experimental::all_of(sum == Pack(T(0)));
+    /// `instead` in the lanes where each of `sizes` is less than `limit` in size, and `rate` is
+    /// positive.
+    template <class... Sizes>
+    [[gnu::always_inline]] friend Batch where_less(const Batch& value, const Batch& instead,
+                                                   const Batch& rate, T limit,
+                                                   const Sizes&... sizes) {
+        return Batch(generate<packs>([&](auto i) {
+            Pack chosen = value.pack_[i];
+            const auto less = ((std::experimental::abs(sizes.pack_[i]) < Pack(limit)) && ...);
+            std::experimental::where(less && rate.pack_[i] > Pack(T(0)), chosen) = instead.pack_[i];
+            return chosen;
+        }));
+    }
+    /// Whether the sum over the registers is finite in all lanes: where it is, all numbers are.
+    [[gnu::always_inline]] friend bool is_finite(const Batch& a) {
+        Pack total = a.pack_[0];
+        for_each_index<packs - 1>([&](auto i) { total = total + a.pack_[i + 1]; });
+        return std::experimental::all_of(total - total == Pack(T(0)));
     }
 
 private:
@@ -83,9 +107,9 @@ private:
     std::array<Pack, packs> pack_;
 };
 
-template <class T>
-struct ScalarOf<Batch<T>> {
-    using type = T;
+template <class Pack, std::size_t Packs>
+struct ScalarOf<Batch<Pack, Packs>> {
+    using type = typename Pack::value_type;
 };
 
 }  // namespace oiler

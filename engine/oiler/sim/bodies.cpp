@@ -37,28 +37,30 @@ To stored_form(const From& given, double mass) {
     return force;
 }
 
-template <class Force, class T>
-void make_present(ForceColumns<Force, T>& stored, std::size_t rows) {
-    if (stored.present) return;
-    stored.present = true;
-    for (Parameter<T>& parameter : stored.numbers) parameter = Parameter<T>(T(0), rows);
+/// Columns for `count` forces of a kind, of which those that are new act on nothing.
+template <class Numbers>
+void make_room(std::vector<Numbers>& stored, std::size_t count, std::size_t rows) {
+    while (stored.size() < count)
+        for (auto& parameter : stored.emplace_back()) parameter = {0, rows};
+}
+
+template <class Numbers, class Force>
+void set_force(Numbers& stored, std::size_t row, Force force) {
+    std::size_t next = 0;
+    for_each_number(force, [&](auto number) { stored[next++].set(row, number); });
 }
 
 /// A force's numbers for a new row: what everybody has, what was given, or nothing.
-template <class Force, class T>
-void push_force(ForceColumns<Force, T>& stored, const std::optional<Force>& given) {
-    Force force = given.value_or(Force{});
-    std::size_t next = 0;
-    for_each_number(force, [&](T number) {
-        Parameter<T>& parameter = stored.numbers[next++];
-        parameter.push(Force::everywhere ? parameter.data()[0] : number);
-    });
-}
-
-template <class Force, class T>
-void set_force(ForceColumns<Force, T>& stored, std::size_t row, Force force) {
-    std::size_t next = 0;
-    for_each_number(force, [&](T number) { stored.numbers[next++].set(row, number); });
+template <class Numbers, class Force>
+void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given) {
+    for (std::size_t nth = 0; nth < stored.size(); ++nth) {
+        Force force = nth == 0 ? given.value_or(Force{}) : Force{};
+        std::size_t next = 0;
+        for_each_number(force, [&](auto number) {
+            auto& parameter = stored[nth][next++];
+            parameter.push(Force::everywhere ? parameter[0] : number);
+        });
+    }
 }
 
 /// Calls f(the stored columns, the force in their form) for every kind of force; the latter is
@@ -135,7 +137,16 @@ std::size_t Bodies::size() const {
     return std::visit([](const auto& columns) { return columns.size; }, columns_);
 }
 
-std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
+void Bodies::reserve(std::size_t rows) {
+    std::visit(
+        [&](auto& columns) {
+            for (auto& column : columns.motion.x) column.reserve(rows);
+            for (auto& column : columns.motion.v) column.reserve(rows);
+        },
+        columns_);
+}
+
+std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
     const Limits limits(precision(), axes());
     limits.check(body);
     limits.check(forces, body.mass);
@@ -143,8 +154,8 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
         [&](auto& columns) {
             const std::size_t row = columns.size;
             for_each_force(columns, forces, body.mass, [&](auto& stored, const auto& force) {
-                if (force) make_present(stored, row);
-                if (stored.present) push_force(stored, force);
+                if (force) make_room(stored, 1, row);
+                push_force(stored, force);
             });
             push(columns.motion.x, body.position);
             push(columns.motion.v, body.velocity);
@@ -155,15 +166,15 @@ std::size_t Bodies::add_given(const Body& body, const GivenForces& forces) {
         columns_);
 }
 
-void Bodies::attach_given(std::size_t row, const GivenForces& forces) {
+void Bodies::attach_given(std::size_t row, std::size_t nth, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
     std::visit(
         [&](auto& columns) {
             for_each_force(columns, forces, columns.mass[row],
                            [&](auto& stored, const auto& force) {
                                if (!force) return;
-                               make_present(stored, columns.size);
-                               set_force(stored, row, *force);
+                               make_room(stored, nth + 1, columns.size);
+                               set_force(stored[nth], row, *force);
                            });
             columns.forces_changed();
         },
@@ -178,8 +189,8 @@ void Bodies::remove(std::size_t row) {
             for (auto& column : columns.motion.v) column.swap_remove(row);
             columns.mass.swap_remove(row);
             const auto remove_from = [&](auto& stored) {
-                if (stored.present)
-                    for (auto& parameter : stored.numbers) parameter.swap_remove(row);
+                for (auto& numbers : stored)
+                    for (auto& parameter : numbers) parameter.swap_remove(row);
             };
             std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
             remove_links(columns.links, row, --columns.size);
@@ -232,11 +243,12 @@ void Bodies::set_gravity(const Vec3& acceleration) {
     Limits(precision(), axes()).check(acceleration, "gravity");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            auto& stored = std::get<ForceColumns<GravityForce<T, Axes>, T>>(columns.forces);
-            stored.present = true;
+            constexpr std::size_t at =
+                index_of<GravityForce<T, Axes>>(static_cast<ForceList<T, Axes>*>(nullptr));
+            auto& stored = std::get<at>(columns.forces);
+            make_room(stored, 1, columns.size);
             const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
-            for (std::size_t i = 0; i < Axes; ++i)
-                stored.numbers[i] = Parameter<T>(g.axis[i], columns.size);
+            for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
             columns.forces_changed();
         },
         columns_);

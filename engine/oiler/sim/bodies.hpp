@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -43,13 +44,21 @@ public:
     /// the world lacks; then nothing has changed.
     template <BodyForce... Force>
     std::size_t add(const Body& body, const Force&... force) {
-        return add_given(body, given(force...));
+        return add(body, given(force...));
     }
+    std::size_t add(const Body& body, const GivenForces& forces);
     /// Gives row `row` a force, or other numbers for the one that it has.
     template <BodyForce... Force>
     void attach(std::size_t row, const Force&... force) {
-        attach_given(row, given(force...));
+        attach_given(row, 0, given(force...));
     }
+    /// The same for the nth of several forces of a kind, counted from 0.
+    template <BodyForce... Force>
+    void attach_nth(std::size_t nth, std::size_t row, const Force&... force) {
+        attach_given(row, nth, given(force...));
+    }
+    /// Room for that many rows in all, so that adding them copies none.
+    void reserve(std::size_t rows);
     /// The last row takes the place of `row`, in its links too; those of `row` go with it.
     void remove(std::size_t row);
 
@@ -72,6 +81,10 @@ public:
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
 
+    /// How many threads step unlinked bodies where that pays, 1 if not called. The bits are the
+    /// same with any number; copies share the threads.
+    void set_threads(int threads);
+
     /// Throws Error{usage} where the method cannot step these forces: see require_applicable; and
     /// Error{diverged} naming step, row, field and likely cause when a number stops being finite;
     /// the bodies are then of no further use.
@@ -87,8 +100,10 @@ public:
     /// How often the forces on the first body were evaluated so far.
     [[nodiscard]] std::int64_t evaluations() const;
 
-    /// The forces on row `row` per unit mass, as the step evaluates them.
-    [[nodiscard]] GivenForces forces_per_mass(std::size_t row) const;
+    /// The forces on row `row` per unit mass, as the step evaluates them: the nth of each kind.
+    [[nodiscard]] GivenForces forces_per_mass(std::size_t row, std::size_t nth = 0) const;
+    /// How many forces of one kind there are at most; a body that has fewer has zeros.
+    [[nodiscard]] std::size_t most_of_a_kind() const;
 
     /// Summed in double in eight fixed lanes, so that it does not depend on the machine.
     [[nodiscard]] Energy energy() const;
@@ -113,13 +128,13 @@ private:
     void require_row(std::size_t row) const;
     void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
-    std::size_t add_given(const Body& body, const GivenForces& forces);
-    void attach_given(std::size_t row, const GivenForces& forces);
+    void attach_given(std::size_t row, std::size_t nth, const GivenForces& forces);
 
     std::variant<Columns<float, 1>, Columns<float, 2>, Columns<float, 3>, Columns<double, 1>,
                  Columns<double, 2>, Columns<double, 3>, Columns<long double, 1>,
                  Columns<long double, 2>, Columns<long double, 3>>
         columns_;
+    std::shared_ptr<Team> team_;
 };
 
 }  // namespace oiler

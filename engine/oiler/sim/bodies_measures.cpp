@@ -58,18 +58,28 @@ State<long double, 3> Bodies::state(std::size_t row) const {
         columns_);
 }
 
-GivenForces Bodies::forces_per_mass(std::size_t row) const {
+GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t nth) const {
     require_row(row);
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const Forces<double, Axes> forces = forces_of<double>(columns, row);
+            const ForcesOfRow<double, T, Axes> forces(columns, row);
             GivenForces given;
             for_each_index<force_count>([&](auto i) {
+                using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
                 using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
-                if (forces.present[i])
-                    std::get<i>(given) = given_form<Given, Axes>(std::get<i>(forces.list));
+                if (nth < forces.template count<Force>())
+                    std::get<i>(given) = given_form<Given, Axes>(forces.template get<Force>(nth));
             });
             return given;
+        },
+        columns_);
+}
+
+std::size_t Bodies::most_of_a_kind() const {
+    return std::visit(
+        [](const auto& columns) {
+            return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
+                              columns.forces);
         },
         columns_);
 }

@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/require.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/flows.hpp"
 #include "oiler/sim/preflight.hpp"
@@ -17,6 +18,11 @@ Plan<T> plan_for(const Method& method, const Steps& steps) {
 
 }  // namespace
 
+void Bodies::set_threads(int threads) {
+    require(threads >= 1, "a step is taken by one thread at least");
+    team_ = threads == 1 ? nullptr : std::make_shared<Team>(static_cast<std::size_t>(threads));
+}
+
 void Bodies::step(const Method& method, const Steps& steps) {
     if (const auto at = try_step(method, steps))
         fail_diverged(*this, *at, method, steps, [](std::size_t row) { return row; });
@@ -28,7 +34,7 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             const Plan<T> plan = plan_for<T>(method, steps);
             prepare_flows(columns, plan);
-            return columns.links.empty() ? step_rows(columns, plan, steps)
+            return columns.links.empty() ? step_rows(columns, plan, steps, team_.get())
                                          : step_linked_rows(columns, plan, steps);
         },
         columns_);
@@ -36,9 +42,14 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
 
 void Bodies::require_applicable(const Method& method, const Steps& steps) const {
     require_forces_for(method);
-    std::visit([&]<class T, int Axes>(
-                   Columns<T, Axes> copy) { prepare_flows(copy, plan_for<T>(method, steps)); },
-               columns_);
+    std::visit(
+        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+            const Plan<T> plan = plan_for<T>(method, steps);
+            if (!needs_flows(plan)) return;
+            Columns<T, Axes> copy = columns;
+            prepare_flows(copy, plan);
+        },
+        columns_);
 }
 
 void Bodies::require_forces_for(const Method& method) const {
@@ -51,7 +62,7 @@ void Bodies::require_forces_for(const Method& method) const {
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-                if (!Force::linear && std::get<i>(columns.forces).present)
+                if (!Force::linear && !std::get<i>(columns.forces).empty())
                     fail(Exit::usage, "method {}: {} is not linear in position and velocity; {}",
                          method.name, Force::name, remedy);
             });

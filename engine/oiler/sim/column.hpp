@@ -9,8 +9,8 @@
 
 namespace oiler {
 
-/// Columns end on a multiple of this many rows, so that a whole batch can be loaded from anywhere,
-/// whatever the machine's registers hold. The rows beyond the last body are scratch.
+/// Columns end on a multiple of this many rows, so that whole batches can be loaded, whatever the
+/// machine's registers hold. The rows beyond the last body are scratch.
 inline constexpr std::size_t row_padding = 64;
 inline constexpr std::size_t column_alignment = 64;
 
@@ -46,8 +46,11 @@ public:
     T& operator[](std::size_t row) { return values_[row]; }
     const T& operator[](std::size_t row) const { return values_[row]; }
 
+    [[nodiscard]] std::size_t bytes() const { return values_.capacity() * sizeof(T); }
+
+    void reserve(std::size_t rows) { values_.reserve(padded(rows)); }
     void push(T value) {
-        values_.resize(padded(size_ + 1));
+        if (size_ == values_.size()) grow();
         values_[size_++] = value;
     }
     /// The last row takes the place of `row`.
@@ -60,23 +63,33 @@ public:
 private:
     [[nodiscard]] std::ptrdiff_t end() const { return static_cast<std::ptrdiff_t>(size_); }
 
+    void grow() { values_.resize(padded(size_ + 1)); }
+
     std::vector<T, AlignedAllocator<T>> values_;
     std::size_t size_ = 0;
 };
 
 /// A number that belongs to each row, stored once while all rows agree on it and as a column from
-/// the first that differs: a scene pays for what varies.
+/// the first that differs: a scene pays for what varies. What is stored once fills as many rows as
+/// a batch may load.
 template <class T>
 class Parameter {
 public:
     Parameter() = default;
     /// `rows` rows that agree on `value`.
-    Parameter(T value, std::size_t rows) : size_(rows) { column_.push(value); }
+    Parameter(T value, std::size_t rows) : size_(rows) { share(value); }
 
     [[nodiscard]] bool shared() const { return shared_; }
-    [[nodiscard]] const T* data() const { return column_.data(); }
-    T operator[](std::size_t row) const { return column_[shared_ ? 0 : row]; }
+    /// From row `row` on.
+    [[nodiscard]] const T* data(std::size_t row) const {
+        return column_.data() + (shared_ ? 0 : row);
+    }
+    T operator[](std::size_t row) const { return *data(row); }
+    [[nodiscard]] std::size_t bytes() const { return column_.bytes(); }
 
+    void reserve(std::size_t rows) {
+        if (!shared_) column_.reserve(rows);
+    }
     void push(T value) {
         if (size_ == 0) {
             *this = Parameter(value, 1);
@@ -87,8 +100,10 @@ public:
         ++size_;
     }
     void set(std::size_t row, T value) {
-        if (shared_ && differ(value, column_[0]) && size_ > 1) spread();
-        column_[shared_ ? 0 : row] = value;
+        if (shared_ && size_ == 1)
+            share(value);
+        else if (!shared_ || differ(value, column_[0]))
+            spread(), column_[row] = value;
     }
     void swap_remove(std::size_t row) {
         --size_;
@@ -99,8 +114,14 @@ private:
     /// 0 and −0 do: a body's bits do not depend on which of them a neighbour has.
     static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
 
+    void share(T value) {
+        column_ = {};
+        while (column_.size() < row_padding) column_.push(value);
+    }
     void spread() {
+        if (!shared_) return;
         const T value = column_[0];
+        column_ = {};
         while (column_.size() < size_) column_.push(value);
         shared_ = false;
     }

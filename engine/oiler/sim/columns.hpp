@@ -12,30 +12,20 @@
 
 namespace oiler {
 
-/// A force's numbers for all rows.
+/// One force's numbers for all rows.
 template <class Force, class T>
-struct ForceColumns {
-    bool present = false;
-    std::array<Parameter<T>, number_count<Force>()> numbers;
-};
+using ForceColumns = std::array<Parameter<T>, number_count<Force>()>;
 
 template <class List, class T>
 struct ForceColumnsOf;
 template <class... Force, class T>
 struct ForceColumnsOf<std::tuple<Force...>, T> {
-    using type = std::tuple<ForceColumns<Force, T>...>;
+    using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
 };
 
 /// A vector for each row.
 template <class T, int Axes>
 using VecColumns = std::array<Column<T>, Axes>;
-
-template <class T, std::size_t Axes>
-void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what, T s) {
-    for (std::size_t i = 0; i < Axes; ++i)
-        for (std::size_t row = 0; row < to[i].size(); ++row)
-            to[i][row] = to[i][row] + what[i][row] * s;
-}
 
 template <class T, std::size_t Axes>
 [[nodiscard]] T largest(const std::array<Column<T>, Axes>& columns) {
@@ -71,15 +61,26 @@ struct FlowColumns {
     Parameter<T> decay;
 };
 
+/// Which part of an acceleration is asked for: that which position alone decides, or all.
+enum class Evaluate { field, all };
+
+/// `count` links with the numbers of `of`, the next of which joins the rows after those of the one
+/// before.
+template <std::floating_point T>
+struct LinkRun {
+    LinkRow<T> of;
+    std::size_t count;
+};
+
 /// The exact flows that a plan needs, computed once for all steps with it.
 template <class T>
 struct Flows {
     bool valid = false;
-    bool damped = false;             ///< else drifts are straight
-    std::vector<T> durations;        ///< s
-    std::vector<FlowColumns<T>> of;  ///< each duration
-    T half_step = 0;                 ///< s
-    Parameter<T> coil_loss;          ///< 1 − e^(−b·τ) over a half-step
+    bool damped = false;                  ///< else drifts are straight
+    std::vector<T> durations;             ///< s
+    std::vector<FlowColumns<T>> of;       ///< each duration
+    T half_step = 0;                      ///< s
+    std::vector<Parameter<T>> coil_loss;  ///< of each coil, 1 − e^(−b·τ) over a half-step
 };
 
 template <class T>
@@ -88,10 +89,12 @@ class LinkSolver;
 /// What steps of linked rows carry on from one to the next.
 template <class T, int Axes>
 struct LinkCache {
-    bool valid = false;           ///< until bodies, masses, forces or links change
-    std::vector<T> inverse_mass;  ///< 1/kg, of each row
-    T half_step = 0;              ///< s
+    bool valid = false;  ///< until bodies, masses, forces or links change
+    std::vector<LinkRun<T>> runs;
+    Parameter<T> inverse_mass;  ///< 1/kg, of each row
+    T half_step = 0;            ///< s
     std::vector<T> loss;  ///< of each link, 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
+    VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
     bool field_valid = false;                     ///< until positions change, too
     std::shared_ptr<const LinkSolver<T>> solver;  ///< where the equations are linear
@@ -105,6 +108,7 @@ struct Columns {
     std::size_t size = 0;
     MotionColumns<T, Axes> motion;
     Parameter<double> mass;  ///< kg
+    /// As many of each kind as the body has that has the most.
     typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
     std::vector<LinkRow<T>> links;
     /// How often the forces on the first row were evaluated.
@@ -128,27 +132,51 @@ template <Number V, std::floating_point T, int Axes>
             {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
 }
 
-/// The forces on some rows, per unit mass, of which `read` makes each number of its Parameter.
-template <Number V, std::floating_point T, int Axes, class Read>
-[[nodiscard]] [[gnu::always_inline]] inline Forces<V, Axes> read_forces(
-    const Columns<T, Axes>& columns, Read read) {
-    Forces<V, Axes> forces;
-    for_each_index<force_count>([&](auto i) {
-        const auto& stored = std::get<i>(columns.forces);
-        forces.present[i] = stored.present;
-        std::size_t next = 0;
-        if (stored.present)
-            for_each_number(std::get<i>(forces.list),
-                            [&](V& number) { number = read(stored.numbers[next++]); });
-    });
-    return forces;
+/// One row's number, or those of a batch of rows from `row` on.
+template <Number V, std::floating_point T>
+[[nodiscard]] [[gnu::always_inline]] inline V load(const Parameter<T>& parameter, std::size_t row) {
+    if constexpr (requires { V::load(parameter.data(row)); })
+        return V::load(parameter.data(row));
+    else
+        return V(parameter[row]);
 }
 
-/// Those on row `row`, as the step evaluates them.
+/// A Source of Forces: those on row `row`, or on a batch of rows from there on, per unit mass.
 template <Number V, std::floating_point T, int Axes>
-[[nodiscard]] Forces<V, Axes> forces_of(const Columns<T, Axes>& columns, std::size_t row) {
-    return read_forces<V>(columns,
-                          [&](const Parameter<T>& parameter) { return V(parameter[row]); });
+class ForcesOfRow {
+public:
+    ForcesOfRow(const Columns<T, Axes>& columns, std::size_t row) : columns_(columns), row_(row) {}
+
+    template <class Force>
+    [[gnu::always_inline]] std::size_t count() const {
+        return stored<Force>().size();
+    }
+    template <class Force>
+    [[gnu::always_inline]] Force get(std::size_t nth) const {
+        const auto& numbers = stored<Force>()[nth];
+        Force force;
+        std::size_t next = 0;
+        for_each_number(
+            force, [&](V & number)
+                       __attribute__((always_inline)) { number = load<V>(numbers[next++], row_); });
+        return force;
+    }
+
+private:
+    template <class Force>
+    [[gnu::always_inline]] const auto& stored() const {
+        constexpr std::size_t at = index_of<Force>(static_cast<ForceList<V, Axes>*>(nullptr));
+        return std::get<at>(columns_.forces);
+    }
+
+    const Columns<T, Axes>& columns_;
+    std::size_t row_;
+};
+
+/// The forces on row `row` as a value of the Number `V`.
+template <Number V, std::floating_point T, int Axes>
+[[nodiscard]] auto forces_of(const Columns<T, Axes>& columns, std::size_t row) {
+    return Forces<V, Axes, ForcesOfRow<V, T, Axes>>(ForcesOfRow<V, T, Axes>(columns, row));
 }
 
 }  // namespace oiler

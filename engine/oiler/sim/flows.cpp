@@ -22,9 +22,31 @@ struct Oscillator {
 /// Of what acts on row `row`; `k` where springs belong to the flow.
 template <class T, int Axes>
 Oscillator<T> oscillator_of(const Columns<T, Axes>& columns, std::size_t row, bool with_springs) {
-    const Forces<T, Axes> forces = forces_of<T>(columns, row);
-    const auto* const spring = forces.template find<SpringForce>();
-    return {with_springs && spring ? spring->stiffness : T(0), forces.damping_rate()};
+    const auto forces = forces_of<T>(columns, row);
+    Oscillator<T> oscillator{T(0), forces.damping_rate()};
+    if (with_springs)
+        for (std::size_t nth = 0; nth < forces.template count<SpringForce>(); ++nth)
+            oscillator.k = oscillator.k + forces.template get<SpringForce>(nth).stiffness;
+    return oscillator;
+}
+
+/// Whether all rows have the same numbers in all forces that damp linearly or pull on springs.
+template <class T, int Axes>
+bool rows_agree(const Columns<T, Axes>& columns) {
+    bool agree = true;
+    for_each_index<force_count>([&](auto i) {
+        using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
+        if constexpr (requires(const Force& force) { force.damping_rate(); })
+            for (const auto& numbers : std::get<i>(columns.forces))
+                for (const Parameter<T>& number : numbers) agree = agree && number.shared();
+    });
+    return agree;
+}
+
+/// How many rows speak for all.
+template <class T, int Axes>
+std::size_t distinct_rows(const Columns<T, Axes>& columns) {
+    return rows_agree(columns) ? std::min<std::size_t>(columns.size, 1) : columns.size;
 }
 
 template <class T>
@@ -40,7 +62,7 @@ void require_finite(const Response<T>& response, const Oscillator<T>& of, T dura
 template <class T, int Axes, class F>
 void for_each_response(const Columns<T, Axes>& columns, T duration, bool with_springs, F f) {
     std::map<Oscillator<T>, Response<T>> known;
-    for (std::size_t row = 0; row < columns.size; ++row) {
+    for (std::size_t row = 0; row < distinct_rows(columns); ++row) {
         const Oscillator<T> oscillator = oscillator_of(columns, row, with_springs);
         auto at = known.find(oscillator);
         if (at == known.end()) {
@@ -63,21 +85,23 @@ FlowColumns<T> flow_columns(const Columns<T, Axes>& columns, T duration, bool wi
     return flow;
 }
 
+/// Of each coil spring that a body may have.
 template <class T, int Axes>
-Parameter<T> coil_losses(const Columns<T, Axes>& columns, T duration) {
-    Parameter<T> loss;
-    for (std::size_t row = 0; row < columns.size; ++row) {
-        const Forces<T, Axes> forces = forces_of<T>(columns, row);
-        const auto* const coil = forces.template find<CoilSpringForce>();
-        loss.push(coil ? coil->damping * oscillator_response(T(0), coil->damping, duration).reach
-                       : T(0));
-    }
-    return loss;
+std::vector<Parameter<T>> coil_losses(const Columns<T, Axes>& columns, T duration) {
+    using Coil = CoilSpringForce<T, Axes>;
+    const ForcesOfRow<T, T, Axes> first(columns, 0);
+    std::vector<Parameter<T>> losses(first.template count<Coil>());
+    for (std::size_t nth = 0; nth < losses.size(); ++nth)
+        for (std::size_t row = 0; row < columns.size; ++row) {
+            const T c = ForcesOfRow<T, T, Axes>(columns, row).template get<Coil>(nth).damping;
+            losses[nth].push(c * oscillator_response(T(0), c, duration).reach);
+        }
+    return losses;
 }
 
 template <class T, int Axes>
 bool is_damped(const Columns<T, Axes>& columns) {
-    for (std::size_t row = 0; row < columns.size; ++row)
+    for (std::size_t row = 0; row < distinct_rows(columns); ++row)
         if (forces_of<T>(columns, row).damping_rate() != 0) return true;
     return false;
 }

@@ -6,6 +6,14 @@
 
 namespace oiler {
 
+/// Whether steps with the plan follow flows at all.
+template <std::floating_point T>
+[[nodiscard]] bool needs_flows(const Plan<T>& plan) {
+    const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
+    return splitting ? splitting->damping == Damping::in_drift
+                     : std::holds_alternative<ExactPlan<T>>(plan);
+}
+
 /// Computes the exact flows that the plan needs, unless the columns have them: one response for
 /// each distinct damping (and stiffness) and length. Throws Error{usage} where one overflows, since
 /// a negative drift runs damping backwards.

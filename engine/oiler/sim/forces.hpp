@@ -55,12 +55,13 @@ constexpr std::size_t number_count() {
 }
 
 /// The forces on one body, or on a batch of bodies: those that the scene names, and no others.
-template <Number V, int Axes>
-struct Forces {
-    ForceList<V, Axes> list{};
-    std::array<bool, force_count> present{};
+/// `Source` has them: `count<Force>()` says how many of a kind, `get<Force>(n)` what the nth is.
+template <Number V, int Axes, class Source>
+class Forces {
+public:
+    [[gnu::always_inline]] explicit Forces(const Source& source) : source_(source) {}
 
-    /// The sum over the forces that are present, in the order of the list, m/s².
+    /// The sum over the forces, in the order of the list, m/s².
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) const {
         return sum([&](const auto& force)
                        __attribute__((always_inline)) { return force.accelerate(state, t); });
@@ -73,16 +74,16 @@ struct Forces {
     }
     [[nodiscard]] Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         Jacobian<V, Axes> total;
-        for_each_present([&](const auto& force) {
+        for_each([&](const auto& force) {
             const Jacobian<V, Axes> one = force.jacobian(state);
             total = {total.dx + one.dx, total.dv + one.dv};
         });
         return total;
     }
     /// The c of −c·v, 1/s.
-    [[nodiscard]] V damping_rate() const {
+    [[nodiscard]] [[gnu::always_inline]] V damping_rate() const {
         V total = V(0);
-        for_each_present([&](const auto& force) {
+        for_each([&](const auto& force) __attribute__((always_inline)) {
             if constexpr (requires { force.damping_rate(); }) total = total + force.damping_rate();
         });
         return total;
@@ -90,39 +91,46 @@ struct Forces {
     /// Potential energy per unit mass, J/kg.
     [[nodiscard]] V potential(const State<V, Axes>& state) const {
         V total = V(0);
-        for_each_present([&](const auto& force) { total = total + force.potential(state); });
+        for_each([&](const auto& force) { total = total + force.potential(state); });
         return total;
     }
 
-    /// Null where the force is not there.
     template <template <class, int> class Force>
-    [[nodiscard]] [[gnu::always_inline]] const Force<V, Axes>* find() const {
-        constexpr std::size_t at =
-            index_of<Force<V, Axes>>(static_cast<ForceList<V, Axes>*>(nullptr));
-        return present[at] ? &std::get<at>(list) : nullptr;
+    [[nodiscard]] [[gnu::always_inline]] std::size_t count() const {
+        return source_.template count<Force<V, Axes>>();
+    }
+    template <template <class, int> class Force>
+    [[nodiscard]] [[gnu::always_inline]] Force<V, Axes> get(std::size_t nth) const {
+        return source_.template get<Force<V, Axes>>(nth);
     }
 
 private:
     template <class F>
-    [[gnu::always_inline]] void for_each_present(F f) const {
+    [[gnu::always_inline]] void for_each(F f) const {
         for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
-            if (present[i]) f(std::get<i>(list));
+            using Force = std::tuple_element_t<i, ForceList<V, Axes>>;
+            for (std::size_t nth = 0; nth < source_.template count<Force>(); ++nth)
+                f(source_.template get<Force>(nth));
         });
     }
-    /// Of what `f` returns for each force that is present; void is nothing.
+    /// Of what `f` returns for each force; void is nothing.
     template <class F>
     [[gnu::always_inline]] Vec<V, Axes> sum(F f) const {
         Vec<V, Axes> total{generate<Axes>([](auto) { return V(0); })};
         bool started = false;
-        for_each_present([&](const auto& force) __attribute__((always_inline)) {
+        for_each([&](const auto& force) __attribute__((always_inline)) {
             if constexpr (!std::is_void_v<decltype(f(force))>) {
                 const Vec<V, Axes> a = f(force);
-                total = started ? total + a : a;
+                for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
+                    total.axis[axis] = started ? V(total.axis[axis] + a.axis[axis]) : a.axis[axis];
+                });
                 started = true;
             }
         });
         return total;
     }
+
+    Source source_;
 };
 
 }  // namespace oiler

@@ -27,16 +27,17 @@ bool slows_apart(const Method& method, Damping damping) {
 /// The springs of each body and the dampers that the step has to follow, all in one.
 std::vector<Oscillation> own_oscillations(const Bodies& bodies, bool coils_slow_apart) {
     std::vector<Oscillation> own(bodies.size());
-    for (std::size_t row = 0; row < own.size(); ++row) {
-        const GivenForces forces = bodies.forces_per_mass(row);
-        if (const auto& spring = std::get<std::optional<Spring>>(forces))
-            own[row] = {spring->stiffness, spring->damping};
-        if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
-            own[row] = {own[row].k + coil->stiffness,
-                        own[row].c + (coils_slow_apart ? 0 : coil->damping)};
-        if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
-            own[row].c += drag->coefficient;
-    }
+    for (std::size_t nth = 0; nth < bodies.most_of_a_kind(); ++nth)
+        for (std::size_t row = 0; row < own.size(); ++row) {
+            const GivenForces forces = bodies.forces_per_mass(row, nth);
+            Oscillation& of = own[row];
+            if (const auto& spring = std::get<std::optional<Spring>>(forces))
+                of = {of.k + spring->stiffness, of.c + spring->damping};
+            if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
+                of = {of.k + coil->stiffness, of.c + (coils_slow_apart ? 0 : coil->damping)};
+            if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
+                of.c += drag->coefficient;
+        }
     return own;
 }
 

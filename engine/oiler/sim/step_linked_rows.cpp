@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "oiler/sim/advance.hpp"
-#include "oiler/sim/link_force.hpp"
+#include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
 #include "oiler/sim/response.hpp"
-#include "oiler/sim/row_physics.hpp"
-#include "oiler/sim/step_rows.hpp"
+#include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
+namespace {
+
+template <std::floating_point T, int Axes>
+const LinkedKernels<T, Axes>& linked_kernels_of() {
+    if constexpr (std::is_same_v<T, long double>) {
+        static constexpr auto one_by_one = linked_kernels<T, T, Axes>();
+        return one_by_one;
+    } else {
+        return kernels<T, Axes>().linked;
+    }
+}
+
+}  // namespace
+
+/// What the text of the methods does to all rows at once.
+template <std::floating_point T, std::size_t Axes>
+static void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what,
+                       T s) {
+    linked_kernels_of<T, int{Axes}>().add_scaled(to, what, s);
+}
+
 namespace {
 
 /// All that a method asks of the forces on all rows and the links between them.
@@ -19,10 +40,7 @@ public:
     using Vectors = VecColumns<T, Axes>;
 
     LinkedRows(Columns<T, Axes>& columns, const Plan<T>& plan)
-        : columns_(columns),
-          plan_(plan),
-          cache_(columns.link_cache),
-          acceleration_(columns.motion.v) {
+        : columns_(columns), cache_(columns.link_cache) {
         const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
         if (splitting) damping_ = splitting->damping;
         if (damping_ == Damping::in_kick) cache_.field_valid = false;
@@ -31,12 +49,8 @@ public:
 
     const Vectors& accelerate(const MotionColumns<T, Axes>& motion, double t) {
         ++columns_.evaluations;
-        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
-            store(physics.accelerate(load<T>(motion, row), t), acceleration_, row);
-        });
-        for (const LinkRow<T>& link : columns_.links)
-            push(link, LinkForce<T, Axes>(link).accelerate(between(motion, link)), acceleration_);
-        return acceleration_;
+        evaluate(motion, Evaluate::all, t, cache_.acceleration);
+        return cache_.acceleration;
     }
 
     /// Where position alone decides it, the acceleration of the last kick holds until the next
@@ -72,6 +86,18 @@ public:
         });
     }
 
+    /// Puts at rest what damping has brought so near to it, see RowPhysics.
+    void settle(MotionColumns<T, Axes>& motion, double t) {
+        if (!damped()) return;
+        evaluate(motion, Evaluate::all, t, cache_.acceleration);
+        constexpr T limit = rest_limit<T>(true);
+        for (std::size_t axis = 0; axis < Axes; ++axis)
+            for (std::size_t row = 0; row < columns_.size; ++row) {
+                T& v = motion.v[axis][row];
+                v = where_less(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
+            }
+    }
+
     /// The changes of velocity that take `residual` away from w − v − τ·a(x + τ·w, w). Where all
     /// forces are linear the matrix stays as it is.
     [[nodiscard]] Vectors solve(const MotionColumns<T, Axes>& at, T tau, const Vectors& residual) {
@@ -95,19 +121,28 @@ private:
         cache_ = {};
         cache_.half_step = half_step;
         for (std::size_t row = 0; row < columns_.size; ++row)
-            cache_.inverse_mass.push_back(static_cast<T>(1 / columns_.mass[row]));
+            cache_.inverse_mass.push(static_cast<T>(1 / columns_.mass[row]));
         for (const LinkRow<T>& link : columns_.links) {
             const T rate =
                 link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]);
             cache_.loss.push_back(rate * oscillator_response(T(0), rate, half_step).reach);
+            if (cache_.runs.empty() || !continues(cache_.runs.back(), link))
+                cache_.runs.push_back({link, 0});
+            ++cache_.runs.back().count;
         }
+        cache_.acceleration = cache_.field = columns_.motion.v;
         cache_.valid = true;
+    }
+    static bool continues(const LinkRun<T>& run, const LinkRow<T>& link) {
+        return run.count < links_at_once && link.a == run.of.a + run.count &&
+               link.b == run.of.b + run.count && link.stiffness == run.of.stiffness &&
+               link.damping == run.of.damping && link.rest_length == run.of.rest_length;
     }
 
     template <class F>
     void for_each_row(F f) {
         for (std::size_t row = 0; row < columns_.size; ++row) {
-            RowPhysics<T, Axes> physics(columns_, row, plan_);
+            RowPhysics<T, Axes> physics(columns_, row, damping_);
             f(physics, row);
         }
     }
@@ -135,14 +170,13 @@ private:
         }
     }
 
+    void evaluate(const MotionColumns<T, Axes>& motion, Evaluate what, double t, Vectors& out) {
+        kernels_.accelerate(columns_, motion, what, t, out);
+        kernels_.push_links(cache_, motion, what, out);
+    }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
         ++columns_.evaluations;
-        cache_.field = motion.x;
-        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
-            store(physics.forces().field(load<T>(motion.x, row), t), cache_.field, row);
-        });
-        for (const LinkRow<T>& link : columns_.links)
-            push(link, LinkForce<T, Axes>(link).field(between(motion.x, link)), cache_.field);
+        evaluate(motion, Evaluate::field, t, cache_.field);
         cache_.field_valid = true;
     }
 
@@ -155,11 +189,17 @@ private:
         push(link, -lost * (1 / both), motion.v);
     }
 
+    /// Whether any link is.
+    [[nodiscard]] bool damped() const {
+        return std::any_of(cache_.runs.begin(), cache_.runs.end(),
+                           [](const LinkRun<T>& run) { return run.of.damping > 0; });
+    }
+
     [[nodiscard]] bool linear() const {
         bool all = true;
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            all = all && (Force::linear || !std::get<i>(columns_.forces).present);
+            all = all && (Force::linear || std::get<i>(columns_.forces).empty());
         });
         for (const LinkRow<T>& link : columns_.links) all = all && link.rest_length == 0;
         return all;
@@ -189,16 +229,16 @@ private:
         return entries;
     }
 
+    const LinkedKernels<T, Axes>& kernels_ = linked_kernels_of<T, Axes>();
     Columns<T, Axes>& columns_;
-    const Plan<T>& plan_;
     LinkCache<T, Axes>& cache_;
-    Vectors acceleration_;
     Damping damping_ = Damping::in_kick;
 };
 
 template <class T, int Axes>
 std::optional<Divergence> find_divergence(const MotionColumns<T, Axes>& motion, std::int64_t tick) {
     using Of = Divergence::Of;
+    if (!linked_kernels_of<T, Axes>().may_be_infinite(motion)) return std::nullopt;
     for (std::size_t row = 0; row < motion.x[0].size(); ++row)
         for (const Of of : {Of::position, Of::velocity})
             for (std::size_t axis = 0; axis < Axes; ++axis)
@@ -224,6 +264,7 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns, const Plan
                 } else if constexpr (!std::is_same_v<Rule, ExactPlan<T>>) {
                     advance(rule, columns.motion, physics, t);
                 }
+                if (settles(tick)) physics.settle(columns.motion, steps.rate.time(tick));
                 if (const auto found = find_divergence(columns.motion, tick)) return found;
             }
             return std::nullopt;

@@ -1,122 +1,108 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/step_rows.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
 
-#include "oiler/sim/advance.hpp"
-#include "oiler/sim/row_physics.hpp"
+#include "oiler/sim/kernels.hpp"
+#include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
 namespace {
 
-/// What a rule steps through the columns with: a batch of rows, or one row where rows go ways of
-/// their own (an iteration ends when it ends) or T has no registers of several.
-template <class T, class Rule>
-struct StepsWith {
-    using type = Batch<T>;
-};
-template <class T>
-struct StepsWith<T, ImplicitPlan<T>> {
-    using type = T;
-};
-template <class Rule>
-struct StepsWith<long double, Rule> {
-    using type = long double;
-};
-template <>
-struct StepsWith<long double, ImplicitPlan<long double>> {
-    using type = long double;
-};
-
-template <class V>
-constexpr std::size_t lanes_of = 1;
-template <class T>
-constexpr std::size_t lanes_of<Batch<T>> = Batch<T>::lanes;
-
-static_assert(row_padding % Batch<float>::lanes == 0);
-
-template <std::floating_point T>
-bool all_finite(T number) {
-    return std::isfinite(number);
-}
-template <class V, int Axes>
-bool all_finite(const State<V, Axes>& state) {
+template <std::floating_point T, int Axes>
+bool all_finite(const State<T, Axes>& state) {
     bool finite = true;
     for (int i = 0; i < Axes; ++i)
-        finite = finite && all_finite(state.x[i]) && all_finite(state.v[i]);
+        finite = finite && std::isfinite(state.x[i]) && std::isfinite(state.v[i]);
     return finite;
 }
 
-template <class T>
-std::array<T, 1> lanes(const T& number) {
-    return {number};
-}
-template <class T>
-std::array<T, Batch<T>::lanes> lanes(const Batch<T>& batch) {
-    alignas(column_alignment) std::array<T, Batch<T>::lanes> lane;
-    batch.store(lane.data());
-    return lane;
-}
-
-/// The first row from `row` on of which `state` holds a number that is not finite. Lanes beyond the
-/// last body do not count. By value: a state whose address is taken is not kept in registers.
-template <class V, int Axes>
-std::optional<Divergence> find_divergence(State<V, Axes> state, std::size_t row, std::size_t rows,
+template <std::floating_point T, int Axes>
+std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size_t row,
                                           std::int64_t tick) {
-    using Of = Divergence::Of;
-    std::optional<Divergence> found;
-    for (const Of of : {Of::position, Of::velocity})
-        for (int axis = 0; axis < Axes; ++axis) {
-            const auto lane = lanes((of == Of::velocity ? state.v : state.x)[axis]);
-            const auto end =
-                lane.begin() + static_cast<std::ptrdiff_t>(std::min(rows - row, lanes_of<V>));
-            const auto bad =
-                std::find_if(lane.begin(), end, [](auto v) { return !std::isfinite(v); });
-            const std::size_t at = row + static_cast<std::size_t>(bad - lane.begin());
-            if (bad != end && (!found || at < found->row)) found = {tick, at, axis, of};
-        }
-    return found;
+    for (const auto of : {Divergence::Of::position, Divergence::Of::velocity})
+        for (int axis = 0; axis < Axes; ++axis)
+            if (!std::isfinite((of == Divergence::Of::velocity ? state.v : state.x)[axis]))
+                return Divergence{tick, row, axis, of};
+    return std::nullopt;
 }
 
-/// One step of a block; whether there was one to be found.
-template <class Rule, class V, int Axes>
-[[gnu::always_inline]] inline bool step_once(const Rule& rule, State<V, Axes>& state,
-                                             RowPhysics<V, Axes>& physics, double t) {
-    if constexpr (std::is_same_v<Rule, ImplicitPlan<Scalar<V>>>) {
-        return advance(rule, state, physics, t);
-    } else {
-        advance(rule, state, physics, t);
-        return true;
-    }
-}
-
-template <class V, class T, int Axes, class Rule>
-std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Plan<T>& plan,
-                                 const Rule& rule, const Steps& steps, std::size_t row) {
-    RowPhysics<V, Axes> physics(columns, row, plan);
-    State<V, Axes> state = load<V>(columns.motion, row);
-    for (std::int64_t j = 0; j < steps.count; ++j) {
-        const std::int64_t tick = steps.first + j + 1;
-        if (!step_once(rule, state, physics, steps.rate.time(tick - 1)))
+/// Of a row that diverges in these steps, one step at a time to see in which.
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Rule& rule, Steps steps,
+                                 std::size_t row) {
+    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
+    State<T, Axes> state = load<T>(columns.motion, row);
+    const std::int64_t end = steps.first + steps.count;
+    steps.count = 1;
+    for (; steps.first < end; ++steps.first) {
+        const std::int64_t tick = steps.first + 1;
+        if (!take_steps(rule, state, physics, steps))
             return Divergence{tick, row, 0, Divergence::Of::solution};
-        if (const auto found = find_divergence(state, row, columns.size, tick)) return found;
+        if (const auto found = find_divergence(state, row, tick)) return found;
     }
     return std::nullopt;
 }
 
-template <class V, class T, int Axes, class Rule>
-std::optional<Divergence> step_block(Columns<T, Axes>& columns, const Plan<T>& plan,
-                                     const Rule& rule, const Steps& steps, std::size_t row) {
-    RowPhysics<V, Axes> physics(columns, row, plan);
-    State<V, Axes> state = load<V>(columns.motion, row);
-    bool solved = true;
-    for (std::int64_t j = 0; j < steps.count && solved; ++j)
-        solved = step_once(rule, state, physics, steps.rate.time(steps.first + j));
-    if (!solved || (!all_finite(state) && find_divergence(state, row, columns.size, 0)))
-        return replay<V>(columns, plan, rule, steps, row);
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> step_row(Columns<T, Axes>& columns, const Rule& rule, const Steps& steps,
+                                   std::size_t row) {
+    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
+    State<T, Axes> state = load<T>(columns.motion, row);
+    if (!take_steps(rule, state, physics, steps) || !all_finite(state))
+        return replay(columns, rule, steps, row);
     store(state, columns.motion, row);
     if (row == 0) columns.evaluations += physics.evaluations();
     return std::nullopt;
+}
+
+/// Whichever comes first: in time, then in rows.
+void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other) {
+    if (!other) return;
+    if (!first || std::pair(other->tick, other->row) < std::pair(first->tick, first->row))
+        first = other;
+}
+
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> step_one_by_one(Columns<T, Axes>& columns, const Rule& rule,
+                                          const Steps& steps, std::size_t begin, std::size_t end) {
+    std::optional<Divergence> first;
+    for (std::size_t row = begin; row < end; ++row)
+        keep_earlier(first, step_row(columns, rule, steps, row));
+    return first;
+}
+
+/// In batches, and one by one in those in which a number may have stopped being finite.
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule& rule,
+                                          const Steps& steps, std::size_t begin, std::size_t end,
+                                          auto kernel) {
+    std::optional<Divergence> first;
+    for (std::size_t row = begin; (row = kernel(columns, rule, steps, row, end)) < end;) {
+        const std::size_t stop = std::min(row + row_padding, end);
+        keep_earlier(first, step_one_by_one(columns, rule, steps, row, stop));
+        row = stop;
+    }
+    return first;
+}
+
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> step_range(Columns<T, Axes>& columns, const Rule& rule,
+                                     const Steps& steps, std::size_t begin, std::size_t end) {
+    constexpr bool rows_go_their_own_ways = std::is_same_v<Rule, ImplicitPlan<T>>;
+    if constexpr (std::is_same_v<T, long double> || rows_go_their_own_ways) {
+        return step_one_by_one(columns, rule, steps, begin, end);
+    } else {
+        const Kernels<T, Axes>& all = kernels<T, Axes>();
+        const auto run = [&](auto kernel) {
+            return step_in_batches(columns, rule, steps, begin, end, kernel);
+        };
+        if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) return run(all.splitting);
+        if constexpr (std::is_same_v<Rule, TableauPlan<T>>) return run(all.tableau);
+        if constexpr (std::is_same_v<Rule, ExactPlan<T>>) return run(all.exact);
+    }
 }
 
 /// Rows beyond the last body were stepped along; what they came to must not add up over the calls.
@@ -126,42 +112,64 @@ void clear_padding(MotionColumns<T, Axes>& motion) {
         for (Column<T>& column : *vector) column.clear_padding();
 }
 
-bool earlier(const Divergence& a, const std::optional<Divergence>& b) {
-    return !b || a.tick < b->tick;
+/// Below as many steps of rows a team takes longer to call than to do without.
+constexpr std::size_t worth_a_team = 8192;
+
+bool is_worth_a_team(std::size_t rows, const Steps& steps) {
+    return rows > row_padding &&
+           rows >= worth_a_team / static_cast<std::size_t>(std::max<std::int64_t>(1, steps.count));
+}
+
+/// Where part `part` of `parts` begins: on a row at which batches begin.
+std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
+    return std::min(rows, padded(rows) / row_padding * part / parts * row_padding);
+}
+
+template <std::floating_point T, int Axes, class Rule>
+std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule& rule,
+                                          const Steps& steps, Team* team) {
+    if (!team || !is_worth_a_team(columns.size, steps))
+        return step_range(columns, rule, steps, 0, columns.size);
+    std::mutex at_first;
+    std::optional<Divergence> first;
+    team->run([&](std::size_t part) {
+        const auto found =
+            step_range(columns, rule, steps, begin_of(part, team->size(), columns.size),
+                       begin_of(part + 1, team->size(), columns.size));
+        const std::lock_guard lock(at_first);
+        keep_earlier(first, found);
+    });
+    return first;
 }
 
 }  // namespace
 
 template <std::floating_point T, int Axes>
 std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
-                                    const Steps& steps) {
-    return std::visit(
-        [&]<class Rule>(const Rule& rule) {
-            using V = typename StepsWith<T, Rule>::type;
-            std::optional<Divergence> first;
-            for (std::size_t row = 0; row < columns.size; row += lanes_of<V>)
-                if (const auto found = step_block<V>(columns, plan, rule, steps, row); found)
-                    if (earlier(*found, first)) first = found;
-            clear_padding(columns.motion);
-            return first;
-        },
-        plan);
+                                    const Steps& steps, Team* team) {
+    const auto first = std::visit(
+        [&](const auto& rule) { return step_shared_out(columns, rule, steps, team); }, plan);
+    clear_padding(columns.motion);
+    return first;
 }
 
-template std::optional<Divergence> step_rows(Columns<float, 1>&, const Plan<float>&, const Steps&);
-template std::optional<Divergence> step_rows(Columns<float, 2>&, const Plan<float>&, const Steps&);
-template std::optional<Divergence> step_rows(Columns<float, 3>&, const Plan<float>&, const Steps&);
-template std::optional<Divergence> step_rows(Columns<double, 1>&, const Plan<double>&,
-                                             const Steps&);
-template std::optional<Divergence> step_rows(Columns<double, 2>&, const Plan<double>&,
-                                             const Steps&);
-template std::optional<Divergence> step_rows(Columns<double, 3>&, const Plan<double>&,
-                                             const Steps&);
+template std::optional<Divergence> step_rows(Columns<float, 1>&, const Plan<float>&, const Steps&,
+                                             Team*);
+template std::optional<Divergence> step_rows(Columns<float, 2>&, const Plan<float>&, const Steps&,
+                                             Team*);
+template std::optional<Divergence> step_rows(Columns<float, 3>&, const Plan<float>&, const Steps&,
+                                             Team*);
+template std::optional<Divergence> step_rows(Columns<double, 1>&, const Plan<double>&, const Steps&,
+                                             Team*);
+template std::optional<Divergence> step_rows(Columns<double, 2>&, const Plan<double>&, const Steps&,
+                                             Team*);
+template std::optional<Divergence> step_rows(Columns<double, 3>&, const Plan<double>&, const Steps&,
+                                             Team*);
 template std::optional<Divergence> step_rows(Columns<long double, 1>&, const Plan<long double>&,
-                                             const Steps&);
+                                             const Steps&, Team*);
 template std::optional<Divergence> step_rows(Columns<long double, 2>&, const Plan<long double>&,
-                                             const Steps&);
+                                             const Steps&, Team*);
 template std::optional<Divergence> step_rows(Columns<long double, 3>&, const Plan<long double>&,
-                                             const Steps&);
+                                             const Steps&, Team*);
 
 }  // namespace oiler

@@ -50,6 +50,16 @@ template <std::size_t N, class F>
     (std::make_index_sequence<N>{});
 }
 
+/// The same for a number of times that is a compile-time constant, and a loop for one that is not.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr void repeat(std::integral_constant<std::size_t, N>, F f) {
+    for_each_index<N>(f);
+}
+template <class F>
+[[gnu::always_inline]] constexpr void repeat(std::size_t count, F f) {
+    for (std::size_t i = 0; i < count; ++i) f(i);
+}
+
 /// A position, velocity or acceleration with one Number for each axis.
 template <Number V, int Axes>
 struct Vec {
@@ -123,6 +133,17 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[gnu::always_inline]] constexpr T quotient_unless_nothing(T a, T b) {
     return a == 0 ? T(0) : a / b;
+}
+
+template <std::floating_point T>
+[[nodiscard]] bool is_finite(T number) {
+    return std::isfinite(number);
+}
+
+/// `instead` where each of `sizes` is less than `limit` in size and `rate` is positive.
+template <std::floating_point T, class... Sizes>
+[[nodiscard]] T where_less(T value, T instead, T rate, T limit, Sizes... sizes) {
+    return ((std::abs(sizes) < limit) && ... && (rate > 0)) ? instead : value;
 }
 
 /// Where a body is (m) and how fast it goes (m/s): the article's State.

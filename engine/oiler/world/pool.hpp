@@ -24,6 +24,10 @@ public:
     [[nodiscard]] std::uint32_t place(std::uint32_t slot) const {
         return slot < places_.size() ? places_[slot] : absent;
     }
+    void reserve(std::size_t slots) {
+        dense_.reserve(slots);
+        places_.reserve(slots);
+    }
     void add(std::uint32_t slot) {
         if (slot >= places_.size()) places_.resize(slot + std::size_t{1}, absent);
         assert(places_[slot] == absent);

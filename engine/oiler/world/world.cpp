@@ -17,7 +17,9 @@ struct Jumps {
 }  // namespace
 
 World::World(int axes, const Settings& settings)
-    : settings_(settings), bodies_(axes, settings.precision) {}
+    : settings_(settings), bodies_(axes, settings.precision) {
+    bodies_.set_threads(settings.threads);
+}
 
 World::World(const World& other)
     : settings_(other.settings_),
@@ -57,6 +59,19 @@ bool World::alive(Entity entity) const {
 }
 
 std::size_t World::entity_count() const { return generations_.size() - free_.size(); }
+
+Entity World::spawn(const Body& body, const GivenForces& forces) {
+    bodies_.add(body, forces);
+    const Entity entity = create();
+    rows_.add(entity.index);
+    return entity;
+}
+
+void World::reserve(std::size_t bodies) {
+    bodies_.reserve(bodies);
+    rows_.reserve(bodies);
+    generations_.reserve(bodies);
+}
 
 void World::remove_body(Entity entity) {
     bodies_.remove(row(entity));

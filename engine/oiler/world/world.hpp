@@ -24,6 +24,7 @@ struct Settings {
     Precision precision = Precision::double_;
     std::uint64_t seed = 0;
     std::optional<Damping> damping{};  ///< the method's own where there is none
+    int threads = 1;                   ///< that step; no bit depends on how many
 };
 
 /// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
@@ -123,10 +124,19 @@ public:
         rows_.add(entity.index);
         return entity;
     }
+    Entity spawn(const Body& body, const GivenForces& forces);
+    /// Gives the body a force, or other numbers for the one that it has.
     template <BodyForce... Force>
     void attach(Entity entity, const Force&... force) {
         bodies_.attach(row(entity), force...);
     }
+    /// The same for the nth of several forces of a kind, counted from 0.
+    template <BodyForce... Force>
+    void attach_nth(std::size_t nth, Entity entity, const Force&... force) {
+        bodies_.attach_nth(nth, row(entity), force...);
+    }
+    /// Room for that many bodies in all, so that spawning them copies none.
+    void reserve(std::size_t bodies);
     /// A spring between the bodies of two entities; it goes with either body.
     void link(Entity a, Entity b, const Link& link);
     void remove_body(Entity entity);

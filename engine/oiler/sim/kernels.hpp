@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "oiler/sim/columns.hpp"
+#include "oiler/sim/plan.hpp"
+#include "oiler/sim/step_rows.hpp"
+
+namespace oiler {
+
+/// What steps of linked rows do to all of them, see link_rows.hpp.
+template <std::floating_point T, int Axes>
+struct LinkedKernels {
+    void (*accelerate)(const Columns<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate, double t,
+                       VecColumns<T, Axes>& out);
+    void (*push_links)(const LinkCache<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate,
+                       VecColumns<T, Axes>& to);
+    void (*add_scaled)(VecColumns<T, Axes>& to, const VecColumns<T, Axes>& what, T s);
+    bool (*may_be_infinite)(const MotionColumns<T, Axes>&);
+};
+
+/// What steps rows in batches. Each takes rows from `begin`, a multiple of row_padding, to `end`,
+/// and returns the first row of a batch that it left as it was because a number in it may have
+/// stopped being finite, or `end`.
+template <std::floating_point T, int Axes>
+struct Kernels {
+    template <class Rule>
+    using Step = std::size_t (*)(Columns<T, Axes>&, const Rule&, const Steps&, std::size_t begin,
+                                 std::size_t end);
+
+    Step<SplittingPlan<T>> splitting;
+    Step<TableauPlan<T>> tableau;
+    Step<ExactPlan<T>> exact;
+    LinkedKernels<T, Axes> linked;
+};
+
+/// The same kernels as compiled for one set of instructions: no result depends on which.
+struct InstructionSet {
+    std::string_view name;
+    bool (*runs_here)();
+};
+
+/// From the plainest, which every machine runs, to the widest.
+[[nodiscard]] std::span<const InstructionSet> instruction_sets();
+
+/// The kernels for the widest registers of this machine, or for those that the environment variable
+/// OILER_INSTRUCTIONS names. Throws Error{usage} where it names none that this machine has.
+template <std::floating_point T, int Axes>
+[[nodiscard]] const Kernels<T, Axes>& kernels();
+
+}  // namespace oiler

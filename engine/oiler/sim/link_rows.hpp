@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/sim/kernels.hpp"
+#include "oiler/sim/link_force.hpp"
+#include "oiler/sim/row_physics.hpp"
+
+namespace oiler {
+
+// What steps of linked rows do to all of them at once, each written once over a Number that may be
+// a batch of rows or of links.
+
+template <class V>
+constexpr std::size_t lanes_of = 1;
+template <class Pack, std::size_t Packs>
+constexpr std::size_t lanes_of<Batch<Pack, Packs>> = Batch<Pack, Packs>::lanes;
+
+template <class V, class T>
+[[gnu::always_inline]] inline V load_unaligned(const T* from) {
+    if constexpr (requires { V::load_unaligned(from); })
+        return V::load_unaligned(from);
+    else
+        return *from;
+}
+template <class V, class T>
+[[gnu::always_inline]] inline void store_unaligned(const V& value, T* to) {
+    if constexpr (requires { value.store_unaligned(to); })
+        value.store_unaligned(to);
+    else
+        *to = value;
+}
+
+/// The forces on each row but for its links.
+template <class V, class T, int Axes>
+void accelerate_rows(const Columns<T, Axes>& columns, const MotionColumns<T, Axes>& motion,
+                     Evaluate what, double t, VecColumns<T, Axes>& out) {
+    for (std::size_t row = 0; row < columns.size; row += lanes_of<V>) {
+        const auto forces = forces_of<V>(columns, row);
+        if (what == Evaluate::field)
+            store(forces.field(load<V>(motion.x, row), t), out, row);
+        else
+            store(forces.accelerate(load<V>(motion, row), t), out, row);
+    }
+}
+
+/// Calls f(V{}, i) for batches of V from 0 on and f(T{}, i) for what they leave of `count`.
+template <class V, class T, class F>
+[[gnu::always_inline]] inline void for_lanes(std::size_t count, F f) {
+    std::size_t i = 0;
+    for (; i + lanes_of<V> <= count; i += lanes_of<V>) f(V(T(0)), i);
+    for (; i < count; ++i) f(T(0), i);
+}
+
+/// The same where doing an index twice does no harm: the last batch overlaps the one before it.
+template <class V, class T, class F>
+[[gnu::always_inline]] inline void for_lanes_anyhow(std::size_t count, F f) {
+    if (count < lanes_of<V>) {
+        for (std::size_t i = 0; i < count; ++i) f(T(0), i);
+        return;
+    }
+    for (std::size_t i = 0; i + lanes_of<V> < count; i += lanes_of<V>) f(V(T(0)), i);
+    f(V(T(0)), count - lanes_of<V>);
+}
+
+/// Adds the forces on `count` rows from `row` on over their masses, or takes them away.
+template <class V, class T, std::size_t Axes>
+[[gnu::always_inline]] inline void push_rows(const std::array<const T*, Axes>& force,
+                                             std::size_t count, const Parameter<T>& inverse_mass,
+                                             bool away, std::array<Column<T>, Axes>& to,
+                                             std::size_t row) {
+    for_lanes<V, T>(
+        count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
+            const N inverse = load_unaligned<N>(inverse_mass.data(row + i));
+            for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
+                T* const at = to[axis].data() + row + i;
+                const N push = load_unaligned<N>(force[axis] + i) * inverse;
+                const N was = load_unaligned<N>(at);
+                store_unaligned<N>(away ? N(was - push) : N(was + push), at);
+            });
+        });
+}
+
+/// How many links' forces are kept before they push: fixed, since the order of sums depends on it.
+inline constexpr std::size_t links_at_once = 512;
+
+/// Links that join consecutive rows to consecutive rows and agree in all numbers: all first ends
+/// are pushed, then all second ones.
+template <class V, class T, int Axes>
+[[gnu::always_inline]] inline void push_run(const LinkRun<T>& run,
+                                            const MotionColumns<T, Axes>& motion, Evaluate what,
+                                            const Parameter<T>& inverse_mass,
+                                            VecColumns<T, Axes>& to) {
+    alignas(column_alignment) std::array<std::array<T, links_at_once>, Axes> force;
+    const auto ends = [&]<class N>(N, const VecColumns<T, Axes>& columns, std::size_t i)
+        __attribute__((always_inline)) {
+        return Vec<N, Axes>{generate<Axes>([&](auto axis) __attribute__((always_inline)) {
+            return N(load_unaligned<N>(columns[axis].data() + run.of.a + i) -
+                     load_unaligned<N>(columns[axis].data() + run.of.b + i));
+        })};
+    };
+    for_lanes_anyhow<V, T>(
+        run.count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
+            const LinkForce<N, Axes> link(run.of);
+            const Vec<N, Axes> d = ends(N(T(0)), motion.x, i);
+            const Vec<N, Axes> f = what == Evaluate::field
+                                       ? link.field(d)
+                                       : link.accelerate({d, ends(N(T(0)), motion.v, i)});
+            for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
+                store_unaligned<N>(f.axis[axis], force[axis].data() + i);
+            });
+        });
+    std::array<const T*, Axes> from;
+    for (std::size_t axis = 0; axis < Axes; ++axis) from[axis] = force[axis].data();
+    push_rows<V>(from, run.count, inverse_mass, false, to, run.of.a);
+    push_rows<V>(from, run.count, inverse_mass, true, to, run.of.b);
+}
+
+template <class V, class T, int Axes>
+void push_links(const LinkCache<T, Axes>& cache, const MotionColumns<T, Axes>& motion,
+                Evaluate what, VecColumns<T, Axes>& to) {
+    for (const LinkRun<T>& run : cache.runs)
+        if (run.count < lanes_of<V>)
+            push_run<T, T, Axes>(run, motion, what, cache.inverse_mass, to);
+        else
+            push_run<V, T, Axes>(run, motion, what, cache.inverse_mass, to);
+}
+
+template <class V, class T, std::size_t Axes>
+void add_scaled_rows(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what,
+                     T s) {
+    for (std::size_t axis = 0; axis < Axes; ++axis)
+        for (std::size_t row = 0; row < to[axis].size(); row += lanes_of<V>)
+            store(V(load<V>(to[axis], row) + load<V>(what[axis], row) * V(s)), to[axis], row);
+}
+
+/// Whether a number of some rows may have stopped being finite.
+template <class V, class T, int Axes>
+bool motion_may_be_infinite(const MotionColumns<T, Axes>& motion) {
+    V total(T(0));
+    for (std::size_t row = 0; row < motion.x[0].size(); row += lanes_of<V>)
+        for (std::size_t axis = 0; axis < Axes; ++axis)
+            total = total + (load<V>(motion.x[axis], row) + load<V>(motion.v[axis], row));
+    return !is_finite(total);
+}
+
+template <class V, class T, int Axes>
+constexpr LinkedKernels<T, Axes> linked_kernels() {
+    return {accelerate_rows<V, T, Axes>, push_links<V, T, Axes>,
+            add_scaled_rows<V, T, std::size_t{Axes}>, motion_may_be_infinite<V, T, Axes>};
+}
+
+}  // namespace oiler
