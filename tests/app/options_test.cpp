@@ -60,6 +60,45 @@ TEST(Options, ALeadingZeroIsNoOctal) {
     EXPECT_EQ(parse("--rate 010").options.settings.rate, Rate{10});
 }
 
+// Neither opens a window.
+TEST(Options, StepsMayBeHeadless) {
+    const Options options = parse("--headless --steps 5").options;
+    EXPECT_EQ(options.steps, 5);
+    EXPECT_TRUE(options.headless);
+}
+
+CommandLine parse_file(std::vector<std::string> words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    return parse_command_line(static_cast<int>(argv.size()), argv.data(), about,
+                              [](const std::string& path) {
+                                  EXPECT_EQ(path, "some scene.toml");
+                                  return About{.name = "scene",
+                                               .title = "A scene",
+                                               .rate = 7,
+                                               .method = "rk4",
+                                               .precision = Precision::single,
+                                               .duration = 12};
+                              });
+}
+
+TEST(Options, AreThoseOfTheSceneUnlessGiven) {
+    const CommandLine own = parse_file({"demo", "some scene.toml"});
+    EXPECT_EQ(own.about.name, "scene");
+    EXPECT_EQ(own.about.duration, 12);
+    EXPECT_EQ(own.options.settings.rate, Rate{7});
+    EXPECT_EQ(own.options.settings.method->name, "rk4");
+    EXPECT_EQ(own.options.settings.precision, Precision::single);
+    EXPECT_EQ(own.options.out, "frames/scene");
+    const Settings given = parse_file({"demo", "--rate", "8", "--method", "exact",
+                                       "some scene.toml", "--precision", "double"})
+                               .options.settings;
+    EXPECT_EQ(given.rate, Rate{8});
+    EXPECT_EQ(given.method->name, "exact");
+    EXPECT_EQ(given.precision, Precision::double_);
+    EXPECT_NE(parse_file({"demo", "--help"}).text.find("SCENE"), std::string::npos);
+}
+
 TEST(Options, HelpAndVersionAreText) {
     EXPECT_NE(parse("--help").text.find("--headless"), std::string::npos);
     EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
@@ -105,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--json - --trace -", "--trace"}, Wrong{"--json=", "--json"},
         Wrong{"--surface osmesa", "--headless"}, Wrong{"--surface egl", "--headless"},
         Wrong{"--headless --surface window", "--headless"}, Wrong{"--out o", "--headless"},
-        Wrong{"--steps 5 --headless", "--headless"}, Wrong{"--steps 5 --frames 2", "--frames"},
+        Wrong{"--steps 5 --headless --out o", "--out"}, Wrong{"--steps 5 --frames 2", "--frames"},
         Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
         Wrong{"--threads 2", "--threads"}));

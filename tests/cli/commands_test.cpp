@@ -87,7 +87,7 @@ TEST(Oiler, MeasuresStability) {
 TEST(Oiler, HelpFitsAScreenAndEachCommandHasAnExample) {
     const Outcome help = shell("oiler --help");
     EXPECT_LE(lines(help.out), 24);
-    for (const std::string command : {"methods", "certify", "stability", "figures"}) {
+    for (const std::string command : {"play", "methods", "certify", "stability", "figures"}) {
         EXPECT_TRUE(holds(help.out, "  " + command + " ")) << command;
         EXPECT_TRUE(holds(shell("oiler " + command + " --help").out, "Example: oiler " + command));
     }

@@ -19,6 +19,7 @@ struct About {
     int rate = 100;          ///< steps per second
     std::string_view method = "semi_implicit_euler";
     Precision precision = Precision::double_;
+    double duration = 4;  ///< s that are filmed without a window
 };
 
 /// The key of what is to be seen of an entity: parts of it are told apart by `part`, and what

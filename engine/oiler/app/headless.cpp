@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -17,7 +19,16 @@ namespace oiler {
 namespace {
 
 constexpr int default_fps = 60;
-constexpr int default_seconds = 4;
+constexpr std::int64_t most_frames = 1'000'000;
+
+std::int64_t frames_in(double seconds, int fps) {
+    const double frames = std::max(1.0, std::round(seconds * fps));
+    if (frames > double{most_frames})
+        fail(Exit::usage,
+             "{} s at {} frames per second are {:.0f} frames; say how many: --frames N", seconds,
+             fps, frames);
+    return static_cast<std::int64_t>(frames);
+}
 
 Manifest describe(const Options& options, const About& about, int fps, const Surface& surface,
                   const Renderer& renderer) {
@@ -77,7 +88,7 @@ void run_headless(Playback& playback, const Options& options, const About& about
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
     const int fps = options.fps.value_or(default_fps);
-    const std::int64_t frames = options.frames.value_or(std::int64_t{fps} * default_seconds);
+    const std::int64_t frames = options.frames ? *options.frames : frames_in(about.duration, fps);
     film(playback, renderer, describe(options, about, fps, *surface, renderer), frames, options);
     if (!Interrupt::requested())
         remark(options.quiet, "frames and manifest.json are in {}", options.out.string());

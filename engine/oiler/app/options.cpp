@@ -13,6 +13,7 @@ namespace {
 
 /// The options as the command line gives them.
 struct Words {
+    std::string scene;
     std::string surface = "auto";
     std::string size = "1280x720";
     std::string method;
@@ -25,15 +26,38 @@ struct Words {
     std::uint64_t seed = 0;
 };
 
-void declare_drawing(CLI::App& app, Options& options, Words& words, const About& about) {
+/// What holds where the command line says nothing, for --help.
+struct Defaults {
+    explicit Defaults(const About& about)
+        : method(about.method),
+          precision(name_of(about.precision)),
+          rate(std::to_string(about.rate)),
+          seconds(fmt::format("{:g} s", about.duration)),
+          out(fmt::format("frames/{}", about.name)) {}
+    static Defaults of_scene() {
+        Defaults defaults{About{.name = "SCENE", .title = {}}};
+        defaults.method = defaults.precision = defaults.rate = "the scene's";
+        defaults.seconds = "the scene's duration";
+        return defaults;
+    }
+
+    std::string method;
+    std::string precision;
+    std::string rate;
+    std::string seconds;
+    std::string out;
+};
+
+void declare_drawing(CLI::App& app, Options& options, Words& words, const Defaults& defaults) {
     app.add_flag("--headless", options.headless, "draw frames into a folder, without a window")
         ->disable_flag_override();
     app.add_option("--surface", words.surface, "who draws: a window, or without one OSMesa or EGL")
         ->check(CLI::IsMember({"auto", "window", "osmesa", "egl"}))
         ->type_name("NAME")
         ->capture_default_str();
-    add_whole<std::int64_t>(app, "--frames", words.frames, 1, 1'000'000,
-                            "how many frames; headless, 4 s of them if not given");
+    add_whole<std::int64_t>(
+        app, "--frames", words.frames, 1, 1'000'000,
+        "how many frames; headless, " + defaults.seconds + " of them if not given");
     add_whole<int>(app, "--fps", words.fps, 1, 1000,
                    "frames per second, 60 if not given; in a window at most, the display's");
     app.add_option("--size", words.size, "of frames and window in pixels; pictures are 16:9")
@@ -41,27 +65,24 @@ void declare_drawing(CLI::App& app, Options& options, Words& words, const About&
         ->capture_default_str();
     app.add_option("--out", options.out, "folder for headless frames")
         ->type_name("DIR")
-        ->default_str("frames/" + std::string(about.name));
+        ->default_str(defaults.out);
     add_whole<std::int64_t>(app, "--steps", words.steps, 0, 1'000'000'000'000,
                             "take that many steps and draw nothing");
 }
 
-void declare_stepping(CLI::App& app, Words& words, const About& about) {
-    words.method = about.method;
-    words.precision = name_of(about.precision);
-    words.rate = about.rate;
+void declare_stepping(CLI::App& app, Words& words, const Defaults& defaults) {
     app.add_option("--method", words.method,
                    "how to step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
                    "implicit_midpoint, exact, …; `oiler methods` lists all")
         ->type_name("NAME")
-        ->capture_default_str();
+        ->default_str(defaults.method);
     add_damping(app, words.damping);
     add_whole<std::int64_t>(app, "--rate", words.rate, 1, 1'000'000, "steps per second: dt = 1/N s")
-        ->default_str(std::to_string(about.rate));
+        ->default_str(defaults.rate);
     app.add_option("--precision", words.precision, "of positions and velocities: float, double")
         ->check(CLI::IsMember({"float", "double"}))
         ->type_name("NAME")
-        ->capture_default_str();
+        ->default_str(defaults.precision);
     add_whole<std::uint64_t>(app, "--seed", words.seed, 0, ~std::uint64_t{0},
                              "of the game's random numbers")
         ->default_str("0");
@@ -103,8 +124,7 @@ void check_together(const CLI::App& app, const Options& options, const Words& wo
     };
     const bool offscreen = words.surface == "osmesa" || words.surface == "egl";
     if (app.count("--steps") > 0)
-        for (const char* other :
-             {"--headless", "--frames", "--fps", "--size", "--out", "--surface"})
+        for (const char* other : {"--frames", "--fps", "--size", "--out", "--surface"})
             if (app.count(other) > 0) refuse(other, "draws, but --steps draws nothing; give one");
     if (offscreen && !options.headless)
         refuse("--surface " + words.surface, "draws without a window; add --headless");
@@ -112,6 +132,12 @@ void check_together(const CLI::App& app, const Options& options, const Words& wo
         refuse("--surface window", "is a window; leave out --headless");
     if (app.count("--out") > 0 && !options.headless)
         refuse("--out", "frames are written without a window; add --headless");
+}
+
+void fill_in(const CLI::App& app, Words& words, const About& about) {
+    if (app.count("--method") == 0) words.method = about.method;
+    if (app.count("--precision") == 0) words.precision = name_of(about.precision);
+    if (app.count("--rate") == 0) words.rate = about.rate;
 }
 
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
@@ -134,24 +160,40 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     return options;
 }
 
+void declare_scene(CLI::App& app, Words& words) {
+    app.add_option("SCENE", words.scene, "the scene file, TOML: see the README")->required();
+}
+
+std::string footer(const std::string& program) {
+    return "Keys in a window: P pause, . step, - and = slower and faster, Q or Escape quit.\n"
+           "Example: " +
+           program + " --headless --frames 120 --size 640x360 --out frames";
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, char** argv, const About& about) {
+    return parse_command_line(argc, argv, about, {});
+}
+
+CommandLine parse_command_line(int argc, char** argv, const About& about,
+                               const AboutFile& about_file) {
     const std::string name(about.name);
     CLI::App app(std::string(about.title), name);
-    app.footer(
-        "Keys in a window: P pause, . step, - and = slower and faster, Q or Escape quit.\n"
-        "Example: " +
-        name + " --headless --frames 120 --size 640x360 --out frames");
+    app.footer(footer(name + (about_file ? " assets/scenes/cloth.toml" : "")));
     app.set_version_flag("--version", name + " " + std::string(version()));
-    CommandLine line;
+    CommandLine line{.options = {}, .text = {}, .about = about};
     Words words;
-    declare_drawing(app, line.options, words, about);
-    declare_stepping(app, words, about);
+    const Defaults defaults = about_file ? Defaults::of_scene() : Defaults(about);
+    if (about_file) declare_scene(app, words);
+    declare_drawing(app, line.options, words, defaults);
+    declare_stepping(app, words, defaults);
     declare_output(app, line.options);
     line.text = parse(app, argc, argv);
     if (!line.text.empty()) return line;
-    line.options = collect(app, std::move(line.options), words, about);
+    if (about_file) line.about = about_file(words.scene);
+    fill_in(app, words, line.about);
+    line.options = collect(app, std::move(line.options), words, line.about);
     return line;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -32,9 +33,18 @@ struct Options {
 struct CommandLine {
     Options options;
     std::string text;
+    About about;  ///< of the game, or of the scene in the file
 };
+
+/// What a scene file says of itself; its texts outlive the command line.
+using AboutFile = std::function<About(const std::string& path)>;
 
 /// Throws Error{usage} that names the option and what it takes.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about);
+
+/// The same of a program `about` that plays the scene file which it is given, as the file says
+/// unless the command line says otherwise.
+[[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about,
+                                             const AboutFile& about_file);
 
 }  // namespace oiler

@@ -41,7 +41,7 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
         {"energy", {{"first", to_json(report.first)}, {"last", to_json(world.bodies().energy())}}},
         {"dropped_time", seconds(report.dropped)},
         {"wall_seconds", seconds(report.wall)}};
-    const std::string text = json.dump(2) + "\n";
+    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     write_file(path, std::as_bytes(std::span(text)));
 }
 

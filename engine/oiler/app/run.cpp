@@ -40,7 +40,9 @@ std::chrono::nanoseconds loop(Playback& playback, const Options& options, const 
     return {};
 }
 
-Exit play(const Options& options, const About& about, const MakeGame& make) {
+}  // namespace
+
+Exit run_game(const Options& options, const About& about, const MakeGame& make) {
     const Interrupt interrupt;
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<AnyGame> game = make(options.settings);
@@ -64,8 +66,6 @@ Exit play(const Options& options, const About& about, const MakeGame& make) {
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 
-}  // namespace
-
 int guard_main(std::string_view name, const std::function<Exit()>& program) {
     try {
         fill_closed_streams();
@@ -80,7 +80,7 @@ int guard_main(std::string_view name, const std::function<Exit()>& program) {
 int run_program(int argc, char** argv, const About& about, const MakeGame& make) {
     return guard_main(about.name, [&] {
         const CommandLine line = parse_command_line(argc, argv, about);
-        if (line.text.empty()) return play(line.options, about, make);
+        if (line.text.empty()) return run_game(line.options, about, make);
         write_file("-", std::as_bytes(std::span(line.text)));
         return Exit::done;
     });

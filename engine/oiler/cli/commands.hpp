@@ -49,4 +49,7 @@ struct FiguresCommand {
     Exit run() const;
 };
 
+/// Plays the scene file that the words name, with the options of all games; `argv[0]` is "play".
+Exit run_play(int argc, char** argv);
+
 }  // namespace oiler

@@ -67,6 +67,8 @@ public:
     Program() : app_("A fixed timestep, and what it costs", "oiler") {
         app_.set_version_flag("--version", "oiler " + std::string(version()));
         app_.require_subcommand(0, 1);
+        // Its options are those of all games, which run_play reads.
+        app_.add_subcommand("play", "Play a scene file: in a window, as frames, or as numbers");
         declare_methods();
         declare_certify();
         declare_stability();
@@ -74,6 +76,7 @@ public:
     }
 
     Exit run(int argc, char** argv) {
+        if (argc > 1 && std::string_view(argv[1]) == "play") return run_play(argc - 1, argv + 1);
         const std::string text = parse(app_, argc, argv);
         if (!text.empty()) {
             write_file("-", std::as_bytes(std::span(text)));
@@ -82,7 +85,7 @@ public:
         const auto commands = app_.get_subcommands();
         if (commands.empty())
             fail(Exit::usage,
-                 "give a command: methods, certify, stability or figures (see oiler --help)");
+                 "give a command: play, methods, certify, stability or figures (see oiler --help)");
         return run(commands.front()->get_name());
     }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <span>
+
+#include "oiler/app/loops.hpp"
+#include "oiler/capture/file.hpp"
+#include "oiler/cli/commands.hpp"
+#include "oiler/scene/draw.hpp"
+#include "oiler/scene/make_world.hpp"
+#include "oiler/scene/read.hpp"
+
+namespace oiler {
+namespace {
+
+class SceneGame final : public AnyGame {
+public:
+    /// The scene outlives the game.
+    SceneGame(const Scene& scene, const Settings& settings)
+        : scene_(scene), world_(make_world(scene, settings)), camera_(camera_of(scene, world_)) {}
+
+    void step(std::int64_t count, Input& input) override {
+        input.forget_presses();
+        world_.step(count);
+    }
+    [[nodiscard]] const World& world() const override { return world_; }
+    [[nodiscard]] Picture picture() const override { return draw_scene(scene_, world_, camera_); }
+
+private:
+    const Scene& scene_;
+    World world_;
+    Camera camera_;
+};
+
+About describe(const Scene& scene, const std::string& name) {
+    return {.name = name,
+            .title = scene.title.empty() ? name : scene.title,
+            .rate = static_cast<int>(scene.rate),
+            .method = scene.method->name,
+            .precision = scene.precision,
+            .duration = scene.duration};
+}
+
+}  // namespace
+
+Exit run_play(int argc, char** argv) {
+    constexpr About program{.name = "oiler play", .title = "Play a scene file"};
+    Scene scene;
+    std::string name;
+    const auto read = [&](const std::string& path) {
+        scene = read_scene(path);
+        name = std::filesystem::path(path).stem().string();
+        return describe(scene, name);
+    };
+    const CommandLine line = parse_command_line(argc, argv, program, read);
+    if (!line.text.empty()) {
+        write_file("-", std::as_bytes(std::span(line.text)));
+        return Exit::done;
+    }
+    return run_game(line.options, line.about, [&](const Settings& settings) {
+        return std::make_unique<SceneGame>(scene, settings);
+    });
+}
+
+}  // namespace oiler

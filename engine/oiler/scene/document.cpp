@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The one file that includes toml++, whose parser is in a library of its own. NDEBUG, because its
+// assertions fail on texts that it goes on to refuse.
+#include "oiler/scene/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "oiler/scene/guard.hpp"
+#include "oiler/scene/refuse.hpp"
+
+namespace oiler {
+namespace {
+
+Value convert(const toml::node& node);
+
+int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
+
+std::vector<Value> members(const toml::table& table) {
+    std::vector<Value> items;
+    for (const auto& [key, node] : table) {
+        Value& item = items.emplace_back(convert(node));
+        item.key = key.str();
+        item.line = line_of(key.source());
+    }
+    std::ranges::stable_sort(items, {}, &Value::line);
+    return items;
+}
+
+std::vector<Value> elements(const toml::array& array) {
+    std::vector<Value> items;
+    for (const toml::node& node : array) items.push_back(convert(node));
+    return items;
+}
+
+Value convert(const toml::node& node) {
+    Value value{.line = line_of(node.source())};
+    node.visit([&]<class Node>(const Node& one) {
+        if constexpr (toml::is_table<Node>) {
+            value.items = members(one);
+        } else if constexpr (toml::is_array<Node>) {
+            value.kind = ValueKind::list;
+            value.items = elements(one);
+        } else if constexpr (toml::is_string<Node>) {
+            value.kind = ValueKind::text;
+            value.text = one.get();
+        } else if constexpr (toml::is_integer<Node>) {
+            value.kind = ValueKind::whole;
+            value.whole = one.get();
+            value.number = static_cast<double>(one.get());
+        } else if constexpr (toml::is_floating_point<Node>) {
+            value.kind = ValueKind::number;
+            value.number = one.get();
+        } else if constexpr (toml::is_boolean<Node>) {
+            value.kind = ValueKind::flag;
+            value.flag = one.get();
+        } else {
+            value.kind = ValueKind::date;
+        }
+    });
+    return value;
+}
+
+}  // namespace
+
+const Value* Value::find(std::string_view name) const {
+    const auto found = std::ranges::find(items, name, &Value::key);
+    return found == items.end() ? nullptr : &*found;
+}
+
+std::string Value::shown() const {
+    switch (kind) {
+        case ValueKind::text:
+            return fmt::format("the text \"{}\"", printable(text));
+        case ValueKind::whole:
+            return fmt::format("{}", whole);
+        case ValueKind::number:
+            return fmt::format("{}", number);
+        case ValueKind::flag:
+            return flag ? "true" : "false";
+        case ValueKind::date:
+            return "a date or a time";
+        case ValueKind::list:
+            return fmt::format("a list of {}", items.size());
+        case ValueKind::table:
+            break;
+    }
+    return "a table";
+}
+
+Value parse_document(std::string_view text, std::string_view file) {
+    guard_scene_text(text, file);
+    try {
+        return convert(toml::parse(text));
+    } catch (const toml::parse_error& error) {
+        refuse({file, line_of(error.source())}, "not TOML: {}; mend this line or the one above",
+               printable(error.description(), 200));
+    }
+}
+
+}  // namespace oiler

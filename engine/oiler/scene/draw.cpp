@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/draw.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "oiler/picture/shapes.hpp"
+#include "oiler/scene/grid.hpp"
+
+namespace oiler {
+namespace {
+
+/// Parts of a camera's height.
+constexpr float large_radius = 1 / 40.0F;
+constexpr float small_radius = 1 / 200.0F;
+
+Point to_point(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
+
+Point position_of(const World& world, std::size_t row) {
+    return to_point(world.bodies().position(row));
+}
+
+ElementKey key_of(const World& world, std::size_t row, std::size_t part = 0) {
+    return {.object = world.entity_of_row(row).id(), .part = static_cast<std::uint32_t>(part)};
+}
+
+/// The smallest box around points.
+struct Box {
+    Point low{std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
+    Point high{std::numeric_limits<float>::lowest(), std::numeric_limits<float>::lowest()};
+
+    void add(Point point) {
+        low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+        high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+    }
+};
+
+Box box_of(const Scene& scene, const World& world) {
+    Box box;
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) box.add(position_of(world, row));
+    for (const SceneSpring& spring : scene.springs)
+        if (!spring.to) box.add(to_point(spring.anchor));
+    for (const SceneAttractor& attractor : scene.attractors) box.add(to_point(attractor.position));
+    return box;
+}
+
+/// Draws a scene's things in the order of the world's rows.
+class Drawing {
+public:
+    Drawing(const Scene& scene, const World& world, const Camera& camera)
+        : scene_(scene), world_(world), picture_{.camera = camera} {
+        picture_.discs.reserve(world.bodies().size() + scene.attractors.size());
+    }
+
+    Picture run() {
+        draw_attractors();
+        draw_springs();
+        for (const SceneBody& body : scene_.bodies) draw_discs(1, body.matter, large_radius);
+        for (const SceneGrid& grid : scene_.grids) {
+            draw_net(grid);
+            draw_discs(grid.size(), grid.matter, small_radius);
+        }
+        for (const SceneScatter& scatter : scene_.scatters)
+            draw_discs(scatter.count, scatter.matter, small_radius);
+        draw_words();
+        return std::move(picture_);
+    }
+
+private:
+    [[nodiscard]] float radius(const std::optional<double>& given, float part) const {
+        return given ? static_cast<float>(*given) : part * picture_.camera.height;
+    }
+
+    void draw_attractors() {
+        for (const SceneAttractor& attractor : scene_.attractors)
+            picture_.discs.push_back({.centre = to_point(attractor.position),
+                                      .radius = radius(attractor.radius, large_radius),
+                                      .colour = attractor.colour});
+    }
+
+    void draw_discs(std::int64_t count, const SceneMatter& matter, float part) {
+        const float size = radius(matter.radius, part);
+        for (; count > 0; --count, ++row_)
+            picture_.discs.push_back({.key = key_of(world_, row_),
+                                      .centre = position_of(world_, row_),
+                                      .radius = size,
+                                      .colour = matter.colour});
+    }
+
+    void draw_springs() {
+        constexpr int turns = 12;
+        for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
+            const SceneSpring& spring = scene_.springs[i];
+            const Point from =
+                spring.to ? position_of(world_, *spring.to) : to_point(spring.anchor);
+            if (!spring.to)
+                picture_.discs.push_back(
+                    {.centre = from, .radius = radius({}, small_radius), .colour = palette::ink});
+            picture_.polylines.push_back(
+                {.key = key_of(world_, spring.body, i + 1),
+                 .points = coil(from, position_of(world_, spring.body), turns,
+                                0.6F * large_radius * picture_.camera.height),
+                 .width = 1.25F,
+                 .colour = spring.colour});
+        }
+    }
+
+    /// Its springs as threads, each from one edge to another.
+    void draw_net(const SceneGrid& grid) {
+        const std::vector<GridLink> links = links_of(grid);
+        for (std::size_t kind = 0; kind < links.size(); ++kind)
+            for (std::int64_t row = 0; row < grid.count[1]; ++row)
+                for (std::int64_t column = 0; column < grid.count[0]; ++column)
+                    if (!node_at(grid, column - links[kind].right, row - links[kind].up))
+                        draw_thread(grid, links[kind], column, row, kind);
+    }
+    void draw_thread(const SceneGrid& grid, const GridLink& link, std::int64_t column,
+                     std::int64_t row, std::size_t kind) {
+        const bool diagonal = link.right != 0 && link.up != 0;
+        Polyline thread{.key = key_of(world_, row_ + *node_at(grid, column, row), kind + 1),
+                        .width = diagonal ? 0.4F : 0.8F,
+                        .colour = palette::faded(grid.matter.colour, diagonal ? 60 : 140)};
+        for (auto node = node_at(grid, column, row); node; node = node_at(grid, column, row)) {
+            thread.points.push_back(position_of(world_, row_ + *node));
+            column += link.right;
+            row += link.up;
+        }
+        if (thread.points.size() > 1) picture_.polylines.push_back(std::move(thread));
+    }
+
+    void draw_words() {
+        const Settings& settings = world_.settings();
+        const std::string how =
+            fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.method->name,
+                        settings.rate.steps, name_of(settings.precision), world_.time());
+        picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = palette::ink},
+                           {.at = {12, 326}, .text = how, .size = 9, .colour = palette::grey}};
+    }
+
+    const Scene& scene_;
+    const World& world_;
+    Picture picture_;
+    std::size_t row_ = 0;
+};
+
+}  // namespace
+
+Camera camera_of(const Scene& scene, const World& world) {
+    constexpr float margin = 1.25F;
+    constexpr float where_all_is_in_one_point = 10;
+    const Box box = box_of(scene, world);
+    Camera camera{.centre = {box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2}};
+    const float height =
+        std::max(box.high.y - box.low.y, (box.high.x - box.low.x) * canvas_height / canvas_width);
+    camera.height = height > 0 ? margin * height : where_all_is_in_one_point;
+    if (scene.camera.centre) camera.centre = to_point(*scene.camera.centre);
+    if (scene.camera.height) camera.height = static_cast<float>(*scene.camera.height);
+    return camera;
+}
+
+Picture draw_scene(const Scene& scene, const World& world, const Camera& camera) {
+    return Drawing(scene, world, camera).run();
+}
+
+}  // namespace oiler

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/guard.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+#include "oiler/core/error.hpp"
+#include "oiler/scene/refuse.hpp"
+
+namespace oiler {
+namespace {
+
+class Descriptor {
+public:
+    /// Opening a pipe that nobody writes to does not wait.
+    explicit Descriptor(const std::string& path)
+        : number_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+    ~Descriptor() {
+        if (number_ >= 0) close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    [[nodiscard]] int number() const { return number_; }
+
+private:
+    int number_;
+};
+
+/// Whether the path is at fault that the user gave, and not the machine.
+bool is_misnamed(int error) {
+    constexpr std::array at_fault{ENOENT, ENOTDIR, ENXIO, ELOOP, ENAMETOOLONG};
+    return std::ranges::find(at_fault, error) != at_fault.end();
+}
+
+void require_file(int descriptor, const std::string& path) {
+    struct stat status {};
+    if (fstat(descriptor, &status) != 0) fail(Exit::io, "{}: {}", path, system_reason(errno));
+    if (!S_ISREG(status.st_mode))
+        fail(Exit::usage, "{}: not a file; give a scene file such as assets/scenes/cloth.toml",
+             path);
+}
+
+/// Goes through the text as TOML has it: brackets and dots count only outside of texts and
+/// comments. Where a text does not end, the parser stops there as well.
+class Walk {
+public:
+    Walk(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+
+    void run() {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '#')
+                skip_comment();
+            else if (c == '"' || c == '\'')
+                skip_string(c);
+            else
+                count(c);
+        }
+    }
+
+private:
+    static constexpr int most_depth = 64;
+    static constexpr int most_dots = 32;
+
+    void count(char c) {
+        ++at_;
+        if (c == '.' && ++dots_ > most_dots)
+            refuse({file_, line_}, "a key of more than {} parts; no key of a scene has more than 2",
+                   most_dots);
+        if (c == '[' || c == '{') ++depth_;
+        if ((c == ']' || c == '}') && depth_ > 0) --depth_;
+        if (depth_ > most_depth)
+            refuse({file_, line_}, "brackets within brackets, deeper than {}; close them",
+                   most_depth);
+        if (c == '\n') ++line_;
+        if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots_ = 0;
+    }
+    void skip_comment() {
+        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    }
+    void skip_string(char quote) {
+        const bool lines = follows(std::string(3, quote));
+        const std::string mark(lines ? 3 : 1, quote);
+        for (at_ += mark.size(); at_ < text_.size() && !follows(mark); ++at_) {
+            if (text_[at_] == '\n' && !lines) return;
+            if (text_[at_] == '\\' && quote == '"' && at_ + 1 < text_.size()) ++at_;
+            if (text_[at_] == '\n') ++line_;
+        }
+        at_ = std::min(at_ + mark.size(), text_.size());
+        // Such a text may itself end with two quotes.
+        for (int more = 0; lines && more < 2 && follows(mark.substr(2)); ++more) ++at_;
+    }
+    [[nodiscard]] bool follows(std::string_view part) const {
+        return text_.substr(at_).starts_with(part);
+    }
+
+    std::string_view text_;
+    std::string_view file_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+    int depth_ = 0;
+    int dots_ = 0;
+};
+
+/// The byte is one of a text of ASCII; a carriage return only before the end of a line.
+bool is_text(std::string_view text, std::size_t at) {
+    const char c = text[at];
+    if (c == '\r') return text.substr(at).starts_with("\r\n");
+    return c == '\t' || c == '\n' || (c >= ' ' && c <= '~');
+}
+
+}  // namespace
+
+std::string read_scene_text(const std::string& path) {
+    const Descriptor file(path);
+    if (file.number() < 0)
+        fail(is_misnamed(errno) ? Exit::usage : Exit::io,
+             "{}: {}; give a scene file such as assets/scenes/cloth.toml", path,
+             system_reason(errno));
+    require_file(file.number(), path);
+    std::string text(most_scene_bytes + 1, '\0');
+    std::size_t size = 0;
+    while (size < text.size()) {
+        const ssize_t got = read(file.number(), text.data() + size, text.size() - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(Exit::io, "{}: {}", path, system_reason(errno));
+        if (got == 0) break;
+        size += static_cast<std::size_t>(got);
+    }
+    text.resize(size);
+    return text;
+}
+
+void guard_scene_text(std::string_view text, std::string_view file) {
+    if (text.size() > most_scene_bytes)
+        refuse({file}, "more than {} bytes; a grid or a scatter makes many bodies of one table",
+               most_scene_bytes);
+    int line = 1;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (!is_text(text, at))
+            refuse({file, line},
+                   "byte 0x{:02x}, but a scene is ASCII text; in quotes write \\u00e9 for é",
+                   static_cast<unsigned char>(text[at]));
+        if (text[at] == '\n') ++line;
+    }
+    Walk(text, file).run();
+}
+
+}  // namespace oiler

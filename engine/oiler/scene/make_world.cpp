@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/make_world.hpp"
+
+#include "oiler/scene/grid.hpp"
+#include "oiler/scene/random.hpp"
+
+namespace oiler {
+namespace {
+
+template <class Force>
+void give(GivenForces& forces, const Force& force) {
+    std::get<std::optional<Force>>(forces) = force;
+}
+
+Attractor to_force(const SceneAttractor& attractor) {
+    return {.centre = attractor.position, .gm = attractor.gm};
+}
+
+/// Spawns a scene's bodies. Forces are given with a body where they can be, because bodies that
+/// agree on those share them in memory.
+class Maker {
+public:
+    Maker(const Scene& scene, const Settings& settings)
+        : scene_(scene), world_(scene.axes, settings) {}
+
+    World run() {
+        world_.reserve(static_cast<std::size_t>(scene_.body_count()));
+        if (scene_.gravity) world_.set_gravity(*scene_.gravity);
+        add_bodies();
+        for (const SceneGrid& grid : scene_.grids) add_grid(grid);
+        for (const SceneScatter& scatter : scene_.scatters) add_scatter(scatter);
+        return std::move(world_);
+    }
+
+private:
+    [[nodiscard]] GivenForces forces_of(const SceneMatter& matter) const {
+        GivenForces forces;
+        if (matter.linear_drag > 0) give(forces, LinearDrag{matter.linear_drag});
+        if (matter.quadratic_drag > 0) give(forces, QuadraticDrag{matter.quadratic_drag});
+        if (!scene_.attractors.empty()) give(forces, to_force(scene_.attractors[0]));
+        return forces;
+    }
+    Entity spawn(const Body& body, const GivenForces& forces) {
+        const Entity entity = world_.spawn(body, forces);
+        for (std::size_t nth = 1; nth < scene_.attractors.size(); ++nth)
+            world_.attach_nth(nth, entity, to_force(scene_.attractors[nth]));
+        return entity;
+    }
+
+    void add_bodies() {
+        std::vector<Entity> entities;
+        for (const SceneBody& body : scene_.bodies)
+            entities.push_back(spawn(
+                {.mass = body.matter.mass, .position = body.position, .velocity = body.velocity},
+                forces_of(body.matter)));
+        std::vector<std::size_t> springs(entities.size());
+        std::vector<std::size_t> coils(entities.size());
+        for (const SceneSpring& spring : scene_.springs) {
+            const Entity entity = entities[spring.body];
+            if (spring.to)
+                world_.link(entity, entities[*spring.to],
+                            {spring.stiffness, spring.damping, spring.rest_length});
+            else if (spring.rest_length > 0)
+                world_.attach_nth(coils[spring.body]++, entity,
+                                  CoilSpring{spring.anchor, spring.stiffness, spring.damping,
+                                             spring.rest_length});
+            else
+                world_.attach_nth(springs[spring.body]++, entity,
+                                  Spring{spring.anchor, spring.stiffness, spring.damping});
+        }
+    }
+
+    void add_grid(const SceneGrid& grid) {
+        const GivenForces forces = forces_of(grid.matter);
+        std::vector<Entity> nodes;
+        nodes.reserve(static_cast<std::size_t>(grid.size()));
+        for (std::int64_t row = 0; row < grid.count[1]; ++row)
+            for (std::int64_t column = 0; column < grid.count[0]; ++column)
+                nodes.push_back(spawn({.mass = grid.matter.mass,
+                                       .position = node_position(grid, column, row),
+                                       .velocity = grid.velocity},
+                                      forces));
+        for (const GridLink& link : links_of(grid)) add_links(grid, link, nodes);
+        for (const std::size_t node : hung_nodes(grid))
+            world_.attach(nodes[node], Spring{.anchor = world_.position(nodes[node]),
+                                              .stiffness = grid.stiffness,
+                                              .damping = grid.damping});
+    }
+    /// Row by row, so that links that follow each other join rows that do.
+    void add_links(const SceneGrid& grid, const GridLink& link, const std::vector<Entity>& nodes) {
+        for (std::int64_t row = 0; row < grid.count[1]; ++row)
+            for (std::int64_t column = 0; column < grid.count[0]; ++column)
+                if (const auto other = node_at(grid, column + link.right, row + link.up))
+                    world_.link(nodes[*node_at(grid, column, row)], nodes[*other], link.link);
+    }
+
+    void add_scatter(const SceneScatter& scatter) {
+        const GivenForces forces = forces_of(scatter.matter);
+        Random random(static_cast<std::uint64_t>(scatter.seed) ^
+                      Random::mixed(world_.settings().seed));
+        const auto draw = [&](const Vec3& from, const Vec3& to) {
+            Vec3 drawn{};
+            for (int i = 0; i < scene_.axes; ++i)
+                drawn[i] = from[i] + (to[i] - from[i]) * random.fraction();
+            return drawn;
+        };
+        for (std::int64_t i = 0; i < scatter.count; ++i) {
+            Body body{.mass = scatter.matter.mass};
+            body.position = draw(scatter.position_from, scatter.position_to);
+            body.velocity = draw(scatter.velocity_from, scatter.velocity_to);
+            spawn(body, forces);
+        }
+    }
+
+    const Scene& scene_;
+    World world_;
+};
+
+}  // namespace
+
+Settings settings_of(const Scene& scene) {
+    return {.rate = {scene.rate}, .method = scene.method, .precision = scene.precision};
+}
+
+World make_world(const Scene& scene, const Settings& settings) {
+    return Maker(scene, settings).run();
+}
+
+}  // namespace oiler

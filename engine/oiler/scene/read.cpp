@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/read.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "oiler/core/error.hpp"
+#include "oiler/scene/check.hpp"
+#include "oiler/scene/guard.hpp"
+#include "oiler/scene/nearest.hpp"
+#include "oiler/scene/section.hpp"
+
+namespace oiler {
+namespace {
+
+void read_matter(const Section& section, SceneMatter& matter) {
+    section.read("mass", matter.mass);
+    section.read("linear_drag", matter.linear_drag);
+    section.read("quadratic_drag", matter.quadratic_drag);
+    section.read("colour", matter.colour);
+    section.read("radius", matter.radius);
+}
+
+Hang hang_of(const std::string& word) {
+    if (word == "corners") return Hang::corners;
+    return word == "top" ? Hang::top : Hang::none;
+}
+
+/// Makes a scene of a document, table by table.
+class Reader {
+public:
+    Reader(const Value& document, std::string_view file) : document_(document), file_(file) {
+        refuse_unknown_tables();
+        refuse_unknown_keys();
+    }
+
+    Scene run() {
+        read_settings();
+        each("gravity", [&](const Section& section) { read_gravity(section); });
+        each("body", [&](const Section& section) { read_body(section); });
+        each("spring", [&](const Section& section) { read_spring(section); });
+        each("attractor", [&](const Section& section) { read_attractor(section); });
+        each("grid", [&](const Section& section) { read_grid(section); });
+        each("scatter", [&](const Section& section) { read_scatter(section); });
+        each("camera", [&](const Section& section) { read_camera(section); });
+        each("budget", [&](const Section& section) { read_budget(section); });
+        if (scene_.body_count() == 0)
+            refuse({file_, 1}, "body: missing; a scene needs a [[body]], [[grid]] or [[scatter]]");
+        check_forces(scene_, force_place_);
+        check_method(scene_, method_place_);
+        return std::move(scene_);
+    }
+
+private:
+    void refuse_unknown_tables() const {
+        const std::vector<std::string_view> tables = scene_tables();
+        for (const Value& member : document_.items)
+            if (std::ranges::find(tables, member.key) == tables.end())
+                refuse({file_, member.line}, "{}: a scene has no such table{}",
+                       printable(member.key), remedy_for(member.key, tables));
+    }
+    static std::string remedy_for(const std::string& key,
+                                  const std::vector<std::string_view>& tables) {
+        std::string owners;
+        for (const Key& known : scene_keys())
+            if (known.name == key) owners += fmt::format(" [{}]", known.table);
+        if (!owners.empty()) return "; it is a key of" + owners + ", below which it belongs";
+        const std::string near = did_you_mean(key, tables);
+        return near.empty() ? fmt::format("; it has {}", fmt::join(tables, ", ")) : near;
+    }
+    /// Before any value is looked at, so that a misspelt key is not told to be missing.
+    void refuse_unknown_keys() const {
+        for (const std::string_view table : scene_tables()) each(table, [](const Section&) {});
+    }
+
+    /// Calls `f` with each table of the name that the document has.
+    template <class F>
+    void each(std::string_view table, F f) const {
+        const Value* const value = document_.find(table);
+        if (!value) return;
+        if (!is_repeated(table)) return f(section(table, *value));
+        if (value->kind != ValueKind::list)
+            refuse({file_, value->line}, "{0}: there may be several, so write [[{0}]]", table);
+        for (const Value& item : value->items) f(section(table, item));
+    }
+    [[nodiscard]] Section section(std::string_view table, const Value& value) const {
+        Section section(file_, table, value);
+        section.set_axes(scene_.axes);
+        return section;
+    }
+
+    void read_settings() {
+        const Value* const value = document_.find("scene");
+        if (!value) refuse({file_, 1}, "scene: missing; start with [scene] and axes = 1, 2 or 3");
+        const Section section(file_, "scene", *value);
+        std::int64_t axes = 0;
+        section.read("title", scene_.title);
+        section.read("axes", axes);
+        scene_.axes = static_cast<int>(axes);
+        section.read("rate", scene_.rate);
+        section.read("duration", scene_.duration);
+        if (section.has("method")) scene_.method = &find_method(section.word("method"));
+        if (section.word("precision") == "float") scene_.precision = Precision::single;
+        method_place_ = section.place("method");
+    }
+
+    void read_gravity(const Section& section) {
+        section.read("acceleration", scene_.gravity.emplace());
+        check_numbers(scene_, section, "acceleration", *scene_.gravity);
+    }
+
+    void read_body(const Section& section) {
+        SceneBody& body = scene_.bodies.emplace_back();
+        section.read("name", body.name);
+        section.read("position", body.position);
+        section.read("velocity", body.velocity);
+        read_matter(section, body.matter);
+        check_matter(scene_, section, body.matter);
+        check_numbers(scene_, section, "position", body.position);
+        check_numbers(scene_, section, "velocity", body.velocity);
+        if (section.has("name")) remember(section, body.name);
+    }
+    void remember(const Section& section, const std::string& name) {
+        if (name.empty())
+            refuse(section.place("name"), "body.name: an empty name; leave it out or give one");
+        if (!names_.emplace(name, scene_.bodies.size() - 1).second)
+            refuse(section.place("name"), "body.name: another body is \"{}\"; give another name",
+                   printable(name));
+    }
+    [[nodiscard]] std::size_t find_body(const Section& section, std::string_view key) const {
+        std::string name;
+        section.read(key, name);
+        if (const auto found = names_.find(name); found != names_.end()) return found->second;
+        std::vector<std::string_view> names;
+        for (const auto& [known, index] : names_) names.push_back(known);
+        const std::string near = did_you_mean(name, names);
+        refuse(section.place(key), "spring.{}: no [[body]] has the name \"{}\"{}", key,
+               printable(name),
+               near.empty() ? fmt::format("; give one name = \"{}\"", printable(name)) : near);
+    }
+
+    void read_spring(const Section& section) {
+        SceneSpring& spring = scene_.springs.emplace_back();
+        spring.body = find_body(section, "body");
+        if (section.has("anchor") == section.has("to"))
+            refuse(section.place("to"), "spring.to: expected either an anchor or a body, got {}",
+                   section.has("to") ? "both; leave one out"
+                                     : "neither; give anchor = […] or to = \"another body\"");
+        if (section.has("to"))
+            spring.to = find_body(section, "to");
+        else
+            force_place_ = section.place();
+        if (spring.to == spring.body)
+            refuse(section.place("to"),
+                   "spring.to: the spring is on that body already; give "
+                   "another body, or an anchor");
+        section.read("anchor", spring.anchor);
+        section.read("stiffness", spring.stiffness);
+        section.read("damping", spring.damping);
+        section.read("rest_length", spring.rest_length);
+        section.read("colour", spring.colour);
+        check_spring(scene_, section, spring);
+    }
+
+    void read_attractor(const Section& section) {
+        SceneAttractor& attractor = scene_.attractors.emplace_back();
+        force_place_ = section.place();
+        section.read("position", attractor.position);
+        section.read("gm", attractor.gm);
+        section.read("colour", attractor.colour);
+        section.read("radius", attractor.radius);
+        check_numbers(scene_, section, "position", attractor.position);
+        check_number(scene_, section, "gm", attractor.gm);
+    }
+
+    void read_grid(const Section& section) {
+        SceneGrid& grid = scene_.grids.emplace_back();
+        section.read("count", grid.count);
+        section.read("origin", grid.origin);
+        section.read("velocity", grid.velocity);
+        section.read("spacing", grid.spacing);
+        read_matter(section, grid.matter);
+        section.read("stiffness", grid.stiffness);
+        section.read("damping", grid.damping);
+        section.read("rest_length", grid.rest_length);
+        section.read("diagonals", grid.diagonals);
+        grid.hang = hang_of(section.word("hang"));
+        check_grid(scene_, section, grid);
+    }
+
+    void read_scatter(const Section& section) {
+        SceneScatter& scatter = scene_.scatters.emplace_back();
+        section.read("count", scatter.count);
+        section.read("seed", scatter.seed);
+        section.read("position_from", scatter.position_from);
+        section.read("position_to", scatter.position_to);
+        section.read("velocity_from", scatter.velocity_from);
+        scatter.velocity_to = scatter.velocity_from;
+        section.read("velocity_to", scatter.velocity_to);
+        read_matter(section, scatter.matter);
+        check_scatter(scene_, section, scatter);
+    }
+
+    void read_camera(const Section& section) {
+        section.read("centre", scene_.camera.centre);
+        section.read("height", scene_.camera.height);
+    }
+
+    void read_budget(const Section& section) {
+        section.read("position_error", scene_.budget.position_error);
+        section.read("energy_drift", scene_.budget.energy_drift);
+    }
+
+    const Value& document_;
+    std::string_view file_;
+    Place method_place_{};
+    Place force_place_{};                       // of the last anchored spring or attractor
+    std::map<std::string, std::size_t> names_;  // of bodies
+    Scene scene_;
+};
+
+}  // namespace
+
+Scene read_scene(const std::string& path) { return parse_scene(read_scene_text(path), path); }
+
+Scene parse_scene(std::string_view text, std::string_view file) {
+    const Value document = parse_document(text, file);
+    return Reader(document, file).run();
+}
+
+}  // namespace oiler

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# scene.sh [SECONDS]: feeds the scene reader mutations of all scenes, good and bad ones, for that
+# long. What makes it fail is left in build-fuzz/.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+seconds=${1:-60}
+cmake --preset fuzz
+cmake --build --preset fuzz --target scene_fuzz
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+awk -F'`' '/^\| `\[/ { print "\"" $4 " = \""; print "\"\\x0a" $2 "\\x0a\"" }' README.md | sort -u >"$work/dictionary"
+mkdir "$work/found"
+build-fuzz/bin/scene_fuzz -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=1024 \
+    -print_final_stats=1 -verbosity=0 -dict="$work/dictionary" -artifact_prefix=build-fuzz/ \
+    "$work/found" assets/scenes tests/scene/bad

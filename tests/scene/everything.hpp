@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace oiler::test {
+
+/// A scene in which every key is used, and every number matters: all moves, and nothing is at rest
+/// with what pulls at it.
+inline const std::string everything = R"(
+[scene]
+title = "Everything"
+axes = 2
+rate = 100
+method = "velocity_verlet"
+precision = "double"
+duration = 4.0
+
+[gravity]
+acceleration = [0.5, -9.81]
+
+[[body]]
+name = "a"
+mass = 1.5
+position = [0.5, 0.25]
+velocity = [1.0, 2.0]
+linear_drag = 0.1
+quadratic_drag = 0.2
+radius = 0.3
+colour = "orange"
+
+[[body]]
+name = "b"
+position = [2.0, 0.0]
+
+[[body]]
+name = "c"
+position = [3.0, 1.0]
+
+[[spring]]
+body = "a"
+anchor = [0.0, 1.0]
+stiffness = 15.0
+damping = 0.1
+rest_length = 0.4
+colour = "green"
+
+[[spring]]
+body = "a"
+to = "b"
+stiffness = 15.0
+
+[[attractor]]
+position = [5.0, 5.0]
+gm = 2.0
+radius = 0.2
+colour = "black"
+
+[[grid]]
+count = [3, 2]
+origin = [6.0, 0.0]
+spacing = 1.0
+velocity = [0.0, 1.0]
+mass = 0.5
+linear_drag = 0.1
+quadratic_drag = 0.2
+stiffness = 100.0
+damping = 0.3
+rest_length = 0.8
+diagonals = true
+hang = "corners"
+radius = 0.05
+colour = "purple"
+
+[[scatter]]
+count = 3
+seed = 7
+position_from = [-1.0, 0.0]
+position_to = [1.0, 2.0]
+velocity_from = [0.0, 0.0]
+velocity_to = [3.0, 4.0]
+mass = 0.5
+linear_drag = 0.1
+quadratic_drag = 0.2
+radius = 0.05
+colour = "vermilion"
+
+[camera]
+centre = [1.0, 1.0]
+height = 12.0
+
+[budget]
+position_error = 1.0
+energy_drift = 0.01
+)";
+
+/// `text` with another value, or without a line where there is none, of the first such key in the
+/// tables of that name.
+inline std::string altered(std::string text, std::string_view table, std::string_view key,
+                           std::string_view value) {
+    const std::size_t header = text.find("[" + std::string(table) + "]");
+    const std::size_t line = text.find("\n" + std::string(key) + " = ", header) + 1;
+    if (header == std::string::npos || line == 0)
+        throw std::invalid_argument("no " + std::string(table) + "." + std::string(key));
+    const std::size_t end = text.find('\n', line) + 1;
+    const std::string written =
+        value.empty() ? "" : std::string(key) + " = " + std::string(value) + "\n";
+    return text.replace(line, end - line, written);
+}
+
+}  // namespace oiler::test

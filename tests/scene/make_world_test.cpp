@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/make_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "oiler/scene/grid.hpp"
+#include "oiler/scene/random.hpp"
+#include "oiler/scene/read.hpp"
+#include "scene/everything.hpp"
+#include "support/oscillator.hpp"
+
+namespace oiler::test {
+namespace {
+
+Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
+
+World world_of(const std::string& text) {
+    const Scene scene = parsed(text);
+    return make_world(scene, settings_of(scene));
+}
+
+template <class Force>
+std::optional<Force> force_on(const World& world, std::size_t row, std::size_t nth = 0) {
+    return std::get<std::optional<Force>>(world.bodies().forces_per_mass(row, nth));
+}
+
+TEST(MakeWorld, StepsAsTheSceneSays) {
+    const Settings settings = settings_of(
+        parsed("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n[[body]]\n"));
+    EXPECT_EQ(settings.rate, Rate{240});
+    EXPECT_EQ(settings.method->name, "rk4");
+    EXPECT_EQ(settings.precision, Precision::single);
+}
+
+TEST(MakeWorld, BodiesAreInTheRowsInTheOrderOfTheScene) {
+    const World world = world_of(everything);
+    const Bodies& bodies = world.bodies();
+    ASSERT_EQ(bodies.size(), 12U);
+    EXPECT_EQ(bodies.position(0), (Vec3{0.5, 0.25}));
+    EXPECT_EQ(bodies.velocity(0), (Vec3{1, 2}));
+    EXPECT_EQ(bodies.mass(0), 1.5);
+    EXPECT_EQ(bodies.position(2), (Vec3{3, 1}));
+    EXPECT_EQ(bodies.position(3), (Vec3{6, 0}));
+    EXPECT_EQ(bodies.position(4), (Vec3{7, 0}));
+    EXPECT_EQ(bodies.position(6), (Vec3{6, 1}));
+    EXPECT_EQ(bodies.position(8), (Vec3{8, 1}));
+    EXPECT_EQ(bodies.velocity(8), (Vec3{0, 1}));
+    EXPECT_EQ(bodies.mass(8), 0.5);
+    for (std::size_t row = 9; row < 12; ++row) {
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_GE(bodies.position(row)[i], i == 0 ? -1 : 0);
+            EXPECT_LT(bodies.position(row)[i], i == 0 ? 1 : 2);
+            EXPECT_GE(bodies.velocity(row)[i], 0);
+            EXPECT_LT(bodies.velocity(row)[i], i == 0 ? 3 : 4);
+        }
+    }
+}
+
+// What a force is per unit mass: 1.5 kg for the body, 0.5 kg in grid and scatter.
+TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
+    const World world = world_of(everything);
+    const auto coil = force_on<CoilSpring>(world, 0);
+    ASSERT_TRUE(coil);
+    EXPECT_EQ(coil->anchor, (Vec3{0, 1}));
+    EXPECT_EQ(coil->stiffness, 15 / 1.5);
+    EXPECT_EQ(coil->damping, 0.1 / 1.5);
+    EXPECT_EQ(coil->rest_length, 0.4);
+    for (const auto& [row, mass] : {std::pair{0, 1.5}, {3, 0.5}, {11, 0.5}}) {
+        EXPECT_EQ(force_on<LinearDrag>(world, row)->coefficient, 0.1 / mass);
+        EXPECT_EQ(force_on<QuadraticDrag>(world, row)->coefficient, 0.2 / mass);
+        EXPECT_EQ(force_on<Attractor>(world, row)->gm, 2);
+        EXPECT_EQ(force_on<Attractor>(world, row)->centre, (Vec3{5, 5}));
+    }
+    EXPECT_EQ(force_on<LinearDrag>(world, 1)->coefficient, 0);
+    for (const std::size_t hung : {6, 8}) {
+        EXPECT_EQ(force_on<Spring>(world, hung)->anchor, world.bodies().position(hung));
+        EXPECT_EQ(force_on<Spring>(world, hung)->stiffness, 200);
+        EXPECT_EQ(force_on<Spring>(world, hung)->damping, 0.6);
+    }
+    EXPECT_EQ(force_on<Spring>(world, 7)->stiffness, 0);
+}
+
+TEST(MakeWorld, AddsNoForceThatNothingHas) {
+    const World world = world_of(
+        "[scene]\naxes = 2\n[[body]]\n[[grid]]\ncount = [2, 2]\n"
+        "spacing = 1\nstiffness = 1\n[[scatter]]\ncount = 2\n"
+        "position_from = [0, 0]\nposition_to = [1, 1]\n");
+    const bool any = std::apply([](const auto&... force) { return (force.has_value() || ...); },
+                                world.bodies().forces_per_mass(0));
+    EXPECT_FALSE(any);
+}
+
+TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
+    const World world = world_of(
+        "[scene]\naxes = 1\n[[body]]\nname = 'a'\n[[body]]\nname = 'b'\nposition = [9]\n"
+        "[[spring]]\nbody = 'a'\nanchor = [1]\nstiffness = 2\n"
+        "[[spring]]\nbody = 'b'\nanchor = [2]\nstiffness = 3\n"
+        "[[spring]]\nbody = 'a'\nanchor = [3]\nstiffness = 4\n"
+        "[[spring]]\nbody = 'a'\nanchor = [4]\nstiffness = 5\nrest_length = 1\n"
+        "[[attractor]]\nposition = [-5]\ngm = 6\n[[attractor]]\nposition = [20]\ngm = 7\n");
+    EXPECT_EQ(force_on<Spring>(world, 0, 0)->stiffness, 2);
+    EXPECT_EQ(force_on<Spring>(world, 0, 1)->stiffness, 4);
+    EXPECT_EQ(force_on<Spring>(world, 0, 1)->anchor, (Vec3{3}));
+    EXPECT_EQ(force_on<CoilSpring>(world, 0, 0)->stiffness, 5);
+    EXPECT_EQ(force_on<Spring>(world, 1, 0)->stiffness, 3);
+    for (const std::size_t row : {0, 1}) {
+        EXPECT_EQ(force_on<Attractor>(world, row, 0)->gm, 6);
+        EXPECT_EQ(force_on<Attractor>(world, row, 1)->gm, 7);
+        EXPECT_EQ(force_on<Attractor>(world, row, 1)->centre, (Vec3{20}));
+    }
+}
+
+TEST(MakeWorld, LinksBodies) {
+    const World world = world_of(everything);
+    EXPECT_EQ(world.bodies().linked_rows(0), (std::array<std::size_t, 2>{0, 1}));
+    EXPECT_EQ(world.bodies().link_at(0).stiffness, 15);
+    EXPECT_EQ(world.bodies().link_at(0).rest_length, 0);
+}
+
+// 3 × 2 bodies: 0 1 2 below, 3 4 5 above.
+TEST(MakeWorld, LinksAGridRowByRowAndKindByKind) {
+    const World world = world_of(
+        "[scene]\naxes = 2\n[[grid]]\ncount = [3, 2]\nspacing = 0.5\nstiffness = 7\n"
+        "damping = 0.25\ndiagonals = true\n");
+    const std::vector<std::array<std::size_t, 2>> expected{
+        {0, 1}, {1, 2}, {3, 4}, {4, 5}, {0, 3}, {1, 4}, {2, 5}, {0, 4}, {1, 5}, {1, 3}, {2, 4}};
+    const Bodies& bodies = world.bodies();
+    ASSERT_EQ(bodies.link_count(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(bodies.linked_rows(i), expected[i]) << i;
+        EXPECT_EQ(bodies.link_at(i).stiffness, 7);
+        EXPECT_EQ(bodies.link_at(i).damping, 0.25);
+        EXPECT_EQ(bodies.link_at(i).rest_length, i < 7 ? 0.5 : 0.5 * std::sqrt(2.0)) << i;
+    }
+    EXPECT_NEAR(bodies.energy().potential, 0, 1e-30);
+}
+
+TEST(MakeWorld, AGridWithoutDiagonalsHasNone) {
+    EXPECT_EQ(world_of("[scene]\naxes = 2\n[[grid]]\ncount = [4, 3]\nspacing = 1\nstiffness = 1\n")
+                  .bodies()
+                  .link_count(),
+              3U * 3 + 4U * 2);
+    EXPECT_EQ(world_of("[scene]\naxes = 1\n[[grid]]\ncount = [4]\nspacing = 1\nstiffness = 1\n")
+                  .bodies()
+                  .link_count(),
+              3U);
+}
+
+TEST(Grid, HangsWhatItIsTold) {
+    using Nodes = std::vector<std::size_t>;
+    SceneGrid grid{.count = {3, 2}};
+    EXPECT_EQ(hung_nodes(grid), Nodes{});
+    grid.hang = Hang::top;
+    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 4, 5}));
+    grid.hang = Hang::corners;
+    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 5}));
+    grid.count = {1, 4};
+    EXPECT_EQ(hung_nodes(grid), Nodes{3});
+}
+
+// The generator's published first number from seed 0.
+TEST(Random, IsSplitMix64) {
+    EXPECT_EQ(Random(0).next(), 0xe220a8397b1dcdafU);
+    EXPECT_EQ(Random(0).fraction(),
+              static_cast<double>(0xe220a8397b1dcdafU >> 11) / 9007199254740992.0);
+    Random random(1);
+    double least = 1;
+    double most = 0;
+    double sum = 0;
+    constexpr int count = 1'000'000;
+    for (int i = 0; i < count; ++i) {
+        const double u = random.fraction();
+        least = std::min(least, u);
+        most = std::max(most, u);
+        sum += u;
+    }
+    // Of n even numbers the mean is off by 1/√(12·n), the ends are 1/n away; six of those each,
+    // and 20 for the ends, whose chance is e^(−20).
+    EXPECT_NEAR(sum / count, 0.5, 6 / std::sqrt(12.0 * count));
+    EXPECT_LT(least, 20.0 / count);
+    EXPECT_GT(most, 1 - 20.0 / count);
+    EXPECT_GE(least, 0);
+    EXPECT_LT(most, 1);
+}
+
+const std::string scatter =
+    "[scene]\naxes = 2\n[[scatter]]\ncount = 2\nseed = 0\nposition_from = [-1, 2]\n"
+    "position_to = [1, 2]\nvelocity_from = [0, 0]\nvelocity_to = [0, 8]\n";
+
+TEST(MakeWorld, ScattersByTheSeedAlone) {
+    const World world = world_of(scatter);
+    Random random(0);
+    for (std::size_t row = 0; row < 2; ++row) {
+        EXPECT_EQ(world.bodies().position(row)[0], -1 + 2 * random.fraction());
+        EXPECT_EQ(world.bodies().position(row)[1], 2 + 0 * random.fraction());
+        EXPECT_EQ(world.bodies().velocity(row)[0], 0 * random.fraction());
+        EXPECT_EQ(world.bodies().velocity(row)[1], 8 * random.fraction());
+    }
+}
+
+TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
+    const Scene scene = parsed(scatter);
+    Settings settings = settings_of(scene);
+    const std::uint64_t first = make_world(scene, settings).state_hash();
+    EXPECT_EQ(make_world(scene, settings).state_hash(), first);
+    settings.seed = 1;
+    const std::uint64_t second = make_world(scene, settings).state_hash();
+    EXPECT_NE(second, first);
+    settings.seed = 0;
+    const Scene other = parsed(altered(scatter, "scatter", "seed", "1"));
+    const std::uint64_t third = make_world(other, settings).state_hash();
+    EXPECT_NE(third, first);
+    EXPECT_NE(third, second);
+}
+
+TEST(MakeWorld, PrecisionIsThatOfTheRun) {
+    const Scene scene = parsed(scatter);
+    Settings settings = settings_of(scene);
+    settings.precision = Precision::single;
+    EXPECT_EQ(make_world(scene, settings).bodies().precision(), Precision::single);
+    const Scene far = parsed(altered(scatter, "scatter", "position_from", "[-1e39, 2]"));
+    EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)make_world(far, settings); }),
+                      "a position of -"));
+}
+
+}  // namespace
+}  // namespace oiler::test

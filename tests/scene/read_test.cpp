@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/read.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "oiler/scene/draw.hpp"
+#include "oiler/scene/keys.hpp"
+#include "oiler/scene/make_world.hpp"
+#include "scene/everything.hpp"
+#include "support/folder.hpp"
+#include "support/oscillator.hpp"
+
+namespace oiler::test {
+namespace {
+
+constexpr double none = 0;
+
+Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
+
+std::string name_of(const Key& key) { return std::string(key.table) + "." + std::string(key.name); }
+
+bool is(const Key& key, std::string_view table, std::string_view name) {
+    return key.table == table && key.name == name;
+}
+
+/// A value that `everything` does not have.
+std::string other_value(const Key& key) {
+    if (is(key, "spring", "body")) return "\"c\"";
+    if (is(key, "spring", "to")) return "\"c\"";
+    if (is(key, "scene", "method")) return "\"rk4\"";
+    if (is(key, "scene", "precision")) return "\"float\"";
+    if (is(key, "grid", "hang")) return "\"top\"";
+    switch (key.kind) {
+        case KeyKind::text:
+            return "\"other\"";
+        case KeyKind::whole:
+            return "2";
+        case KeyKind::number:
+            return "0.75";
+        case KeyKind::flag:
+            return "false";
+        case KeyKind::vector:
+            return "[0.625, 0.125]";
+        case KeyKind::counts:
+            return "[2, 3]";
+        case KeyKind::word:
+        case KeyKind::colour:
+            break;
+    }
+    return "\"#123456\"";
+}
+
+/// All that a run of the scene shows.
+struct Shown {
+    std::uint64_t state_hash;
+    Picture picture;
+};
+
+Shown shown(const Scene& scene) {
+    World world = make_world(scene, settings_of(scene));
+    const Camera camera = camera_of(scene, world);
+    world.step(3);
+    return {world.state_hash(), draw_scene(scene, world, camera)};
+}
+
+bool look_the_same(const Picture& a, const Picture& b) {
+    const auto same_disc = [](const Disc& one, const Disc& other) {
+        return one.centre == other.centre && one.radius == other.radius &&
+               one.colour == other.colour;
+    };
+    const auto same_line = [](const Polyline& one, const Polyline& other) {
+        return one.points == other.points && one.colour == other.colour;
+    };
+    return a.camera.centre == b.camera.centre && a.camera.height == b.camera.height &&
+           a.labels.at(0).text == b.labels.at(0).text &&
+           std::ranges::equal(a.discs, b.discs, same_disc) &&
+           std::ranges::equal(a.polylines, b.polylines, same_line);
+}
+
+/// Keys that say what a run is measured by; that springs refer to; or that vectors depend on.
+bool shows_nothing(const Key& key) { return key.table == "budget" || key.name == "duration"; }
+bool cannot_change_alone(const Key& key) {
+    return is(key, "body", "name") || is(key, "scene", "axes");
+}
+
+TEST(Read, EveryKeyHasAnEffect) {
+    const Scene scene = parsed(everything);
+    const Shown before = shown(scene);
+    for (const Key& key : scene_keys()) {
+        if (cannot_change_alone(key)) continue;
+        const Scene other = parsed(altered(everything, key.table, key.name, other_value(key)));
+        EXPECT_FALSE(scene == other) << name_of(key);
+        if (shows_nothing(key)) continue;
+        const Shown after = shown(other);
+        EXPECT_FALSE(before.state_hash == after.state_hash &&
+                     look_the_same(before.picture, after.picture))
+            << name_of(key);
+    }
+}
+
+TEST(Read, EveryDefaultIsAsTheListSays) {
+    for (const Key& key : scene_keys()) {
+        if (key.required() || is(key, "body", "name") || is(key, "spring", "anchor") ||
+            is(key, "spring", "to"))
+            continue;
+        const Scene without = parsed(altered(everything, key.table, key.name, ""));
+        const Scene with = parsed(altered(everything, key.table, key.name, key.value));
+        EXPECT_EQ(without == with, key.absent.empty()) << name_of(key);
+    }
+}
+
+TEST(Read, EveryKeyThatIsRequiredIsMissed) {
+    int count = 0;
+    for (const Key& key : scene_keys()) {
+        if (!key.required()) continue;
+        const std::string line = line_of_error(
+            Exit::usage, [&] { (void)parsed(altered(everything, key.table, key.name, "")); });
+        EXPECT_TRUE(holds(line, name_of(key) + ": missing")) << line;
+        ++count;
+    }
+    EXPECT_EQ(count, 11);
+}
+
+TEST(Read, EveryRangeEndsWhereTheListSays) {
+    for (const Key& key : scene_keys()) {
+        const bool bounded = key.range.low > -1e300;
+        if (!bounded || (key.kind != KeyKind::number && key.kind != KeyKind::whole)) continue;
+        if (is(key, "scene", "axes")) continue;
+        const auto read = [&](const std::string& value) {
+            (void)parsed(altered(everything, key.table, key.name, value));
+        };
+        const std::string low = key.kind == KeyKind::whole ? fmt::format("{:.0f}", key.range.low)
+                                                           : fmt::format("{}", key.range.low);
+        if (key.range.without_low)
+            EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { read(low); }), name_of(key)));
+        else
+            EXPECT_NO_THROW(read(low)) << name_of(key);
+        const std::string below = key.kind == KeyKind::whole
+                                      ? fmt::format("{:.0f}", key.range.low - 1)
+                                      : fmt::format("-{}", 1e-300);
+        EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { read(below); }), name_of(key)));
+    }
+}
+
+TEST(Read, ASceneIsWhatItsFileSays) {
+    const Scene scene = parsed(everything);
+    EXPECT_EQ(scene.title, "Everything");
+    EXPECT_EQ(scene.axes, 2);
+    EXPECT_EQ(scene.rate, 100);
+    EXPECT_EQ(scene.method->name, "velocity_verlet");
+    EXPECT_EQ(scene.precision, Precision::double_);
+    EXPECT_EQ(scene.duration, 4);
+    EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
+    ASSERT_EQ(scene.bodies.size(), 3U);
+    EXPECT_EQ(scene.bodies[0].name, "a");
+    EXPECT_EQ(scene.bodies[0].matter.mass, 1.5);
+    EXPECT_EQ(scene.bodies[0].matter.linear_drag, 0.1);
+    EXPECT_EQ(scene.bodies[0].matter.quadratic_drag, 0.2);
+    EXPECT_EQ(scene.bodies[0].matter.radius, 0.3);
+    EXPECT_EQ(scene.bodies[0].matter.colour, palette::orange);
+    EXPECT_EQ(scene.bodies[0].position, (Vec3{0.5, 0.25}));
+    EXPECT_EQ(scene.bodies[0].velocity, (Vec3{1, 2}));
+    EXPECT_EQ(scene.springs[0], (SceneSpring{.body = 0,
+                                             .anchor = {0, 1},
+                                             .stiffness = 15,
+                                             .damping = 0.1,
+                                             .rest_length = 0.4,
+                                             .colour = palette::green}));
+    EXPECT_EQ(scene.springs[1].to, 1U);
+    EXPECT_EQ(
+        scene.attractors[0],
+        (SceneAttractor{.position = {5, 5}, .gm = 2, .colour = palette::black, .radius = 0.2}));
+    EXPECT_EQ(scene.grids[0].count, (std::array<std::int64_t, 2>{3, 2}));
+    EXPECT_EQ(scene.grids[0].origin, (Vec3{6, 0}));
+    EXPECT_EQ(scene.grids[0].rest_length, 0.8);
+    EXPECT_EQ(scene.grids[0].hang, Hang::corners);
+    EXPECT_EQ(scene.scatters[0].position_from, (Vec3{-1, 0}));
+    EXPECT_EQ(scene.scatters[0].position_to, (Vec3{1, 2}));
+    EXPECT_EQ(scene.scatters[0].velocity_to, (Vec3{3, 4}));
+    EXPECT_EQ(scene.scatters[0].seed, 7);
+    EXPECT_EQ(scene.camera.centre, (Vec3{1, 1}));
+    EXPECT_EQ(scene.budget, (SceneBudget{1.0, 0.01}));
+    EXPECT_EQ(scene.body_count(), 3 + 6 + 3);
+}
+
+TEST(Read, TheSmallestSceneIsTwoTables) {
+    const Scene scene = parsed("[scene]\naxes = 3\n[[body]]\n");
+    Scene expected;
+    expected.axes = 3;
+    expected.bodies.resize(1);
+    EXPECT_EQ(scene, expected);
+    EXPECT_EQ(scene.bodies[0].matter.mass, 1);
+    EXPECT_EQ(scene.bodies[0].matter.linear_drag, none);
+    EXPECT_FALSE(scene.gravity);
+}
+
+TEST(Read, TakesWhatTomlTakesForTheSame) {
+    const Scene scene = parsed(
+        "scene.axes = 1\nscene.rate = 1_000\n"
+        "body = [{ name = 'a', mass = 2 }, { name = \"\\u00e9\", colour = \"#0072B2\" }]\n"
+        "# brackets [[[ and dots .................................... in a comment\n"
+        "spring = [{ body = 'a', to = \"\\u00e9\", stiffness = 1e1 }]\r\n");
+    EXPECT_EQ(scene.rate, 1000);
+    EXPECT_EQ(scene.bodies[0].matter.mass, 2);
+    EXPECT_EQ(scene.bodies[1].name, "é");
+    EXPECT_EQ(scene.bodies[1].matter.colour, palette::blue);
+    EXPECT_EQ(scene.springs[0].to, 1U);
+    EXPECT_EQ(scene.springs[0].stiffness, 10);
+}
+
+TEST(Read, ASpringMayComeBeforeItsBodies) {
+    const Scene scene = parsed(
+        "[scene]\naxes = 1\n[[spring]]\nbody = 'a'\nanchor = [0]\nstiffness = 1\n"
+        "[[body]]\nname = 'b'\n[[body]]\nname = 'a'\n");
+    EXPECT_EQ(scene.springs[0].body, 1U);
+}
+
+TEST(Read, AFileOfTheMostBytesAndBodies) {
+    std::string text =
+        "[scene]\naxes = 2\n[[grid]]\ncount = [1000, 1000]\nspacing = 1\nstiffness = 1\n#";
+    text.resize(64 * 1024, '#');
+    EXPECT_EQ(parsed(text).body_count(), 1'000'000);
+}
+
+TEST(Read, NestingAndDotsAreCountedAsTomlDoes) {
+    const auto line = [](const std::string& text) {
+        return line_of_error(Exit::usage, [&] { (void)parsed(text); });
+    };
+    const std::string start = "[scene]\naxes = 1\n[[body]]\n";
+    // As deep, and as many parts, as is let through: these are refused as values and keys.
+    EXPECT_TRUE(holds(line(start + "position = " + std::string(64, '[') + std::string(64, ']')),
+                      "body.position"));
+    EXPECT_TRUE(holds(line(start + "position = " + std::string(65, '[') + std::string(65, ']')),
+                      "deeper than 64"));
+    std::string parts = "x";
+    for (int i = 0; i < 32; ++i) parts += ".x";
+    EXPECT_TRUE(holds(line(start + parts + " = 1"), "body.x: [body] has no such key"));
+    EXPECT_TRUE(holds(line(start + parts + ".x = 1"), "more than 32 parts"));
+    EXPECT_TRUE(holds(line(start + "position = [1.5, \"" + parts + parts + "\"]"), "a list of 2"));
+}
+
+TEST(Read, ANumberThatColumnsDoNotHoldIsRefusedWithItsLine) {
+    const std::string text = altered(everything, "body", "position", "[1e39, 0]");
+    EXPECT_NO_THROW((void)parsed(text));
+    const std::string line = line_of_error(
+        Exit::usage, [&] { (void)parsed(altered(text, "scene", "precision", "\"float\"")); });
+    EXPECT_TRUE(holds(line, "test.toml:16: body.position: position of 1e+39")) << line;
+}
+
+TEST(ReadFile, NamesWhatIsNoFile) {
+    const Folder folder;
+    for (const std::string& path :
+         {folder.path().string(), std::string("/dev/zero"), (folder / "none.toml").string()}) {
+        const std::string line = line_of_error(Exit::usage, [&] { (void)read_scene(path); });
+        EXPECT_TRUE(holds(line, path + ": ")) << line;
+    }
+}
+
+TEST(ReadFile, DoesNotWaitForAPipe) {
+    const Folder folder;
+    const std::string path = (folder / "pipe").string();
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)read_scene(path); }), "not a file"));
+}
+
+TEST(ReadFile, AllScenesOfTheHouse) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(OILER_SOURCE "/assets/scenes")) {
+        const Scene scene = read_scene(entry.path().string());
+        EXPECT_GE(scene.body_count(), 1) << entry.path();
+        EXPECT_NE(scene.title, "") << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 10);
+}
+
+}  // namespace
+}  // namespace oiler::test

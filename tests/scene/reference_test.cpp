@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The scenes of the house against independent references and conservation laws.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "oiler/scene/make_world.hpp"
+#include "oiler/scene/read.hpp"
+#include "support/oscillator.hpp"
+#include "support/reference.hpp"
+
+namespace oiler::test {
+namespace {
+
+Scene scene_named(const std::string& name) {
+    return read_scene(OILER_SOURCE "/assets/scenes/" + name + ".toml");
+}
+
+World world_at(const Scene& scene, std::int64_t rate) {
+    Settings settings = settings_of(scene);
+    settings.rate = {rate};
+    return make_world(scene, settings);
+}
+
+/// The largest error at those of the reference's times that come first, in the units of the state.
+template <class StateOf>
+double largest_error(const Scene& scene, std::int64_t rate, const nlohmann::json& states,
+                     StateOf state_of) {
+    World world = world_at(scene, rate);
+    double largest = 0;
+    for (const std::int64_t t : {1, 5, 10}) {
+        world.step(t * rate - world.tick());
+        const std::array<double, 4> state = state_of(world.bodies());
+        for (std::size_t i = 0; i < 4; ++i)
+            largest = std::max(largest,
+                               std::abs(state.at(i) - number(states.at(std::to_string(t)).at(i))));
+    }
+    return largest;
+}
+
+/// At the scene's own rate the error is what order 4 makes of that at `coarse`, a few times as
+/// coarse and well in the range where the leading term rules; and it is small.
+template <class StateOf>
+void expect_order_four(const Scene& scene, std::int64_t coarse, const nlohmann::json& states,
+                       double most, StateOf state_of) {
+    const double before = largest_error(scene, coarse, states, state_of);
+    const double halved = largest_error(scene, 2 * coarse, states, state_of);
+    EXPECT_NEAR(std::log2(before / halved), 4, 0.15);
+    const double ratio = static_cast<double>(coarse) / static_cast<double>(scene.rate);
+    const double own = largest_error(scene, scene.rate, states, state_of);
+    EXPECT_LT(own, 1.2 * before * std::pow(ratio, 4) + most);
+    EXPECT_LT(own, 1e-7);
+}
+
+// The reference's displacements are from the places of rest, at −2 m and 2 m. A step rounds numbers
+// of up to 6 m some 30 times, which ω carries into velocities: 10⁴ steps, as a random walk.
+TEST(Scenes, ChainFollowsTheNormalModes) {
+    const double round_off = 6 * 4.2 * 1.2e-16 * std::sqrt(30 * 1e4);
+    const auto states = reference("coupled_and_kepler").at("two_coupled_equal").at("states");
+    expect_order_four(scene_named("chain"), 40, states, round_off, [](const Bodies& bodies) {
+        return std::array{bodies.position(0)[0] + 2, bodies.velocity(0)[0],
+                          bodies.position(1)[0] - 2, bodies.velocity(1)[0]};
+    });
+}
+
+// Round-off of 5000 steps in the energy shifts the phase, the more so the longer it has been there.
+TEST(Scenes, OrbitFollowsKepler) {
+    const auto states = reference("coupled_and_kepler")
+                            .at("kepler_GM1_a1")
+                            .at("values")
+                            .at("e=0.6")
+                            .at("states (x,y,vx,vy)");
+    const double round_off = 1e-10;
+    expect_order_four(scene_named("orbit"), 125, states, round_off, [](const Bodies& bodies) {
+        const Vec3 x = bodies.position(0);
+        const Vec3 v = bodies.velocity(0);
+        return std::array{x[0], x[1], v[0], v[1]};
+    });
+}
+
+Vec3 momentum(const Bodies& bodies) {
+    Vec3 sum{};
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        sum = sum + bodies.velocity(row) * bodies.mass(row);
+    return sum;
+}
+
+// Two kicks a step add up to eight springs to each velocity, of at most 3 m/s, and round at each of
+// them: what the springs give to one body and take from another is the same number.
+TEST(Scenes, FreeClothKeepsItsMomentumToRoundOff) {
+    const Scene scene = scene_named("free_cloth");
+    World world = make_world(scene, settings_of(scene));
+    const Vec3 before = momentum(world.bodies());
+    EXPECT_NEAR(before[0], 96 * 0.05 * 0.5, 1e-14);
+    constexpr std::int64_t steps = 2000;
+    world.step(steps);
+    const double mass = 96 * 0.05;
+    const double most = mass * steps * 2 * 9 * 3 * round_off_of(Precision::double_);
+    const Vec3 after = momentum(world.bodies());
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], most);
+    // It has swung, and all of it has gone where the momentum carries it.
+    double centre = 0;
+    double speed = 0;
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+        centre += world.bodies().position(row)[0] / 96;
+        speed = std::max(speed, std::abs(world.bodies().velocity(row)[1]));
+    }
+    EXPECT_NEAR(centre, -3 + 11 * 0.2 / 2 + 0.5 * 4, 1e-10);
+    EXPECT_GT(speed, 0.1);
+}
+
+/// The largest change of the energy in a second, relative to that of the springs at the start.
+double energy_drift(const Scene& scene, std::int64_t rate) {
+    World world = world_at(scene, rate);
+    const Energy first = world.bodies().energy();
+    EXPECT_GT(first.potential, 0.1);
+    double largest = 0;
+    for (std::int64_t i = 0; i < rate; ++i) {
+        world.step();
+        largest = std::max(largest, std::abs(world.bodies().energy().total() - first.total()));
+    }
+    return largest / first.potential;
+}
+
+// The energy of a symplectic method of order 2 swings by O(dt²).
+TEST(Scenes, FreeClothKeepsItsEnergyAsTheMethodCan) {
+    const Scene scene = scene_named("free_cloth");
+    const double drift = energy_drift(scene, scene.rate);
+    EXPECT_GT(drift, 1e-6);
+    EXPECT_LT(drift, 0.02);
+    EXPECT_NEAR(drift / energy_drift(scene, 2 * scene.rate), 4, 0.3);
+}
+
+// As the scene's comment says, within the budget that it sets itself.
+TEST(Scenes, TheUndampedSpringKeepsItsBudget) {
+    const Scene scene = scene_named("article_spring_undamped");
+    World world = make_world(scene, settings_of(scene));
+    const double first = world.bodies().energy().total();
+    double largest = 0;
+    for (int i = 0; i < 2000; ++i) {
+        world.step();
+        largest = std::max(largest, std::abs(world.bodies().energy().total() / first - 1));
+    }
+    EXPECT_LT(largest, *scene.budget.energy_drift);
+    EXPECT_NEAR(largest, std::sqrt(15) * 0.01 / 2, 0.1 * std::sqrt(15) * 0.01 / 2);
+}
+
+}  // namespace
+}  // namespace oiler::test
