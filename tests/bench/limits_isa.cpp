@@ -16,9 +16,11 @@ using Pack = typename PackOf<T>::type;
 template <class T>
 constexpr std::size_t lanes = OILER_BENCH_BYTES / sizeof(T);
 
-/// What is held in registers at once: enough that additions that wait for one another leave room
-/// for others.
-constexpr int packs = OILER_BENCH_PACKS;
+// How many registers of positions, and as many of velocities, are stepped at once: so many that
+// additions that wait for one another leave room for others. Measured; some are spilled.
+constexpr int fall_packs = OILER_BENCH_FALL_PACKS;
+constexpr int spring_packs = OILER_BENCH_SPRING_PACKS;
+constexpr int rest_packs = 4;
 
 // Only parameters keep the promise of __restrict: with local pointers g++ leaves such loops scalar.
 // `T...` is a number for each axis.
@@ -48,12 +50,13 @@ struct Loops {
     }
 };
 
-/// Loads `packs` registers of positions and of velocities, steps them, stores them.
-template <class T, class Step>
-[[gnu::always_inline]] inline void in_registers(std::size_t rows, int steps, T* x, T* v,
-                                                Step step) {
+/// Loads registers of positions and of velocities, steps them, stores them, from row `i` on until
+/// fewer are left than fill them; returns the next row.
+template <int packs, class T, class Step>
+[[gnu::always_inline]] inline std::size_t in_blocks(std::size_t i, std::size_t rows, int steps,
+                                                    T* x, T* v, Step step) {
     using P = Pack<T>;
-    for (std::size_t i = 0; i < rows; i += lanes<T> * packs) {
+    for (; i + lanes<T> * packs <= rows; i += lanes<T> * packs) {
         P px[packs];
         P pv[packs];
         P* const to_x = reinterpret_cast<P*>(x + i);
@@ -64,6 +67,14 @@ template <class T, class Step>
             for (int p = 0; p < packs; ++p) step(px[p], pv[p]);
         for (int p = 0; p < packs; ++p) to_x[p] = px[p], to_v[p] = pv[p];
     }
+    return i;
+}
+
+template <int packs, class T, class Step>
+[[gnu::always_inline]] inline void in_registers(std::size_t rows, int steps, T* x, T* v,
+                                                Step step) {
+    const std::size_t done = in_blocks<packs>(0, rows, steps, x, v, step);
+    in_blocks<rest_packs>(done, rows, steps, x, v, step);
 }
 
 template <class T>
@@ -72,7 +83,7 @@ template <class T>
     using P = Pack<T>;
     const P change = P{} + gravity * dt;
     const P by = P{} + dt;
-    in_registers(rows, steps, x, v, [=](P& px, P& pv) {
+    in_registers<fall_packs>(rows, steps, x, v, [=](P& px, P& pv) {
         pv = pv + change;
         px = px + pv * by;
     });
@@ -86,7 +97,7 @@ template <class T>
     const P pull = P{} - k;
     const P brake = P{} + c;
     const P at = P{} + anchor;
-    in_registers(rows, steps, x, v, [=](P& px, P& pv) {
+    in_registers<spring_packs>(rows, steps, x, v, [=](P& px, P& pv) {
         pv = pv + ((px - at) * pull - pv * brake) * by;
         px = px + pv * by;
     });

@@ -76,7 +76,7 @@ Exit run(int argc, char** argv) {
         return Exit::done;
     }
     choose_isa(bench, words.isa);
-    if (bench.full) bench.effort = {.repetitions = 15, .seconds = 0.01, .patience = 4};
+    if (bench.full) bench.effort = {.repetitions = 30, .seconds = 0.01, .patience = 4};
     bench.report.fact("Oiler", std::string(version()));
     bench.report.fact("loops by hand", std::string(bench.limits.isa));
     bench.report.fact("processors", std::to_string(std::thread::hardware_concurrency()));

@@ -11,8 +11,8 @@ using Work = std::function<void(long times)>;
 
 /// How long and how often a piece of work is timed.
 struct Effort {
-    int repetitions = 5;
-    double seconds = 0.002;  ///< of each repetition, at least
+    int repetitions = 15;
+    double seconds = 0.001;  ///< of each repetition, at least
     double patience = 0.4;   ///< s, after which slow work is not repeated again
     /// Before each repetition, do it once untimed: for work that what was done in between sets
     /// back.

@@ -65,8 +65,8 @@ void add_targets(Bench& bench, const std::vector<const Method*>& all,
 }
 
 void measure(Bench& bench, Scene scene, Precision precision, int axes, std::size_t count) {
-    const std::string name = fmt::format("{}, {}, {} axes, {}", name_of(scene), name_of(precision),
-                                         axes, in_powers(count));
+    const std::string name =
+        fmt::format("{}, {}, {}", name_of(scene), columns(precision, axes), in_powers(count));
     if (!bench.wants("methods: " + name)) return;
     const std::vector<const Method*> all = chosen(bench, count);
     Bodies bodies = make_bodies(scene, axes, count, precision);

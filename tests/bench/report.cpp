@@ -95,7 +95,13 @@ std::string Report::text() const {
     for (const auto& [name, value] : facts_) text += fmt::format("{}: {}\n", name, value);
     for (const Section& section : sections_)
         text += fmt::format("\n{}\n{}", section.title, table(section));
-    text += "\nWhat is wanted, and what is reached here\n";
+    if (!targets_.empty()) text += targets_text();
+    for (const std::string& words : missing_) text += fmt::format("Not measured: {}\n", words);
+    return text;
+}
+
+std::string Report::targets_text() const {
+    std::string text = "\nWhat is wanted, and what is reached here\n";
     std::size_t names = 0;
     for (const Target& target : targets_) names = std::max(names, width(target.what));
     for (const auto& [id, about] : groups) {
@@ -105,9 +111,7 @@ std::string Report::text() const {
             if (target.id == id) text += line(target, names);
     }
     const auto met = std::ranges::count_if(targets_, &Target::met);
-    text += fmt::format("  {} of {} met\n", met, targets_.size());
-    for (const std::string& words : missing_) text += fmt::format("Not measured: {}\n", words);
-    return text;
+    return text + fmt::format("  {} of {} met\n", met, targets_.size());
 }
 
 std::string Report::json() const {

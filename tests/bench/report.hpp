@@ -55,6 +55,8 @@ public:
     [[nodiscard]] std::string json() const;
 
 private:
+    [[nodiscard]] std::string targets_text() const;
+
     std::vector<std::pair<std::string, std::string>> facts_;
     std::vector<std::string> missing_;
     std::vector<Section> sections_;

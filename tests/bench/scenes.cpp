@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/scenes.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 
 namespace oiler::bench {
@@ -43,6 +45,10 @@ std::string_view name_of(Scene scene) {
     return scene == Scene::projectiles ? "projectiles" : "springs";
 }
 
+std::string columns(Precision precision, int axes) {
+    return fmt::format("{}, {} {}", oiler::name_of(precision), axes, axes == 1 ? "axis" : "axes");
+}
+
 Vec3 within(const Vec3& vector, int axes) {
     return {vector[0], axes > 1 ? vector[1] : 0, axes > 2 ? vector[2] : 0};
 }
@@ -62,6 +68,7 @@ World make_world(Scene scene, int axes, std::size_t bodies, const Settings& sett
 
 Bodies make_bodies(Scene scene, int axes, std::size_t count, Precision precision) {
     Bodies bodies(axes, precision);
+    reserve(bodies, count);
     fill(bodies, scene, axes, count);
     return bodies;
 }

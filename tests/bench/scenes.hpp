@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace oiler::bench {
 enum class Scene { projectiles, springs };
 
 [[nodiscard]] std::string_view name_of(Scene scene);
+
+/// "float, 3 axes"
+[[nodiscard]] std::string columns(Precision precision, int axes);
 
 inline constexpr Rate rate{60};
 

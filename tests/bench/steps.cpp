@@ -103,8 +103,8 @@ void measure(Bench& bench, Scene scene, int axes, const std::vector<std::size_t>
     const bool aimed_at = precision_of<T> == Precision::single && axes == 3;
     std::vector<double> many;
     for (const std::size_t bodies : sizes) {
-        const std::string name = fmt::format("{}, {}, {} axes, {}", name_of(scene),
-                                             name_of(precision_of<T>), axes, in_powers(bodies));
+        const std::string name = fmt::format("{}, {}, {}", name_of(scene),
+                                             columns(precision_of<T>, axes), in_powers(bodies));
         if (!bench.wants("steps: " + name)) continue;
         const bool with_many = bodies <= 1'000'000 || bench.full;
         const Costs c = race_steps<T>(bench, scene, axes, bodies, with_many);
