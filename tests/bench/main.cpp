@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <stdlib.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <regex>
@@ -50,6 +52,15 @@ void declare(CLI::App& app, Bench& bench, Words& words) {
     app.add_option("--plot", words.plot, "draw cost over the number of bodies")->type_name("DIR");
 }
 
+void state_facts(Bench& bench) {
+    bench.report.fact("Oiler", std::string(version()));
+    bench.report.fact("loops by hand", std::string(bench.limits.isa));
+    bench.report.fact("processors", std::to_string(std::thread::hardware_concurrency()));
+    double load = 0;
+    if (getloadavg(&load, 1) == 1)
+        bench.report.fact("busy when this began", fmt::format("{:.1f} of them", load));
+}
+
 void measure(Bench& bench) {
     bench_agreement(bench);
     bench_limits(bench);
@@ -77,9 +88,7 @@ Exit run(int argc, char** argv) {
     }
     choose_isa(bench, words.isa);
     if (bench.full) bench.effort = {.repetitions = 30, .seconds = 0.01, .patience = 4};
-    bench.report.fact("Oiler", std::string(version()));
-    bench.report.fact("loops by hand", std::string(bench.limits.isa));
-    bench.report.fact("processors", std::to_string(std::thread::hardware_concurrency()));
+    state_facts(bench);
     measure(bench);
     if (bench.report.empty()) fail(Exit::usage, "--only {}: nothing has such a name", bench.only);
     const std::string text = bench.report.text();
