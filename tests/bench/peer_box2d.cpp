@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <box2d/box2d.h>
+
+#include <memory>
+
+#include "bench/peers.hpp"
+
+namespace oiler::bench {
+namespace {
+
+b2Body* add_body(b2World& world, std::size_t i) {
+    b2BodyDef definition;
+    definition.type = b2_dynamicBody;
+    definition.allowSleep = false;
+    definition.position = {static_cast<float>(i % 1000) * 4, static_cast<float>(i / 1000) * 4};
+    return world.CreateBody(&definition);
+}
+
+PeerWork work_of(const std::shared_ptr<b2World>& world) {
+    return {[=](long times) {
+                for (long i = 0; i < times; ++i) world->Step(static_cast<float>(peer_dt), 0, 0);
+            },
+            [=] { return double{world->GetBodyList()->GetPosition().y}; }};
+}
+
+}  // namespace
+
+PeerWork box2d_fall(std::size_t bodies) {
+    const auto world = std::make_shared<b2World>(b2Vec2(0, -9.81F));
+    const b2MassData mass{1, {0, 0}, 1};
+    for (std::size_t i = 0; i < bodies; ++i) add_body(*world, i)->SetMassData(&mass);
+    return work_of(world);
+}
+
+PeerWork box2d_fall_fixtures(std::size_t bodies) {
+    const auto world = std::make_shared<b2World>(b2Vec2(0, -9.81F));
+    b2CircleShape shape;
+    shape.m_radius = 0.1F;
+    b2FixtureDef fixture;
+    fixture.shape = &shape;
+    fixture.density = 1;
+    fixture.filter.maskBits = 0;
+    for (std::size_t i = 0; i < bodies; ++i) add_body(*world, i)->CreateFixture(&fixture);
+    return work_of(world);
+}
+
+}  // namespace oiler::bench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "bench/peers.hpp"
+
+namespace oiler::bench {
+namespace {
+
+/// What Bullet needs to step anything, and what it steps.
+struct Falling {
+    btSoftBodyRigidBodyCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btSphereShape shape{0.1F};
+    std::vector<std::unique_ptr<btRigidBody>> bodies;
+    btSoftRigidDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+
+    Falling() { world.setGravity({0, -9.81F, 0}); }
+    ~Falling() {
+        for (const auto& body : bodies) world.removeRigidBody(body.get());
+    }
+    Falling(const Falling&) = delete;
+    Falling& operator=(const Falling&) = delete;
+
+    void step(long times) {
+        for (long i = 0; i < times; ++i) world.stepSimulation(static_cast<float>(peer_dt), 0);
+    }
+};
+
+/// Collides with nothing: its group is empty.
+void add_body(Falling& falling, std::size_t i) {
+    const btVector3 at(static_cast<float>(i % 1000) * 4, 0, static_cast<float>(i / 1000) * 4);
+    btVector3 inertia;
+    falling.shape.calculateLocalInertia(1, inertia);
+    auto body = std::make_unique<btRigidBody>(
+        btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &falling.shape, inertia));
+    body->setWorldTransform(btTransform(btQuaternion::getIdentity(), at));
+    body->setActivationState(DISABLE_DEACTIVATION);
+    falling.world.addRigidBody(body.get(), 0, 0);
+    falling.bodies.push_back(std::move(body));
+}
+
+/// Springs that are solved once a step, and nothing else.
+btSoftBody* make_net(btSoftBodyWorldInfo& info, const Net& net) {
+    std::vector<btVector3> places;
+    for (std::size_t i = 0; i < net.bodies(); ++i) {
+        const Vec3 at = net.position(i);
+        places.emplace_back(static_cast<float>(at[0]), static_cast<float>(at[1]),
+                            static_cast<float>(at[2]));
+    }
+    auto* const body =
+        new btSoftBody(&info, static_cast<int>(places.size()), places.data(), nullptr);
+    for (const auto& [a, b] : net.links())
+        body->appendLink(static_cast<int>(a), static_cast<int>(b));
+    body->m_cfg.piterations = 1;
+    body->m_cfg.collisions = 0;
+    body->setActivationState(DISABLE_DEACTIVATION);
+    return body;
+}
+
+}  // namespace
+
+PeerWork bullet_fall(std::size_t bodies) {
+    const auto falling = std::make_shared<Falling>();
+    for (std::size_t i = 0; i < bodies; ++i) add_body(*falling, i);
+    return {[=](long times) { falling->step(times); },
+            [=] { return falling->bodies.front()->getWorldTransform().getOrigin().y(); }};
+}
+
+PeerWork bullet_net(const Net& net) {
+    const auto falling = std::make_shared<Falling>();
+    btSoftBody* const body = make_net(falling->world.getWorldInfo(), net);
+    falling->world.addSoftBody(body, 0, 0);
+    const std::shared_ptr<btSoftBody> owner(body, [falling](btSoftBody* gone) {
+        falling->world.removeSoftBody(gone);
+        delete gone;
+    });
+    return {[=](long times) { falling->step(times); },
+            [=] { return double{owner->m_nodes[0].m_x.y()}; }};
+}
+
+}  // namespace oiler::bench

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "bench/peers.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "bench/bench.hpp"
+#include "bench/scenes.hpp"
+
+namespace oiler::bench {
+namespace {
+
+enum class Task { fall, oscillate };
+
+/// What a peer is compared with, in its own precision and axes.
+struct Peer {
+    std::string_view name;
+    std::string_view package;  ///< of Debian
+    PeerWork (*make)(std::size_t bodies);
+    Task task;
+    int axes;
+    Precision precision;
+    std::string_view method;
+    double least;  ///< times as fast Oiler is to be
+    std::string_view besides;
+};
+
+/// Null where the peer was not found.
+template <bool has, PeerWork (*make)(std::size_t)>
+constexpr PeerWork (*if_found())(std::size_t) {
+    if constexpr (has)
+        return make;
+    else
+        return nullptr;
+}
+
+const std::vector<Peer>& peers() {
+    constexpr auto single = Precision::single;
+    constexpr auto twice = Precision::double_;
+    static const std::vector<Peer> all{
+        {"Bullet", "libbullet-dev", if_found<OILER_BENCH_BULLET, bullet_fall>(), Task::fall, 3,
+         single, "semi_implicit_euler", 500, "rotation, bounding boxes in a tree, islands"},
+        {"Box2D, no fixtures", "libbox2d-dev", if_found<OILER_BENCH_BOX2D, box2d_fall>(),
+         Task::fall, 2, single, "semi_implicit_euler", 350, "rotation, islands"},
+        {"Box2D, a circle each", "libbox2d-dev", if_found<OILER_BENCH_BOX2D, box2d_fall_fixtures>(),
+         Task::fall, 2, single, "semi_implicit_euler", 350,
+         "rotation, islands, fixtures in a tree"},
+        {"ODE", "libode-dev", if_found<OILER_BENCH_ODE, ode_fall>(), Task::fall, 3, twice,
+         "semi_implicit_euler", 250, "rotation, islands; in double, as Oiler here"},
+        {"Odeint runge_kutta4", "libboost-dev", if_found<OILER_BENCH_ODEINT, odeint_rk4>(),
+         Task::oscillate, 1, twice, "rk4", 5, "any system of equations"},
+        {"Odeint symplectic_euler", "libboost-dev",
+         if_found<OILER_BENCH_ODEINT, odeint_symplectic_euler>(), Task::oscillate, 1, twice,
+         "semi_implicit_euler", 2, "any separable system"},
+        {"GSL rk4", "libgsl-dev", if_found<OILER_BENCH_GSL, gsl_rk4>(), Task::oscillate, 1, twice,
+         "rk4", 40, "an estimate of its error: three steps for one"}};
+    return all;
+}
+
+/// Those that fall share gravity; oscillators are not damped.
+World our_world(const Peer& peer, std::size_t bodies) {
+    World world(peer.axes,
+                {.rate = rate, .method = &find_method(peer.method), .precision = peer.precision});
+    reserve(world, bodies);
+    if (peer.task == Task::fall) world.set_gravity({0, -9.81, 0});
+    for (std::size_t i = 0; i < bodies; ++i) {
+        if (peer.task == Task::fall)
+            world.spawn(start_of(i, peer.axes));
+        else
+            world.spawn(start_of(i, peer.axes), Spring{.stiffness = peer_stiffness});
+    }
+    return world;
+}
+
+struct Costs {
+    double theirs;
+    double one;
+    double many;
+};
+
+/// ns per body and step; none where the peer does not do its work.
+std::optional<Costs> race_with(const Bench& bench, const Peer& peer, std::size_t bodies) {
+    constexpr int at_once = 256;
+    World world = our_world(peer, bodies);
+    World far = world;
+    const PeerWork work = peer.make(bodies);
+    const double before = work.measure();
+    const std::vector<double> seconds = race({work.step,
+                                              [&](long times) {
+                                                  for (long i = 0; i < times; ++i) world.step(1);
+                                              },
+                                              [&](long times) {
+                                                  for (long i = 0; i < times; ++i)
+                                                      far.step(at_once);
+                                              }},
+                                             bench.effort);
+    if (work.measure() == before) return std::nullopt;
+    const auto each = static_cast<double>(bodies);
+    return Costs{Bench::ns(seconds[0], each), Bench::ns(seconds[1], each),
+                 Bench::ns(seconds[2], each * at_once)};
+}
+
+void measure(Bench& bench, const Peer& peer) {
+    const bool falls = peer.task == Task::fall;
+    const std::size_t bodies = falls && !bench.full ? 10'000 : 100'000;
+    const std::string name = fmt::format("{}, {}", peer.name, in_powers(bodies));
+    if (!bench.wants("peers: " + name)) return;
+    if (!peer.make)
+        return bench.report.missing(fmt::format("{}: {} is not there", peer.name, peer.package));
+    const std::optional<Costs> c = race_with(bench, peer, bodies);
+    if (!c) return bench.report.missing(fmt::format("{}: nothing moves", peer.name));
+    bench.report.add("Peers, ns per body and step",
+                     {name, {{"peer", c->theirs}, {"one step", c->one}, {"256 at once", c->many}}});
+    const double ours = falls ? c->one : c->many;
+    bench.report.target({.id = "T4",
+                         .what = name + (falls ? ", one step at a time" : ", 256 steps at once"),
+                         .measured = c->theirs / ours,
+                         .unit = "×",
+                         .wanted = Wanted::at_least,
+                         .limit = peer.least,
+                         .remark = fmt::format("{:.3g} ns, Oiler {:.3g} ns; besides: {}", c->theirs,
+                                               ours, peer.besides)});
+}
+
+void measure_net(Bench& bench) {
+    const Net net{100};
+    if (!bench.wants("peers: Bullet soft body, 100 × 100")) return;
+    if constexpr (!OILER_BENCH_BULLET) {
+        bench.report.missing("Bullet soft body: libbullet-dev is not there");
+        return;
+    } else {
+        World world =
+            make_net(net, net.links(), {.stiffness = 50, .damping = 0.5, .rest_length = 1});
+        const PeerWork work = bullet_net(net);
+        const std::vector<double> seconds = race({work.step,
+                                                  [&](long times) {
+                                                      for (long i = 0; i < times; ++i) world.step();
+                                                  }},
+                                                 bench.effort);
+        const auto springs = static_cast<double>(net.links().size());
+        bench.report.target({.id = "T5",
+                             .what = "Bullet soft body, 100 × 100",
+                             .measured = seconds[0] / seconds[1],
+                             .unit = "×",
+                             .wanted = Wanted::at_least,
+                             .limit = 50,
+                             .remark = fmt::format("{:.3g} ns, Oiler {:.3g} ns a spring; besides: "
+                                                   "normals, bounding box, one solver iteration",
+                                                   Bench::ns(seconds[0], springs),
+                                                   Bench::ns(seconds[1], springs))});
+    }
+}
+
+}  // namespace
+
+void bench_peers(Bench& bench) {
+    for (const Peer& peer : peers()) measure(bench, peer);
+    measure_net(bench);
+}
+
+}  // namespace oiler::bench

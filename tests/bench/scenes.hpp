@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/limits.hpp"
+#include "oiler/world/world.hpp"
+
+namespace oiler::bench {
+
+/// Bodies that fall, or that swing on springs of the same anchor, stiffness and damping.
+enum class Scene { projectiles, springs };
+
+[[nodiscard]] std::string_view name_of(Scene scene);
+
+/// "float, 3 axes"
+[[nodiscard]] std::string columns(Precision precision, int axes);
+
+inline constexpr Rate rate{60};
+
+/// So soft and so little damped that no method of the list has let them explode or settle after the
+/// millions of steps of a long measurement: infinite and subnormal numbers take other times.
+inline constexpr Spring soft_spring{.anchor = {1, 2, 3}, .stiffness = 0.01, .damping = 0.01 / 60};
+inline constexpr Vec3 gravity{0.25, -9.81, 0.5};
+
+/// With 0 for the axes that a world does not have.
+[[nodiscard]] Vec3 within(const Vec3& vector, int axes);
+
+/// Where body `i` starts, and how fast; no two of a few thousand alike.
+[[nodiscard]] Body start_of(std::size_t i, int axes);
+
+template <class T>
+inline constexpr Precision precision_of = sizeof(T) == sizeof(float) ? Precision::single
+                                                                     : Precision::double_;
+
+/// Makes room for so many bodies, where the world knows how to.
+template <class W>
+void reserve(W& world, std::size_t bodies) {
+    if constexpr (requires { world.reserve(bodies); }) world.reserve(bodies);
+}
+
+template <class S>
+constexpr bool has_threads = requires(S settings) {
+    settings.threads;
+};
+
+/// Where settings know of threads, with so many.
+template <class S>
+S with_threads(S settings, int threads) {
+    if constexpr (has_threads<S>) settings.threads = threads;
+    return settings;
+}
+
+[[nodiscard]] World make_world(Scene scene, int axes, std::size_t bodies, const Settings& settings);
+[[nodiscard]] Bodies make_bodies(Scene scene, int axes, std::size_t count, Precision precision);
+
+/// The same scene in columns for the loops by hand.
+template <class T>
+class HandBodies {
+public:
+    HandBodies(int axes, std::size_t bodies);
+    [[nodiscard]] const HandScene<T>& scene() const { return scene_; }
+
+private:
+    std::vector<std::vector<T>> columns_;
+    HandScene<T> scene_;
+};
+
+}  // namespace oiler::bench
