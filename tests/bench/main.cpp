@@ -38,6 +38,8 @@ void choose_isa(Bench& bench, const std::string& isa) {
     const auto found = std::ranges::find(supported, isa, &Limits::isa);
     if (found == supported.end()) fail(Exit::usage, "--isa {}: this machine has no such", isa);
     bench.limits = *found;
+    const std::string kernels = isa == "SSE2" ? "baseline" : isa == "AVX2" ? "avx2" : "avx512";
+    setenv("OILER_INSTRUCTIONS", kernels.c_str(), 1);
 }
 
 void declare(CLI::App& app, Bench& bench, Words& words) {
@@ -46,7 +48,7 @@ void declare(CLI::App& app, Bench& bench, Words& words) {
     app.add_option("--only", bench.only, "measure only what this regular expression finds")
         ->type_name("REGEX");
     app.add_flag("--quiet", bench.quiet, "do not say on standard error what is being measured");
-    app.add_option("--isa", words.isa, "of the loops by hand: SSE2, AVX2 or AVX-512; the widest")
+    app.add_option("--isa", words.isa, "of Oiler and the loops by hand: SSE2, AVX2 or AVX-512; the widest")
         ->type_name("NAME");
     app.add_option("--json", words.json, "write all numbers, - for stdout")->type_name("FILE");
     app.add_option("--plot", words.plot, "draw cost over the number of bodies")->type_name("DIR");

@@ -24,6 +24,7 @@ struct Words {
     std::int64_t steps = 0;
     int fps = 60;
     std::uint64_t seed = 0;
+    int threads = 1;
 };
 
 /// What holds where the command line says nothing, for --help.
@@ -83,6 +84,9 @@ void declare_stepping(CLI::App& app, Words& words, const Defaults& defaults) {
         ->check(CLI::IsMember({"float", "double"}))
         ->type_name("NAME")
         ->default_str(defaults.precision);
+    add_whole<int>(app, "--threads", words.threads, 1, 256,
+                   "how many step; the results are the same")
+        ->default_str("1");
     add_whole<std::uint64_t>(app, "--seed", words.seed, 0, ~std::uint64_t{0},
                              "of the game's random numbers")
         ->default_str("0");
@@ -147,7 +151,9 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
         .rate = {words.rate},
         .method = &find_method(words.method),
         .precision = words.precision == "float" ? Precision::single : Precision::double_,
-        .seed = words.seed};
+        .seed = words.seed,
+        .damping = {},
+        .threads = words.threads};
     if (!words.damping.empty())
         options.settings.damping = words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
     options.size = parse_size(words.size);

@@ -33,6 +33,7 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
         {"damping", name_of(settings.damping.value_or(settings.method->damping))},
         {"rate", settings.rate.steps},
         {"precision", name_of(settings.precision)},
+        {"threads", settings.threads},
         {"seed", settings.seed},
         {"steps", world.tick()},
         {"time", world.time()},

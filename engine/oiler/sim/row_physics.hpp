@@ -130,6 +130,7 @@ public:
         if (springs + forces_.template count<LinearDragForce>() == 0) return;
         const T limit = rest_limit<T>(forces_.template count<QuadraticDragForce>() > 0);
         const V rate = forces_.damping_rate();
+        if (!any_positive(rate)) return;
         const Vec<V, Axes> a = forces_.accelerate(state, t);
         const State<V, Axes> was = state;
         for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {

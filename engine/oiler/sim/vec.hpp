@@ -140,6 +140,11 @@ template <std::floating_point T>
     return std::isfinite(number);
 }
 
+template <std::floating_point T>
+[[nodiscard]] bool any_positive(T number) {
+    return number > 0;
+}
+
 /// `instead` where each of `sizes` is less than `limit` in size and `rate` is positive.
 template <std::floating_point T, class... Sizes>
 [[nodiscard]] T where_less(T value, T instead, T rate, T limit, Sizes... sizes) {
