@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--steps 5 --headless --out o", "--out"}, Wrong{"--steps 5 --frames 2", "--frames"},
         Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
-        Wrong{"--threads 2", "--threads"}));
+        Wrong{"--threads 0", "--threads"}));
 
 }  // namespace
 }  // namespace oiler

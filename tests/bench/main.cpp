@@ -48,7 +48,8 @@ void declare(CLI::App& app, Bench& bench, Words& words) {
     app.add_option("--only", bench.only, "measure only what this regular expression finds")
         ->type_name("REGEX");
     app.add_flag("--quiet", bench.quiet, "do not say on standard error what is being measured");
-    app.add_option("--isa", words.isa, "of Oiler and the loops by hand: SSE2, AVX2 or AVX-512; the widest")
+    app.add_option("--isa", words.isa,
+                   "of Oiler and the loops by hand: SSE2, AVX2 or AVX-512; the widest")
         ->type_name("NAME");
     app.add_option("--json", words.json, "write all numbers, - for stdout")->type_name("FILE");
     app.add_option("--plot", words.plot, "draw cost over the number of bodies")->type_name("DIR");

@@ -49,6 +49,15 @@ struct FiguresCommand {
     Exit run() const;
 };
 
+/// Measures what a scene pays for and what each part of it changes.
+struct LedgerCommand {
+    std::filesystem::path scene;
+    std::int64_t steps = 0;  ///< at most; 0: as many as the scene's duration has
+    std::filesystem::path json;
+    bool quiet = false;
+    Exit run() const;
+};
+
 /// Plays the scene file that the words name, with the options of all games; `argv[0]` is "play".
 Exit run_play(int argc, char** argv);
 

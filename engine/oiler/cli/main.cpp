@@ -73,6 +73,7 @@ public:
         declare_certify();
         declare_stability();
         declare_figures();
+        declare_ledger();
     }
 
     Exit run(int argc, char** argv) {
@@ -85,7 +86,8 @@ public:
         const auto commands = app_.get_subcommands();
         if (commands.empty())
             fail(Exit::usage,
-                 "give a command: play, methods, certify, stability or figures (see oiler --help)");
+                 "give a command: play, methods, certify, stability, figures or ledger (see oiler "
+                 "--help)");
         return run(commands.front()->get_name());
     }
 
@@ -125,6 +127,21 @@ private:
         add_quiet(*command, figures_.quiet);
     }
 
+    void declare_ledger() {
+        CLI::App* const command = add_command(
+            app_, "ledger", "Measure what a scene pays for and what that changes",
+            " assets/scenes/salvo.toml\n"
+            "--json has scene, title, method, rate, precision, axes, bodies, links, steps, looks,\n"
+            "timed_steps, bytes_per_body, bytes_per_link, columns, absent, ns_per_body_step,\n"
+            "noise_ns, passes (name, ns_per_body_step, saves_ns, saves_percent,\n"
+            "changes_position_m, diverges) and flags; null is what could not be measured.");
+        command->add_option("SCENE", ledger_.scene, "scene file")->required();
+        add_whole<std::int64_t>(*command, "--steps", ledger_.steps, 2, 1'000'000'000,
+                                "at most that many, the scene's duration if not given");
+        add_json(*command, ledger_.json);
+        add_quiet(*command, ledger_.quiet);
+    }
+
     Exit run(const std::string& command) {
         if (command == "methods") return methods_.run();
         if (command == "certify") {
@@ -138,6 +155,7 @@ private:
             stability_.size = parse_size(words_.size);
             return stability_.run();
         }
+        if (command == "ledger") return ledger_.run();
         figures_.size = parse_size(words_.size);
         return figures_.run();
     }
@@ -148,6 +166,7 @@ private:
     CertifyCommand certify_;
     StabilityCommand stability_;
     FiguresCommand figures_;
+    LedgerCommand ledger_;
 };
 
 }  // namespace

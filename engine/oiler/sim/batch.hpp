@@ -87,9 +87,8 @@ public:
     }
     [[gnu::always_inline]] friend bool any_positive(const Batch& a) {
         bool any = false;
-        for_each_index<packs>([&](auto i) {
-            any = any || std::experimental::any_of(a.pack_[i] > Pack(T(0)));
-        });
+        for_each_index<packs>(
+            [&](auto i) { any = any || std::experimental::any_of(a.pack_[i] > Pack(T(0))); });
         return any;
     }
     /// Whether the sum over the registers is finite in all lanes: where it is, all numbers are.

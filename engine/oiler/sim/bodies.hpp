@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "oiler/core/state_hash.hpp"
 #include "oiler/sim/body.hpp"
@@ -19,6 +21,21 @@ struct Energy {
     double kinetic = 0;    ///< J
     double potential = 0;  ///< J
     [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
+/// How the numbers of one thing are stored for all rows.
+struct Stored {
+    std::string_view of;         ///< "position", "velocity", "mass" or the force's name
+    std::size_t nth = 0;         ///< of several forces of a kind
+    std::vector<bool> shared{};  ///< each number, in order: stored once, or in a column of its own
+    std::size_t bytes = 0;       ///< of a row, in the columns of its own
+    std::size_t rows = 0;        ///< that have any number other than 0
+};
+
+/// How far the same rows are from each other in two worlds, m, at most.
+struct Apart {
+    double distance = 0;
+    Vec3 along{};  ///< each axis
 };
 
 /// All moving bodies of a world and the forces on them, in columns of the precision and the number
@@ -104,6 +121,13 @@ public:
     [[nodiscard]] GivenForces forces_per_mass(std::size_t row, std::size_t nth = 0) const;
     /// How many forces of one kind there are at most; a body that has fewer has zeros.
     [[nodiscard]] std::size_t most_of_a_kind() const;
+
+    /// What there is a column for, or a number that all rows share: motion, mass, then each force.
+    /// Without the links, and without what steps keep for themselves.
+    [[nodiscard]] std::vector<Stored> stored() const;
+    [[nodiscard]] std::size_t bytes_per_link() const;
+    /// From bodies that were made like these; exactly 0 only where all positions agree.
+    [[nodiscard]] Apart apart_from(const Bodies& other) const;
 
     /// Summed in double in eight fixed lanes, so that it does not depend on the machine.
     [[nodiscard]] Energy energy() const;

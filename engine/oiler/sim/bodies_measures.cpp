@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/core/require.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/link_force.hpp"
 
@@ -30,6 +34,20 @@ To given_form(const From& from) {
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
     return to;
+}
+
+template <class T, std::size_t Count>
+Stored account_of(std::string_view name, std::size_t nth,
+                  const std::array<Parameter<T>, Count>& numbers, std::size_t rows) {
+    Stored account{.of = name, .nth = nth};
+    for (const Parameter<T>& number : numbers) {
+        account.shared.push_back(number.shared());
+        if (!number.shared()) account.bytes += sizeof(T);
+    }
+    for (std::size_t row = 0; row < rows; ++row)
+        account.rows += std::any_of(numbers.begin(), numbers.end(),
+                                    [&](const auto& number) { return number[row] != 0; });
+    return account;
 }
 
 template <class T>
@@ -94,6 +112,52 @@ double Bodies::link_potential(std::size_t i) const {
             const auto a = state_of<double>(columns, link.a);
             const auto b = state_of<double>(columns, link.b);
             return LinkForce<double, Axes>(link).potential({a.x - b.x, a.v - b.v});
+        },
+        columns_);
+}
+
+std::vector<Stored> Bodies::stored() const {
+    return std::visit(
+        []<class T, int Axes>(const Columns<T, Axes>& columns) {
+            const std::vector<bool> own(Axes, false);
+            std::vector<Stored> all;
+            for (const std::string_view name : {"position", "velocity"})
+                all.push_back({name, 0, own, Axes * sizeof(T), columns.size});
+            all.push_back(account_of("mass", 0, std::array{columns.mass}, columns.size));
+            for_each_index<force_count>([&](auto i) {
+                using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
+                const auto& forces = std::get<i>(columns.forces);
+                for (std::size_t nth = 0; nth < forces.size(); ++nth)
+                    all.push_back(account_of(Force::name, nth, forces[nth], columns.size));
+            });
+            return all;
+        },
+        columns_);
+}
+
+std::size_t Bodies::bytes_per_link() const {
+    return std::visit([]<class T, int Axes>(const Columns<T, Axes>&) { return sizeof(LinkRow<T>); },
+                      columns_);
+}
+
+Apart Bodies::apart_from(const Bodies& other) const {
+    require(size() == other.size() && columns_.index() == other.columns_.index(),
+            "bodies are compared with as many in the same precision and axes");
+    return std::visit(
+        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+            const auto& others = std::get<Columns<T, Axes>>(other.columns_);
+            Apart apart;
+            for (std::size_t row = 0; row < columns.size; ++row) {
+                Vec3 d{};
+                for (std::size_t i = 0; i < Axes; ++i) {
+                    d.axis[i] = static_cast<double>(
+                        std::abs(columns.motion.x[i][row] - others.motion.x[i][row]));
+                    apart.along.axis[i] = larger(apart.along.axis[i], d.axis[i]);
+                }
+                // The square of a difference may be 0 where the difference is not.
+                apart.distance = larger(apart.distance, std::hypot(d[0], d[1], d[2]));
+            }
+            return apart;
         },
         columns_);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <functional>
 #include <string_view>
 
 #include "oiler/core/error.hpp"
@@ -14,6 +15,21 @@ namespace {
 template <class T>
 Plan<T> plan_for(const Method& method, const Steps& steps) {
     return make_plan<T>(method, steps.rate.dt<T>(), steps.damping.value_or(method.damping));
+}
+
+bool is_listed(const Method& method) {
+    return std::greater_equal<>{}(&method, methods().data()) &&
+           std::less<>{}(&method, methods().data() + methods().size());
+}
+
+/// Made anew only where it is another than that of the step before.
+template <class T>
+const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& steps) {
+    const Damping damping = steps.damping.value_or(method.damping);
+    if (cache.method != &method || cache.rate != steps.rate || cache.damping != damping)
+        cache = {is_listed(method) ? &method : nullptr, steps.rate, damping,
+                 plan_for<T>(method, steps)};
+    return cache.plan;
 }
 
 }  // namespace
@@ -32,7 +48,7 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
     require_forces_for(method);
     return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            const Plan<T> plan = plan_for<T>(method, steps);
+            const Plan<T>& plan = plan_for(columns.plan_cache, method, steps);
             prepare_flows(columns, plan);
             return columns.links.empty() ? step_rows(columns, plan, steps, team_.get())
                                          : step_linked_rows(columns, plan, steps);

@@ -9,6 +9,8 @@
 
 #include "oiler/sim/column.hpp"
 #include "oiler/sim/forces.hpp"
+#include "oiler/sim/plan.hpp"
+#include "oiler/sim/rate.hpp"
 
 namespace oiler {
 
@@ -101,6 +103,15 @@ struct LinkCache {
     T solver_tau = 0;                             ///< s
 };
 
+/// The plan of the last step with a method of the list: the next step mostly takes the same.
+template <class T>
+struct PlanCache {
+    const Method* method = nullptr;
+    Rate rate{};
+    Damping damping = Damping::in_kick;
+    Plan<T> plan = ExactPlan<T>{0};
+};
+
 /// All bodies of a world: what every step touches in columns of their own, what it does not
 /// (masses) apart.
 template <std::floating_point T, int Axes>
@@ -113,6 +124,7 @@ struct Columns {
     std::vector<LinkRow<T>> links;
     /// How often the forces on the first row were evaluated.
     std::int64_t evaluations = 0;
+    PlanCache<T> plan_cache;
     /// What a step makes of the forces, as long as they stay as they are.
     Flows<T> flows;
     LinkCache<T, Axes> link_cache;

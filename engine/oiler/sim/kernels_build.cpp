@@ -15,16 +15,19 @@ namespace {
 template <class T>
 using Pack = std::experimental::native_simd<T>;
 
-/// As many registers as leave room for what is computed between them: the plain splittings hold
-/// nothing but a state, Runge–Kutta methods several.
-template <class T>
-inline constexpr std::size_t most_packs = sizeof(Pack<T>) == 64 ? 4 : 2;
-template <class T>
-using Wide = Batch<Pack<T>, most_packs<T>>;
-template <class T>
-using Narrow = Batch<Pack<T>, most_packs<T> / 2>;
-
-static_assert(row_padding % Wide<float>::lanes == 0);
+/// As many registers as leave room beside the state for what is computed, and as a batch may have.
+/// The plain splittings hold nothing but the state; Runge–Kutta methods hold several.
+template <class T, int Axes>
+constexpr std::size_t most_packs() {
+    constexpr std::size_t room = sizeof(Pack<T>) == 64 ? 24 : 12;
+    std::size_t packs = 1;
+    while (2 * Axes * packs * 2 <= room && 2 * packs * Pack<T>::size() <= row_padding) packs *= 2;
+    return packs;
+}
+template <class T, int Axes>
+using Wide = Batch<Pack<T>, most_packs<T, Axes>()>;
+template <class T, int Axes>
+using Narrow = Batch<Pack<T>, (most_packs<T, Axes>() + 1) / 2>;
 
 /// A Source of Forces that are one each of the kinds in `Kinds` (bits, in the order of ForceList),
 /// with the same numbers for all rows: a compiler can keep these in registers.
@@ -160,10 +163,11 @@ std::size_t step_tableau(Columns<T, Axes>& columns, const TableauPlan<T>& rule, 
 
 template <class T, int Axes>
 const Kernels<T, Axes>& kernels() {
-    using V = Wide<T>;
-    static constexpr Kernels<T, Axes> all{
-        step_splitting<V, T, Axes>, step_tableau<Narrow<T>, T, Axes>,
-        step_fixed<V, ExactPlan<T>, T, Axes, ExactPlan<T>>, linked_kernels<Narrow<T>, T, Axes>()};
+    using V = Wide<T, Axes>;
+    static constexpr Kernels<T, Axes> all{step_splitting<V, T, Axes>,
+                                          step_tableau<Narrow<T, Axes>, T, Axes>,
+                                          step_fixed<V, ExactPlan<T>, T, Axes, ExactPlan<T>>,
+                                          linked_kernels<Narrow<T, Axes>, T, Axes>()};
     return all;
 }
 

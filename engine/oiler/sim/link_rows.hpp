@@ -115,11 +115,34 @@ template <class V, class T, int Axes>
     push_rows<V>(from, run.count, inverse_mass, true, to, run.of.b);
 }
 
+/// The same for one link, without keeping its force: it is the same sum.
+template <class T, int Axes>
+[[gnu::always_inline]] inline void push_link(const LinkRow<T>& link,
+                                             const MotionColumns<T, Axes>& motion, Evaluate what,
+                                             const Parameter<T>& inverse_mass,
+                                             VecColumns<T, Axes>& to) {
+    const LinkForce<T, Axes> force(link);
+    const Vec<T, Axes> d = load<T>(motion.x, link.a) - load<T>(motion.x, link.b);
+    const Vec<T, Axes> f =
+        what == Evaluate::field
+            ? force.field(d)
+            : force.accelerate({d, load<T>(motion.v, link.a) - load<T>(motion.v, link.b)});
+    const T a = inverse_mass[link.a];
+    const T b = inverse_mass[link.b];
+    for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
+        T* const at = to[axis].data();
+        at[link.a] = at[link.a] + f.axis[axis] * a;
+        at[link.b] = at[link.b] - f.axis[axis] * b;
+    });
+}
+
 template <class V, class T, int Axes>
 void push_links(const LinkCache<T, Axes>& cache, const MotionColumns<T, Axes>& motion,
                 Evaluate what, VecColumns<T, Axes>& to) {
     for (const LinkRun<T>& run : cache.runs)
-        if (run.count < lanes_of<V>)
+        if (run.count == 1)
+            push_link<T, Axes>(run.of, motion, what, cache.inverse_mass, to);
+        else if (run.count < lanes_of<V>)
             push_run<T, T, Axes>(run, motion, what, cache.inverse_mass, to);
         else
             push_run<V, T, Axes>(run, motion, what, cache.inverse_mass, to);

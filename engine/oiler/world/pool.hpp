@@ -89,6 +89,8 @@ public:
         slots_.add(slot);
         return items_.back();
     }
+    /// In the order of `slots()`.
+    [[nodiscard]] T& operator[](std::size_t place) { return items_[place]; }
     /// Null where `slot` has none.
     [[nodiscard]] T* find(std::uint32_t slot) {
         const std::uint32_t place = slots_.place(slot);

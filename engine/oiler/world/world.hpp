@@ -96,8 +96,7 @@ public:
             const std::uint32_t slot = slots[place];
             const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
             if ((std::get<Rest*>(others) && ...))
-                f(Entity{slot, generations_[slot]}, *first->find(slot),
-                  *std::get<Rest*>(others)...);
+                f(Entity{slot, generations_[slot]}, (*first)[place], *std::get<Rest*>(others)...);
         }
     }
     template <class First, class... Rest, class F>

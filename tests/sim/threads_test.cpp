@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// However many threads step, and however many steps they take at once, the bits are the same.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+#include "oiler/core/team.hpp"
+#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+namespace {
+
+/// Enough for every team to be worth calling.
+constexpr int many = 9000;
+
+Bodies assorted(int count, bool linear) {
+    Bodies bodies(2, Precision::single);
+    bodies.set_gravity({0, -9.81, 0});
+    for (int i = 0; i < count; ++i) {
+        const std::size_t row =
+            bodies.add({.mass = 1 + i % 3, .position = {i / 8.0, 1}, .velocity = {i % 7 / 4.0, 3}});
+        if (i % 2 == 0) bodies.attach(row, Spring{.stiffness = 4.0 + i % 5, .damping = 0.25});
+        if (!linear && i % 5 == 0) bodies.attach(row, QuadraticDrag{0.125});
+    }
+    return bodies;
+}
+
+std::uint64_t hash_of(const Bodies& bodies) {
+    StateHash hash;
+    bodies.hash_into(hash);
+    return hash.value();
+}
+
+std::uint64_t hash_after(Bodies bodies, const Method& method, int threads, std::int64_t at_once) {
+    constexpr std::int64_t steps = 12;
+    bodies.set_threads(threads);
+    for (std::int64_t tick = 0; tick < steps; tick += at_once)
+        bodies.step(method, {Rate{64}, tick, at_once});
+    return hash_of(bodies);
+}
+
+TEST(Threads, GiveTheSameBits) {
+    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "pefrl", "rk4", "rk3_kutta",
+                             "implicit_midpoint", "exact"}) {
+        const Method& method = find_method(name);
+        const Bodies bodies = assorted(many + 1, method.order == exact_order);
+        const std::uint64_t alone = hash_after(bodies, method, 1, 1);
+        EXPECT_NE(alone, hash_of(bodies)) << name;
+        for (const int threads : {1, 2, 3, 8})
+            for (const std::int64_t at_once : {1, 3, 12})
+                EXPECT_EQ(hash_after(bodies, method, threads, at_once), alone)
+                    << name << ", " << threads << " threads, " << at_once << " steps at once";
+    }
+}
+
+TEST(Threads, NameTheSameBodyThatDiverges) {
+    for (const int threads : {1, 2, 3, 8}) {
+        Bodies bodies = assorted(many, true);
+        for (const std::size_t row : {8000, 4000, 6000})
+            bodies.attach(row, Spring{.stiffness = 1e8});
+        bodies.set_threads(threads);
+        const auto at = bodies.try_step(find_method("semi_implicit_euler"), {Rate{64}, 0, 100});
+        ASSERT_TRUE(at);
+        EXPECT_GT(at->tick, 5) << threads;
+        EXPECT_EQ(at->row, 8000U) << threads;  // the one that starts farthest from its anchor
+    }
+}
+
+TEST(Threads, OfACopyStepItToo) {
+    Bodies bodies = assorted(many, true);
+    bodies.set_threads(2);
+    Bodies copy = bodies;
+    const Steps steps{Rate{64}, 0, 3};
+    bodies.step(find_method("rk4"), steps);
+    copy.step(find_method("rk4"), steps);
+    EXPECT_EQ(hash_of(bodies), hash_of(copy));
+}
+
+TEST(Team, DoesEveryPartOnce) {
+    for (const std::size_t size : {1, 2, 5}) {
+        Team team(size);
+        ASSERT_EQ(team.size(), size);
+        std::vector<std::atomic<int>> done(size);
+        for (int i = 0; i < 1000; ++i) team.run([&](std::size_t part) { ++done[part]; });
+        for (const auto& times : done) EXPECT_EQ(times, 1000);
+    }
+}
+
+// A team that has gone to sleep wakes up again.
+TEST(Team, WakesUp) {
+    Team team(2);
+    std::atomic<int> done = 0;
+    for (int i = 0; i < 3; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        team.run([&](std::size_t) { ++done; });
+    }
+    EXPECT_EQ(done, 6);
+}
+
+}  // namespace
+}  // namespace oiler
