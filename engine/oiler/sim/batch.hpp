@@ -72,18 +72,27 @@ public:
     [[gnu::always_inline]] friend Batch quotient_unless_nothing(const Batch& a, const Batch& b) {
         return quotient_where_not(a, a, b);
     }
-    /// `instead` in the lanes where each of `sizes` is less than `limit` in size, and `rate` is
-    /// positive.
+    /// `instead` in the lanes where `v` is less than `limit` in size but not 0, each of `sizes` is
+    /// less too, and `rate` is positive.
     template <class... Sizes>
-    [[gnu::always_inline]] friend Batch where_less(const Batch& value, const Batch& instead,
-                                                   const Batch& rate, T limit,
-                                                   const Sizes&... sizes) {
+    [[gnu::always_inline]] friend Batch where_creeping(const Batch& value, const Batch& instead,
+                                                       const Batch& rate, T limit, const Batch& v,
+                                                       const Sizes&... sizes) {
         return Batch(generate<packs>([&](auto i) {
             Pack chosen = value.pack_[i];
-            const auto less = ((std::experimental::abs(sizes.pack_[i]) < Pack(limit)) && ...);
+            const auto less = ((std::experimental::abs(sizes.pack_[i]) < Pack(limit)) && ... &&
+                               creeps(v.pack_[i], limit));
             std::experimental::where(less && rate.pack_[i] > Pack(T(0)), chosen) = instead.pack_[i];
             return chosen;
         }));
+    }
+    /// Whether `v` is less than `limit` in size but not 0 in any lane.
+    [[gnu::always_inline]] friend bool any_creeps(const Batch& v, T limit) {
+        auto any = creeps(v.pack_[0], limit);
+        for_each_index<packs - 1>([&](auto i) __attribute__((always_inline)) {
+            any = any || creeps(v.pack_[i + 1], limit);
+        });
+        return std::experimental::any_of(any);
     }
     [[gnu::always_inline]] friend bool any_positive(const Batch& a) {
         bool any = false;
@@ -99,6 +108,9 @@ public:
     }
 
 private:
+    [[gnu::always_inline]] static auto creeps(const Pack& v, T limit) {
+        return std::experimental::abs(v) < Pack(limit) && v != Pack(T(0));
+    }
     [[gnu::always_inline]] static Batch quotient_where_not(const Batch& zero, const Batch& a,
                                                            const Batch& b) {
         return Batch(generate<packs>([&](auto i) {

@@ -18,28 +18,41 @@ inline constexpr std::size_t column_alignment = 64;
     return (rows + row_padding - 1) / row_padding * row_padding;
 }
 
+/// Aligned memory that begins `lines` cache lines behind where it would: large columns would begin
+/// at the same place of their pages otherwise, and get in each other's way in the caches.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
+    using propagate_on_container_copy_assignment = std::true_type;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
 
-    AlignedAllocator() = default;
+    explicit AlignedAllocator(std::size_t lines = 0) : skipped(lines * column_alignment) {}
     template <class U>
-    AlignedAllocator(const AlignedAllocator<U>&) {}
+    AlignedAllocator(const AlignedAllocator<U>& other) : skipped(other.skipped) {}
 
     T* allocate(std::size_t count) {
-        return static_cast<T*>(
-            ::operator new(count * sizeof(T), std::align_val_t(column_alignment)));
+        void* const at =
+            ::operator new(skipped + count * sizeof(T), std::align_val_t(column_alignment));
+        return reinterpret_cast<T*>(static_cast<std::byte*>(at) + skipped);
     }
     void deallocate(T* at, std::size_t) {
-        ::operator delete(at, std::align_val_t(column_alignment));
+        ::operator delete(reinterpret_cast<std::byte*>(at) - skipped,
+                          std::align_val_t(column_alignment));
     }
-    friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
+    friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) = default;
+
+    std::size_t skipped;
 };
 
 /// One number for each row, aligned and padded.
 template <class T>
 class Column {
 public:
+    Column() = default;
+    /// The nth of columns that are read together.
+    explicit Column(std::size_t nth) : values_(AlignedAllocator<T>(5 * nth)) {}
+
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] T* data() { return values_.data(); }
     [[nodiscard]] const T* data() const { return values_.data(); }

@@ -41,8 +41,8 @@ template <class T, std::size_t Axes>
 /// The states of all rows: what a step changes.
 template <std::floating_point T, int Axes>
 struct MotionColumns {
-    VecColumns<T, Axes> x;  ///< m
-    VecColumns<T, Axes> v;  ///< m/s
+    VecColumns<T, Axes> x{generate<Axes>([](auto i) { return Column<T>(i); })};         ///< m
+    VecColumns<T, Axes> v{generate<Axes>([](auto i) { return Column<T>(Axes + i); })};  ///< m/s
 };
 
 /// A spring between two rows, per the user's units: it is shared by two masses.

@@ -129,6 +129,11 @@ public:
         const std::size_t springs = forces_.template count<SpringForce>();
         if (springs + forces_.template count<LinearDragForce>() == 0) return;
         const T limit = rest_limit<T>(forces_.template count<QuadraticDragForce>() > 0);
+        bool creeps = false;
+        for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
+            creeps = creeps || any_creeps(state.v.axis[i], limit);
+        });
+        if (!creeps) return;
         const V rate = forces_.damping_rate();
         if (!any_positive(rate)) return;
         const Vec<V, Axes> a = forces_.accelerate(state, t);
@@ -138,9 +143,10 @@ public:
             if (springs > 0) {
                 const V anchor = forces_.template get<SpringForce>(0).anchor.axis[i];
                 const V& x = was.x.axis[i];
-                state.x.axis[i] = where_less(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
+                state.x.axis[i] =
+                    where_creeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
             }
-            state.v.axis[i] = where_less(v, V(T(0)), rate, limit, v, a.axis[i]);
+            state.v.axis[i] = where_creeping(v, V(T(0)), rate, limit, v, a.axis[i]);
         });
         field_valid_ = false;
     }

@@ -94,7 +94,7 @@ public:
         for (std::size_t axis = 0; axis < Axes; ++axis)
             for (std::size_t row = 0; row < columns_.size; ++row) {
                 T& v = motion.v[axis][row];
-                v = where_less(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
+                v = where_creeping(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
             }
     }
 

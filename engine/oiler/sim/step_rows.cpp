@@ -74,6 +74,13 @@ std::optional<Divergence> step_one_by_one(Columns<T, Axes>& columns, const Rule&
     return first;
 }
 
+/// Rows beyond the last body are stepped along; what they come to must not add up to infinity.
+template <class T, int Axes>
+void clear_padding(MotionColumns<T, Axes>& motion) {
+    for (auto* vector : {&motion.x, &motion.v})
+        for (Column<T>& column : *vector) column.clear_padding();
+}
+
 /// In batches, and one by one in those in which a number may have stopped being finite.
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule& rule,
@@ -83,6 +90,7 @@ std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule&
     for (std::size_t row = begin; (row = kernel(columns, rule, steps, row, end)) < end;) {
         const std::size_t stop = std::min(row + row_padding, end);
         keep_earlier(first, step_one_by_one(columns, rule, steps, row, stop));
+        if (stop == columns.size) clear_padding(columns.motion);
         row = stop;
     }
     return first;
@@ -105,15 +113,8 @@ std::optional<Divergence> step_range(Columns<T, Axes>& columns, const Rule& rule
     }
 }
 
-/// Rows beyond the last body were stepped along; what they came to must not add up over the calls.
-template <class T, int Axes>
-void clear_padding(MotionColumns<T, Axes>& motion) {
-    for (auto* vector : {&motion.x, &motion.v})
-        for (Column<T>& column : *vector) column.clear_padding();
-}
-
 /// Below as many steps of rows a team takes longer to call than to do without.
-constexpr std::size_t worth_a_team = 8192;
+constexpr std::size_t worth_a_team = 16384;
 
 bool is_worth_a_team(std::size_t rows, const Steps& steps) {
     return rows > row_padding &&
@@ -136,6 +137,7 @@ std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule&
         const auto found =
             step_range(columns, rule, steps, begin_of(part, team->size(), columns.size),
                        begin_of(part + 1, team->size(), columns.size));
+        if (!found) return;
         const std::lock_guard lock(at_first);
         keep_earlier(first, found);
     });
@@ -147,10 +149,8 @@ std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule&
 template <std::floating_point T, int Axes>
 std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
                                     const Steps& steps, Team* team) {
-    const auto first = std::visit(
-        [&](const auto& rule) { return step_shared_out(columns, rule, steps, team); }, plan);
-    clear_padding(columns.motion);
-    return first;
+    return std::visit([&](const auto& rule) { return step_shared_out(columns, rule, steps, team); },
+                      plan);
 }
 
 template std::optional<Divergence> step_rows(Columns<float, 1>&, const Plan<float>&, const Steps&,

@@ -145,10 +145,16 @@ template <std::floating_point T>
     return number > 0;
 }
 
-/// `instead` where each of `sizes` is less than `limit` in size and `rate` is positive.
+template <std::floating_point T>
+[[nodiscard]] bool any_creeps(T v, T limit) {
+    return std::abs(v) < limit && v != 0;
+}
+
+/// `instead` where `v` is less than `limit` in size but not 0, each of `sizes` is less too, and
+/// `rate` is positive.
 template <std::floating_point T, class... Sizes>
-[[nodiscard]] T where_less(T value, T instead, T rate, T limit, Sizes... sizes) {
-    return ((std::abs(sizes) < limit) && ... && (rate > 0)) ? instead : value;
+[[nodiscard]] T where_creeping(T value, T instead, T rate, T limit, T v, Sizes... sizes) {
+    return (any_creeps(v, limit) && ... && (std::abs(sizes) < limit)) && rate > 0 ? instead : value;
 }
 
 /// Where a body is (m) and how fast it goes (m/s): the article's State.
