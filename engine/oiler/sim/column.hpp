@@ -59,8 +59,6 @@ public:
     T& operator[](std::size_t row) { return values_[row]; }
     const T& operator[](std::size_t row) const { return values_[row]; }
 
-    [[nodiscard]] std::size_t bytes() const { return values_.capacity() * sizeof(T); }
-
     void reserve(std::size_t rows) { values_.reserve(padded(rows)); }
     void push(T value) {
         if (size_ == values_.size()) grow();
@@ -98,11 +96,7 @@ public:
         return column_.data() + (shared_ ? 0 : row);
     }
     T operator[](std::size_t row) const { return *data(row); }
-    [[nodiscard]] std::size_t bytes() const { return column_.bytes(); }
 
-    void reserve(std::size_t rows) {
-        if (!shared_) column_.reserve(rows);
-    }
     void push(T value) {
         if (size_ == 0) {
             *this = Parameter(value, 1);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdlib>
+#include <string>
+#include <string_view>
 
 #include "oiler/core/error.hpp"
 
@@ -22,6 +24,13 @@ const Kernels<T, Axes>& kernels();
 
 namespace {
 
+/// The kernels as compiled for one set of instructions.
+struct InstructionSet {
+    std::string_view name;
+    bool (*runs_here)();
+};
+
+/// From the plainest, which every machine runs, to the widest.
 #ifdef OILER_X86
 constexpr std::array sets{
     InstructionSet{"baseline", [] { return true; }},
@@ -70,8 +79,6 @@ std::size_t chosen_set() {
 }
 
 }  // namespace
-
-std::span<const InstructionSet> instruction_sets() { return sets; }
 
 template <std::floating_point T, int Axes>
 const Kernels<T, Axes>& kernels() {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <string_view>
 
 #include "oiler/sim/columns.hpp"
 #include "oiler/sim/plan.hpp"
@@ -36,15 +34,6 @@ struct Kernels {
     Step<ExactPlan<T>> exact;
     LinkedKernels<T, Axes> linked;
 };
-
-/// The same kernels as compiled for one set of instructions: no result depends on which.
-struct InstructionSet {
-    std::string_view name;
-    bool (*runs_here)();
-};
-
-/// From the plainest, which every machine runs, to the widest.
-[[nodiscard]] std::span<const InstructionSet> instruction_sets();
 
 /// The kernels for the widest registers of this machine, or for those that the environment variable
 /// OILER_INSTRUCTIONS names. Throws Error{usage} where it names none that this machine has.
