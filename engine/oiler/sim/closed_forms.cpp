@@ -98,6 +98,46 @@ State<T, 2> orbit(T gm, T distance, T speed, T t) {
             {-a * rate * std::sin(eccentric), minor * rate * std::cos(eccentric)}};
 }
 
+template <class T>
+bool circles(T gm, const State<T, 3>& state) {
+    const T distance = std::sqrt(squared_length(state.x));
+    const T inverse_a = 2 / distance - squared_length(state.v) / gm;
+    const T along = dot(state.x, state.v);
+    const T twice_area = distance * distance * squared_length(state.v) - along * along;
+    const T flatness = twice_area * inverse_a / gm;  // 1 − e²
+    return distance > 0 && inverse_a > 0 && flatness > T(0.002);
+}
+
+template <class T>
+State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
+    const T distance = std::sqrt(squared_length(start.x));
+    const T a = 1 / (2 / distance - squared_length(start.v) / gm);
+    const T n = std::sqrt(gm / a) / a;
+    const T shape = 1 - distance / a;
+    const T slant = dot(start.x, start.v) / std::sqrt(gm * a);
+    // How far the eccentric anomaly went, within 3 of the mean one: Newton's iteration, and
+    // bisection where that leaves what is known.
+    T low = n * t - 3;
+    T high = n * t + 3;
+    T turned = n * t;
+    for (int i = 0; i < 100; ++i) {
+        const T miss = turned - shape * std::sin(turned) + slant * (1 - std::cos(turned)) - n * t;
+        (miss > 0 ? high : low) = turned;
+        const T next = turned - miss / (1 - shape * std::cos(turned) + slant * std::sin(turned));
+        if (next == turned) break;
+        turned = next > low && next < high ? next : (low + high) / 2;
+    }
+    const T versine = 1 - std::cos(turned);
+    const T f = 1 - a / distance * versine;
+    const T g = t - (turned - std::sin(turned)) / n;
+    const Vec<T, 3> x = start.x * f + start.v * g;
+    const T now = std::sqrt(squared_length(x));
+    const T f_rate = -std::sqrt(gm * a) / (now * distance) * std::sin(turned);
+    return {x, start.x * f_rate + start.v * (1 - a / now * versine)};
+}
+
+template bool circles(long double, const State<long double, 3>&);
+template State<long double, 3> kepler(long double, const State<long double, 3>&, long double);
 template Motion<double> constant_acceleration(Motion<double>, double, double);
 template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);
 template Motion<double> linear_drag_motion(Motion<double>, double, double, double);

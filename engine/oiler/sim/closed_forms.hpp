@@ -43,4 +43,13 @@ template <class T>
 template <class T>
 [[nodiscard]] State<T, 2> orbit(T gm, T distance, T speed, T t);
 
+/// Whether a body goes round an attractor gm at the origin, on an ellipse of eccentricity < 0.999.
+template <class T>
+[[nodiscard]] bool circles(T gm, const State<T, 3>& state);
+
+/// The same motion from any point of such an orbit, `t` s after it: by Lagrange's coefficients
+/// (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.3). Long double.
+template <class T>
+[[nodiscard]] State<T, 3> kepler(T gm, const State<T, 3>& start, T t);
+
 }  // namespace oiler

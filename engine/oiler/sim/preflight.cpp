@@ -6,62 +6,15 @@
 #include <map>
 
 #include "oiler/core/error.hpp"
-#include "oiler/sim/stability.hpp"
+#include "oiler/sim/oscillations.hpp"
 
 namespace oiler {
 namespace {
-
-/// What may swing: a body on its springs, or two bodies on their link.
-struct Swing {
-    std::size_t row;
-    std::optional<std::size_t> linked;
-    Oscillation of;
-};
 
 /// Whether damping along a spring or between bodies flows in half-steps around the step, which are
 /// stable whatever it is.
 bool slows_apart(const Method& method, Damping damping) {
     return std::holds_alternative<Splitting>(method.rule) && damping == Damping::in_drift;
-}
-
-/// The springs of each body and the dampers that the step has to follow, all in one.
-std::vector<Oscillation> own_oscillations(const Bodies& bodies, bool coils_slow_apart) {
-    std::vector<Oscillation> own(bodies.size());
-    for (std::size_t nth = 0; nth < bodies.most_of_a_kind(); ++nth)
-        for (std::size_t row = 0; row < own.size(); ++row) {
-            const GivenForces forces = bodies.forces_per_mass(row, nth);
-            Oscillation& of = own[row];
-            if (const auto& spring = std::get<std::optional<Spring>>(forces))
-                of = {of.k + spring->stiffness, of.c + spring->damping};
-            if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
-                of = {of.k + coil->stiffness, of.c + (coils_slow_apart ? 0 : coil->damping)};
-            if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
-                of.c += drag->coefficient;
-        }
-    return own;
-}
-
-/// Bodies without links swing as their springs have it. No mode of linked ones is faster than the
-/// fastest link with all that pulls at its two ends: ω² ≤ Σk/m₁ + Σk/m₂ (Anderson and Morley,
-/// Eigenvalues of the Laplacian of a graph, 1985, with masses).
-std::vector<Swing> swings(const Bodies& bodies, bool dampers_slow_apart) {
-    std::vector<Oscillation> all = own_oscillations(bodies, dampers_slow_apart);
-    std::vector<bool> linked(bodies.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) {
-            const Link link = bodies.link_at(i);
-            all[row].k += link.stiffness / bodies.mass(row);
-            if (!dampers_slow_apart) all[row].c += link.damping / bodies.mass(row);
-            linked[row] = true;
-        }
-    std::vector<Swing> found;
-    for (std::size_t row = 0; row < all.size(); ++row)
-        if (!linked[row]) found.push_back({row, std::nullopt, all[row]});
-    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
-        const auto [a, b] = bodies.linked_rows(i);
-        found.push_back({a, b, {all[a].k + all[b].k, all[a].c + all[b].c}});
-    }
-    return found;
 }
 
 /// Whether the method follows the oscillation at dt = 1 s and at shorter steps.
@@ -127,7 +80,7 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
     const Damping damping = steps.damping.value_or(method.damping);
     Region region(method, damping);
     std::vector<Risk> risks;
-    for (const Swing& swing : swings(bodies, slows_apart(method, damping))) {
+    for (const BodyOscillation& swing : oscillations(bodies, slows_apart(method, damping))) {
         // What pushes goes away by itself, whatever the method.
         if (swing.of.k < 0 || swing.of.c < 0) continue;
         const Risk risk{swing.row, swing.linked, std::sqrt(swing.of.k) * dt, swing.of.c * dt};
