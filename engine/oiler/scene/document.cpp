@@ -14,54 +14,73 @@
 namespace oiler {
 namespace {
 
-Value convert(const toml::node& node);
-
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
 
-std::vector<Value> members(const toml::table& table) {
-    std::vector<Value> items;
-    for (const auto& [key, node] : table) {
-        Value& item = items.emplace_back(convert(node));
-        item.key = key.str();
-        item.line = line_of(key.source());
+/// Makes values of the nodes of a text.
+class Converter {
+public:
+    explicit Converter(std::string_view text) {
+        for (std::size_t at = 0; at < text.size(); ++at)
+            if (text[at] == '\n') lines_.push_back(at + 1);
     }
-    std::ranges::stable_sort(items, {}, &Value::line);
-    return items;
-}
 
-std::vector<Value> elements(const toml::array& array) {
-    std::vector<Value> items;
-    for (const toml::node& node : array) items.push_back(convert(node));
-    return items;
-}
+    [[nodiscard]] Value convert(const toml::node& node) const {
+        Value value{.at = extent(node.source()), .line = line_of(node.source())};
+        node.visit([&]<class Node>(const Node& one) {
+            if constexpr (toml::is_table<Node>) {
+                value.items = members(one);
+            } else if constexpr (toml::is_array<Node>) {
+                value.kind = ValueKind::list;
+                value.items = elements(one);
+            } else if constexpr (toml::is_string<Node>) {
+                value.kind = ValueKind::text;
+                value.text = one.get();
+            } else if constexpr (toml::is_integer<Node>) {
+                value.kind = ValueKind::whole;
+                value.whole = one.get();
+                value.number = static_cast<double>(one.get());
+            } else if constexpr (toml::is_floating_point<Node>) {
+                value.kind = ValueKind::number;
+                value.number = one.get();
+            } else if constexpr (toml::is_boolean<Node>) {
+                value.kind = ValueKind::flag;
+                value.flag = one.get();
+            } else {
+                value.kind = ValueKind::date;
+            }
+        });
+        return value;
+    }
 
-Value convert(const toml::node& node) {
-    Value value{.line = line_of(node.source())};
-    node.visit([&]<class Node>(const Node& one) {
-        if constexpr (toml::is_table<Node>) {
-            value.items = members(one);
-        } else if constexpr (toml::is_array<Node>) {
-            value.kind = ValueKind::list;
-            value.items = elements(one);
-        } else if constexpr (toml::is_string<Node>) {
-            value.kind = ValueKind::text;
-            value.text = one.get();
-        } else if constexpr (toml::is_integer<Node>) {
-            value.kind = ValueKind::whole;
-            value.whole = one.get();
-            value.number = static_cast<double>(one.get());
-        } else if constexpr (toml::is_floating_point<Node>) {
-            value.kind = ValueKind::number;
-            value.number = one.get();
-        } else if constexpr (toml::is_boolean<Node>) {
-            value.kind = ValueKind::flag;
-            value.flag = one.get();
-        } else {
-            value.kind = ValueKind::date;
+private:
+    [[nodiscard]] std::vector<Value> members(const toml::table& table) const {
+        std::vector<Value> items;
+        for (const auto& [key, node] : table) {
+            Value& item = items.emplace_back(convert(node));
+            item.key = key.str();
+            item.key_at = extent(key.source());
+            item.line = line_of(key.source());
         }
-    });
-    return value;
-}
+        std::ranges::stable_sort(items, {}, &Value::line);
+        return items;
+    }
+
+    [[nodiscard]] std::vector<Value> elements(const toml::array& array) const {
+        std::vector<Value> items;
+        for (const toml::node& node : array) items.push_back(convert(node));
+        return items;
+    }
+
+    /// toml++ counts lines and columns from 1, and columns in letters, which of ASCII are bytes.
+    [[nodiscard]] std::size_t offset(toml::source_position position) const {
+        return position ? lines_.at(position.line - 1) + position.column - 1 : 0;
+    }
+    [[nodiscard]] Extent extent(const toml::source_region& region) const {
+        return {offset(region.begin), offset(region.end)};
+    }
+
+    std::vector<std::size_t> lines_{0};  ///< where each starts
+};
 
 }  // namespace
 
@@ -93,7 +112,7 @@ std::string Value::shown() const {
 Value parse_document(std::string_view text, std::string_view file) {
     guard_scene_text(text, file);
     try {
-        return convert(toml::parse(text));
+        return Converter(text).convert(toml::parse(text));
     } catch (const toml::parse_error& error) {
         refuse({file, line_of(error.source())}, "not TOML: {}; mend this line or the one above",
                printable(error.description(), 200));

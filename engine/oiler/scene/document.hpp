@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,9 +11,19 @@ namespace oiler {
 
 enum class ValueKind { text, whole, number, flag, date, list, table };
 
+/// The bytes of a text from `begin` up to, not including, `end`.
+struct Extent {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
 /// What a scene file says, before anything is made of it.
 struct Value {
     std::string key{};  ///< of a table's members
+    Extent key_at{};    ///< its last part, where it has dots
+    Extent at{};        ///< what stands behind the key; of a table its header, or its braces
     int line = 1;       ///< of the key, where there is one
     ValueKind kind = ValueKind::table;
     std::string text{};

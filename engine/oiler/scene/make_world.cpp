@@ -122,6 +122,10 @@ Settings settings_of(const Scene& scene) {
     return {.rate = {scene.rate}, .method = scene.method, .precision = scene.precision};
 }
 
+Settings settings_of(const SceneChoice& choice) {
+    return {.rate = {choice.rate}, .method = choice.method, .precision = choice.precision};
+}
+
 World make_world(const Scene& scene, const Settings& settings) {
     return Maker(scene, settings).run();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "oiler/scene/apply.hpp"
 #include "oiler/scene/scene.hpp"
 #include "oiler/world/world.hpp"
 
@@ -8,6 +9,7 @@ namespace oiler {
 
 /// How the scene itself says that it is stepped.
 [[nodiscard]] Settings settings_of(const Scene& scene);
+[[nodiscard]] Settings settings_of(const SceneChoice& choice);
 
 /// A world of the scene's bodies with just the forces that it names. The bodies are in the rows in
 /// the order of Scene: the named ones, then those of each grid row by row, then those of each

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/apply.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "oiler/core/error.hpp"
+#include "oiler/core/require.hpp"
+#include "oiler/scene/document.hpp"
+#include "oiler/scene/read.hpp"
+
+namespace oiler {
+namespace {
+
+std::array<Value, 3> values_of(const SceneChoice& choice) {
+    return {
+        Value{.key = "rate", .kind = ValueKind::whole, .whole = choice.rate},
+        Value{.key = "method", .kind = ValueKind::text, .text = std::string(choice.method->name)},
+        Value{.key = "precision",
+              .kind = ValueKind::text,
+              .text = std::string(name_of(choice.precision))}};
+}
+
+std::string written(const Value& value, char quote = '"') {
+    if (value.kind == ValueKind::whole) return fmt::format("{}", value.whole);
+    return fmt::format("{0}{1}{0}", quote, value.text);
+}
+
+std::string replaced(std::string text, const Value& old, const Value& value) {
+    if (old.whole == value.whole && old.text == value.text) return text;
+    return text.replace(old.at.begin, old.at.size(), written(value, text[old.at.begin]));
+}
+
+/// "\r\n" if the line ends so that `at` is in; the last line need not end at all.
+std::string_view line_end(std::string_view text, std::size_t at) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return text.find("\r\n") < at ? "\r\n" : "\n";
+    return end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+/// With a line below that of `last`, which begins as that line does: with its indentation, and with
+/// the "scene." of a dotted key.
+std::string with_line(std::string text, const Value& last, const Value& value) {
+    const std::string_view whole = text;
+    const std::size_t begin = whole.substr(0, last.key_at.begin).rfind('\n') + 1;
+    const std::string_view end = line_end(whole, last.at.end);
+    const std::string line = fmt::format(
+        "{}{} = {}", whole.substr(begin, last.key_at.begin - begin), value.key, written(value));
+    const std::size_t below = whole.find('\n', last.at.end);
+    if (below == std::string_view::npos) return fmt::format("{}{}{}", text, end, line);
+    return text.insert(below + 1, fmt::format("{}{}", line, end));
+}
+
+std::string with(std::string text, std::string_view file, const Value& value) {
+    const Value document = parse_document(text, file);
+    const Value& scene = *document.find("scene");
+    if (const Value* const old = scene.find(value.key))
+        return replaced(std::move(text), *old, value);
+    // There is one: a scene has axes.
+    const Value& last =
+        *std::ranges::max_element(scene.items, {}, [](const Value& item) { return item.at.end; });
+    if (text[scene.at.begin] == '{')
+        return text.insert(last.at.end, fmt::format(", {} = {}", value.key, written(value)));
+    return with_line(std::move(text), last, value);
+}
+
+}  // namespace
+
+std::string apply(std::string_view text, std::string_view file, const SceneChoice& choice) {
+    require(choice.method, "a choice for a scene has no method");
+    Scene scene = parse_scene(text, file);
+    scene.method = choice.method;
+    scene.rate = choice.rate;
+    scene.precision = choice.precision;
+    std::string applied(text);
+    for (const Value& value : values_of(choice)) applied = with(std::move(applied), file, value);
+    if (parse_scene(applied, file) != scene)
+        fail(Exit::usage,
+             "{}: cannot be edited without changing more; write rate = {}, method = \"{}\" and "
+             "precision = \"{}\" into its [scene] by hand",
+             file, choice.rate, choice.method->name, name_of(choice.precision));
+    return applied;
+}
+
+}  // namespace oiler
