@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -20,6 +22,11 @@ constexpr float label_size = 10;
 constexpr float title_size = 13;
 constexpr float caption_line = 14;
 constexpr float mark_radius = 2.6F;
+constexpr float outline = 1.1F;
+constexpr float swatch = 16;
+constexpr float dash = 6;
+constexpr float gap = 5;  // the round ends of a line take its width of that
+constexpr float legend_line = 14;
 
 Polyline line(Point from, Point to, Colour colour, float width) {
     return {.points = {from, to}, .width = width, .colour = colour, .space = Space::canvas};
@@ -58,27 +65,78 @@ std::optional<std::pair<Point, Point>> clip(DataPoint a, DataPoint b, const Box&
 }
 
 DataPoint on_canvas(const Plot& plot, DataPoint p) {
-    const auto map = [](double value, Range range, float low, float high) {
+    const auto map = [](double value, Range range, Scale scale, float low, float high) {
+        if (scale == Scale::logarithmic) {
+            value = std::log10(value);
+            range = {std::log10(range.low), std::log10(range.high)};
+        }
         return low + (value - range.low) / (range.high - range.low) * (high - low);
     };
-    return {map(p.x, plot.x, plot.box.low.x, plot.box.high.x),
-            map(p.y, plot.y, plot.box.low.y, plot.box.high.y)};
+    return {map(p.x, plot.x, plot.x_scale, plot.box.low.x, plot.box.high.x),
+            map(p.y, plot.y, plot.y_scale, plot.box.low.y, plot.box.high.y)};
+}
+
+bool is_logarithmic(Range range) {
+    return range.low > 0 && range.high > range.low && std::isfinite(range.high);
+}
+
+/// The factors times powers of ten, as far as they lie within the range.
+std::vector<double> multiples(Range range, std::initializer_list<int> factors) {
+    std::vector<double> at;
+    const double last = std::ceil(std::log10(range.high));
+    for (double power = std::floor(std::log10(range.low)); power <= last; ++power)
+        for (const int factor : factors) {
+            const double tick = factor * std::pow(10.0, power);
+            if (tick / range.low >= 1 - 1e-9 && tick / range.high <= 1 + 1e-9) at.push_back(tick);
+        }
+    return at;
+}
+
+std::vector<double> ticks(Range range, Scale scale, int count) {
+    return scale == Scale::linear ? ticks(range, count) : logarithmic_ticks(range, count);
+}
+
+/// Without labels, and only where they are not too close to be told apart.
+std::vector<double> minor_ticks(Range range, Scale scale) {
+    constexpr double most_decades = 4;
+    if (scale == Scale::linear || !is_logarithmic(range)) return {};
+    if (std::log10(range.high) - std::log10(range.low) > most_decades + 1e-9) return {};
+    return multiples(range, {2, 3, 4, 5, 6, 7, 8, 9});
+}
+
+/// A logarithmic axis that goes beyond numbers of four digits has "2e-6" and "1e4".
+std::string tick_label(double at, Scale scale) {
+    if (scale == Scale::linear || (at > 0.000999 && at < 9999.5)) return fmt::format("{:g}", at);
+    const double power = std::floor(std::log10(at) + 1e-9);
+    return fmt::format("{:g}e{:g}", at / std::pow(10.0, power), power);
+}
+
+void draw_lines(const Plot& plot, const std::vector<double>& xs, const std::vector<double>& ys,
+                Colour colour, float width, Picture& picture) {
+    const Box& box = plot.box;
+    for (const double at : xs) {
+        const float x = plot.to_canvas({at, plot.y.low}).x;
+        picture.polylines.push_back(line({x, box.low.y}, {x, box.high.y}, colour, width));
+    }
+    for (const double at : ys) {
+        const float y = plot.to_canvas({plot.x.low, at}).y;
+        picture.polylines.push_back(line({box.low.x, y}, {box.high.x, y}, colour, width));
+    }
 }
 
 void draw_grid(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
-    for (const double at : ticks(plot.x, plot.x_ticks)) {
-        const float x = plot.to_canvas({at, plot.y.low}).x;
-        picture.polylines.push_back(line({x, box.low.y}, {x, box.high.y}, palette::pale, 0.75F));
-        picture.labels.push_back(
-            text({x, box.low.y - 11}, fmt::format("{:g}", at), tick_size, Align::centre));
-    }
-    for (const double at : ticks(plot.y, plot.y_ticks)) {
-        const float y = plot.to_canvas({plot.x.low, at}).y;
-        picture.polylines.push_back(line({box.low.x, y}, {box.high.x, y}, palette::pale, 0.75F));
-        picture.labels.push_back(
-            text({box.low.x - 4, y - 3}, fmt::format("{:g}", at), tick_size, Align::right));
-    }
+    const std::vector<double> xs = ticks(plot.x, plot.x_scale, plot.x_ticks);
+    const std::vector<double> ys = ticks(plot.y, plot.y_scale, plot.y_ticks);
+    draw_lines(plot, minor_ticks(plot.x, plot.x_scale), minor_ticks(plot.y, plot.y_scale),
+               palette::faded(palette::pale, 128), 0.5F, picture);
+    draw_lines(plot, xs, ys, palette::pale, 0.75F, picture);
+    for (const double at : xs)
+        picture.labels.push_back(text({plot.to_canvas({at, plot.y.low}).x, box.low.y - 11},
+                                      tick_label(at, plot.x_scale), tick_size, Align::centre));
+    for (const double at : ys)
+        picture.labels.push_back(text({box.low.x - 4, plot.to_canvas({plot.x.low, at}).y - 3},
+                                      tick_label(at, plot.y_scale), tick_size, Align::right));
     picture.polylines.push_back(line(box.low, {box.high.x, box.low.y}, palette::ink, 1));
     picture.polylines.push_back(line(box.low, {box.low.x, box.high.y}, palette::ink, 1));
 }
@@ -154,8 +212,45 @@ void draw_words(const Plot& plot, Picture& picture) {
         put({box.low.x, y -= caption_line}, words, label_size, Align::left);
 }
 
+/// A mark's corners on a circle around its middle; as large to the eye as a disc.
+struct Polygon {
+    int corners;
+    float radius;
+    float first;  ///< which way its first corner is, in turns
+
+    [[nodiscard]] Polyline scaled(float by, Point centre, Colour colour, float width) const {
+        Polyline line{.width = width, .colour = colour, .space = Space::canvas};
+        for (int i = 0; i <= corners; ++i) {
+            const float turns =
+                first + static_cast<float>(i % corners) / static_cast<float>(corners);
+            const float angle = 2 * std::numbers::pi_v<float> * turns;
+            line.points.push_back({centre.x + by * radius * std::cos(angle),
+                                   centre.y + by * radius * std::sin(angle)});
+        }
+        return line;
+    }
+    /// How far its sides are from its middle.
+    [[nodiscard]] float depth() const {
+        return radius * std::cos(std::numbers::pi_v<float> / static_cast<float>(corners));
+    }
+};
+
+Polygon polygon_of(Mark mark) {
+    if (mark == Mark::square) return {.corners = 4, .radius = 3.2F, .first = 0.125F};
+    if (mark == Mark::diamond) return {.corners = 4, .radius = 3.4F, .first = 0};
+    return {.corners = 3, .radius = 3.8F, .first = 0.25F};
+}
+
+/// A picture fills no polygon, but a line along half its size that is wide enough does.
+void draw_polygon(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
+    picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.depth()));
+    picture.polylines.push_back(polygon.scaled(1, at, colour, outline));
+}
+
 void draw_mark(const Series& series, Point at, Picture& picture) {
     if (series.mark == Mark::none) return;
+    if (series.mark != Mark::disc && series.mark != Mark::ring)
+        return draw_polygon(polygon_of(series.mark), at, series.colour, picture);
     const auto disc = [&](float radius, Colour colour) {
         picture.discs.push_back(
             {.centre = at, .radius = radius, .colour = colour, .space = Space::canvas});
@@ -164,26 +259,85 @@ void draw_mark(const Series& series, Point at, Picture& picture) {
     if (series.mark == Mark::ring) disc(mark_radius - 1, picture.background);
 }
 
+Point on_the_way(Point from, Point to, float part) {
+    return {from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part};
+}
+
+void draw_dashes(const Polyline& whole, Picture& picture) {
+    Polyline piece = whole;
+    piece.key = {};
+    piece.points.resize(1);
+    bool is_gap = false;
+    const auto turn = [&](Point at) {
+        piece.points.push_back(at);
+        if (!is_gap) picture.polylines.push_back(piece);
+        piece.points = {at};
+        is_gap = !is_gap;
+    };
+    float left = dash;
+    for (std::size_t i = 1; i < whole.points.size(); ++i) {
+        const Point from = whole.points[i - 1];
+        const Point to = whole.points[i];
+        const float length = std::hypot(to.x - from.x, to.y - from.y);
+        float gone = 0;
+        for (; gone + left < length; left = is_gap ? gap : dash)
+            turn(on_the_way(from, to, (gone += left) / length));
+        left -= length - gone;
+        piece.points.push_back(to);
+    }
+    if (!is_gap) picture.polylines.push_back(piece);
+}
+
+void draw_line(const Series& series, const Polyline& whole, Picture& picture) {
+    if (series.dashed) return draw_dashes(whole, picture);
+    picture.polylines.push_back(whole);
+}
+
+void draw_swatch(const Series& series, Point left, Picture& picture) {
+    const Point right{left.x + swatch, left.y};
+    draw_line(series, line(left, right, series.colour, 2.5F), picture);
+    draw_mark(series, {left.x + swatch / 2, left.y}, picture);
+}
+
 /// Names beside their curves' colours, from the right end of the y label's line leftwards.
-void draw_legend(const Plot& plot, Picture& picture) {
+void draw_legend_above(const Plot& plot, Picture& picture) {
     float right = plot.box.high.x;
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
         if (series->name.empty()) continue;
         Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
         const float left = right - width_of(series->name, label_size) - 4;
         picture.labels.push_back(std::move(name));
-        picture.polylines.push_back(line({left - 16, plot.box.high.y + 9.5F},
-                                         {left, plot.box.high.y + 9.5F}, series->colour, 2.5F));
-        draw_mark(*series, {left - 8, plot.box.high.y + 9.5F}, picture);
+        draw_swatch(*series, {left - swatch, plot.box.high.y + 9.5F}, picture);
         right = left - 28;
     }
+}
+
+/// The same from the top of the box downwards, closer together where there are many.
+void draw_legend_beside(const Plot& plot, Picture& picture) {
+    const Box& box = plot.box;
+    const auto names = std::ranges::count_if(
+        plot.series, [](const Series& series) { return !series.name.empty(); });
+    const float pitch = std::min(legend_line, (box.high.y - box.low.y) / static_cast<float>(names));
+    float y = box.high.y - pitch / 2;
+    for (const Series& series : plot.series) {
+        if (series.name.empty()) continue;
+        draw_swatch(series, {box.high.x + 12, y}, picture);
+        picture.labels.push_back(
+            text({box.high.x + swatch + 18, y - 3.5F}, series.name, label_size, Align::left));
+        y -= pitch;
+    }
+}
+
+void draw_legend(const Plot& plot, Picture& picture) {
+    return plot.legend_beside ? draw_legend_beside(plot, picture)
+                              : draw_legend_above(plot, picture);
 }
 
 void draw_curve(const Plot& plot, const Series& series, ElementKey key, Picture& picture) {
     Polyline run{
         .key = key, .width = series.width, .colour = series.colour, .space = Space::canvas};
     const auto finish = [&] {
-        if (run.points.size() > 1) picture.polylines.push_back(run);
+        if (run.points.size() > 1) draw_line(series, run, picture);
         run.points.clear();
         run.key.object = 0;
     };
@@ -216,8 +370,9 @@ void Plot::draw(Picture& picture, ElementKey key) const {
     for (const Series& curve : series) {
         ++key.part;
         draw_curve(*this, curve, key, picture);
-        draw_marks(*this, curve, picture);
     }
+    // Above all curves, as discs are anyway.
+    for (const Series& curve : series) draw_marks(*this, curve, picture);
 }
 
 Point Plot::to_canvas(DataPoint point) const {
@@ -240,6 +395,19 @@ std::vector<double> ticks(Range range, int count) {
         at.push_back(tick == 0 ? 0.0 : tick);
     }
     return at;
+}
+
+std::vector<double> logarithmic_ticks(Range range, int count) {
+    constexpr std::size_t fewest = 3;
+    if (!is_logarithmic(range) || count < 1) return {};
+    std::vector<double> powers = multiples(range, {1});
+    if (powers.size() >= fewest) {
+        const long stride = std::max(1L, std::lround(static_cast<double>(powers.size()) / count));
+        std::erase_if(powers, [&](double at) { return std::lround(std::log10(at)) % stride != 0; });
+        return powers;
+    }
+    const std::vector<double> more = multiples(range, {1, 2, 5});
+    return more.size() >= fewest ? more : ticks(range, count);
 }
 
 }  // namespace oiler
