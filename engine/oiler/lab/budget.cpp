@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/budget.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+BudgetLine hold(std::string name, std::string unit, double most, bool stable, double measured,
+                double floor) {
+    if (most < floor)
+        fail(Exit::usage,
+             "[budget] {} = {:g}: errors below {:.2g} cannot be told, a hundred times the "
+             "reference's own; give a larger one, or a shorter scene",
+             name, most, floor);
+    BudgetLine line{std::move(name), std::move(unit), most, INFINITY, floor, false};
+    if (stable) line.measured = std::isnan(measured) ? floor : measured;
+    line.kept = line.measured <= most;
+    return line;
+}
+
+}  // namespace
+
+std::vector<BudgetLine> check_budget(const Scene& scene, const Settings& settings,
+                                     const std::function<bool()>& stopped) {
+    const SceneBudget& budget = scene.budget;
+    std::vector<BudgetLine> lines;
+    if (!budget.position_error && !budget.energy_drift) return lines;
+    ReferenceEffort effort{.stopped = stopped};
+    if (budget.position_error) effort.wanted = *budget.position_error / 200;
+    const Reference reference = make_reference(scene, looks_of(scene), effort);
+    if (stopped()) return lines;
+    if (reference.meaningful < reference.looks.count)
+        fail(Exit::usage,
+             "[budget]: errors on this scene mean nothing after {:.4g} s of {:.4g}: {}; give it a "
+             "shorter duration",
+             reference.meaningful_until(), scene.duration, reference.why_no_longer);
+    const Judgement judgement = judge(scene, settings, reference, stopped);
+    const Doubt floor = reference.floor();
+    if (budget.position_error)
+        lines.push_back(hold("position_error", "m", *budget.position_error, judgement.stable,
+                             judgement.position_error, floor.position));
+    if (budget.energy_drift)
+        lines.push_back(hold("energy_drift", "", *budget.energy_drift, judgement.stable,
+                             judgement.energy_drift, floor.energy));
+    return lines;
+}
+
+std::string words_of(const BudgetLine& line) {
+    const std::string unit = line.unit.empty() ? "" : " " + line.unit;
+    const std::string measured =
+        std::isinf(line.measured)
+            ? "unstable"
+            : fmt::format("{}{:.3g}{}", line.measured == line.told_from ? "below " : "",
+                          line.measured, unit);
+    return fmt::format("{} {} of {:g}{}: {}", line.name, measured, line.most, unit,
+                       line.kept ? "kept" : "exceeded");
+}
+
+}  // namespace oiler

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/rates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/reference_parts.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr double settled = 0.05;  ///< of how far it was from rest at the start
+
+/// One coordinate of a body over time.
+struct Path {
+    std::vector<double> t{};  ///< s
+    std::vector<double> x{};  ///< m
+    std::vector<double> v{};  ///< m/s; empty for what is drawn, which is straight in between
+
+    [[nodiscard]] std::size_t size() const { return t.size(); }
+    /// Between point i−1 and the next, s from 0 to 1.
+    [[nodiscard]] double at(std::size_t i, double s) const {
+        const double rise = x[i] - x[i - 1];
+        if (v.empty()) return x[i - 1] + s * rise;
+        const double dt = t[i] - t[i - 1];
+        const double a = v[i - 1] * dt;
+        const double b = v[i] * dt;
+        return x[i - 1] + s * (a + s * ((3 * rise - 2 * a - b) + s * (a + b - 2 * rise)));
+    }
+    [[nodiscard]] double time(std::size_t i, double s) const {
+        return t[i - 1] + s * (t[i] - t[i - 1]);
+    }
+    /// Where between point i−1 and the next it goes through a level, which lies between them.
+    [[nodiscard]] double crossing(std::size_t i, double level) const {
+        double low = 0;
+        double high = 1;
+        const bool up = x[i] > x[i - 1];
+        for (int k = 0; k < 60; ++k) {
+            const double middle = (low + high) / 2;
+            ((at(i, middle) < level) == up ? low : high) = middle;
+        }
+        return (low + high) / 2;
+    }
+};
+
+/// Where between points i−1 and i it is highest, by golden section.
+double summit(const Path& path, std::size_t i) {
+    constexpr double golden = 0.6180339887498949;
+    double low = 0;
+    double high = 1;
+    for (int k = 0; k < 80; ++k) {
+        const double a = high - golden * (high - low);
+        const double b = low + golden * (high - low);
+        (path.at(i, a) < path.at(i, b) ? low : high) = path.at(i, a) < path.at(i, b) ? a : b;
+    }
+    return (low + high) / 2;
+}
+
+struct Peak {
+    double t;
+    double x;
+};
+
+Peak highest(const Path& path, std::size_t from, std::size_t to) {
+    Peak peak{path.t[from], path.x[from]};
+    for (std::size_t i = std::max<std::size_t>(1, from); i < to; ++i) {
+        if (path.x[i] > peak.x) peak = {path.t[i], path.x[i]};
+        if (path.v.empty() || !(path.v[i - 1] > 0 && path.v[i] <= 0)) continue;
+        const double s = summit(path, i);
+        if (path.at(i, s) > peak.x) peak = {path.time(i, s), path.at(i, s)};
+    }
+    return peak;
+}
+
+Path turned(Path path) {
+    for (double& x : path.x) x = -x;
+    for (double& v : path.v) v = -v;
+    return path;
+}
+
+/// All that is noticed of one run, in the order of `things`; unknown where there is no such thing.
+struct Noticed {
+    double apex = unknown;
+    double apex_time = unknown;
+    double landing_time = unknown;
+    double landing_place = unknown;
+    double period = unknown;
+    double amplitude = unknown;
+    double settle_time = unknown;
+};
+
+struct Thing {
+    const char* name;
+    const char* unit;
+    double Noticed::*value;
+};
+constexpr Thing things[]{
+    {"apex above the start", "m", &Noticed::apex},
+    {"time of the apex", "s", &Noticed::apex_time},
+    {"time of landing at the height of the start", "s", &Noticed::landing_time},
+    {"place of landing, from the start", "m", &Noticed::landing_place},
+    {"period", "s", &Noticed::period},
+    {"amplitude over the last period", "m", &Noticed::amplitude},
+    {"time to settle to 5 %", "s", &Noticed::settle_time},
+};
+
+/// What is watched of the body.
+struct Watch {
+    std::optional<int> up{};      ///< axis against gravity
+    double up_sign = 1;           ///< of it
+    std::optional<int> across{};  ///< axis of the place of landing
+    std::optional<Swing> swing{};
+    double rest = 0;  ///< m, around which it swings
+};
+
+using Paths = std::array<Path, 3>;
+
+void notice_jump(Noticed& noticed, const Watch& watch, const Paths& paths) {
+    if (!watch.up) return;
+    const Path& along = paths[static_cast<std::size_t>(*watch.up)];
+    const Path height = watch.up_sign > 0 ? along : turned(along);
+    const double start = height.x.front();
+    std::size_t landing = 1;
+    while (landing < height.size() &&
+           !(height.x[landing] < start && (landing == 1 || height.x[landing - 1] >= start)))
+        ++landing;
+    const Peak peak = highest(height, 0, std::min(landing + 1, height.size()));
+    if (!(peak.x > start)) return;
+    noticed.apex = peak.x - start;
+    noticed.apex_time = peak.t;
+    if (landing == height.size()) return;
+    const double s = height.crossing(landing, start);
+    noticed.landing_time = height.time(landing, s);
+    if (!watch.across) return;
+    const Path& place = paths[static_cast<std::size_t>(*watch.across)];
+    noticed.landing_place = place.at(landing, s) - place.x.front();
+}
+
+void notice_swing(Noticed& noticed, const Watch& watch, const Paths& paths) {
+    if (!watch.swing) return;
+    const Path& path = paths[static_cast<std::size_t>(watch.swing->axis)];
+    std::vector<double> up;
+    for (std::size_t i = 1; i < path.size(); ++i)
+        if (path.x[i - 1] < watch.rest && path.x[i] >= watch.rest)
+            up.push_back(path.time(i, path.crossing(i, watch.rest)));
+    if (up.size() >= 2)
+        noticed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
+    std::size_t from = path.size() - 1;
+    while (from > 1 && path.t[from - 1] > path.t.back() - watch.swing->period) --from;
+    const double high = highest(path, from, path.size()).x;
+    const double low = -highest(turned(path), from, path.size()).x;
+    noticed.amplitude = (high - low) / 2;
+    const double band = settled * std::abs(path.x.front() - watch.rest);
+    if (noticed.amplitude >= band) return;
+    std::size_t last = path.size() - 1;
+    while (last > 0 && std::abs(path.x[last] - watch.rest) <= band) --last;
+    if (last + 1 == path.size()) return;
+    const double edge = watch.rest + std::copysign(band, path.x[last] - watch.rest);
+    noticed.settle_time = path.time(last + 1, path.crossing(last + 1, edge));
+}
+
+Noticed notice(const Watch& watch, const Paths& paths) {
+    Noticed noticed;
+    notice_jump(noticed, watch, paths);
+    notice_swing(noticed, watch, paths);
+    return noticed;
+}
+
+Paths paths_of(const Reference& reference, std::size_t row) {
+    Paths paths;
+    for (std::int64_t look = 0; look < reference.meaningful; ++look) {
+        const State<long double, 3>& state = reference.track.at(look, row);
+        for (int axis = 0; axis < 3; ++axis) {
+            Path& path = paths[static_cast<std::size_t>(axis)];
+            path.t.push_back(reference.looks.time(look));
+            path.x.push_back(static_cast<double>(state.x[axis]));
+            path.v.push_back(static_cast<double>(state.v[axis]));
+        }
+    }
+    return paths;
+}
+
+/// Nothing where the run diverges or is lost.
+std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Reference& reference,
+                         std::size_t row, const std::function<bool()>& stopped) try {
+    World world = make_world(scene, settings_of(choice));
+    world.require_applicable();
+    const Vec3 start = world.bodies().position(row);
+    Paths paths;
+    const auto steps = static_cast<std::int64_t>(
+        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate)));
+    for (std::int64_t tick = 0; tick <= steps && !stopped(); ++tick) {
+        if (tick > 0) world.step();
+        const Vec3 at = world.bodies().position(row);
+        if (largest(at - start) > 10 * reference.extent) return std::nullopt;
+        for (int axis = 0; axis < 3; ++axis) {
+            paths[static_cast<std::size_t>(axis)].t.push_back(world.time());
+            paths[static_cast<std::size_t>(axis)].x.push_back(at[axis]);
+        }
+    }
+    return paths;
+} catch (const Error& error) {
+    if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
+    return std::nullopt;
+}
+
+/// Where a swing comes to rest that falls by the same factor from each extreme to the next, from
+/// the last three: by Aitken's formula.
+double rest_of(const Path& path) {
+    const Path down = turned(path);
+    std::vector<double> extremes;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        if (path.v[i - 1] > 0 && path.v[i] <= 0) extremes.push_back(path.at(i, summit(path, i)));
+        if (path.v[i - 1] < 0 && path.v[i] >= 0) extremes.push_back(-down.at(i, summit(down, i)));
+    }
+    if (extremes.size() < 3) return path.x.back();
+    const double* const last = extremes.data() + extremes.size() - 3;
+    return (last[0] * last[2] - last[1] * last[1]) / (last[0] + last[2] - 2 * last[1]);
+}
+
+Watch watch_of(const Scene& scene, const Reference& reference, std::size_t row) {
+    Watch watch;
+    if (scene.gravity && largest(*scene.gravity) > 0) {
+        int up = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (std::abs((*scene.gravity)[axis]) > std::abs((*scene.gravity)[up])) up = axis;
+        watch.up = up;
+        watch.up_sign = (*scene.gravity)[up] > 0 ? -1 : 1;
+        if (scene.axes > 1) watch.across = up == 0 ? 1 : 0;
+    }
+    watch.swing = find_swing(reference.track, reference.looks, row);
+    if (watch.swing) {
+        const Paths paths = paths_of(reference, row);
+        watch.rest = rest_of(paths[static_cast<std::size_t>(watch.swing->axis)]);
+    }
+    return watch;
+}
+
+double spread_percent(const RatesLine& line, double truth) {
+    double least = INFINITY;
+    double most = -INFINITY;
+    for (const double value : line.values) {
+        if (std::isnan(value)) return unknown;
+        least = std::min(least, value);
+        most = std::max(most, value);
+    }
+    const double scale = truth != 0 ? std::abs(truth) : std::max(std::abs(least), std::abs(most));
+    return scale > 0 ? 100 * (most - least) / scale : 0;
+}
+
+std::string name_of_body(const Scene& scene, std::size_t row) {
+    return row < scene.bodies.size() && !scene.bodies[row].name.empty()
+               ? scene.bodies[row].name
+               : fmt::format("body {}", row);
+}
+
+}  // namespace
+
+Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t row,
+                    const std::vector<std::int64_t>& rates,
+                    const std::vector<const Method*>& methods,
+                    const std::function<bool()>& stopped) {
+    const Watch watch = watch_of(scene, reference, row);
+    const Noticed truth = notice(watch, paths_of(reference, row));
+    std::vector<std::vector<Noticed>> noticed(methods.size());
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        for (const std::int64_t rate : rates) {
+            const auto paths =
+                run(scene, {methods[i], rate, scene.precision}, reference, row, stopped);
+            noticed[i].push_back(paths ? notice(watch, *paths) : Noticed{});
+        }
+    Rates result{.body = name_of_body(scene, row), .rates = rates};
+    for (const Thing& thing : things) {
+        if (std::isnan(truth.*thing.value)) continue;
+        RatesQuantity quantity{thing.name, thing.unit, truth.*thing.value};
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            RatesLine line{.method = methods[i]};
+            for (const Noticed& one : noticed[i]) line.values.push_back(one.*thing.value);
+            line.spread_percent = spread_percent(line, quantity.truth);
+            quantity.lines.push_back(std::move(line));
+        }
+        result.quantities.push_back(std::move(quantity));
+    }
+    return result;
+}
+
+std::size_t find_body(const Scene& scene, const std::string& name) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (scene.bodies[i].name == name) return i;
+    std::size_t row = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), row);
+    if (error == std::errc() && end == name.data() + name.size() &&
+        row < static_cast<std::size_t>(scene.body_count()))
+        return row;
+    fail(Exit::usage, "no body is called {}; give the name of one, or its number from 0 to {}",
+         name, scene.body_count() - 1);
+}
+
+}  // namespace oiler
