@@ -28,13 +28,26 @@ Progress::~Progress() {
     if (shown_percent_ >= 0) std::fputc('\n', stderr);
 }
 
+std::string Progress::time_left(double share) const {
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double left = passed * (1 - share) / share;
+    // What takes less needs no promise, and at first there is nothing to base one on.
+    if (share < 0.02 || passed < 1 || left < 1) return "";
+    return left < 100 ? fmt::format(", {:.0f} s left", left)
+                      : fmt::format(", {:.0f} min left", left / 60);
+}
+
 void Progress::show(std::int64_t done) {
     const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1;
     const int percent = static_cast<int>(100 * share);
     if (!visible_ || percent == shown_percent_) return;
     shown_percent_ = percent;
     const std::string filled(static_cast<std::size_t>(percent * 40 / 100), '#');
-    std::fputs(fmt::format("\r[{:<40}] {}/{} {}", filled, done, total_, what_).c_str(), stderr);
+    std::fputs(
+        fmt::format("\r[{:<40}] {}/{} {}{:<16}", filled, done, total_, what_, time_left(share))
+            .c_str(),
+        stderr);
     std::fflush(stderr);
 }
 

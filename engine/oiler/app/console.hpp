@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -22,7 +23,8 @@ void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
     if (!quiet) say(fmt::format(line, std::forward<Args>(args)...));
 }
 
-/// How far long work has come: a bar on standard error where that is a terminal, nothing elsewhere.
+/// How far long work has come and how long it will take: a bar on standard error where that is a
+/// terminal, nothing elsewhere.
 class Progress {
 public:
     Progress(bool quiet, std::string what, std::int64_t total);
@@ -33,6 +35,9 @@ public:
     void show(std::int64_t done);
 
 private:
+    [[nodiscard]] std::string time_left(double share) const;
+
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string what_;
     std::int64_t total_;
     int shown_percent_ = -1;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <vector>
 
 #include "oiler/app/options.hpp"
 #include "oiler/app/playback.hpp"
+#include "oiler/app/report.hpp"
 #include "oiler/app/run.hpp"
 
 namespace oiler {
@@ -17,7 +20,12 @@ void run_headless(Playback& playback, const Options& options, const About& about
 /// late frames dropped.
 std::chrono::nanoseconds run_window(Playback& playback, const Options& options, const About& about);
 
+/// What was measured of a run that plays without a window, if anything.
+using MeasureBudget = std::function<std::vector<BudgetEntry>()>;
+
 /// Plays a game from its start to its end as the options say, and writes what they ask for.
-Exit run_game(const Options& options, const About& about, const MakeGame& make);
+/// Without a window the budget is measured, and exceeding it is a failed comparison.
+Exit run_game(const Options& options, const About& about, const MakeGame& make,
+              const MeasureBudget& measure_budget = {});
 
 }  // namespace oiler

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/report.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -27,7 +28,7 @@ double seconds(std::chrono::nanoseconds time) {
 
 void write_report(const std::filesystem::path& path, const RunReport& report, const World& world) {
     const Settings& settings = world.settings();
-    const Json json{
+    Json json{
         {"scene", report.scene},
         {"method", settings.method->name},
         {"damping", name_of(settings.damping.value_or(settings.method->damping))},
@@ -42,6 +43,11 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
         {"energy", {{"first", to_json(report.first)}, {"last", to_json(world.bodies().energy())}}},
         {"dropped_time", seconds(report.dropped)},
         {"wall_seconds", seconds(report.wall)}};
+    for (const BudgetEntry& entry : report.budget)
+        json["budget"][entry.name] = {
+            {"budget", entry.most},
+            {"measured", std::isfinite(entry.measured) ? Json(entry.measured) : Json("infinite")},
+            {"kept", entry.kept}};
     const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     write_file(path, std::as_bytes(std::span(text)));
 }

@@ -42,7 +42,8 @@ std::chrono::nanoseconds loop(Playback& playback, const Options& options, const 
 
 }  // namespace
 
-Exit run_game(const Options& options, const About& about, const MakeGame& make) {
+Exit run_game(const Options& options, const About& about, const MakeGame& make,
+              const MeasureBudget& measure_budget) {
     const Interrupt interrupt;
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<AnyGame> game = make(options.settings);
@@ -62,8 +63,16 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make) 
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());
     report.wall = Clock::now() - start;
+    if (measure_budget && (options.headless || options.steps) && !Interrupt::requested())
+        report.budget = measure_budget();
     if (!options.json.empty()) write_report(options.json, report, game->world());
-    return Interrupt::requested() ? Exit::interrupted : Exit::done;
+    if (Interrupt::requested()) return Exit::interrupted;
+    bool kept = true;
+    for (const BudgetEntry& entry : report.budget) {
+        remark(options.quiet && entry.kept, "[budget] {}", entry.words);
+        kept = kept && entry.kept;
+    }
+    return kept ? Exit::done : Exit::comparison_failed;
 }
 
 int guard_main(std::string_view name, const std::function<Exit()>& program) {

@@ -24,10 +24,14 @@ Stills::Stills(Size size) : impl_(std::make_unique<Impl>(size)) {}
 
 Stills::~Stills() = default;
 
-void Stills::write(const Picture& picture, const std::filesystem::path& path) {
+std::vector<std::byte> Stills::png(const Picture& picture) {
     impl_->renderer.draw(picture, impl_->size);
     impl_->renderer.read(impl_->pixels);
-    write_file(path, encode_png(impl_->pixels.size, impl_->pixels.rgb));
+    return encode_png(impl_->pixels.size, impl_->pixels.rgb);
+}
+
+void Stills::write(const Picture& picture, const std::filesystem::path& path) {
+    write_file(path, png(picture));
 }
 
 }  // namespace oiler

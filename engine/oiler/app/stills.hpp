@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "oiler/core/size.hpp"
 #include "oiler/picture/picture.hpp"
@@ -18,6 +20,8 @@ public:
     Stills(const Stills&) = delete;
     Stills& operator=(const Stills&) = delete;
 
+    /// The bytes of a PNG file.
+    [[nodiscard]] std::vector<std::byte> png(const Picture& picture);
     /// Throws Error{io}; then no part of the file is left.
     void write(const Picture& picture, const std::filesystem::path& path);
 

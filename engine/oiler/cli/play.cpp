@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <span>
 
+#include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/commands.hpp"
+#include "oiler/lab/budget.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
@@ -55,9 +59,18 @@ Exit run_play(int argc, char** argv) {
         write_file("-", std::as_bytes(std::span(line.text)));
         return Exit::done;
     }
-    return run_game(line.options, line.about, [&](const Settings& settings) {
+    const auto make = [&](const Settings& settings) {
         return std::make_unique<SceneGame>(scene, settings);
-    });
+    };
+    const auto measure_budget = [&] {
+        std::vector<BudgetEntry> entries;
+        for (const BudgetLine& budget :
+             check_budget(scene, line.options.settings, Interrupt::requested))
+            entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
+                               fmt::format("over {:g} s: {}", scene.duration, words_of(budget))});
+        return entries;
+    };
+    return run_game(line.options, line.about, make, measure_budget);
 }
 
 }  // namespace oiler

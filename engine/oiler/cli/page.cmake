@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# What the page of `oiler report` is made of, embedded: the page itself and the library that draws
+# its charts.
+find_file(OILER_CHART_LIBRARY chart.min.js PATHS /usr/share/javascript/chart.js
+          /usr/share/nodejs/chart.js/dist NO_DEFAULT_PATH)
+if(NOT OILER_CHART_LIBRARY)
+  message(FATAL_ERROR "chart.min.js not found: install the Debian package libjs-chart.js")
+endif()
+oiler_embed(oiler_cli page ${CMAKE_CURRENT_SOURCE_DIR}/cli/report.html chart ${OILER_CHART_LIBRARY})
