@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/advise.hpp"
+#include "oiler/scene/read.hpp"
+
+// Whether advice holds: for each scene and tolerance the advice is run again and held against a
+// motion that nothing of the engine computes; and what it costs and how long it took is held
+// against a full sweep. Exit 1 where an advice does not meet its tolerance.
+
+using namespace oiler;
+
+namespace {
+
+using Real = long double;
+using Point2 = std::array<Real, 2>;
+/// Where a body is at a time, s.
+using Truth = std::function<Point2(std::size_t row, Real t)>;
+
+struct Case {
+    const char* name;
+    Scene scene;
+    Truth truth;
+    double looked = 0;  ///< times per second; 0: at every step
+};
+
+// The motions, written out from textbooks.
+
+Truth spring_truth(Real damping) {
+    return [damping](std::size_t, Real t) -> Point2 {
+        const Real gamma = damping / 2;
+        const Real omega = std::sqrt(15 - gamma * gamma);
+        return {1000 * std::exp(-gamma * t) *
+                    (std::cos(omega * t) + gamma / omega * std::sin(omega * t)),
+                0};
+    };
+}
+
+/// Of semi-axis 1 m and eccentricity 0.6 around gm = 1, from its nearest point.
+Point2 orbit_truth(std::size_t, Real t) {
+    constexpr Real e = 0.6L;
+    Real turned = t;
+    for (int i = 0; i < 200; ++i)
+        turned -= (turned - e * std::sin(turned) - t) / (1 - e * std::cos(turned));
+    return {std::cos(turned) - e, std::sqrt(1 - e * e) * std::sin(turned)};
+}
+
+/// Two unit masses that rest at −2 m and 2 m, on springs of 15, 1.5 and 15 N/m: both modes.
+Point2 chain_truth(std::size_t row, Real t) {
+    const Real together = std::sqrt(Real(15)) * t;
+    const Real apart = std::sqrt(Real(18)) * t;
+    const Real sum = (std::cos(together) + std::cos(apart)) / 2;
+    const Real difference = (std::cos(together) - std::cos(apart)) / 2;
+    return {row == 0 ? sum - 2 : difference + 2, 0};
+}
+
+/// Runge and Kutta's method over numbers, in steps of 1/rate s; `record` sees all of them.
+template <class Change>
+void integrate(std::vector<Real>& y, Change change, std::int64_t steps, Real h,
+               const std::function<void(std::int64_t)>& record) {
+    const std::size_t n = y.size();
+    std::vector<Real> k(n);
+    std::vector<Real> at(n);
+    std::vector<Real> sum(n);
+    record(0);
+    for (std::int64_t step = 1; step <= steps; ++step) {
+        at = y;
+        std::fill(sum.begin(), sum.end(), 0);
+        for (const auto& [weight, reach] :
+             {std::pair<Real, Real>{1, 0.5L}, {2, 0.5L}, {2, 1}, {1, 0}}) {
+            change(at, k);
+            for (std::size_t i = 0; i < n; ++i) {
+                sum[i] += weight * k[i];
+                at[i] = y[i] + reach * h * k[i];
+            }
+        }
+        for (std::size_t i = 0; i < n; ++i) y[i] += h / 6 * sum[i];
+        record(step);
+    }
+}
+
+constexpr Real drag = 0.00816666666666666667L;
+
+/// From recorded points at 1/rate s; two runs, of which the second has half the step, extrapolated.
+template <class Change>
+Truth recorded(std::vector<Real> start, Change change, Real duration, std::int64_t per_second,
+               std::int64_t steps_between) {
+    std::vector<std::vector<Real>> runs[2];
+    for (int run = 0; run < 2; ++run) {
+        const std::int64_t between = steps_between << run;
+        std::vector<Real> y = start;
+        const auto steps = static_cast<std::int64_t>(
+            std::ceil(duration * static_cast<Real>(per_second * between)));
+        integrate(y, change, steps, 1 / static_cast<Real>(per_second * between),
+                  [&](std::int64_t step) {
+                      if (step % between == 0) runs[run].push_back(y);
+                  });
+    }
+    return [fine = std::move(runs[1]), coarse = std::move(runs[0]), per_second](std::size_t row,
+                                                                                Real t) {
+        const auto at = static_cast<std::size_t>(std::llround(t * static_cast<Real>(per_second)));
+        Point2 point{};
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const Real better = fine[at][4 * row + axis];
+            point[axis] = better + (better - coarse[at][4 * row + axis]) / 15;
+        }
+        return point;
+    };
+}
+
+Truth projectile_truth(const Scene& scene) {
+    const SceneBody& body = scene.bodies[0];
+    return recorded(
+        {0, 0, body.velocity[0], body.velocity[1]},
+        [](const std::vector<Real>& y, std::vector<Real>& k) {
+            const Real speed = std::sqrt(y[2] * y[2] + y[3] * y[3]);
+            k = {y[2], y[3], -drag * speed * y[2], -9.8 - drag * speed * y[3]};
+        },
+        scene.duration, 3600, 2);
+}
+
+/// The net of assets/scenes/cloth.toml, spring by spring.
+Truth cloth_truth(const Scene& scene) {
+    struct Spring {
+        std::size_t a, b;
+        Real length;
+    };
+    const SceneGrid grid = scene.grids[0];
+    const auto columns = static_cast<std::size_t>(grid.count[0]);
+    const auto rows = static_cast<std::size_t>(grid.count[1]);
+    std::vector<Real> start;
+    std::vector<Spring> springs;
+    for (std::size_t r = 0; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const std::size_t node = r * columns + c;
+            for (const double number :
+                 {grid.origin[0] + static_cast<double>(c) * grid.spacing,
+                  grid.origin[1] + static_cast<double>(r) * grid.spacing, 0.0, 0.0})
+                start.push_back(number);
+            const Real diagonal = std::sqrt(Real(2)) * grid.spacing;
+            if (c + 1 < columns) springs.push_back({node, node + 1, grid.spacing});
+            if (r + 1 == rows) continue;
+            springs.push_back({node, node + columns, grid.spacing});
+            if (c + 1 < columns) springs.push_back({node, node + columns + 1, diagonal});
+            if (c > 0) springs.push_back({node, node + columns - 1, diagonal});
+        }
+    const std::array<std::size_t, 2> hung{(rows - 1) * columns, rows * columns - 1};
+    const auto change = [=](const std::vector<Real>& y, std::vector<Real>& k) {
+        const Real m = grid.matter.mass;
+        for (std::size_t i = 0; i < y.size(); i += 4) {
+            k[i] = y[i + 2];
+            k[i + 1] = y[i + 3];
+            k[i + 2] = -grid.matter.linear_drag / m * y[i + 2];
+            k[i + 3] = -9.81 - grid.matter.linear_drag / m * y[i + 3];
+        }
+        for (const auto& [a, b, length] : springs) {
+            const Real dx = y[4 * a] - y[4 * b];
+            const Real dy = y[4 * a + 1] - y[4 * b + 1];
+            const Real distance = std::sqrt(dx * dx + dy * dy);
+            const Real along =
+                (dx * (y[4 * a + 2] - y[4 * b + 2]) + dy * (y[4 * a + 3] - y[4 * b + 3])) /
+                distance;
+            const Real pull =
+                (-grid.stiffness * (distance - length) - grid.damping * along) / m / distance;
+            k[4 * a + 2] += pull * dx;
+            k[4 * a + 3] += pull * dy;
+            k[4 * b + 2] -= pull * dx;
+            k[4 * b + 3] -= pull * dy;
+        }
+        for (const std::size_t node : hung)
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                k[4 * node + 2 + axis] +=
+                    (-grid.stiffness * (y[4 * node + axis] - start[4 * node + axis]) -
+                     grid.damping * y[4 * node + 2 + axis]) /
+                    m;
+    };
+    return recorded(start, change, scene.duration, 60, 100);
+}
+
+Scene asset(const char* name) {
+    return read_scene(fmt::format("{}/assets/scenes/{}.toml", OILER_SOURCE, name));
+}
+
+std::vector<Case> cases(bool full) {
+    const Scene projectile = parse_scene(
+        "[scene]\naxes = 2\nrate = 60\nduration = 8.0\n[gravity]\nacceleration = [0.0, -9.8]\n"
+        "[[body]]\nquadratic_drag = 0.00816666666666666667\n"
+        "velocity = [19.28362829059618, 22.98133329356934]\n",
+        "projectile");
+    std::vector<Case> all{{"projectile", projectile, projectile_truth(projectile)},
+                          {"orbit", asset("orbit"), orbit_truth}};
+    if (!full) return all;
+    Scene undamped = asset("article_spring_undamped");
+    undamped.duration = 90;
+    all.push_back({"spring", asset("article_spring"), spring_truth(0.1L)});
+    all.push_back({"undamped 90 s", undamped, spring_truth(0)});
+    all.push_back({"chain", asset("chain"), chain_truth});
+    return all;
+}
+
+/// The largest distance from the truth, m.
+double independent_error(const Case& one, const SceneChoice& choice) {
+    World world = make_world(one.scene, settings_of(choice));
+    const auto steps = static_cast<std::int64_t>(
+        std::floor(one.scene.duration * static_cast<double>(choice.rate) * (1 + 1e-12)));
+    const std::int64_t stride =
+        one.looked > 0 ? choice.rate / static_cast<std::int64_t>(one.looked) : 1;
+    Real most = 0;
+    for (std::int64_t tick = 0; tick <= steps; tick += stride) {
+        if (tick > 0) world.step(stride);
+        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate);
+        for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+            const auto at = world.bodies().state(row).x;
+            const Point2 exact = one.truth(row, t);
+            most = std::max(most, std::hypot(at[0] - exact[0], at[1] - exact[1]));
+        }
+    }
+    return static_cast<double>(most);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Sweep {
+    Tradeoff tradeoff;
+    double seconds = 0;
+};
+
+Sweep sweep_all(const Scene& scene, const Wish& wish) {
+    const auto start = std::chrono::steady_clock::now();
+    const Looks looks = looks_of(scene);
+    const Reference reference = make_reference(scene, looks, {});
+    const SweepPlan plan{.methods = wish.methods};
+    Sweep sweep_of{start_tradeoff(scene, looks, reference, plan), 0};
+    sweep(sweep_of.tradeoff, scene, reference, plan, {});
+    std::vector<TradeoffRow*> rows;
+    for (Ladder& ladder : sweep_of.tradeoff.ladders)
+        for (TradeoffRow& row : ladder.rows) rows.push_back(&row);
+    time_rows(scene, rows, 7, {});
+    sweep_of.seconds = seconds_since(start);
+    return sweep_of;
+}
+
+/// How many times the best row of the sweep the advice costs, timed side by side.
+double cost_ratio(const Scene& scene, const Tradeoff& tradeoff, const Wish& wish,
+                  const TradeoffRow& advised) {
+    const TradeoffRow* best = nullptr;
+    for (const TradeoffRow* row : tradeoff.rows())
+        if (meets(row->judgement, wish) && (!best || row->ns_per_second < best->ns_per_second))
+            best = row;
+    if (!best) return unknown;
+    TradeoffRow a = advised;
+    TradeoffRow b = *best;
+    time_rows(scene, {&a, &b}, 31, {});
+    return a.ns_per_second / b.ns_per_second;
+}
+
+bool run(const Case& one, const std::vector<double>& tolerances) {
+    Wish wish;
+    for (const Method& method : methods()) wish.methods.push_back(&method);
+    const Sweep swept = sweep_all(one.scene, wish);
+    fmt::print("{}: a sweep of {} rows takes {:.1f} s\n", one.name, swept.tradeoff.rows().size(),
+               swept.seconds);
+    bool all_meet = true;
+    for (const double tolerance : tolerances) {
+        wish.position_error = tolerance;
+        const auto start = std::chrono::steady_clock::now();
+        const Reference reference =
+            make_reference(one.scene, looks_of(one.scene), {.wanted = wanted_of(wish) / 2});
+        const Advice advice = advise(one.scene, reference, wish, {});
+        const double seconds = seconds_since(start);
+        if (!advice.best || !advice.meets) {
+            fmt::print("  {:<7g} no advice\n", tolerance);
+            all_meet = false;
+            continue;
+        }
+        const double error = independent_error(one, advice.best->choice);
+        const bool met = error <= tolerance;
+        all_meet = all_meet && met;
+        fmt::print(
+            "  {:<7g} {:<42} independent error {:<9.3g} {}  cost of the sweep's best × {:.2f}"
+            "  {:.3f} of its time\n",
+            tolerance, words_of(advice.best->choice), error, met ? "met" : "MISSED",
+            cost_ratio(one.scene, swept.tradeoff, wish, *advice.best), seconds / swept.seconds);
+        std::fflush(stdout);
+    }
+    return all_meet;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const bool full = argc > 1 && std::string_view(argv[1]) == "--full";
+    const bool cloth = argc > 1 && std::string_view(argv[1]) == "--cloth";
+    std::vector<Case> chosen;
+    if (cloth) {
+        const Scene scene = asset("cloth");
+        chosen.push_back({"cloth", scene, cloth_truth(scene), 60});
+    } else {
+        chosen = cases(full);
+    }
+    const std::vector<double> tolerances =
+        full || cloth ? std::vector{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}
+                      : std::vector{1e-1, 1e-4, 1e-8};
+    bool met = true;
+    for (const Case& one : chosen) met = run(one, tolerances) && met;
+    return met ? 0 : 1;
+} catch (const Error& error) {
+    fmt::print(stderr, "oiler_advice: {}\n", error.what());
+    return static_cast<int>(error.exit());
+}
