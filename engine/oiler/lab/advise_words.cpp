@@ -49,8 +49,11 @@ std::string wish_words(const Wish& wish) {
 std::string conclusion(const Advice& advice, const Reference& reference, const Wish& wish) {
     if (!advice.best) return fmt::format("Nothing keeps within {}.", wish_words(wish));
     const std::string what =
-        fmt::format("{}: {}, {}", words_of(advice.best->choice),
-                    error_words(advice.best->judgement, reference), cost_words(*advice.best));
+        fmt::format("{}: {}, {}{}", words_of(advice.best->choice),
+                    error_words(advice.best->judgement, reference), cost_words(*advice.best),
+                    wish.ns_per_second
+                        ? fmt::format(", {:.3g} µs per frame", advice.best->ns_per_second / 60'000)
+                        : "");
     if (!advice.meets)
         return fmt::format("Nothing keeps within {}. Nearest comes {}.", wish_words(wish), what);
     const std::string margin = margin_words(advice.best->judgement, wish);

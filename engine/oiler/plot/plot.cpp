@@ -24,6 +24,7 @@ constexpr float caption_line = 14;
 constexpr float mark_radius = 2.6F;
 constexpr float outline = 1.1F;
 constexpr float swatch = 16;
+constexpr float long_swatch = 28;  // three dashes, of which a mark hides only the middle
 constexpr float dash = 6;
 constexpr float gap = 5;  // the round ends of a line take its width of that
 constexpr float legend_line = 14;
@@ -293,10 +294,10 @@ void draw_line(const Series& series, const Polyline& whole, Picture& picture) {
     picture.polylines.push_back(whole);
 }
 
-void draw_swatch(const Series& series, Point left, Picture& picture) {
-    const Point right{left.x + swatch, left.y};
+void draw_swatch(const Series& series, Point left, float width, Picture& picture) {
+    const Point right{left.x + width, left.y};
     draw_line(series, line(left, right, series.colour, 2.5F), picture);
-    draw_mark(series, {left.x + swatch / 2, left.y}, picture);
+    draw_mark(series, {left.x + width / 2, left.y}, picture);
 }
 
 /// Names beside their curves' colours, from the right end of the y label's line leftwards.
@@ -307,8 +308,9 @@ void draw_legend_above(const Plot& plot, Picture& picture) {
         Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
         const float left = right - width_of(series->name, label_size) - 4;
         picture.labels.push_back(std::move(name));
-        draw_swatch(*series, {left - swatch, plot.box.high.y + 9.5F}, picture);
-        right = left - 28;
+        const float width = series->dashed ? long_swatch : swatch;
+        draw_swatch(*series, {left - width, plot.box.high.y + 9.5F}, width, picture);
+        right = left - width - 12;
     }
 }
 
@@ -321,9 +323,9 @@ void draw_legend_beside(const Plot& plot, Picture& picture) {
     float y = box.high.y - pitch / 2;
     for (const Series& series : plot.series) {
         if (series.name.empty()) continue;
-        draw_swatch(series, {box.high.x + 12, y}, picture);
+        draw_swatch(series, {box.high.x + 10, y}, long_swatch, picture);
         picture.labels.push_back(
-            text({box.high.x + swatch + 18, y - 3.5F}, series.name, label_size, Align::left));
+            text({box.high.x + long_swatch + 16, y - 3.5F}, series.name, label_size, Align::left));
         y -= pitch;
     }
 }

@@ -47,7 +47,7 @@ struct Series {
 /// Curves over labelled axes, drawn into a box of the canvas; curves are cut at the box, and parted
 /// where a point has no place on an axis. Labels stand outside of the box: about 16 units above it,
 /// or 36 with a title; 26 below, and 14 more for each line of a caption; 44 to its left; and with
-/// the legend beside it 34 to its right, and 6 more for each letter of the longest name.
+/// the legend beside it 44 to its right, and 6 more for each letter of the longest name.
 struct Plot {
     Box box{};
     std::string title{};    ///< on a line of its own, above that of the y label and the legend

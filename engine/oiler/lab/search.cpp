@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+/// Of a tolerance, left to spare.
+constexpr double spared = 0.02;
+/// What is estimated to cost up to so many times the best is tried, to be timed beside it.
+constexpr double rival = 1.3;
+/// A runner-up of another method is looked for up to so many times the best's cost.
+constexpr double far_off = 2;
+constexpr std::size_t most_refined = 4;
+constexpr std::size_t most_vain_runs = 3;
+/// An error that is at least this part of the best before is no improvement.
+constexpr double improvement = 0.9;
+
+double share_of(double error, const std::optional<double>& tolerance) {
+    return tolerance && !std::isnan(error) ? error / *tolerance : 0;
+}
+
+}  // namespace
+
+double excess(const Judgement& judgement, const Wish& wish) {
+    return std::max(share_of(judgement.position_error, wish.position_error),
+                    share_of(judgement.energy_drift, wish.energy_drift));
+}
+
+double Search::Candidate::cost(std::int64_t rate) const {
+    const double share = 1 / static_cast<double>(steps_at_once(rate));
+    return static_cast<double>(rate) * (together + (alone - together) * share);
+}
+
+Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
+               const SweepWatch& watch)
+    : scene_(scene), reference_(reference), wish_(wish), watch_(watch) {
+    for (const std::int64_t rate : oiler::rungs(scene, reference.looks, wish.max_rate))
+        if (rate >= wish.min_rate && rate <= wish.max_rate) rungs_.push_back(rate);
+    if (rungs_.empty())
+        fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate", wish.min_rate,
+             wish.max_rate);
+    work_per_step_ = work_per_evaluation(scene) * reference.meaningful_until();
+    for (const Method* method : wish.methods)
+        for (const Precision precision : {Precision::single, Precision::double_})
+            if (why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
+                add_candidate(*method, precision);
+}
+
+void Search::add_candidate(const Method& method, Precision precision) {
+    // Any step costs the same; one that is short is stable.
+    constexpr std::int64_t rate = 1 << 16;
+    constexpr std::int64_t many = 64;
+    Candidate candidate{.method = &method, .precision = precision};
+    candidate.alone = ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.together = std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
+    if (!std::isnan(candidate.alone)) candidates_.push_back(candidate);
+}
+
+void Search::run() {
+    wish_.has_tolerance() ? find_cheapest() : find_most_accurate();
+    if (wish_.has_tolerance()) refine();
+}
+
+TradeoffRow Search::try_choice(const SceneChoice& choice) {
+    for (const TradeoffRow& row : rows_)
+        if (row.choice == choice) return row;
+    rows_.push_back({.choice = choice,
+                     .judgement = judge(scene_, settings_of(choice), reference_, watch_.stopped),
+                     .meets_steps = reference_.looks.meet_steps(choice.rate)});
+    return rows_.back();
+}
+
+TradeoffRow Search::try_next(const Candidate& candidate) {
+    return try_choice(candidate.at(rungs_[candidate.next]));
+}
+
+bool Search::good(const TradeoffRow& row) const { return meets(row.judgement, wish_, spared); }
+
+double Search::cost_of(const SceneChoice& choice) const {
+    for (const Candidate& candidate : candidates_)
+        if (candidate.at(choice.rate) == choice) return candidate.cost(choice.rate);
+    return INFINITY;
+}
+
+double Search::next_cost(const Candidate& candidate) const {
+    return candidate.cost(rungs_[candidate.next]);
+}
+
+Search::Candidate* Search::cheapest_next() {
+    Candidate* cheapest = nullptr;
+    for (Candidate& candidate : candidates_)
+        if (!candidate.over && (!cheapest || next_cost(candidate) < next_cost(*cheapest)))
+            cheapest = &candidate;
+    return cheapest;
+}
+
+/// The next rate at which the method may do, were its error to fall by one order more than it
+/// should.
+std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& row,
+                                double excess) const {
+    const std::int64_t next = row.choice.rate + 1;
+    const bool falls = row.judgement.position_error < wild * reference_.extent;
+    if (!falls || excess <= 1) return next;
+    const double order = candidate.method->order + 1;
+    return std::max(next, static_cast<std::int64_t>(static_cast<double>(row.choice.rate) *
+                                                    std::pow(excess, 1 / order)));
+}
+
+bool Search::affordable(const Candidate& candidate) const {
+    const int evaluations = std::max(1, candidate.method->evaluations);
+    return work_per_step_ * evaluations * static_cast<double>(rungs_[candidate.next]) <=
+           wish_.most_work;
+}
+
+/// To the next rung that is worth a run, if any.
+void Search::go_on(Candidate& candidate, const TradeoffRow& row, double excess) {
+    std::int64_t least = row.choice.rate + 1;
+    if (row.judgement.stable && row.meets_steps) {
+        const double error = row.judgement.position_error;
+        candidate.vain = error >= improvement * candidate.best ? candidate.vain + 1 : 0;
+        candidate.best = std::fmin(candidate.best, error);
+        const bool only_rounding = candidate.method->order == exact_order;
+        candidate.over = only_rounding || candidate.vain == most_vain_runs;
+        if (!candidate.over) least = least_rate(candidate, row, excess);
+    }
+    while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
+    if (candidate.next == rungs_.size() || !affordable(candidate)) candidate.over = true;
+}
+
+void Search::find_cheapest() {
+    double first = INFINITY;
+    const Method* first_method = nullptr;
+    bool has_second = false;
+    for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
+        const double cost = next_cost(*next);
+        if (cost > first * (has_second ? rival : far_off)) break;
+        const TradeoffRow row = try_next(*next);
+        if (!good(row)) {
+            go_on(*next, row, excess(row.judgement, wish_));
+            continue;
+        }
+        next->over = true;
+        first = std::min(first, cost);
+        if (!first_method) first_method = row.choice.method;
+        has_second = has_second || row.choice.method != first_method;
+    }
+}
+
+void Search::find_most_accurate() {
+    double least = INFINITY;
+    for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
+        if (next_cost(*next) > *wish_.ns_per_second) break;
+        const TradeoffRow row = try_next(*next);
+        const Judgement& judgement = row.judgement;
+        if (judgement.below_floor()) {
+            least = reference_.floor().position;
+            next->over = true;
+            continue;
+        }
+        if (judgement.stable) least = std::min(least, judgement.position_error);
+        go_on(*next, row, judgement.position_error / least);
+    }
+}
+
+void Search::refine() {
+    std::vector<TradeoffRow> found = good_rows();
+    found.resize(std::min(found.size(), most_refined));
+    for (const TradeoffRow& row : found)
+        if (row.meets_steps) refine(row);
+}
+
+/// Between the rung that does and the one below, which does not: multiples of how often is looked.
+void Search::refine(const TradeoffRow& row) {
+    const auto rung = std::find(rungs_.begin(), rungs_.end(), row.choice.rate);
+    if (rung == rungs_.begin()) return;
+    const std::int64_t unit = reference_.looks.per_second;
+    std::int64_t low = std::max(*std::prev(rung), wish_.min_rate - 1) / unit;
+    std::int64_t high = row.choice.rate / unit;
+    SceneChoice choice = row.choice;
+    // A thirty-second part of the rate is worth no more runs.
+    while (high - low > std::max<std::int64_t>(1, high / 32) && !watch_.stopped()) {
+        const std::int64_t middle = (low + high) / 2;
+        choice.rate = middle * unit;
+        (good(try_choice(choice)) ? high : low) = middle;
+    }
+}
+
+std::vector<TradeoffRow> Search::good_rows() const {
+    std::vector<TradeoffRow> found;
+    for (const TradeoffRow& row : rows_)
+        if (good(row)) found.push_back(row);
+    std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+        return cost_of(a.choice) < cost_of(b.choice);
+    });
+    return found;
+}
+
+std::vector<TradeoffRow> Search::nearest_rows() const {
+    const auto off = [&](const TradeoffRow& row) {
+        if (wish_.has_tolerance()) return excess(row.judgement, wish_);
+        return row.judgement.below_floor() ? 0 : row.judgement.position_error;
+    };
+    std::vector<TradeoffRow> found;
+    for (const TradeoffRow& row : rows_)
+        if (row.judgement.stable) found.push_back(row);
+    std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+        return std::pair(off(a), cost_of(a.choice)) < std::pair(off(b), cost_of(b.choice));
+    });
+    return found;
+}
+
+}  // namespace oiler
