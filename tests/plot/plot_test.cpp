@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace oiler {
 namespace {
@@ -180,6 +182,198 @@ TEST(Plot, HasAsManyTicksAsItIsAskedFor) {
     };
     EXPECT_EQ(labels(2), 3);
     EXPECT_EQ(labels(10), 11);
+}
+
+const Plot logarithmic{.box = {{100, 50}, {400, 250}},
+                       .x = {1, 1000},
+                       .y = {1e-6, 1e4},
+                       .x_scale = Scale::logarithmic,
+                       .y_scale = Scale::logarithmic};
+
+Plot logarithmic_with(std::vector<DataPoint> points) {
+    Plot plot = logarithmic;
+    plot.series = {{.name = "curve", .colour = {255, 0, 0}, .points = std::move(points)}};
+    return plot;
+}
+
+Picture drawn(const Plot& plot, ElementKey key = {.object = 1}) {
+    Picture picture;
+    plot.draw(picture, key);
+    return picture;
+}
+
+/// The texts of the labels with that alignment.
+std::vector<std::string> words(const Plot& plot, Align align) {
+    std::vector<std::string> found;
+    for (const Label& label : drawn(plot).labels)
+        if (label.align == align && !label.text.empty()) found.push_back(label.text);
+    return found;
+}
+
+void expect_near(const std::vector<double>& at, const std::vector<double>& expected) {
+    ASSERT_EQ(at.size(), expected.size());
+    for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(at[i] / expected[i], 1, 1e-12);
+}
+
+TEST(LogarithmicTicks, ArePowersOfTenAsManyAsAskedFor) {
+    expect_near(logarithmic_ticks({1, 1000}, 4), {1, 10, 100, 1000});
+    expect_near(logarithmic_ticks({0.5, 2e3}, 4), {1, 10, 100, 1000});
+    expect_near(logarithmic_ticks({1e-6, 1e6}, 6), {1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6});
+    expect_near(logarithmic_ticks({1e-7, 1e5}, 4), {1e-6, 1e-3, 1, 1e3});
+}
+
+TEST(LogarithmicTicks, OfShortRangesHaveOtherNumbersToo) {
+    expect_near(logarithmic_ticks({3, 60}, 4), {5, 10, 20, 50});
+    expect_near(logarithmic_ticks({21, 45}, 5), {25, 30, 35, 40, 45});
+}
+
+TEST(LogarithmicTicks, OfRangesThatAreNotAboveZeroAreNone) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const Range range : {Range{0, 1}, Range{-1, 1}, Range{2, 1}, Range{1, 1},
+                              Range{1, infinity}, Range{std::nan(""), 1}})
+        EXPECT_TRUE(logarithmic_ticks(range, 4).empty()) << range.low << " " << range.high;
+}
+
+TEST(LogarithmicPlot, MapsDecadesEvenly) {
+    EXPECT_EQ(logarithmic.to_canvas({1, 1e-6}), (Point{100, 50}));
+    EXPECT_EQ(logarithmic.to_canvas({1000, 1e4}), (Point{400, 250}));
+    EXPECT_NEAR(logarithmic.to_canvas({10, 1}).x, 200, 1e-3);
+    EXPECT_NEAR(logarithmic.to_canvas({10, 1}).y, 170, 1e-3);
+}
+
+TEST(LogarithmicPlot, WritesPlainNumbersUpToFourDigits) {
+    Plot plot = logarithmic;
+    plot.y_ticks = 11;
+    EXPECT_EQ(words(plot, Align::centre), (std::vector<std::string>{"1", "10", "100", "1000"}));
+    EXPECT_EQ(words(plot, Align::right),
+              (std::vector<std::string>{"1e-6", "1e-5", "1e-4", "0.001", "0.01", "0.1", "1", "10",
+                                        "100", "1000", "1e4"}));
+    plot.y = {1.5e-6, 6e-5};
+    EXPECT_EQ(words(plot, Align::right),
+              (std::vector<std::string>{"2e-6", "5e-6", "1e-5", "2e-5", "5e-5"}));
+}
+
+TEST(LogarithmicPlot, PartsACurveWhereAPointHasNoPlace) {
+    const auto pieces = curve_pieces(
+        logarithmic_with({{1, 1}, {10, 1}, {20, 0}, {100, 1}, {200, 1}, {300, -5}, {500, 1}}));
+    ASSERT_EQ(pieces.size(), 2U);
+    EXPECT_NEAR(pieces[0].points.back().x, 200, 1e-3);
+    EXPECT_NEAR(pieces[1].points.front().x, 300, 1e-3);
+    EXPECT_EQ(curve_pieces(logarithmic_with({{-1, 1}, {10, 1}, {100, 1}})).size(), 1U);
+}
+
+TEST(LogarithmicPlot, MarksOnlyWhatHasAPlace) {
+    Plot plot = logarithmic_with({{1, 1}, {0, 1}, {10, 0}, {-3, -4}, {1000, 1e4}});
+    plot.series[0].mark = Mark::disc;
+    EXPECT_EQ(drawn(plot).discs.size(), 3U);  // one of the legend's
+}
+
+TEST(LogarithmicPlot, HasAMinorGridOfFourDecadesAtMost) {
+    const auto lines = [](Range x) {
+        Plot plot = logarithmic;
+        plot.x = x;
+        plot.y = {0, 1};
+        plot.y_scale = Scale::linear;
+        plot.y_ticks = 1;
+        return std::ranges::count_if(drawn(plot).polylines, [](const Polyline& line) {
+            return line.points[0].x == line.points[1].x && line.width < 1;
+        });
+    };
+    EXPECT_EQ(lines({1, 1e4}), 5 + 4 * 8);
+    EXPECT_EQ(lines({1, 1e5}), 6);
+}
+
+/// Those of the mark at the one point of a plot.
+std::vector<Polyline> outlines(Mark mark) {
+    Plot plot = with_curve({{5, 0}});
+    plot.series[0].name = "";
+    plot.series[0].mark = mark;
+    std::vector<Polyline> found;
+    const Picture picture = drawn(plot);
+    EXPECT_TRUE(picture.discs.empty());
+    for (const Polyline& line : picture.polylines)
+        if (line.points.size() > 3) found.push_back(line);
+    return found;
+}
+
+TEST(Marks, ArePolygonsThatLetNothingThrough) {
+    for (const auto& [mark, corners] :
+         {std::pair{Mark::square, 4U}, {Mark::diamond, 4U}, {Mark::triangle, 3U}}) {
+        const auto lines = outlines(mark);
+        ASSERT_EQ(lines.size(), 2U);
+        EXPECT_EQ(lines[0].colour, Picture{}.background);
+        EXPECT_EQ(lines[1].colour, (Colour{255, 0, 0}));
+        for (const Polyline& line : lines) {
+            EXPECT_EQ(line.points.size(), corners + 1);
+            EXPECT_EQ(line.points.front(), line.points.back());
+            EXPECT_EQ(line.key, ElementKey{});
+            Point middle{};
+            for (std::size_t i = 0; i < corners; ++i) {
+                middle.x += line.points[i].x / static_cast<float>(corners);
+                middle.y += line.points[i].y / static_cast<float>(corners);
+            }
+            EXPECT_NEAR(middle.x, 200, 1e-3);
+            EXPECT_NEAR(middle.y, 100, 1e-3);
+        }
+    }
+}
+
+TEST(Marks, StandOnTheirSideOrOnTheirCorner) {
+    const auto highest = [](Mark mark) {
+        std::vector<Point> corners = outlines(mark).at(1).points;
+        corners.pop_back();
+        const float top = std::ranges::max(corners, {}, &Point::y).y;
+        return std::ranges::count_if(corners, [&](Point at) { return at.y > top - 0.1F; });
+    };
+    EXPECT_EQ(highest(Mark::square), 2);
+    EXPECT_EQ(highest(Mark::diamond), 1);
+    EXPECT_EQ(highest(Mark::triangle), 1);
+}
+
+TEST(Marks, AreAboveEveryCurve) {
+    Plot plot = with_curve({{5, 0}});
+    plot.series[0].mark = Mark::square;
+    plot.series.push_back({.name = "", .colour = {0, 255, 0}, .points = {{0, 0}, {10, 0}}});
+    const auto lines = drawn(plot).polylines;
+    EXPECT_EQ(lines.back().colour, (Colour{255, 0, 0}));
+}
+
+TEST(Plot, DashesACurveEvenlyAroundItsCorners) {
+    Plot plot = with_curve({{0, 0}, {5, 0.5}, {10, 0}});
+    plot.series[0].dashed = true;
+    const auto dashes = curve_pieces(plot);
+    const float whole = 2 * std::hypot(100.0F, 25.0F);
+    EXPECT_NEAR(static_cast<float>(dashes.size()), whole / 11, 1);
+    EXPECT_EQ(dashes.front().points.front(), (Point{100, 100}));
+    for (const Polyline& dash : dashes) {
+        EXPECT_EQ(dash.key, ElementKey{});
+        float length = 0;
+        for (std::size_t i = 1; i < dash.points.size(); ++i)
+            length += std::hypot(dash.points[i].x - dash.points[i - 1].x,
+                                 dash.points[i].y - dash.points[i - 1].y);
+        const bool is_last = &dash == &dashes.back();
+        EXPECT_NEAR(length, is_last ? std::min(length, 6.0F) : 6, 1e-3);
+    }
+}
+
+TEST(Plot, ListsItsNamesBesideTheBoxFromTheTop) {
+    Plot plot = square;
+    plot.legend_beside = true;
+    for (int i = 0; i < 12; ++i)
+        plot.series.push_back({.name = "curve " + std::to_string(i), .mark = Mark::disc});
+    const Picture picture = drawn(plot);
+    ASSERT_EQ(picture.discs.size(), 12U);
+    float above = plot.box.high.y + 4;
+    for (std::size_t i = 0; i < 12; ++i) {
+        const Label& name = find(picture, "curve " + std::to_string(i));
+        EXPECT_EQ(name.align, Align::left);
+        EXPECT_EQ(name.at.x, plot.box.high.x + 44);
+        EXPECT_GT(name.at.y, plot.box.low.y - 1);
+        EXPECT_LT(name.at.y, above - 7);
+        above = name.at.y;
+        EXPECT_GT(picture.discs[i].centre.x, plot.box.high.x);
+        EXPECT_NEAR(picture.discs[i].centre.y, name.at.y + 3.5F, 1e-3F);
+    }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr std::array<Look, most_methods> looks{{{palette::vermilion, Mark::disc}
                                                 {palette::grey, Mark::square},
                                                 {palette::black, Mark::diamond}}};
 
-constexpr Box plot_box{{62, 62}, {470, 308}};
+constexpr Box plot_box{{62, 62}, {446, 308}};
 
 double shown_error(const Tradeoff& tradeoff, const TradeoffRow& row) {
     return row.judgement.below_floor() ? tradeoff.reference.floor.position

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "oiler/picture/palette.hpp"
+#include "oiler/plot/marks.hpp"
+#include "oiler/plot/ticks.hpp"
 
 namespace oiler {
 namespace {
@@ -21,12 +21,8 @@ constexpr float tick_size = 9;
 constexpr float label_size = 10;
 constexpr float title_size = 13;
 constexpr float caption_line = 14;
-constexpr float mark_radius = 2.6F;
-constexpr float outline = 1.1F;
 constexpr float swatch = 16;
 constexpr float long_swatch = 28;  // three dashes, of which a mark hides only the middle
-constexpr float dash = 6;
-constexpr float gap = 5;  // the round ends of a line take its width of that
 constexpr float legend_line = 14;
 
 Polyline line(Point from, Point to, Colour colour, float width) {
@@ -75,41 +71,6 @@ DataPoint on_canvas(const Plot& plot, DataPoint p) {
     };
     return {map(p.x, plot.x, plot.x_scale, plot.box.low.x, plot.box.high.x),
             map(p.y, plot.y, plot.y_scale, plot.box.low.y, plot.box.high.y)};
-}
-
-bool is_logarithmic(Range range) {
-    return range.low > 0 && range.high > range.low && std::isfinite(range.high);
-}
-
-/// The factors times powers of ten, as far as they lie within the range.
-std::vector<double> multiples(Range range, std::initializer_list<int> factors) {
-    std::vector<double> at;
-    const double last = std::ceil(std::log10(range.high));
-    for (double power = std::floor(std::log10(range.low)); power <= last; ++power)
-        for (const int factor : factors) {
-            const double tick = factor * std::pow(10.0, power);
-            if (tick / range.low >= 1 - 1e-9 && tick / range.high <= 1 + 1e-9) at.push_back(tick);
-        }
-    return at;
-}
-
-std::vector<double> ticks(Range range, Scale scale, int count) {
-    return scale == Scale::linear ? ticks(range, count) : logarithmic_ticks(range, count);
-}
-
-/// Without labels, and only where they are not too close to be told apart.
-std::vector<double> minor_ticks(Range range, Scale scale) {
-    constexpr double most_decades = 4;
-    if (scale == Scale::linear || !is_logarithmic(range)) return {};
-    if (std::log10(range.high) - std::log10(range.low) > most_decades + 1e-9) return {};
-    return multiples(range, {2, 3, 4, 5, 6, 7, 8, 9});
-}
-
-/// A logarithmic axis that goes beyond numbers of four digits has "2e-6" and "1e4".
-std::string tick_label(double at, Scale scale) {
-    if (scale == Scale::linear || (at > 0.000999 && at < 9999.5)) return fmt::format("{:g}", at);
-    const double power = std::floor(std::log10(at) + 1e-9);
-    return fmt::format("{:g}e{:g}", at / std::pow(10.0, power), power);
 }
 
 void draw_lines(const Plot& plot, const std::vector<double>& xs, const std::vector<double>& ys,
@@ -213,87 +174,6 @@ void draw_words(const Plot& plot, Picture& picture) {
         put({box.low.x, y -= caption_line}, words, label_size, Align::left);
 }
 
-/// A mark's corners on a circle around its middle; as large to the eye as a disc.
-struct Polygon {
-    int corners;
-    float radius;
-    float first;  ///< which way its first corner is, in turns
-
-    [[nodiscard]] Polyline scaled(float by, Point centre, Colour colour, float width) const {
-        Polyline line{.width = width, .colour = colour, .space = Space::canvas};
-        for (int i = 0; i <= corners; ++i) {
-            const float turns =
-                first + static_cast<float>(i % corners) / static_cast<float>(corners);
-            const float angle = 2 * std::numbers::pi_v<float> * turns;
-            line.points.push_back({centre.x + by * radius * std::cos(angle),
-                                   centre.y + by * radius * std::sin(angle)});
-        }
-        return line;
-    }
-    /// How far its sides are from its middle.
-    [[nodiscard]] float depth() const {
-        return radius * std::cos(std::numbers::pi_v<float> / static_cast<float>(corners));
-    }
-};
-
-Polygon polygon_of(Mark mark) {
-    if (mark == Mark::square) return {.corners = 4, .radius = 3.2F, .first = 0.125F};
-    if (mark == Mark::diamond) return {.corners = 4, .radius = 3.4F, .first = 0};
-    return {.corners = 3, .radius = 3.8F, .first = 0.25F};
-}
-
-/// A picture fills no polygon, but a line along half its size that is wide enough does.
-void draw_polygon(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
-    picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.depth()));
-    picture.polylines.push_back(polygon.scaled(1, at, colour, outline));
-}
-
-void draw_mark(const Series& series, Point at, Picture& picture) {
-    if (series.mark == Mark::none) return;
-    if (series.mark != Mark::disc && series.mark != Mark::ring)
-        return draw_polygon(polygon_of(series.mark), at, series.colour, picture);
-    const auto disc = [&](float radius, Colour colour) {
-        picture.discs.push_back(
-            {.centre = at, .radius = radius, .colour = colour, .space = Space::canvas});
-    };
-    disc(mark_radius, series.colour);
-    if (series.mark == Mark::ring) disc(mark_radius - 1, picture.background);
-}
-
-Point on_the_way(Point from, Point to, float part) {
-    return {from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part};
-}
-
-void draw_dashes(const Polyline& whole, Picture& picture) {
-    Polyline piece = whole;
-    piece.key = {};
-    piece.points.resize(1);
-    bool is_gap = false;
-    const auto turn = [&](Point at) {
-        piece.points.push_back(at);
-        if (!is_gap) picture.polylines.push_back(piece);
-        piece.points = {at};
-        is_gap = !is_gap;
-    };
-    float left = dash;
-    for (std::size_t i = 1; i < whole.points.size(); ++i) {
-        const Point from = whole.points[i - 1];
-        const Point to = whole.points[i];
-        const float length = std::hypot(to.x - from.x, to.y - from.y);
-        float gone = 0;
-        for (; gone + left < length; left = is_gap ? gap : dash)
-            turn(on_the_way(from, to, (gone += left) / length));
-        left -= length - gone;
-        piece.points.push_back(to);
-    }
-    if (!is_gap) picture.polylines.push_back(piece);
-}
-
-void draw_line(const Series& series, const Polyline& whole, Picture& picture) {
-    if (series.dashed) return draw_dashes(whole, picture);
-    picture.polylines.push_back(whole);
-}
-
 void draw_swatch(const Series& series, Point left, float width, Picture& picture) {
     const Point right{left.x + width, left.y};
     draw_line(series, line(left, right, series.colour, 2.5F), picture);
@@ -380,36 +260,6 @@ void Plot::draw(Picture& picture, ElementKey key) const {
 Point Plot::to_canvas(DataPoint point) const {
     const DataPoint at = on_canvas(*this, point);
     return {static_cast<float>(at.x), static_cast<float>(at.y)};
-}
-
-std::vector<double> ticks(Range range, int count) {
-    const double rough = (range.high - range.low) / count;
-    if (!(rough > 0) || !std::isfinite(rough)) return {};
-    const double power = std::pow(10.0, std::floor(std::log10(rough)));
-    double step = 10 * power;
-    for (const double factor : {5.0, 2.0, 1.0})
-        if (factor * power >= rough * 0.999) step = factor * power;
-    std::vector<double> at;
-    const double first = std::ceil(range.low / step - 1e-9);
-    for (int i = 0; i <= 2 * count; ++i) {
-        const double tick = (first + i) * step;
-        if (tick > range.high + step * 1e-9) break;
-        at.push_back(tick == 0 ? 0.0 : tick);
-    }
-    return at;
-}
-
-std::vector<double> logarithmic_ticks(Range range, int count) {
-    constexpr std::size_t fewest = 3;
-    if (!is_logarithmic(range) || count < 1) return {};
-    std::vector<double> powers = multiples(range, {1});
-    if (powers.size() >= fewest) {
-        const long stride = std::max(1L, std::lround(static_cast<double>(powers.size()) / count));
-        std::erase_if(powers, [&](double at) { return std::lround(std::log10(at)) % stride != 0; });
-        return powers;
-    }
-    const std::vector<double> more = multiples(range, {1, 2, 5});
-    return more.size() >= fewest ? more : ticks(range, count);
 }
 
 }  // namespace oiler

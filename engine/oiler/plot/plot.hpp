@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oiler/picture/picture.hpp"
+#include "oiler/plot/ticks.hpp"
 
 namespace oiler {
 
@@ -13,16 +14,6 @@ namespace oiler {
 struct Box {
     Point low;
     Point high;
-};
-
-struct Range {
-    double low = 0;
-    double high = 1;
-};
-
-enum class Scale : std::uint8_t {
-    linear,
-    logarithmic,  ///< of a range above 0; what is not above 0 has no place on it
 };
 
 struct DataPoint {
@@ -70,12 +61,5 @@ struct Plot {
 
     [[nodiscard]] Point to_canvas(DataPoint point) const;
 };
-
-/// Multiples of 1, 2 or 5 times a power of ten within the range, about `count` of them.
-[[nodiscard]] std::vector<double> ticks(Range range, int count);
-
-/// The same for a logarithmic axis: powers of ten, or every second, third, … of them. Ranges that
-/// hold fewer than three of them have 1, 2 and 5 times those, or else the ticks of a linear axis.
-[[nodiscard]] std::vector<double> logarithmic_ticks(Range range, int count);
 
 }  // namespace oiler

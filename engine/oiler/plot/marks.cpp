@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/plot/marks.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace oiler {
+namespace {
+
+constexpr float mark_radius = 2.6F;
+constexpr float outline = 1.1F;
+constexpr float dash = 6;
+constexpr float gap = 5;  // the round ends of a line take its width of that
+
+/// A mark's corners on a circle around its middle; as large to the eye as a disc.
+struct Polygon {
+    int corners;
+    float radius;
+    float first;  ///< which way its first corner is, in turns
+
+    [[nodiscard]] Polyline scaled(float by, Point centre, Colour colour, float width) const {
+        Polyline line{.width = width, .colour = colour, .space = Space::canvas};
+        for (int i = 0; i <= corners; ++i) {
+            const float turns =
+                first + static_cast<float>(i % corners) / static_cast<float>(corners);
+            const float angle = 2 * std::numbers::pi_v<float> * turns;
+            line.points.push_back({centre.x + by * radius * std::cos(angle),
+                                   centre.y + by * radius * std::sin(angle)});
+        }
+        return line;
+    }
+    /// How far its sides are from its middle.
+    [[nodiscard]] float depth() const {
+        return radius * std::cos(std::numbers::pi_v<float> / static_cast<float>(corners));
+    }
+};
+
+Polygon polygon_of(Mark mark) {
+    if (mark == Mark::square) return {.corners = 4, .radius = 3.2F, .first = 0.125F};
+    if (mark == Mark::diamond) return {.corners = 4, .radius = 3.4F, .first = 0};
+    return {.corners = 3, .radius = 3.8F, .first = 0.25F};
+}
+
+/// A picture fills no polygon, but a line along half its size that is wide enough does.
+void draw_polygon(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
+    picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.depth()));
+    picture.polylines.push_back(polygon.scaled(1, at, colour, outline));
+}
+
+Point on_the_way(Point from, Point to, float part) {
+    return {from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part};
+}
+
+void draw_dashes(const Polyline& whole, Picture& picture) {
+    Polyline piece = whole;
+    piece.key = {};
+    piece.points.resize(1);
+    bool is_gap = false;
+    const auto turn = [&](Point at) {
+        piece.points.push_back(at);
+        if (!is_gap) picture.polylines.push_back(piece);
+        piece.points = {at};
+        is_gap = !is_gap;
+    };
+    float left = dash;
+    for (std::size_t i = 1; i < whole.points.size(); ++i) {
+        const Point from = whole.points[i - 1];
+        const Point to = whole.points[i];
+        const float length = std::hypot(to.x - from.x, to.y - from.y);
+        float gone = 0;
+        for (; gone + left < length; left = is_gap ? gap : dash)
+            turn(on_the_way(from, to, (gone += left) / length));
+        left -= length - gone;
+        piece.points.push_back(to);
+    }
+    if (!is_gap) picture.polylines.push_back(piece);
+}
+
+}  // namespace
+
+void draw_mark(const Series& series, Point at, Picture& picture) {
+    if (series.mark == Mark::none) return;
+    if (series.mark != Mark::disc && series.mark != Mark::ring)
+        return draw_polygon(polygon_of(series.mark), at, series.colour, picture);
+    const auto disc = [&](float radius, Colour colour) {
+        picture.discs.push_back(
+            {.centre = at, .radius = radius, .colour = colour, .space = Space::canvas});
+    };
+    disc(mark_radius, series.colour);
+    if (series.mark == Mark::ring) disc(mark_radius - 1, picture.background);
+}
+
+void draw_line(const Series& series, const Polyline& whole, Picture& picture) {
+    if (series.dashed) return draw_dashes(whole, picture);
+    picture.polylines.push_back(whole);
+}
+
+}  // namespace oiler
