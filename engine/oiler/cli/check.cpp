@@ -24,9 +24,11 @@ struct Checked {
     }
 };
 
+/// For XML, which has no place for control characters, and none for bytes that are no text.
 std::string escaped(const std::string& text) {
     std::string safe;
     for (const char c : text) {
+        const bool printable = c >= ' ' && c <= '~';
         if (c == '&')
             safe += "&amp;";
         else if (c == '<')
@@ -34,7 +36,7 @@ std::string escaped(const std::string& text) {
         else if (c == '"')
             safe += "&quot;";
         else
-            safe += c;
+            safe += printable ? c : '?';
     }
     return safe;
 }

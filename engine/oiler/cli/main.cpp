@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct Words {
     std::string damping;
     std::string size = "1280x720";
     std::string shard;
-    std::vector<std::string> rates;
+    std::string rates = "20,30,50,60,100,120,144,240";
 
     [[nodiscard]] std::vector<const Method*> chosen() const {
         std::vector<const Method*> all;
@@ -248,7 +249,6 @@ private:
             " assets/scenes/jump.toml");
         declare_measured(*command, rates_.measured);
         command->add_option("--rates", words_.rates, "with commas: 20,30,50,60,100,120,144,240")
-            ->delimiter(',')
             ->type_name("LIST");
         add_method_list(*command, rates_.methods);
         command->add_option("--body", rates_.body, "its name, or its number from 0")
@@ -291,11 +291,15 @@ private:
         return tradeoff_.run();
     }
     Exit run_rates() {
-        if (!words_.rates.empty()) rates_.rates.clear();
-        for (const std::string& words : words_.rates) {
+        rates_.rates.clear();
+        // A comma at the end would not begin another number for getline.
+        std::istringstream stream(words_.rates + ",");
+        for (std::string words; std::getline(stream, words, ',');) {
             const int rate = parse_part(words);
             if (rate < 1 || rate > 1'000'000)
-                fail(Exit::usage, "--rates {}: give whole numbers from 1 to 1000000", words);
+                fail(Exit::usage,
+                     "--rates {}: give whole numbers from 1 to 1000000 with commas between",
+                     words_.rates);
             rates_.rates.push_back(rate);
         }
         return rates_.run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/cli/measuring.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <span>
@@ -37,7 +38,11 @@ std::vector<const Method*> parse_methods(const std::string& words) {
         if (is_in(method, words)) chosen.push_back(&method);
     if (!chosen.empty()) return chosen;
     std::istringstream stream(words);
-    for (std::string name; std::getline(stream, name, ',');) chosen.push_back(&find_method(name));
+    for (std::string name; std::getline(stream, name, ',');) {
+        const Method* const method = &find_method(name);
+        if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
+            chosen.push_back(method);
+    }
     if (chosen.empty())
         fail(Exit::usage, "--methods: give splitting, explicit, all, or names with commas between");
     return chosen;

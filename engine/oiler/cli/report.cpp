@@ -191,7 +191,7 @@ Json springs_json(const Scene& scene, const Bodies& bodies) {
 }
 
 Json stability_json(const Scene& scene, const std::vector<const Method*>& methods) {
-    constexpr int points = 13;
+    constexpr int points = 11;
     constexpr double widest = 1.5;
     const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
     Json springs = springs_json(scene, bodies);
@@ -201,7 +201,9 @@ Json stability_json(const Scene& scene, const std::vector<const Method*>& method
         Json curve = Json::array();
         for (int i = 0; i < points; ++i) {
             const double zeta = widest * i / (points - 1);
-            const double limit = stability_limit(*method, method->damping, {1, 2 * zeta});
+            const double limit = method->order == exact_order
+                                     ? INFINITY
+                                     : stability_limit(*method, method->damping, {1, 2 * zeta});
             curve.push_back({zeta, std::isinf(limit) ? Json(nullptr) : Json(limit)});
         }
         curves.push_back({{"method", method->name}, {"points", std::move(curve)}});

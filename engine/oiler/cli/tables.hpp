@@ -36,7 +36,8 @@ namespace oiler {
 }
 
 inline void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
-    const std::string text = json.dump(2) + "\n";
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     write_file(path, std::as_bytes(std::span(text)));
 }
 

@@ -113,12 +113,16 @@ std::string text_of(const Tradeoff& tradeoff, bool all) {
 
 /// What was begun with the same scene and options, and not ended.
 std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
-                                        const std::string& fingerprint) {
+                                        const std::string& fingerprint, bool quiet) try {
     if (!std::filesystem::exists(path)) return std::nullopt;
     Tradeoff found = parse_tradeoff(read_text(path), path.string());
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
     return found;
+} catch (const Error& error) {
+    if (error.exit() != Exit::usage) throw;
+    remark(quiet, "{}; starting anew", error.what());
+    return std::nullopt;
 }
 
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
@@ -174,7 +178,7 @@ Exit TradeoffCommand::run() const {
     const std::filesystem::path part =
         out / (whole ? "tradeoff.json" : fmt::format("part-{}-of-{}.json", shard, shards));
     const std::string mark = fingerprint(read_text(measured.scene), scene, looks, plan);
-    const std::optional<Tradeoff> unfinished = find_unfinished(part, mark);
+    const std::optional<Tradeoff> unfinished = find_unfinished(part, mark, measured.quiet);
     const Reference reference = measure_reference(scene, looks, 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
 

@@ -114,7 +114,9 @@ private:
     }
     void choose() {
         if (front_.empty()) {
-            advice_.obstacles.push_back("no method is stable at any rate that was asked for");
+            advice_.obstacles.push_back(wish_.ns_per_second && !wish_.has_tolerance()
+                                            ? "the time: nothing that is stable takes so little"
+                                            : "no method is stable at any rate that was asked for");
             return;
         }
         std::stable_partition(front_.begin(), front_.end(),
@@ -139,10 +141,10 @@ private:
             });
             if (row == nearest.end()) continue;
             advice_.obstacles.push_back(fmt::format(
-                "in {} nothing comes nearer than {}, {:.3g} times too far off: higher rates, up to "
-                "{} Hz, only round more often or are too much work",
+                "in {} nothing comes nearer than {}, with {:.3g} times the {} that is asked for: "
+                "higher rates, up to {} Hz, only round more often or are too much work",
                 name_of(precision), words_of(row->choice), excess(row->judgement, wish_),
-                search_.rates().back()));
+                wish_.position_error ? "error" : "energy drift", search_.rates().back()));
         }
     }
 
@@ -167,7 +169,7 @@ void require_judgeable(const Scene& scene, const Reference& reference, const Wis
         if (wanted && *wanted < least)
             fail(Exit::usage,
                  "a {} of {:g}{} cannot be judged: errors below {:.2g}{} cannot be told, a hundred "
-                 "times the reference's own",
+                 "times the reference's own; ask for less, or give a shorter --duration",
                  what, *wanted, unit, least, unit);
     };
     require(wish.position_error, floor.position, "position error", " m");

@@ -25,8 +25,11 @@ BudgetLine hold(std::string name, std::string unit, double most, bool stable, do
 
 }  // namespace
 
-std::vector<BudgetLine> check_budget(const Scene& scene, const Settings& settings,
+std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_settings,
                                      const std::function<bool()>& stopped) {
+    const Scene scene = with_seed(given, given_settings.seed);
+    Settings settings = given_settings;
+    settings.seed = 0;
     const SceneBudget& budget = scene.budget;
     std::vector<BudgetLine> lines;
     if (!budget.position_error && !budget.energy_drift) return lines;

@@ -68,8 +68,10 @@ std::vector<Doubt> differences(const Track& a, const Track& b) {
     return doubts;
 }
 
-/// What rounding to long double leaves, below which no difference is believed.
-void add_rounding(std::vector<Doubt>& doubts, const Track& track) {
+/// What rounding to long double leaves, below which no difference is believed: of where bodies are,
+/// and of the time that passed, since dt and the method's coefficients are rounded alike in all
+/// runs.
+void add_rounding(std::vector<Doubt>& doubts, const Track& track, const Looks& looks) {
     constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
     double x = 0;
     double v = 0;
@@ -77,9 +79,10 @@ void add_rounding(std::vector<Doubt>& doubts, const Track& track) {
         x = std::max(x, static_cast<double>(largest(state.x)));
         v = std::max(v, static_cast<double>(largest(state.v)));
     }
-    for (Doubt& doubt : doubts) {
-        doubt.position += 8 * epsilon * x;
-        doubt.velocity += 8 * epsilon * v;
+    for (std::size_t look = 0; look < doubts.size(); ++look) {
+        const double way = v * looks.time(static_cast<std::int64_t>(look));
+        doubts[look].position += 4 * epsilon * (2 * x + way);
+        doubts[look].velocity += 4 * epsilon * v * (2 + (x > 0 ? way / x : 0));
     }
 }
 
@@ -107,6 +110,7 @@ public:
         std::vector<Track> row{std::move(*run)};
         for (std::size_t k = 0; k < std::min(row_.size(), most_columns - 1); ++k)
             row.push_back(extrapolated(row[k], row_[k], std::exp2(Real(power(k))) - 1));
+        before_ = row_.empty() ? std::nullopt : std::optional(std::move(row_.back()));
         row_ = std::move(row);
         ++runs_;
         return true;
@@ -115,8 +119,8 @@ public:
     [[nodiscard]] const Track& best() const { return row_.back(); }
     [[nodiscard]] const Track& finest_run() const { return row_.front(); }
     [[nodiscard]] std::vector<Doubt> doubts() const {
-        std::vector<Doubt> doubts = differences(row_[row_.size() - 1], row_[row_.size() - 2]);
-        add_rounding(doubts, best());
+        std::vector<Doubt> doubts = differences(best(), *before_);
+        add_rounding(doubts, best(), looks_);
         return doubts;
     }
     [[nodiscard]] const Method& method() const { return method_; }
@@ -145,6 +149,7 @@ private:
     const ReferenceEffort& effort_;
     const Method& method_;
     std::vector<Track> row_;
+    std::optional<Track> before_{};  ///< the best of twice the step
     std::size_t runs_ = 0;
 };
 
@@ -155,8 +160,7 @@ std::int64_t count_within(const std::vector<Doubt>& doubts, double most) {
 
 }  // namespace
 
-FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffort& effort,
-                     const std::function<double(double)>& tolerable) {
+FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffort& effort) {
     Table table(scene, looks, effort);
     const double work_per_step = work_per_evaluation(scene) * table.method().evaluations;
     FineSteps finest;
@@ -170,7 +174,7 @@ FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffo
         std::vector<Doubt> doubts = table.doubts();
         const double doubt = doubts.back().position;
         const double extent = extent_of(table.best());
-        const std::int64_t good = count_within(doubts, tolerable(extent) / 100);
+        const std::int64_t good = count_within(doubts, resolution * extent / margin);
         const bool better = finest.doubts.empty() || good > most_good ||
                             (good == most_good && doubt < finest.doubts.back().position / 2);
         vain = better ? 0 : vain + 1;

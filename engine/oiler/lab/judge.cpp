@@ -45,7 +45,7 @@ public:
         return {.position_error = told(position_, floor.position),
                 .velocity_error = told(velocity_, floor.velocity),
                 .phase_error = phase_error(),
-                .energy_drift = told(energy_ / reference_.energy_scale, floor.energy)};
+                .energy_drift = told(reference_.share_of_energy(energy_), floor.energy)};
     }
 
 private:

@@ -16,9 +16,29 @@ constexpr double fewest_looks = 20;
 /// Of all bodies at all looks, which are kept in memory several times over.
 constexpr double most_states = 400'000;
 
-std::int64_t largest_divisor(std::int64_t number, std::int64_t most) {
-    while (number % most != 0) --most;
-    return most;
+std::int64_t largest_divisor(std::int64_t number, double most) {
+    auto divisor = static_cast<std::int64_t>(std::clamp(most, 1.0, static_cast<double>(number)));
+    while (number % divisor != 0) --divisor;
+    return divisor;
+}
+
+/// The divisor of the rate that is nearest to what is wanted by their ratio; for a rate that is far
+/// below it a multiple, and for one that has no divisor near it just what is wanted.
+std::int64_t look_rate(std::int64_t rate, double wanted) {
+    constexpr double far = 4;
+    if (static_cast<double>(rate) * far < wanted)
+        return rate * std::llround(wanted / static_cast<double>(rate));
+    std::int64_t nearest = std::llround(wanted);
+    double least = far * (1 + 1e-9);
+    for (std::int64_t looks = 1; looks <= std::min<std::int64_t>(rate, std::llround(far * wanted));
+         ++looks) {
+        const double ratio = static_cast<double>(looks) / wanted;
+        const double times = std::max(ratio, 1 / ratio);
+        if (rate % looks != 0 || times >= least) continue;
+        nearest = looks;
+        least = times;
+    }
+    return nearest;
 }
 
 }  // namespace
@@ -34,16 +54,14 @@ Looks looks_of(const Scene& scene) {
     if (!(scene.duration > 0) || scene.duration > longest)
         fail(Exit::usage, "a duration of {} s cannot be measured: give --duration from 0 to {:g} s",
              scene.duration, longest);
+    if (scene.duration * static_cast<double>(scene.rate) < 1)
+        fail(Exit::usage, "the scene ends within one of its steps: give a longer --duration");
     const double affordable =
         most_states / static_cast<double>(std::max<std::int64_t>(1, bodies)) / scene.duration;
     const double wanted = std::max(usual_looks_per_second, fewest_looks / scene.duration);
-    const double most =
-        std::clamp(std::min(affordable, wanted), 1.0, static_cast<double>(scene.rate));
-    Looks looks{.per_second = largest_divisor(scene.rate, static_cast<std::int64_t>(most))};
+    Looks looks{.per_second = largest_divisor(look_rate(scene.rate, wanted), affordable)};
     const double intervals = scene.duration * static_cast<double>(looks.per_second);
     looks.count = static_cast<std::int64_t>(std::floor(intervals * (1 + 1e-12))) + 1;
-    if (looks.count < 2)
-        fail(Exit::usage, "the scene ends within one of its steps: give a longer --duration");
     return looks;
 }
 

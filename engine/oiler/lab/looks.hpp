@@ -22,9 +22,10 @@ struct Looks {
     friend bool operator==(const Looks&, const Looks&) = default;
 };
 
-/// The largest divisor of the scene's rate up to 60, so that the scene as it stands is looked at
-/// where it steps; more often where the scene is short, less where it has many bodies. Throws
-/// Error{usage} for scenes that are too long or have too many bodies to follow.
+/// The divisor of the scene's rate that is nearest to 60, so that the scene as it stands is looked
+/// at where it steps; a multiple of a rate below 15, and 60 where no divisor lies from 15 to 240.
+/// More often where the scene is short, less where it has many bodies. Throws Error{usage} for
+/// scenes that are too long or have too many bodies to follow.
 [[nodiscard]] Looks looks_of(const Scene& scene);
 
 /// A run of a scene as a player sees it: between two steps on the straight line from one to the

@@ -16,9 +16,6 @@ namespace {
 using Real = long double;
 using State3 = State<Real, 3>;
 
-constexpr double margin = 100;       ///< from a reference's own error to what it can tell
-constexpr double resolution = 1e-3;  ///< of the extent, that a reference can tell where it is good
-
 /// What is held against fine steps before it is believed.
 constexpr double checked_to = 1e-9;  ///< of the extent
 constexpr double checking_work = 2e7;
@@ -121,17 +118,11 @@ public:
         if (motions)
             take(*motions);
         else
-            take(fine_steps(scene_, reference_.looks, effort_, tolerable()));
+            take(fine_steps(scene_, reference_.looks, effort_));
         return finish();
     }
 
 private:
-    [[nodiscard]] std::function<double(double)> tolerable() const {
-        const double wanted = effort_.wanted;
-        return
-            [wanted](double extent) { return wanted > 0 ? margin * wanted : resolution * extent; };
-    }
-
     void take(const std::vector<ExactMotion>& motions) {
         reference_.closed_form = true;
         reference_.track = track_of(motions, reference_.looks, start_);
@@ -151,8 +142,7 @@ private:
         ReferenceEffort effort = effort_;
         effort.wanted = checked_to * extent_of(reference_.track, reference_.looks);
         effort.most_work = std::min(effort.most_work, checking_work);
-        FineSteps fine = fine_steps(scene_, reference_.looks, effort,
-                                    [&](double) { return margin * effort.wanted; });
+        FineSteps fine = fine_steps(scene_, reference_.looks, effort);
         if (fine.track.states.empty()) {
             reference_.words += ", which fine steps were too long to check";
             return;
@@ -167,7 +157,7 @@ private:
                                             std::max(apart, fine.doubts[last].position));
             return;
         }
-        take(fine_steps(scene_, reference_.looks, effort_, tolerable()));
+        take(fine_steps(scene_, reference_.looks, effort_));
         reference_.words += fmt::format(
             "; the closed form is not believed: it differs by {:.3g} m, where fine steps are good "
             "to {:.2g} m",
@@ -189,7 +179,7 @@ private:
     }
 
     void find_meaningful() {
-        const double most = tolerable()(reference_.extent);
+        const double most = resolution * reference_.extent;
         const std::int64_t good = count_good(reference_.doubts, most);
         reference_.meaningful = std::max<std::int64_t>(1, std::min(good, followed_));
         if (reference_.meaningful == reference_.looks.count) return;
@@ -214,7 +204,7 @@ private:
         reference_.extent = extent_of(reference_.track, reference_.looks);
         reference_.energy_scale = energy_scale_of(reference_.track, start_);
         for (Doubt& doubt : reference_.doubts)
-            doubt.energy = std::max(doubt.energy / reference_.energy_scale,
+            doubt.energy = std::max(reference_.share_of_energy(doubt.energy),
                                     8 * std::numeric_limits<double>::epsilon());
         find_meaningful();
         reference_.swing = find_swing(reference_.track, reference_.looks);
@@ -229,6 +219,10 @@ private:
 };
 
 }  // namespace
+
+double Reference::share_of_energy(double joules) const {
+    return energy_scale > 0 ? joules / energy_scale : joules;
+}
 
 Doubt Reference::floor() const {
     const Doubt& last = doubts[static_cast<std::size_t>(meaningful - 1)];

@@ -55,6 +55,8 @@ struct Reference {
     std::int64_t meaningful = 0;
     std::string why_no_longer{};  ///< where they do not mean anything to the end
 
+    /// Relative to the scale; what it is in J for a scene that has no energy.
+    [[nodiscard]] double share_of_energy(double joules) const;
     /// Below which it cannot tell errors: a hundred times its own.
     [[nodiscard]] Doubt floor() const;
     /// In s.

@@ -19,11 +19,14 @@ struct FineSteps {
 };
 
 /// Halves the step until what the method's order extrapolates no longer changes by more than is
-/// wanted, or by more than a hundredth of what `tolerable` says for bodies that get so far (m);
-/// or as long as it is worth its work.
+/// wanted; or as long as it is worth its work, which is while it gets better or good for longer.
 [[nodiscard]] FineSteps fine_steps(const Scene& scene, const Looks& looks,
-                                   const ReferenceEffort& effort,
-                                   const std::function<double(double)>& tolerable);
+                                   const ReferenceEffort& effort);
+
+/// A reference is good as long as it tells errors of this part of what bodies move.
+inline constexpr double resolution = 1e-3;
+/// From a reference's own error to what it can tell.
+inline constexpr double margin = 100;
 
 /// The bodies of the scene at its start, in long double.
 [[nodiscard]] Bodies extended_bodies(const Scene& scene);

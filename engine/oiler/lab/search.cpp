@@ -111,10 +111,9 @@ std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& r
                                                     std::pow(excess, 1 / order)));
 }
 
-bool Search::affordable(const Candidate& candidate) const {
+bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
     const int evaluations = std::max(1, candidate.method->evaluations);
-    return work_per_step_ * evaluations * static_cast<double>(rungs_[candidate.next]) <=
-           wish_.most_work;
+    return work_per_step_ * evaluations * static_cast<double>(rate) <= wish_.most_work;
 }
 
 /// To the next rung that is worth a run, if any.
@@ -124,12 +123,15 @@ void Search::go_on(Candidate& candidate, const TradeoffRow& row, double excess) 
         const double error = row.judgement.position_error;
         candidate.vain = error >= improvement * candidate.best ? candidate.vain + 1 : 0;
         candidate.best = std::fmin(candidate.best, error);
+        candidate.tried = row.choice.rate;
+        candidate.error = error;
         const bool only_rounding = candidate.method->order == exact_order;
         candidate.over = only_rounding || candidate.vain == most_vain_runs;
         if (!candidate.over) least = least_rate(candidate, row, excess);
     }
     while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
-    if (candidate.next == rungs_.size() || !affordable(candidate)) candidate.over = true;
+    if (candidate.next == rungs_.size() || !affordable(candidate, rungs_[candidate.next]))
+        candidate.over = true;
 }
 
 void Search::find_cheapest() {
@@ -149,12 +151,35 @@ void Search::find_cheapest() {
         if (!first_method) first_method = row.choice.method;
         has_second = has_second || row.choice.method != first_method;
     }
+    if (!first_method) try_highest();
+}
+
+/// Where nothing is good enough, what should come nearest, by the order, at the highest rates that
+/// are worth their work.
+void Search::try_highest() {
+    constexpr std::size_t most = 3;
+    std::vector<std::pair<double, SceneChoice>> highest;
+    for (const Candidate& candidate : candidates_) {
+        std::int64_t rate = candidate.tried;
+        for (const std::int64_t rung : rungs_)
+            if (affordable(candidate, rung)) rate = std::max(rate, rung);
+        if (candidate.tried == 0 || rate == candidate.tried || candidate.vain == most_vain_runs)
+            continue;
+        const double times = static_cast<double>(rate) / static_cast<double>(candidate.tried);
+        highest.emplace_back(candidate.error / std::pow(times, candidate.method->order),
+                             candidate.at(rate));
+    }
+    std::stable_sort(highest.begin(), highest.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    highest.resize(std::min(highest.size(), most));
+    for (const auto& [error, choice] : highest)
+        if (!watch_.stopped()) try_choice(choice);
 }
 
 void Search::find_most_accurate() {
     double least = INFINITY;
     for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
-        if (next_cost(*next) > *wish_.ns_per_second) break;
+        if (next_cost(*next) > *wish_.ns_per_second && !rows_.empty()) break;
         const TradeoffRow row = try_next(*next);
         const Judgement& judgement = row.judgement;
         if (judgement.below_floor()) {

@@ -43,6 +43,8 @@ private:
         double together = unknown;  ///< a step of many in a call
         std::size_t next = 0;       ///< rung
         double best = unknown;      ///< m
+        std::int64_t tried = 0;     ///< last rate at which it was stable and met its looks
+        double error = unknown;     ///< m, there
         std::size_t vain = 0;
         bool over = false;
 
@@ -57,7 +59,8 @@ private:
     void go_on(Candidate& candidate, const TradeoffRow& row, double excess);
     [[nodiscard]] std::int64_t least_rate(const Candidate& candidate, const TradeoffRow& row,
                                           double excess) const;
-    [[nodiscard]] bool affordable(const Candidate& candidate) const;
+    [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
+    void try_highest();
     void find_cheapest();
     void find_most_accurate();
     void refine();

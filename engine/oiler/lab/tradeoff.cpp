@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -136,14 +137,15 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
 }
 
 std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks, std::int64_t max_rate) {
-    std::set<std::int64_t> all{scene.rate};
+    std::set<std::int64_t> all;
     for (std::int64_t rate = 1; rate < looks.per_second; ++rate)
         if (looks.per_second % rate == 0) all.insert(rate);
     for (std::int64_t rate = looks.per_second; rate <= max_rate; rate *= 2) {
         all.insert(rate);
         if (rate > looks.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
     }
-    all.erase(all.upper_bound(std::max(max_rate, scene.rate)), all.end());
+    all.erase(all.upper_bound(max_rate), all.end());
+    all.insert(scene.rate);
     return {all.begin(), all.end()};
 }
 
@@ -172,14 +174,17 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
          i += static_cast<std::size_t>(plan.shards))
         if (!tradeoff.ladders[i].done) open.push_back(i);
     std::atomic<std::size_t> next = 0;
+    std::atomic<bool> failed = false;
     std::mutex mutex;
     double work_done = 0;
     double work = 0;
     for (const std::size_t i : open) work += evaluations_of(*tradeoff.ladders[i].method);
-    const auto climb = [&] {
-        for (std::size_t at = next++; at < open.size() && !watch.stopped(); at = next++) {
+    std::exception_ptr failure;
+    const auto stopped = [&] { return failed || watch.stopped(); };
+    const auto climb_open = [&] {
+        for (std::size_t at = next++; at < open.size() && !stopped(); at = next++) {
             Ladder ladder = tradeoff.ladders[open[at]];
-            Climb(ladder, scene, reference, plan, rates).run(watch.stopped);
+            Climb(ladder, scene, reference, plan, rates).run(stopped);
             if (!ladder.done) return;
             const std::lock_guard lock(mutex);
             work_done += evaluations_of(*ladder.method);
@@ -188,9 +193,21 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
             watch.progress(work_done / work);
         }
     };
-    std::vector<std::jthread> others;
-    for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(climb);
-    climb();
+    const auto climb = [&] {
+        try {
+            climb_open();
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            failed = true;
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(climb);
+        climb();
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 Tradeoff merge(const std::vector<Tradeoff>& parts) {

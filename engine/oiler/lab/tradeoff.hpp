@@ -84,8 +84,8 @@ using Cost = double (*)(const TradeoffRow& row);
 /// the reference cannot tell count as its floor.
 [[nodiscard]] std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost);
 
-/// From 1 Hz to `max_rate`: divisors and multiples of how often the scene is looked at, each up to
-/// twice the one before, and the scene's own rate.
+/// From 1 Hz to `max_rate`: the divisors of how often the scene is looked at, multiples of it that
+/// are up to twice the one before, and the scene's own rate in any case.
 [[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks,
                                               std::int64_t max_rate);
 

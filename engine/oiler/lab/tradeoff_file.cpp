@@ -21,7 +21,9 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 double to_number(const Json& json) { return json.is_null() ? unknown : json.get<double>(); }
 
 Precision to_precision(const std::string& name) {
-    return name == name_of(Precision::single) ? Precision::single : Precision::double_;
+    for (const Precision precision : {Precision::single, Precision::double_})
+        if (name == name_of(precision)) return precision;
+    fail(Exit::usage, "no precision is called {}: float or double", name);
 }
 
 Json to_json(const SceneChoice& choice) {
@@ -158,13 +160,13 @@ std::string to_json(const Tradeoff& tradeoff) {
 Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
     const Json json = Json::parse(text);
     if (json.at("oiler") != version())
-        fail(Exit::usage, "{}: it is of version {} of oiler, this is {}: measure again", file,
+        fail(Exit::usage, "it is of version {} of oiler, this is {}: measure again",
              json.at("oiler").get<std::string>(), version());
     return from_json(json);
+} catch (const Error& error) {
+    throw Error(error.exit(), fmt::format("{}: {}", file, error.what()));
 } catch (const Json::exception& error) {
-    fail(Exit::usage,
-         "{}: it is not what oiler tradeoff writes ({}); remove it, or choose another folder", file,
-         error.what());
+    fail(Exit::usage, "{}: it is not what oiler tradeoff writes ({})", file, error.what());
 }
 
 std::string to_csv(const Tradeoff& tradeoff) {
@@ -186,9 +188,9 @@ std::string to_csv(const Tradeoff& tradeoff) {
 
 std::string fingerprint(std::string_view scene_text, const Scene& scene, const Looks& looks,
                         const SweepPlan& plan) {
-    std::string all =
-        fmt::format("{}|{}|{}|{}|{}|{}|{}|", version(), scene.duration, looks.per_second,
-                    looks.count, plan.max_rate, plan.most_work, plan.precisions.size());
+    std::string all = fmt::format("{}|{}|{}|{}|{}|{}|", version(), scene.duration, looks.per_second,
+                                  looks.count, plan.max_rate, plan.most_work);
+    for (const Precision precision : plan.precisions) all += fmt::format("{},", name_of(precision));
     for (const Method* method : plan.methods) all += fmt::format("{},", method->name);
     all += scene_text;
     StateHash hash;

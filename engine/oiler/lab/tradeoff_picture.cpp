@@ -184,7 +184,7 @@ Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Ref
         for (std::int64_t look = 0; look < reference.meaningful && follower.go_to(look); ++look) {
             const double off =
                 follower.energy() - reference.track.energies[static_cast<std::size_t>(look)];
-            most = std::max(most, std::abs(off) / reference.energy_scale);
+            most = std::max(most, reference.share_of_energy(std::abs(off)));
             if (!std::isfinite(most) || most > 1e6) break;
             if (most < reference.floor().energy) continue;
             low = std::min(low, most);

@@ -126,6 +126,13 @@ Settings settings_of(const SceneChoice& choice) {
     return {.rate = {choice.rate}, .method = choice.method, .precision = choice.precision};
 }
 
+Scene with_seed(Scene scene, std::uint64_t seed) {
+    for (SceneScatter& scatter : scene.scatters)
+        scatter.seed = static_cast<std::int64_t>(static_cast<std::uint64_t>(scatter.seed) ^
+                                                 Random::mixed(seed) ^ Random::mixed(0));
+    return scene;
+}
+
 World make_world(const Scene& scene, const Settings& settings) {
     return Maker(scene, settings).run();
 }

@@ -11,6 +11,9 @@ namespace oiler {
 [[nodiscard]] Settings settings_of(const Scene& scene);
 [[nodiscard]] Settings settings_of(const SceneChoice& choice);
 
+/// The scene whose scatters have the bodies that `seed` of Settings gives those of this one.
+[[nodiscard]] Scene with_seed(Scene scene, std::uint64_t seed);
+
 /// A world of the scene's bodies with just the forces that it names. The bodies are in the rows in
 /// the order of Scene: the named ones, then those of each grid row by row, then those of each
 /// scatter. Throws Error{usage} where the precision of `settings` does not hold its numbers.

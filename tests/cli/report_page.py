@@ -1,0 +1,483 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Opens a page of `oiler report` in Chromium and holds what is shown against the page's own data.
+
+    report_page.py PAGE                                     a line per failure; exits with 0 or 1
+    report_page.py --fill TEMPLATE DATA LIBRARY FRAME PAGE  fills the template without oiler
+
+Needs Debian's chromium and nothing else: it is spoken to over a pipe, in its DevTools protocol.
+"""
+import base64
+import fcntl
+import html
+import json
+import os
+import re
+import select
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PATIENCE = 60  # seconds, for anything
+
+
+class Browser:
+    """One tab of a headless Chromium; file descriptors 3 and 4 are where it expects the pipe."""
+
+    def __init__(self, profile):
+        theirs, self.out = os.pipe()
+        self.inward, back = os.pipe()
+        high = [fcntl.fcntl(fd, fcntl.F_DUPFD, 10) for fd in (theirs, back)]
+
+        def connect():
+            os.dup2(high[0], 3)
+            os.dup2(high[1], 4)
+
+        program = os.environ.get("CHROMIUM", "chromium")
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
+             "--disable-dev-shm-usage", "--disable-background-networking",
+             "--remote-debugging-pipe", f"--user-data-dir={profile}", "about:blank"],
+            preexec_fn=connect, close_fds=False, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
+        for fd in (theirs, back, *high):
+            os.close(fd)
+        self.buffer, self.events, self.sent, self.session = b"", [], 0, None
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self.session = self.call("Target.attachToTarget", targetId=target,
+                                 flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+
+    def receive(self, deadline):
+        while b"\0" not in self.buffer:
+            if not select.select([self.inward], [], [], max(0, deadline - time.monotonic()))[0]:
+                raise TimeoutError("chromium did not answer")
+            more = os.read(self.inward, 1 << 16)
+            if not more:
+                raise ConnectionError("chromium ended")
+            self.buffer += more
+        message, self.buffer = self.buffer.split(b"\0", 1)
+        return json.loads(message)
+
+    def call(self, method, **params):
+        self.sent += 1
+        message = {"id": self.sent, "method": method, "params": params}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.out, json.dumps(message).encode() + b"\0")
+        deadline = time.monotonic() + PATIENCE
+        while (answer := self.receive(deadline)).get("id") != self.sent:
+            self.events.append(answer)
+        if "error" in answer:
+            raise RuntimeError(f"{method}: {answer['error']['message']}")
+        return answer["result"]
+
+    def value(self, expression):
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in answer:
+            details = answer["exceptionDetails"]
+            raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
+        return answer["result"].get("value")
+
+    def resize(self, width):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=900,
+                  deviceScaleFactor=1, mobile=False)
+
+    def open(self, url):
+        self.call("Page.navigate", url=url)
+        deadline = time.monotonic() + PATIENCE
+        while not self.value("document.readyState === 'complete'"
+                             " && location.href !== 'about:blank'"):
+            if time.monotonic() > deadline:
+                raise TimeoutError("the page did not load")
+            time.sleep(0.05)
+
+    def mouse(self, kind, place):
+        self.call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1],
+                  button="none" if kind == "mouseMoved" else "left", clickCount=1)
+
+    def click(self, element):
+        """Where the mouse finds it, so that what is covered or hidden is not clicked."""
+        place = self.value(f"""(() => {{ const e = {element};
+            e.scrollIntoView({{block: 'center'}}); const box = e.getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2]; }})()""")
+        self.mouse("mousePressed", place)
+        self.mouse("mouseReleased", place)
+
+    def complaints(self):
+        """What was asked of the network, and what the console says."""
+        for event in self.events:
+            params = event.get("params", {})
+            if event["method"] == "Network.requestWillBeSent":
+                url = params["request"]["url"]
+                if not url.startswith("data:") and params.get("type") != "Document":
+                    yield f"asked the network for {url[:120]}"
+            elif event["method"] == "Runtime.exceptionThrown":
+                details = params["exceptionDetails"]
+                yield "exception: " + details.get("exception", {}).get("description",
+                                                                       details["text"])
+            elif event["method"] == "Runtime.consoleAPICalled":
+                if params["type"] in ("error", "warning", "assert"):
+                    yield f"console: {params['args'][0].get('value', params['type'])}"
+            elif event["method"] == "Log.entryAdded" and params["entry"]["level"] == "error":
+                yield "log: " + params["entry"]["text"]
+
+
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+PREFIX = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1}
+
+
+def shown(text, unit=""):
+    """The number that a text such as `1.23·10⁻⁴ m` or `12.3 mm` stands for; None for a dash."""
+    pattern = r"([-−]?[\d.,]+)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?\s*([nµm]?)" + re.escape(unit) + r"(?![\w/])"
+    match = re.search(pattern if unit else pattern.replace("([nµm]?)", "()"), text)
+    if not match:
+        return None
+    mantissa = float(match[1].translate(RAISED).replace(",", ""))
+    return mantissa * 10.0 ** int((match[2] or "0").translate(RAISED)) * PREFIX[match[3]]
+
+
+def near(text, expected, unit="", within=0.006):
+    value = shown(text, unit)
+    if expected is None or value is None:
+        return expected is None and value is None
+    return abs(value - expected) <= within * abs(expected)
+
+
+def close_to(a, b):
+    return len(a) == len(b) and all(
+        abs(x - y) <= 1e-9 * abs(y) for p, q in zip(a, b) for x, y in zip(p, q))
+
+
+class Check:
+    def __init__(self, browser, data):
+        self.browser, self.data, self.failures = browser, data, []
+        self.rows = (data["tradeoff"] or {}).get("rows", [])
+
+    def expect(self, holds, words):
+        if not holds:
+            self.failures.append(words)
+
+    def texts(self, selector):
+        return self.browser.value(
+            f"[...document.querySelectorAll({json.dumps(selector)})].map(e => e.innerText.trim())")
+
+    def table(self, selector):
+        return self.browser.value(f"""[...document.querySelectorAll({json.dumps(selector)})].map(
+            r => [...r.cells].map(c => c.innerText.trim()))""")
+
+    def sections(self):
+        for part in ("advice", "tradeoff", "stability", "rates", "ledger"):
+            there = self.browser.value(f"document.getElementById('{part}') !== null")
+            self.expect(there == (self.data[part] is not None),
+                        f"section {part} is {'there' if there else 'missing'}")
+
+    def heading(self):
+        title = self.data["title"] or self.data["scene"]
+        self.expect(self.texts("h1") == [title], f"the heading is {self.texts('h1')}")
+        # The placeholder of the title is filled by oiler, not by the page's own script.
+        self.expect("@TITLE@" not in self.browser.value("document.title"), "@TITLE@ is left")
+        self.expect(self.browser.value("document.getElementById('frame').naturalWidth") > 0,
+                    "the frame is no picture")
+        today, box = self.data["today"], " ".join(self.texts("#today dd"))
+        for word in (today["method"], f"{today['rate']:,} Hz", today["precision"]):
+            self.expect(word in box, f"today's box lacks {word}: {box}")
+        row = next((r for r in self.rows if same(r, today)), None)
+        if row and row["stable"] and row["position_error"] is not None:
+            text = self.texts("#today dd")[3]
+            self.expect(near(text, row["position_error"], "m"), f"today's error: {text}")
+
+    def advice(self):
+        advice = self.data["advice"]
+        paragraphs = self.texts("#conclusion") + self.texts("#advice > p")
+        words = [" ".join(paragraph.split()) for paragraph in advice["words"]]
+        self.expect(paragraphs == words, f"the advice reads {paragraphs}")
+        table = self.table("#advice tbody tr")
+        self.expect(len(table) == len(advice["rows"]), f"{len(table)} rows of advice")
+        for cells, row in zip(table, advice["rows"]):
+            self.expect(cells[:4] == [row["role"], row["method"], f"{row['rate']:,}",
+                                      row["precision"]] and cells[7] == row["why"]
+                        and near(cells[5], row["energy_drift"])
+                        and (row["position_error"] is None or near(cells[4], row["position_error"]))
+                        and near(cells[6], micro(row["ns_per_second"])),
+                        f"advice {row['method']} at {row['rate']} Hz reads {cells}")
+            if row["role"] == "advice":
+                text = " ".join(paragraphs)
+                self.expect(row["method"] in text and re.search(rf"\b{row['rate']:,}\b|\b"
+                                                                rf"{row['rate']}\b", text),
+                            f"no paragraph advises {row['method']} at {row['rate']} Hz")
+
+    def run_table(self):
+        browser, selector = self.browser, "#tradeoff tbody tr"
+        browser.click("document.querySelector('#tradeoff summary')")
+        table = self.table(selector)
+        self.expect(len(table) == len(self.rows), f"{len(table)} rows of {len(self.rows)} runs")
+        for cells, row in zip(table, self.rows):
+            self.expect([cells[0], cells[2], cells[3]] == [row["method"], row["precision"],
+                                                           f"{row['rate']:,}"]
+                        and (row["below_floor"] or near(cells[4], row["position_error"]))
+                        and near(cells[6], row["phase_error"])
+                        and near(cells[9], micro(row["ns_per_second"])),
+                        f"run {row['method']} at {row['rate']} Hz reads {cells}")
+        for direction in (1, -1):
+            browser.click("document.querySelectorAll('#tradeoff thead button')[4]")
+            errors = [shown(cells[4]) for cells in self.table(selector)]
+            numbers = [e for cells, e in zip(self.table(selector), errors)
+                       if e is not None and "<" not in cells[4]]
+            self.expect(numbers == sorted(numbers, reverse=direction < 0),
+                        "sorting by position error does not sort")
+        browser.click("document.querySelector('#tradeoff summary')")
+
+    def place(self, row, axis):
+        """Where the diagram has a run; None where it cannot have it."""
+        floor = self.data["tradeoff"]["reference"]["position_floor"]
+        x = micro(row["ns_per_second"]) if axis == "time" else row["evaluations"]
+        y = floor if row["below_floor"] or row["position_error"] == 0 else row["position_error"]
+        return (x, y) if row["stable"] and x and y else None
+
+    def expected_points(self, method, precision, axis):
+        runs = [r for r in self.rows if r["method"] == method and r["precision"] == precision]
+        runs.sort(key=lambda r: (not r["aligned"], r["rate"]))
+        return [place for r in runs if (place := self.place(r, axis))]
+
+    def datasets(self, expression="true"):
+        return self.browser.value(f"""oilerReport.charts.tradeoff.data.datasets
+            .filter(d => {expression}).map(d => ({{label: d.label, method: d.method,
+                precision: d.precision, points: d.data.map(p => [p.x, p.y])}}))""")
+
+    def curves(self, methods, precisions, axis, when):
+        """What Chart.js holds is what was chosen, no more and no less."""
+        held = {(d["method"], d["precision"]): d["points"] for d in self.datasets("d.method")}
+        wanted = {(m, p) for m in methods for p in precisions}
+        self.expect(set(held) == wanted, f"{when}: curves of {sorted(held)}")
+        for key in wanted & set(held):
+            expected = self.expected_points(*key, axis)
+            self.expect(close_to(held[key], expected),
+                        f"{when}: {key} has {held[key][:3]}..., not {expected[:3]}...")
+
+    def marks(self):
+        [today] = self.datasets("d.label === \"today's choice\"")
+        row = next((r for r in self.rows if same(r, self.data["today"])), None)
+        place = row and self.place(row, "time")
+        expected = [place] if place else []
+        self.expect(close_to(today["points"], expected), f"today's star is at {today['points']}")
+        [front] = self.datasets("d.label === 'Pareto front'")
+        count = sum(self.place(r, "time") is not None for r in self.rows if r["pareto"])
+        points = front["points"]
+        self.expect(len(points) == count, f"the Pareto front has {len(points)} of {count}")
+        xs, ys = zip(*points) if points else ((), ())
+        self.expect(list(xs) == sorted(xs) and list(ys) == sorted(ys, reverse=True),
+                    "the Pareto front goes up")
+
+    def filter(self):
+        browser = self.browser
+        precisions = list(dict.fromkeys(r["precision"] for r in self.rows))
+        methods = list(dict.fromkeys(r["method"] for r in self.rows))
+        boxes = "document.querySelectorAll('#methods input')"
+        notable = browser.value(f"[...{boxes}].filter(b => b.checked).map(b => b.value)")
+        wanted = {r["method"] for r in self.rows if r["pareto"]} | {
+            "semi_implicit_euler", "velocity_verlet", "rk4", "exact", self.data["today"]["method"]}
+        self.expect(wanted & set(methods) <= set(notable), f"chosen at first: {notable}")
+        known = lambda some: [m for m in some if m in methods]
+        self.curves(known(notable), precisions, "time", "at first")
+        browser.click("document.querySelector('[data-choose=all]')")
+        self.curves(methods, precisions, "time", "all")
+        browser.click("document.querySelector('[data-choose=none]')")
+        self.curves([], precisions, "time", "none")
+        browser.click(f"document.querySelector('#methods input[value={methods[0]}]')")
+        self.curves(methods[:1], precisions, "time", methods[0])
+        for precision in precisions:
+            browser.click(f"document.querySelector('#precision input[value={precision}]')")
+            self.curves(methods[:1], [precision], "time", precision)
+        browser.click("document.querySelector('#against input[value=evaluations]')")
+        self.curves(methods[:1], precisions[-1:], "evaluations", "evaluations")
+        label = browser.value("oilerReport.charts.tradeoff.scales.x.options.title.text")
+        self.expect("evaluations" in label, f"the axis of evaluations says {label}")
+        browser.click("document.querySelector('#against input[value=time]')")
+        browser.click("document.querySelector('#precision input[value=both]')")
+        browser.click("document.querySelector('[data-choose=notable]')")
+        self.curves(known(notable), precisions, "time", "notable")
+
+    def hover(self, dataset, at):
+        """The tooltip of a point, as Chart.js paints it when the mouse is there; None where
+        another point is as near."""
+        place = self.browser.value(f"""(() => {{
+            const chart = oilerReport.charts.tradeoff;
+            chart.canvas.scrollIntoView({{block: 'center'}});
+            const box = chart.canvas.getBoundingClientRect();
+            const i = chart.data.datasets.findIndex(d => {dataset});
+            const p = chart.getDatasetMeta(i).data[{at}].getProps(['x', 'y']);
+            const row = chart.data.datasets[i].data[{at}].row;
+            const isNear = (q, other) => other.row !== row && Math.hypot(q.x - p.x, q.y - p.y) < 4;
+            const crowded = chart.data.datasets.some((d, k) =>
+                chart.getDatasetMeta(k).data.some((q, j) => isNear(q, d.data[j])));
+            return crowded ? null : [box.x + p.x, box.y + p.y]; }})()""")
+        if place is None:
+            return None
+        self.browser.mouse("mouseMoved", (1, 1))
+        self.browser.mouse("mouseMoved", place)
+        return self.browser.value("""new Promise(done => setTimeout(() => {
+            const t = oilerReport.charts.tradeoff.tooltip;
+            done(t.opacity ? [t.title, t.body.map(b => b.lines)] : [[], []]); }, 100))""")
+
+    def tooltip(self):
+        rows = [r for r in self.rows if self.place(r, "time") and not r["below_floor"]]
+        rows.sort(key=lambda r: not same(r, self.data["today"]))
+        hovered = 0
+        for row in rows[:20]:
+            if hovered < 3 and (tip := self.tip(row)):
+                hovered += 1
+                self.compare_tip(row, *tip)
+        self.expect(hovered or not rows, "no point was free to be hovered over")
+        self.browser.click("document.querySelector('#precision input[value=both]')")
+        self.browser.click("document.querySelector('[data-choose=notable]')")
+
+    def tip(self, row):
+        method, precision = row["method"], row["precision"]
+        self.browser.click("document.querySelector('[data-choose=none]')")
+        self.browser.click(f"document.querySelector('#methods input[value={method}]')")
+        self.browser.click(f"document.querySelector('#precision input[value={precision}]')")
+        at = self.expected_points(method, precision, "time").index(self.place(row, "time"))
+        return self.hover(f"d.method === '{method}' && d.precision === '{precision}'", at)
+
+    def compare_tip(self, row, titles, bodies):
+        name = f"{row['method']}, {row['precision']}, {row['rate']} Hz"
+        self.expect(titles == [name], f"over {name} the tooltip says {titles}")
+        if titles != [name]:
+            return
+        lines = dict(line.split(": ", 1) for line in bodies[0] if ": " in line)
+        self.expect(near(lines["position error"], row["position_error"], "m")
+                    and near(lines["energy drift"], row["energy_drift"])
+                    and near(lines["time"], row["ns_per_second"] * 1e-9, "s")
+                    and near(lines["force evaluations"], row["evaluations"], within=0),
+                    f"the tooltip of {name} says {lines}")
+
+    def stability(self):
+        stability = self.data["stability"]
+        held = self.browser.value("""oilerReport.charts.stability.data.datasets.map(
+            d => [d.method ?? null, d.data.map(p => [p.x, p.y])])""")
+        limits = {one["method"]: one["points"] for one in stability["methods"]}
+        for method, points in held:
+            if method:
+                self.expect(all(y == limit or (limit == 0 and y > 0) for (_, y), (_, limit)
+                                in zip(points, limits[method])), f"the limits of {method} differ")
+        springs = sorted(p for method, points in held if not method for p in points)
+        expected = sorted([s["zeta"], s["omega"] / stability["rate"]] for s in stability["springs"])
+        self.expect(close_to(springs, expected), f"springs are at {springs}")
+        table = self.table("#stability tbody tr")
+        self.expect([cells[0] for cells in table] == [s["name"] for s in stability["springs"]],
+                    f"the table of springs has {[cells[0] for cells in table]}")
+
+    def rates(self):
+        table = self.browser.value("""[...document.querySelectorAll('#rates tbody tr')].map(
+            r => [...r.cells].map(c => [c.innerText.trim(), c.querySelector('.off') !== null]))""")
+        rows = [(q, m) for q in self.data["rates"]["quantities"] for m in q["methods"]]
+        self.expect(len(table) == len(rows), f"{len(table)} rows of rates, not {len(rows)}")
+        for cells, (quantity, method) in zip(table, rows):
+            truth, words = quantity["truth"], f"{quantity['name']} by {method['method']}"
+            self.expect(cells[0][0] == method["method"], f"{words}: {cells[0][0]}")
+            self.expect(near(cells[-1][0], method["spread_percent"]), f"{words}: {cells[-1][0]} %")
+            for (text, off), value in zip(cells[1:], method["values"]):
+                is_off = (None not in (value, truth)) and abs(value - truth) > 0.01 * abs(truth)
+                self.expect(near(text, value) and off == is_off and is_off == (text[0] in "↑↓"),
+                            f"{words}: {text} for {value}")
+
+    def ledger(self):
+        ledger, table = self.data["ledger"], self.table("#ledger tbody tr")
+        self.expect(len(table) == len(ledger["passes"]), f"{len(table)} rows in the ledger")
+        for cells, row in zip(table, ledger["passes"]):
+            self.expect(cells[0] == row["name"] and near(cells[1], row["saves_ns"])
+                        and near(cells[2], row["saves_percent"])
+                        and near(cells[3], row["changes_position_m"]), f"ledger: {cells}")
+        self.expect(self.texts("#ledger li") == list(ledger["flags"]), "the ledger's flags differ")
+
+    def width(self):
+        for width in (1280, 400):
+            self.browser.resize(width)
+            wide = self.browser.value("""new Promise(done => setTimeout(() =>
+                done(document.documentElement.scrollWidth), 500))""")
+            self.expect(wide <= width, f"at a width of {width} the page is {wide} wide")
+
+    def all(self):
+        self.sections()
+        self.heading()
+        if self.rows:
+            for step in (self.run_table, self.marks, self.filter, self.tooltip):
+                step()
+        for part in ("advice", "stability", "rates", "ledger"):
+            if self.data[part]:
+                getattr(self, part)()
+        self.width()
+
+
+def same(a, b):
+    return all(a[key] == b[key] for key in ("method", "rate", "precision"))
+
+
+def micro(ns):
+    return None if ns is None else ns / 1000
+
+
+def own_data(page):
+    """As Python reads it from the file, not as the page's script understands it."""
+    text = page.read_text(encoding="utf-8")
+    found = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} elements of data")
+    return json.loads(found[0])
+
+
+def test(page):
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        browser = Browser(profile)
+        try:
+            browser.resize(1280)
+            browser.open(page.resolve().as_uri())
+            if not browser.value("window.oilerReport?.ready === true"):
+                return ["the page did not become ready", *browser.complaints()]
+            check = Check(browser, own_data(page))
+            try:
+                check.all()
+            except (RuntimeError, ValueError, LookupError, TypeError) as error:
+                check.failures.append(f"stopped: {type(error).__name__}: {error}")
+            return check.failures + list(browser.complaints())
+        finally:
+            browser.close()
+
+
+def fill(template, data, library, frame, page):
+    read = lambda path: Path(path).read_text(encoding="utf-8")
+    picture = base64.b64encode(Path(frame).read_bytes()).decode()
+    parts = {"@CHART_LIBRARY@": read(library), "@FRAME@": "data:image/png;base64," + picture,
+             "@TITLE@": html.escape(json.loads(read(data))["title"]),
+             "@DATA@": read(data).replace("<", "\\u003c")}
+    text = re.sub("|".join(parts), lambda found: parts[found[0]], read(template))
+    Path(page).write_text(text, encoding="utf-8")
+
+
+def main(arguments):
+    if len(arguments) == 6 and arguments[0] == "--fill":
+        fill(*arguments[1:])
+        return 0
+    if len(arguments) != 1:
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        failures = test(Path(arguments[0]))
+    except (OSError, RuntimeError, ValueError) as error:
+        failures = [f"{type(error).__name__}: {error}"]
+    for failure in failures:
+        print(" ".join(str(failure).split()))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/measured_scenes.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler::test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,
+                                const char* method = "semi_implicit_euler") {
+    const Scene scene = parse_scene(text, "test.toml");
+    Settings settings = settings_of(scene);
+    if (rate > 0) settings.rate = {rate};
+    settings.method = &find_method(method);
+    return check_budget(scene, settings);
+}
+
+std::string with_position(const std::string& most) {
+    return article_spring + "[budget]\nposition_error = " + most + "\n";
+}
+
+/// The article's two lines, against its closed form, at every so many steps for ten seconds.
+double error_of_article(int rate, int stride, double damping) {
+    const double h = 1.0 / rate;
+    const double w = std::sqrt(15 - damping * damping / 4);
+    double x = 1000;
+    double v = 0;
+    double most = 0;
+    for (int tick = 0; tick <= 10 * rate; ++tick) {
+        const double t = tick * h;
+        const double exact = 1000 * std::exp(-damping / 2 * t) *
+                             (std::cos(w * t) + damping / (2 * w) * std::sin(w * t));
+        if (tick % stride == 0) most = std::max(most, std::abs(x - exact));
+        v += (-15 * x - damping * v) * h;
+        x += v * h;
+    }
+    return most;
+}
+
+// Looked at 50 times a second, at 100 Hz after every other step; both round 1000 m a thousand
+// times.
+TEST(Budget, ThatIsKept) {
+    const std::vector<BudgetLine> lines = checked(with_position("25.0"));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].name, "position_error");
+    EXPECT_EQ(lines[0].unit, "m");
+    EXPECT_EQ(lines[0].most, 25);
+    EXPECT_NEAR(lines[0].measured, error_of_article(100, 2, 0.1), 1e-8);
+    EXPECT_TRUE(lines[0].kept);
+    EXPECT_GT(lines[0].told_from, 0);
+    EXPECT_EQ(words_of(lines[0]), "position_error 19.8 m of 25 m: kept");
+}
+
+TEST(Budget, ThatIsExceeded) {
+    const std::vector<BudgetLine> lines = checked(with_position("19.5"));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_FALSE(lines[0].kept);
+    EXPECT_EQ(words_of(lines[0]), "position_error 19.8 m of 19.5 m: exceeded");
+}
+
+// How the scene is stepped is what the settings say, whatever the file does.
+TEST(Budget, IsHeldAgainstTheSettings) {
+    EXPECT_NEAR(checked(with_position("25.0"), 50)[0].measured, error_of_article(50, 1, 0.1), 1e-8);
+    EXPECT_FALSE(checked(with_position("25.0"), 50)[0].kept);
+    EXPECT_LT(checked(with_position("25.0"), 100, "exact")[0].measured, 1e-9);
+}
+
+// x and v leapfrog: x is half a step of v ahead of the energy, by ω·h/2·sin 2ωt of it.
+TEST(Budget, OfEnergy) {
+    const std::string undamped =
+        one_axis +
+        "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
+        "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n[budget]\nenergy_drift = ";
+    double x = 1000;
+    double v = 0;
+    double most = 0;
+    for (int tick = 0; tick <= 1000; ++tick) {
+        if (tick % 2 == 0) most = std::max(most, std::abs((v * v + 15 * x * x) / 15e6 - 1));
+        v -= 15 * x * 0.01;
+        x += v * 0.01;
+    }
+    const std::vector<BudgetLine> lines = checked(undamped + "0.05\n");
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].name, "energy_drift");
+    EXPECT_EQ(lines[0].unit, "");
+    EXPECT_NEAR(lines[0].measured, most, 1e-11);
+    EXPECT_NEAR(most, std::sqrt(15.0) * 0.01 / 2, 2e-2 * most);
+    EXPECT_TRUE(lines[0].kept);
+    EXPECT_TRUE(words_of(lines[0]).ends_with(" of 0.05: kept")) << words_of(lines[0]);
+    EXPECT_FALSE(checked(undamped + "0.019\n")[0].kept);
+}
+
+TEST(Budget, OfBothHasALineForEach) {
+    const std::vector<BudgetLine> lines = checked(with_position("25.0") + "energy_drift = 0.001\n");
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0].name, "position_error");
+    EXPECT_TRUE(lines[0].kept);
+    EXPECT_EQ(lines[1].name, "energy_drift");
+    EXPECT_FALSE(lines[1].kept);
+}
+
+TEST(Budget, ThatIsNoneHasNoLines) { EXPECT_TRUE(checked(article_spring).empty()); }
+
+TEST(Budget, OfWhatIsUnstableIsExceeded) {
+    const std::vector<BudgetLine> lines = checked(with_position("25.0"), 1);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_FALSE(lines[0].kept);
+    EXPECT_TRUE(std::isinf(lines[0].measured));
+    EXPECT_EQ(words_of(lines[0]), "position_error unstable of 25 m: exceeded");
+}
+
+// Two masses on a link have no closed form: fine steps are good to a two hundredth of the budget.
+TEST(Budget, OfWhatIsTooSmallToBeToldIsKept) {
+    const std::vector<BudgetLine> lines = checked(
+        "[scene]\naxes = 1\nrate = 1000\nduration = 3.0\n[[body]]\nname = \"a\"\n"
+        "position = [1.0]\n[[body]]\nname = \"b\"\nposition = [2.0]\n[[spring]]\nbody = \"a\"\n"
+        "to = \"b\"\nstiffness = 15.0\nrest_length = 0.5\n[budget]\nposition_error = 1e-6\n",
+        0, "kahan_li8_kdk");
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].kept);
+    EXPECT_EQ(lines[0].measured, lines[0].told_from);
+    EXPECT_LE(lines[0].told_from, 0.5e-6);
+    EXPECT_TRUE(holds(words_of(lines[0]), "position_error below ")) << words_of(lines[0]);
+}
+
+TEST(Budget, ThatIsTooTightIsRefused) {
+    for (const std::string& text :
+         {with_position("1e-14"), article_spring + "[budget]\nenergy_drift = 1e-15\n"}) {
+        try {
+            (void)checked(text);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit(), Exit::usage);
+            EXPECT_TRUE(holds(error.what(), "[budget]")) << error.what();
+            EXPECT_FALSE(holds(error.what(), "\n")) << error.what();
+        }
+    }
+    try {
+        (void)checked(article_spring + "[budget]\nenergy_drift = 1e-15\n");
+    } catch (const Error& error) {
+        EXPECT_TRUE(holds(error.what(), "energy_drift = 1e-15")) << error.what();
+    }
+}
+
+// A scatter's bodies are those of the seed that is run, and the exact motion is that of these.
+TEST(Budget, OfAScatterHoldsForEverySeed) {
+    const Scene scene = parse_scene(
+        "[scene]\naxes = 2\nrate = 60\nduration = 2.0\n[gravity]\nacceleration = [0.0, -9.81]\n"
+        "[[scatter]]\ncount = 10\nposition_from = [0.0, 0.0]\nposition_to = [100.0, 0.0]\n"
+        "velocity_from = [1.0, 2.0]\n[budget]\nposition_error = 0.01\n",
+        "test.toml");
+    Settings settings = settings_of(scene);
+    settings.method = &find_method("velocity_verlet");
+    for (const std::uint64_t seed : {0U, 1U, 2U}) {
+        settings.seed = seed;
+        const std::vector<BudgetLine> lines = check_budget(scene, settings);
+        ASSERT_EQ(lines.size(), 1U);
+        EXPECT_LT(lines[0].measured, 1e-9) << seed;
+    }
+}
+
+TEST(Budget, StoppedIsNone) {
+    const Scene scene = parse_scene(with_position("25.0"), "test.toml");
+    EXPECT_TRUE(check_budget(scene, settings_of(scene), [] { return true; }).empty());
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "oiler/lab/reference.hpp"
+#include "oiler/scene/read.hpp"
+
+namespace oiler::test {
+
+inline const std::string one_axis = "[scene]\naxes = 1\nrate = 100\n";
+
+/// The article's spring and damper, as long as a test can wait.
+inline const std::string article_spring =
+    one_axis +
+    "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
+    "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\ndamping = 0.1\n";
+
+/// A scene, when it is looked at and what it is held against.
+struct MeasuredScene {
+    explicit MeasuredScene(const std::string& scene_text, const ReferenceEffort& effort = {})
+        : text(scene_text),
+          scene(parse_scene(text, "test.toml")),
+          looks(looks_of(scene)),
+          reference(make_reference(scene, looks, effort)) {}
+
+    std::string text;
+    Scene scene;
+    Looks looks;
+    Reference reference;
+};
+
+}  // namespace oiler::test

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/rates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "lab/measured_scenes.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler::test {
+namespace {
+
+using Rate = std::int64_t;
+
+Rates rates_of(const std::string& text, const std::vector<Rate>& rates,
+               const std::vector<const char*>& names, std::size_t row = 0) {
+    std::vector<const Method*> methods;
+    for (const char* name : names) methods.push_back(&find_method(name));
+    const MeasuredScene measured(text);
+    return measure_rates(measured.scene, measured.reference, row, rates, methods,
+                         [] { return false; });
+}
+
+const RatesQuantity* find(const Rates& rates, const std::string& part) {
+    for (const RatesQuantity& quantity : rates.quantities)
+        if (quantity.name.starts_with(part)) return &quantity;
+    return nullptr;
+}
+
+const RatesQuantity& quantity_of(const Rates& rates, const std::string& part) {
+    const RatesQuantity* const found = find(rates, part);
+    if (!found) throw std::invalid_argument("no quantity " + part);
+    return *found;
+}
+
+double value_of(const Rates& rates, const std::string& part, std::size_t method, std::size_t rate) {
+    return quantity_of(rates, part).lines.at(method).values.at(rate);
+}
+
+/// The height above the start after so many steps of h seconds.
+using Height = std::function<double(int n, double h)>;
+
+struct Jump {
+    double apex = 0;
+    double apex_time = 0;
+    double landing = 0;
+};
+
+/// What straight lines between the steps show.
+Jump jump_of(const Height& height, double h) {
+    Jump jump;
+    int n = 1;
+    for (; height(n, h) >= 0; ++n)
+        if (height(n, h) > jump.apex) jump = {height(n, h), n * h, 0};
+    const double above = height(n - 1, h);
+    jump.landing = h * (n - 1 + above / (above - height(n, h)));
+    return jump;
+}
+
+constexpr double v0 = 9.1;  // m/s
+constexpr double g = 20;    // m/s²
+constexpr double across = 4;
+
+const std::vector<Rate> usual{20, 30, 50, 60, 100, 240};
+
+// Each step first slows down, then moves: x = v0·n·h − g·h²·n(n+1)/2, highest at the whole n next
+// to v0/(g·h) − ½, where it is v0²/2g − v0·h/2 + g·h²/8 but for less than g·h²/8.
+double semi_implicit(int n, double h) { return v0 * n * h - g * h * h * n * (n + 1) / 2; }
+double exact(int n, double h) { return v0 * n * h - g * (n * h) * (n * h) / 2; }
+
+void expect_jump(const Rates& rates, const Height& height, std::size_t method) {
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+        const double h = 1.0 / static_cast<double>(usual[i]);
+        const Jump jump = jump_of(height, h);
+        // Hundreds of roundings of 2 m; where the last line is crossed they count twice.
+        EXPECT_NEAR(value_of(rates, "apex", method, i), jump.apex, 1e-12) << usual[i];
+        EXPECT_NEAR(value_of(rates, "time of the apex", method, i), jump.apex_time, 1e-12);
+        EXPECT_NEAR(value_of(rates, "time of landing", method, i), jump.landing, 1e-12);
+        EXPECT_NEAR(value_of(rates, "place of landing", method, i), across * jump.landing, 1e-11);
+    }
+}
+
+const std::string jump =
+    "[scene]\naxes = 2\nrate = 60\nduration = 1.2\n[gravity]\nacceleration = [0.0, -20.0]\n"
+    "[[body]]\nname = \"player\"\nposition = [3.0, 7.0]\nvelocity = [4.0, 9.1]\n";
+
+TEST(RatesOfAJump, AreThoseOfTheStepsByTheory) {
+    const Rates rates = rates_of(jump, usual, {"semi_implicit_euler", "velocity_verlet"});
+    EXPECT_EQ(rates.body, "player");
+    EXPECT_EQ(rates.rates, usual);
+    EXPECT_EQ(rates.quantities.size(), 4U);
+    expect_jump(rates, semi_implicit, 0);
+    expect_jump(rates, exact, 1);
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+        const double h = 1.0 / static_cast<double>(usual[i]);
+        const double highest = v0 * v0 / (2 * g) - v0 * h / 2 + g * h * h / 8;
+        const double apex = value_of(rates, "apex", 0, i);
+        EXPECT_LE(apex, highest + 1e-12);
+        EXPECT_GE(apex, highest - g * h * h / 8 - 1e-12);
+    }
+}
+
+TEST(RatesOfAJump, KnowWhatIsTrue) {
+    const Rates rates = rates_of(jump, usual, {"exact"});
+    const auto truth = [&](const char* part) { return quantity_of(rates, part).truth; };
+    // A cubic through positions and velocities is the parabola itself.
+    EXPECT_NEAR(truth("apex"), v0 * v0 / (2 * g), 1e-12);
+    // The highest point of a parabola is found to the root of what is rounded.
+    EXPECT_NEAR(truth("time of the apex"), v0 / g, 1e-7);
+    EXPECT_NEAR(truth("time of landing"), 2 * v0 / g, 1e-12);
+    EXPECT_NEAR(truth("place of landing"), across * 2 * v0 / g, 1e-11);
+    EXPECT_EQ(quantity_of(rates, "apex").unit, "m");
+    EXPECT_EQ(quantity_of(rates, "time of landing").unit, "s");
+}
+
+// The same jump to the left, where things fall to the right.
+TEST(RatesOfAJump, GoAgainstGravityWhereverThatIs) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 2\nrate = 60\nduration = 1.2\n[gravity]\nacceleration = [20.0, 0.0]\n"
+        "[[body]]\nvelocity = [-9.1, 4.0]\n",
+        usual, {"semi_implicit_euler", "velocity_verlet"});
+    EXPECT_EQ(rates.body, "body 0");
+    expect_jump(rates, semi_implicit, 0);
+    expect_jump(rates, exact, 1);
+}
+
+TEST(RatesOfAJump, AreOfTheBodyThatIsAsked) {
+    const Rates rates = rates_of(jump + "[[body]]\nname = \"b\"\nvelocity = [0.0, 4.0]\n", usual,
+                                 {"velocity_verlet"}, 1);
+    EXPECT_EQ(rates.body, "b");
+    EXPECT_NEAR(quantity_of(rates, "apex").truth, 4 * 4 / (2 * g), 1e-12);
+}
+
+TEST(RatesOfAJump, SpreadFromTheLeastToTheMost) {
+    const Rates rates = rates_of(jump, usual, {"semi_implicit_euler"});
+    const double low = jump_of(semi_implicit, 1.0 / 20).apex;
+    const double high = jump_of(semi_implicit, 1.0 / 240).apex;
+    EXPECT_NEAR(quantity_of(rates, "apex").lines.front().spread_percent,
+                100 * (high - low) / (v0 * v0 / (2 * g)), 1e-9);
+}
+
+// At 2 Hz semi-implicit Euler slows down by 10 m/s before it moves: it never leaves the ground.
+TEST(RatesOfAJump, ThatIsNoneAreUnknown) {
+    const Rates rates = rates_of(jump, {2, 60}, {"semi_implicit_euler"});
+    const RatesLine& line = quantity_of(rates, "apex").lines.front();
+    EXPECT_TRUE(std::isnan(line.values[0]));
+    EXPECT_FALSE(std::isnan(line.values[1]));
+    EXPECT_TRUE(std::isnan(line.spread_percent));
+}
+
+TEST(RatesOfAFall, AreNoJump) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 2\nduration = 1.0\n[gravity]\nacceleration = [0.0, -20.0]\n"
+        "[[body]]\nvelocity = [4.0, -1.0]\n",
+        usual, {"velocity_verlet"});
+    EXPECT_TRUE(rates.quantities.empty());
+}
+
+TEST(RatesOfAJump, WithoutLandingHaveNone) {
+    std::string brief = jump;
+    brief.replace(brief.find("1.2"), 3, "0.8");
+    const Rates rates = rates_of(brief, usual, {"velocity_verlet"});
+    EXPECT_NE(find(rates, "apex"), nullptr);
+    EXPECT_EQ(find(rates, "time of landing"), nullptr);
+    EXPECT_EQ(find(rates, "place of landing"), nullptr);
+}
+
+// ---- springs
+
+constexpr double stiffness = 15;
+constexpr double start = 1000;
+
+std::string spring_with(const std::string& damping, const std::string& duration) {
+    return one_axis + "duration = " + duration +
+           "\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\nbody = \"mass\"\n"
+           "anchor = [0.0]\nstiffness = 15.0\ndamping = " +
+           damping + "\n";
+}
+
+/// A coordinate after so many steps.
+using Samples = std::function<double(int n)>;
+
+/// The mean time between upward crossings of nought by straight lines.
+double period_of(const Samples& x, double h, int steps) {
+    double first = unknown;
+    double last = unknown;
+    int count = 0;
+    for (int n = 1; n <= steps; ++n) {
+        if (!(x(n - 1) < 0 && x(n) >= 0)) continue;
+        last = h * (n - 1 + x(n - 1) / (x(n - 1) - x(n)));
+        if (count++ == 0) first = last;
+    }
+    return (last - first) / (count - 1);
+}
+
+/// Of a step of h, by which both methods turn: cos θ = 1 − (ωh)²/2.
+double turn_of(double h) { return std::acos(1 - stiffness * h * h / 2); }
+
+// Semi-implicit Euler from rest: x = A·cos((n + ½)θ)/cos(θ/2); velocity Verlet: x = A·cos(nθ). Both
+// follow from x(n+1) − 2x(n) + x(n−1) = −ω²h²·x(n).
+Samples semi_implicit_swing(double h) {
+    const double turn = turn_of(h);
+    return [=](int n) { return start * std::cos((n + 0.5) * turn) / std::cos(turn / 2); };
+}
+Samples verlet_swing(double h) {
+    const double turn = turn_of(h);
+    return [=](int n) { return start * std::cos(n * turn); };
+}
+
+double amplitude_of(const Samples& x, double h, int steps, double period) {
+    double high = -INFINITY;
+    double low = INFINITY;
+    for (int n = steps; n * h > steps * h - period; --n) {
+        high = std::max(high, x(n));
+        low = std::min(low, x(n));
+    }
+    return (high - low) / 2;
+}
+
+const std::vector<Rate> swings{5, 10, 20, 50, 100};
+
+TEST(RatesOfASwing, HaveThePeriodOfTheStepsByTheory) {
+    const Rates rates =
+        rates_of(spring_with("0.0", "20.0"), swings, {"semi_implicit_euler", "velocity_verlet"});
+    const double period = 2 * std::numbers::pi / std::sqrt(stiffness);
+    // Cubics between looks 50 times a second: (ωh)⁴/384 of a radian; and so is the highest point.
+    EXPECT_NEAR(quantity_of(rates, "period").truth, period, 1e-7);
+    EXPECT_NEAR(quantity_of(rates, "amplitude").truth, start, 1e-7 * start);
+    EXPECT_EQ(find(rates, "time to settle"), nullptr);
+    EXPECT_EQ(find(rates, "apex"), nullptr);
+    for (std::size_t i = 0; i < swings.size(); ++i) {
+        const double h = 1.0 / static_cast<double>(swings[i]);
+        const int steps = static_cast<int>(20 * swings[i]);
+        const Samples paths[]{semi_implicit_swing(h), verlet_swing(h)};
+        for (std::size_t method = 0; method < 2; ++method) {
+            // Where it comes to rest is known to 1e-7 of the swing, which shifts both crossings.
+            EXPECT_NEAR(value_of(rates, "period", method, i), period_of(paths[method], h, steps),
+                        1e-8)
+                << swings[i];
+            EXPECT_NEAR(value_of(rates, "amplitude", method, i),
+                        amplitude_of(paths[method], h, steps, period), 1e-8 * start)
+                << swings[i];
+        }
+    }
+    // From the least to the most, of the true one: they are too fast by (ωh)²/24.
+    const RatesLine& line = quantity_of(rates, "period").lines[1];
+    EXPECT_NEAR(line.spread_percent, 100 * (line.values.back() - line.values.front()) / period,
+                1e-6);
+    EXPECT_GT(line.spread_percent, 1);
+}
+
+double damped(double damping, double t) {
+    const double w = std::sqrt(stiffness - damping * damping / 4);
+    return start * std::exp(-damping / 2 * t) *
+           (std::cos(w * t) + damping / (2 * w) * std::sin(w * t));
+}
+
+/// When straight lines between the samples come within 50 m for good.
+double settle_time_of(const Samples& x, double h, int steps) {
+    int n = steps;
+    while (std::abs(x(n)) <= 0.05 * start) --n;
+    const double edge = std::copysign(0.05 * start, x(n));
+    return h * (n + (edge - x(n)) / (x(n + 1) - x(n)));
+}
+
+TEST(RatesOfASwing, HaveTheTimeToSettle) {
+    const Rates rates = rates_of(spring_with("0.5", "20.0"), {20, 50, 100, 1000}, {"exact"});
+    const auto settle = [](double h) {
+        return settle_time_of([h](int n) { return damped(0.5, n * h); }, h,
+                              static_cast<int>(std::lround(20 / h)));
+    };
+    // Straight lines of 10 µs are as good as the curve: (ωh)² of a radian.
+    EXPECT_NEAR(quantity_of(rates, "time to settle").truth, settle(1e-5), 1e-6);
+    EXPECT_NEAR(value_of(rates, "time to settle", 0, 0), settle(1.0 / 20), 1e-7);
+    EXPECT_NEAR(value_of(rates, "time to settle", 0, 1), settle(1.0 / 50), 1e-7);
+    EXPECT_NEAR(value_of(rates, "time to settle", 0, 2), settle(1.0 / 100), 1e-7);
+    EXPECT_NEAR(value_of(rates, "time to settle", 0, 3), settle(1.0 / 1000), 1e-7);
+    EXPECT_EQ(quantity_of(rates, "time to settle").name, "time to settle to 5 %");
+}
+
+// A weight on a spring swings around g/k below the anchor.
+TEST(RatesOfASwing, GoAroundWhereItComesToRest) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 1\nrate = 100\nduration = 20.0\n[gravity]\nacceleration = [-9.81]\n"
+        "[[body]]\nname = \"mass\"\nposition = [3.0]\n[[spring]]\nbody = \"mass\"\n"
+        "anchor = [0.0]\nstiffness = 15.0\ndamping = 0.5\n",
+        {100}, {"exact"});
+    const double rest = -9.81 / stiffness;
+    const double swing = (3 - rest) / start;
+    const double settle = settle_time_of([&](int n) { return damped(0.5, n / 100.0); }, 0.01, 2000);
+    EXPECT_NEAR(value_of(rates, "time to settle", 0, 0), settle, 1e-6);
+    EXPECT_NEAR(quantity_of(rates, "period").truth,
+                2 * std::numbers::pi / std::sqrt(stiffness - 0.25 * 0.25), 1e-6);
+    EXPECT_GT(swing, 0);
+}
+
+// ω·dt is 3.9 at 1 Hz, and 2 is the most.
+TEST(RatesOfASwing, ThatIsUnstableAreUnknown) {
+    const Rates rates =
+        rates_of(spring_with("0.0", "20.0"), {1, 100}, {"velocity_verlet", "implicit_midpoint"});
+    for (const RatesQuantity& quantity : rates.quantities) {
+        EXPECT_TRUE(std::isnan(quantity.lines[0].values[0])) << quantity.name;
+        EXPECT_FALSE(std::isnan(quantity.lines[0].values[1])) << quantity.name;
+        EXPECT_TRUE(std::isnan(quantity.lines[0].spread_percent)) << quantity.name;
+        EXPECT_FALSE(std::isnan(quantity.lines[1].values[1])) << quantity.name;
+    }
+}
+
+TEST(RatesOfASwing, OfAMethodThatCannotStepItAreUnknown) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 2\nrate = 100\nduration = 20.0\n[[attractor]]\nposition = [0.0, 0.0]\n"
+        "gm = 1.0\n[[body]]\nposition = [1.0, 0.0]\nvelocity = [0.0, 1.0]\n",
+        {100}, {"exact", "rk4"});
+    const RatesQuantity& period = quantity_of(rates, "period");
+    // Once round in 2π s.
+    EXPECT_NEAR(period.truth, 2 * std::numbers::pi, 1e-6);
+    EXPECT_TRUE(std::isnan(period.lines[0].values[0]));
+    EXPECT_NEAR(period.lines[1].values[0], 2 * std::numbers::pi, 1e-5);
+}
+
+// ---- which body
+
+TEST(FindBody, ByNameOrNumber) {
+    const Scene scene = parse_scene(
+        "[scene]\naxes = 1\n[[body]]\nname = \"a\"\n[[body]]\nname = \"0\"\n[[body]]\n"
+        "[[grid]]\ncount = [4, 1]\nspacing = 1.0\nstiffness = 1.0\n",
+        "test.toml");
+    EXPECT_EQ(find_body(scene, "a"), 0U);
+    EXPECT_EQ(find_body(scene, "0"), 1U);
+    EXPECT_EQ(find_body(scene, "1"), 1U);
+    EXPECT_EQ(find_body(scene, "6"), 6U);
+    for (const char* name : {"7", "-1", "b", "1x", " 1", "1.0", "99999999999999999999"}) {
+        try {
+            (void)find_body(scene, name);
+            ADD_FAILURE() << name;
+        } catch (const Error& error) {
+            const std::string line = error.what();
+            EXPECT_EQ(error.exit(), Exit::usage);
+            EXPECT_NE(line.find(name), std::string::npos) << line;
+            EXPECT_NE(line.find("from 0 to 6"), std::string::npos) << line;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oiler::test

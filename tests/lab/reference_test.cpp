@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "oiler/lab/reference_parts.hpp"
+#include "oiler/scene/read.hpp"
+#include "support/oscillator.hpp"
+#include "support/reference.hpp"
+
+namespace {
+
+using oiler::Bodies;
+using oiler::ClosedForm;
+using oiler::ExactMotion;
+using oiler::Exit;
+using oiler::find_swing;
+using oiler::Looks;
+using oiler::looks_of;
+using oiler::make_reference;
+using oiler::Reference;
+using oiler::ReferenceEffort;
+using oiler::Scene;
+using oiler::State;
+using oiler::Track;
+using oiler::Vec;
+using oiler::test::holds;
+using oiler::test::line_of_error;
+using Real = long double;
+using State3 = State<Real, 3>;
+
+constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
+
+/// Where every body is at t s.
+using Motions = std::vector<ExactMotion>;
+
+ClosedForm claimed(const Motions& motions) {
+    return [motions](const Bodies&) { return std::optional(motions); };
+}
+std::optional<Motions> none(const Bodies&) { return std::nullopt; }
+
+/// Enough for all scenes here, and a second's work.
+ReferenceEffort effort() {
+    ReferenceEffort effort;
+    effort.most_work = 2e7;
+    return effort;
+}
+
+double length(const Vec<Real, 3>& a) { return static_cast<double>(std::hypot(a[0], a[1], a[2])); }
+
+State3 along_x(Real x, Real v) { return {{x, 0, 0}, {v, 0, 0}}; }
+
+/// The article's spring: x0·e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t) from x0 = 1000 m at rest.
+ExactMotion article_motion(Real damping, Real stiffness = 15) {
+    return [=](Real t) {
+        const Real gamma = damping / 2;
+        const Real omega = std::sqrt(stiffness - gamma * gamma);
+        const Real decay = 1000 * std::exp(-gamma * t);
+        return along_x(decay * (std::cos(omega * t) + gamma / omega * std::sin(omega * t)),
+                       -decay * stiffness / omega * std::sin(omega * t));
+    };
+}
+
+Scene article_scene(double damping, double duration) {
+    Scene scene;
+    scene.duration = duration;
+    scene.bodies = {{.position = {1000, 0, 0}}};
+    scene.springs = {{.stiffness = 15, .damping = damping}};
+    return scene;
+}
+
+/// That the reference is never further off than it says, beside what the numbers of double that
+/// it starts with are (m, m/s).
+void expect_within_doubts(const Reference& reference, const Motions& motions, double given = 0) {
+    ASSERT_EQ(reference.doubts.size(), static_cast<std::size_t>(reference.looks.count));
+    for (std::int64_t look = 0; look < reference.looks.count; ++look)
+        for (std::size_t row = 0; row < motions.size(); ++row) {
+            const State3 exact = motions[row](static_cast<Real>(look) /
+                                              static_cast<Real>(reference.looks.per_second));
+            const State3& found = reference.track.at(look, row);
+            const oiler::Doubt& doubt = reference.doubts[static_cast<std::size_t>(look)];
+            ASSERT_LE(length(found.x - exact.x), doubt.position + given) << look << " " << row;
+            ASSERT_LE(length(found.v - exact.v), doubt.velocity + given) << look << " " << row;
+        }
+}
+
+/// Its doubt is what was wanted, a millionth of a millionth of what moves, or as little as that.
+void expect_fine_steps(const Scene& scene, const Motions& motions, double given = 0) {
+    const Reference reference = make_reference(scene, looks_of(scene), effort(), none);
+    EXPECT_FALSE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "in long double by")) << reference.words;
+    EXPECT_EQ(reference.meaningful, reference.looks.count);
+    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent) << reference.words;
+    EXPECT_GT(reference.doubts.back().position, 0);
+    expect_within_doubts(reference, motions, given);
+}
+
+TEST(FineSteps, OfTheArticlesSpring) {
+    expect_fine_steps(article_scene(0, 20), {article_motion(0)});
+    expect_fine_steps(article_scene(0.125, 90), {article_motion(0.125)});
+    // Stiff enough for more than the fewest runs.
+    Scene stiff = article_scene(0, 20);
+    stiff.springs[0].stiffness = 6000;
+    expect_fine_steps(stiff, {article_motion(0, 6000)});
+}
+
+/// gm = 1, half an axis of 1, from the perihelion, by bisection of Kepler's equation.
+State3 planet(Real e, Real t) {
+    Real low = t - 1;
+    Real high = t + 1;
+    for (int i = 0; i < 80; ++i) {
+        const Real middle = (low + high) / 2;
+        (middle - e * std::sin(middle) < t ? low : high) = middle;
+    }
+    const Real minor = std::sqrt(1 - e * e);
+    const Real rate = 1 / (1 - e * std::cos(low));
+    return {{std::cos(low) - e, minor * std::sin(low), 0},
+            {-rate * std::sin(low), rate * minor * std::cos(low), 0}};
+}
+
+// 0.4 is no number of double, which changes the frequency by 3·2·u·0.4/0.4² and so on, and moves
+// the planet with a speed of up to 2 (and an acceleration of up to 1/0.4²).
+TEST(FineSteps, OfAnOrbit) {
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 12.566;
+    scene.bodies = {{.position = {0.4, 0, 0}, .velocity = {0, 2, 0}}};
+    scene.attractors = {{.gm = 1}};
+    expect_fine_steps(scene, {[](Real t) { return planet(0.6L, t); }},
+                      12.566 * 15 * 0.4 * double_round_off * 6.25);
+}
+
+// u1 and u2 = (cos ω1·t ± cos ω2·t)/2 are how far the masses are from their rest at −2 and 2 m,
+// ω1 = √15 where they swing together, ω2 = √18 where against each other. Neither reaches a wall or
+// the other, where its spring would turn over.
+TEST(FineSteps, OfTheChainMeetItsNormalModes) {
+    const Scene scene = oiler::read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
+    const auto mass = [](Real sign) {
+        return [sign](Real t) {
+            const Real together = std::sqrt(15.0L);
+            const Real against = std::sqrt(18.0L);
+            const Real u = (std::cos(together * t) + sign * std::cos(against * t)) / 2;
+            const Real v =
+                -(together * std::sin(together * t) + sign * against * std::sin(against * t)) / 2;
+            return along_x(u - sign * 2, v);
+        };
+    };
+    expect_fine_steps(scene, {mass(1), mass(-1)});
+}
+
+// The file's numbers are rounded to double: the start's speed, g and the drag's coefficient, which
+// move the projectile by u·(speed·t + g·t²) or so.
+TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
+    const auto runs = reference("projectile_quadratic_drag");
+    const auto& run = runs.at(0);
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 8;
+    scene.gravity = {0, -number(run.at("g")), 0};
+    scene.bodies = {{.matter = {.quadratic_drag = number(run.at("k_per_m"))},
+                     .velocity = {number(run.at("vx0")), number(run.at("vy0")), 0}}};
+    const Looks looks = looks_of(scene);
+    ReferenceEffort little;
+    little.most_work = 1e5;
+    const Reference fine = make_reference(scene, looks, little);
+    EXPECT_FALSE(fine.closed_form);
+    EXPECT_LE(fine.doubts.back().position, 1e-11 * fine.extent) << fine.words;
+    ASSERT_EQ(run.at("states").size(), 9U);
+    for (const auto& state : run.at("states")) {
+        const double t = number(state.at("t"));
+        const auto look = std::lround(t * static_cast<double>(looks.per_second));
+        const State3& found = fine.track.at(look, 0);
+        const oiler::Doubt& doubt = fine.doubts[static_cast<std::size_t>(look)];
+        const double given = double_round_off * (30 * t + 10 * t * t);
+        EXPECT_LE(length(found.x -
+                         Vec<Real, 3>{number<Real>(state.at("x")), number<Real>(state.at("y")), 0}),
+                  doubt.position + given)
+            << t;
+        EXPECT_LE(length(found.v - Vec<Real, 3>{number<Real>(state.at("vx")),
+                                                number<Real>(state.at("vy")), 0}),
+                  doubt.velocity + double_round_off * (30 + 10 * t))
+            << t;
+    }
+}
+
+// A doubt that always was the same would pass the tests above. Here ω·dt is 1.6 to 0.2. With three
+// runs two powers of dt, the 8th and the 10th, are out of the coarser ones' error, and each further
+// run takes out one more: as long as none is good enough, a halving divides it by 2¹⁰ and more.
+TEST(FineSteps, DoubtThemselvesMoreWhereTheyAreCoarser) {
+    Scene scene = article_scene(0, 20);
+    scene.springs[0].stiffness = 6000;
+    double before = 0;
+    for (const double work : {1e5, 2e5, 4e5}) {
+        ReferenceEffort less;
+        less.wanted = 1e-18;
+        less.most_work = work;
+        const Reference reference = make_reference(scene, looks_of(scene), less, none);
+        const double doubt = reference.doubts.back().position;
+        if (before > 0) {
+            EXPECT_LT(doubt, before / 1024) << reference.words;
+        }
+        before = doubt;
+        expect_within_doubts(reference, {article_motion(0, 6000)});
+        EXPECT_LT(reference.doubts.front().position, doubt);
+    }
+}
+
+TEST(ClosedFormReference, SaysHowGoodItIs) {
+    const Scene scene = article_scene(0, 20);
+    const Reference reference = make_reference(scene, looks_of(scene), effort());
+    EXPECT_TRUE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "which fine steps confirm to")) << reference.words;
+    EXPECT_EQ(reference.meaningful, reference.looks.count);
+    EXPECT_EQ(reference.meaningful_until(), 20);
+    expect_within_doubts(reference, {article_motion(0)});
+    EXPECT_NEAR(reference.extent, 2000, 2);
+    EXPECT_DOUBLE_EQ(reference.energy_scale, 7.5e6);
+    EXPECT_LE(reference.doubts.back().position, 1e-12 * 2000);
+    EXPECT_EQ(reference.floor().position, 100 * reference.doubts.back().position);
+    EXPECT_EQ(reference.floor().velocity, 100 * reference.doubts.back().velocity);
+    EXPECT_EQ(reference.floor().energy, 100 * reference.doubts.back().energy);
+    ASSERT_TRUE(reference.swing);
+    EXPECT_EQ(reference.swing->crossings.size(), 12U);
+}
+
+TEST(ClosedFormReference, SaysWhereItWasTooLongToCheck) {
+    const Scene scene = article_scene(0, 20);
+    ReferenceEffort none_at_all;
+    none_at_all.most_work = 1;
+    const Reference reference = make_reference(scene, looks_of(scene), none_at_all);
+    EXPECT_TRUE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "too long to check")) << reference.words;
+}
+
+double largest_difference(const ExactMotion& a, const ExactMotion& b, const Looks& looks) {
+    double most = 0;
+    for (std::int64_t look = 0; look < looks.count; ++look) {
+        const Real t = static_cast<Real>(look) / static_cast<Real>(looks.per_second);
+        most = std::max(most, length(a(t).x - b(t).x));
+    }
+    return most;
+}
+
+/// That a wrong closed form is found out, and what it is wrong by is told, to three digits.
+void expect_found_out(const Scene& scene, const ExactMotion& wrong, const ExactMotion& right) {
+    const Looks looks = looks_of(scene);
+    const Reference reference = make_reference(scene, looks, effort(), claimed({wrong}));
+    EXPECT_FALSE(reference.closed_form);
+    const std::string says = "the closed form is not believed: it differs by ";
+    const std::size_t at = reference.words.find(says);
+    ASSERT_NE(at, std::string::npos) << reference.words;
+    const double told = std::stod(reference.words.substr(at + says.size()));
+    const double difference = largest_difference(wrong, right, looks);
+    EXPECT_NEAR(told, difference, 0.005 * difference) << reference.words;
+    expect_within_doubts(reference, {right});
+    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent);
+}
+
+// x0·e^(−γt)·cos ω0·t, off by up to 12.78 m.
+TEST(WrongClosedForm, AsTheArticlePublishedItIsNotBelieved) {
+    const ExactMotion wrong = [](Real t) {
+        const Real omega = std::sqrt(15.0L);
+        const Real decay = 1000 * std::exp(-0.0625L * t);
+        return along_x(decay * std::cos(omega * t),
+                       -decay * (0.0625L * std::cos(omega * t) + omega * std::sin(omega * t)));
+    };
+    expect_found_out(article_scene(0.125, 30), wrong, article_motion(0.125));
+}
+
+// A millionth of the stiffness is half a millionth of the frequency: 1.9 cm after 10 s.
+TEST(WrongClosedForm, ByAMillionthIsNotBelieved) {
+    expect_found_out(article_scene(0, 10), article_motion(0, 15 * (1 + 2e-6L)), article_motion(0));
+    expect_found_out(article_scene(0.125, 10), article_motion(0.125, 15 * (1 - 1e-6L)),
+                     article_motion(0.125));
+}
+
+// Only one of two bodies', and only after a while.
+TEST(WrongClosedForm, OfOneBodyIsNotBelieved) {
+    Scene scene = article_scene(0, 10);
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.springs.push_back(scene.springs[0]);
+    scene.springs[1].body = 1;
+    const ExactMotion right = article_motion(0);
+    const ExactMotion wrong = [=](Real t) {
+        State3 state = right(t);
+        if (t > 9) state.x[0] += 0.001L;
+        return state;
+    };
+    const Reference reference =
+        make_reference(scene, looks_of(scene), effort(), claimed({right, wrong}));
+    EXPECT_TRUE(holds(reference.words, "differs by 0.001 m")) << reference.words;
+    EXPECT_FALSE(reference.closed_form);
+    expect_within_doubts(reference, {right, right});
+}
+
+/// Two masses on springs as stiff as rods, thrown high: a double pendulum, whose neighbours part
+/// e-fold within less than a second.
+constexpr const char* double_pendulum = R"(
+[scene]
+axes = 2
+rate = 120
+duration = 40.0
+[gravity]
+acceleration = [0.0, -9.81]
+[[body]]
+name = "upper"
+position = [1.0, 0.5]
+[[body]]
+name = "lower"
+position = [1.5, 1.5]
+[[spring]]
+body = "upper"
+anchor = [0.0, 0.0]
+stiffness = 400.0
+rest_length = 1.118
+[[spring]]
+body = "upper"
+to = "lower"
+stiffness = 400.0
+rest_length = 1.118
+)";
+
+TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
+    const Scene scene = oiler::parse_scene(double_pendulum, "double_pendulum");
+    const Looks looks = looks_of(scene);
+    const auto with = [&](double work) {
+        ReferenceEffort limited;
+        limited.most_work = work;
+        return make_reference(scene, looks, limited);
+    };
+    const Reference poor = with(1e6);
+    const Reference better = with(1e7);
+    EXPECT_FALSE(better.closed_form);
+    EXPECT_LT(better.meaningful, looks.count);
+    EXPECT_LT(poor.meaningful, better.meaningful);
+    EXPECT_GT(poor.meaningful_until(), 1) << poor.words;
+    for (std::int64_t look = 0; look < poor.meaningful; ++look) {
+        const oiler::Doubt& doubt = poor.doubts[static_cast<std::size_t>(look)];
+        for (std::size_t row = 0; row < 2; ++row) {
+            const State3& a = poor.track.at(look, row);
+            const State3& b = better.track.at(look, row);
+            ASSERT_LE(length(a.x - b.x), 100 * doubt.position) << looks.time(look);
+            ASSERT_LE(length(a.v - b.v), 100 * doubt.velocity) << looks.time(look);
+        }
+    }
+    EXPECT_TRUE(holds(poor.why_no_longer, "chaotic")) << poor.why_no_longer;
+    EXPECT_LE(poor.floor().position, 1e-3 * poor.extent);
+}
+
+Scene falling(std::int64_t rate, double duration, std::int64_t bodies = 1) {
+    Scene scene;
+    scene.rate = rate;
+    scene.duration = duration;
+    scene.gravity = {-9.81, 0, 0};
+    scene.scatters = {{.count = bodies}};
+    return scene;
+}
+
+struct LooksCase {
+    std::int64_t rate;
+    double duration;
+    std::int64_t bodies;
+    std::int64_t per_second;
+    std::int64_t count;
+};
+
+// The largest divisor up to 60; 20 looks of a short scene; of 400,000 states what the bodies leave.
+TEST(LooksOf, AreADivisorOfTheRateOrAMultipleOfALowOne) {
+    for (const LooksCase& c : {LooksCase{60, 10, 1, 60, 601},
+                               {100, 90, 1, 50, 4501},
+                               {1000, 17, 1, 50, 851},
+                               {120, 2.5, 1, 60, 151},
+                               {61, 3, 1, 61, 184},
+                               {15, 2, 1, 15, 31},
+                               {14, 2, 1, 56, 113},
+                               {7, 2, 1, 63, 127},
+                               {1, 5, 1, 60, 301},
+                               // A prime without a divisor near 60.
+                               {997, 1, 1, 60, 61},
+                               // It ends between two looks.
+                               {60, 1.99, 1, 60, 120},
+                               {500, 12.566, 1, 50, 629},
+                               // 2.05·60 and 0.58·50 are less than 123 and 29 in double.
+                               {60, 2.05, 1, 60, 124},
+                               {100, 0.58, 1, 50, 30},
+                               {60, 0.3, 1, 60, 19},
+                               // Short: more than 60.
+                               {1000, 0.1, 1, 200, 21},
+                               {1000, 0.29, 1, 50, 15},
+
+                               {1'000'000, 1e-5, 1, 1'000'000, 11},
+                               // Many: 400,000/1000/10 = 40, and the divisors are 20 and 25.
+                               {60, 10, 1000, 30, 301},
+                               {100, 10, 1000, 25, 251},
+                               {60, 10, 100'000, 1, 11},
+                               {60, 100'000, 1, 4, 400'001}}) {
+        const Looks looks = looks_of(falling(c.rate, c.duration, c.bodies));
+        EXPECT_EQ(looks, (Looks{c.per_second, c.count})) << c.rate << " Hz, " << c.duration << " s";
+        if (c.rate >= 15 && c.rate != 997) EXPECT_TRUE(looks.meet_steps(c.rate));
+    }
+}
+
+TEST(LooksOf, TellsTheirTimes) {
+    const Looks looks{.per_second = 60, .count = 601};
+    EXPECT_EQ(looks.time(600), 10);
+    EXPECT_TRUE(looks.meet_steps(120));
+    EXPECT_FALSE(looks.meet_steps(90));
+    EXPECT_FALSE(looks.meet_steps(30));
+}
+
+TEST(LooksOf, RefusesWhatItCannotFollow) {
+    const auto refusal = [](const Scene& scene) {
+        return line_of_error(Exit::usage, [&] { (void)looks_of(scene); });
+    };
+    EXPECT_TRUE(holds(refusal(falling(60, 10, 100'001)), "100001 bodies"));
+    EXPECT_TRUE(holds(refusal(falling(60, 100'001)), "a duration of 100001 s"));
+    EXPECT_TRUE(holds(refusal(falling(60, 0)), "give --duration"));
+    EXPECT_TRUE(holds(refusal(falling(60, NAN)), "give --duration"));
+    EXPECT_TRUE(holds(refusal(falling(10, 0.05)), "within one of its steps"));
+}
+
+Track track_of(const Motions& motions, const Looks& looks) {
+    Track track{.bodies = motions.size()};
+    for (std::int64_t look = 0; look < looks.count; ++look)
+        for (const ExactMotion& motion : motions)
+            track.states.push_back(
+                motion(static_cast<Real>(look) / static_cast<Real>(looks.per_second)));
+    return track;
+}
+
+// Hermite's cubic is off by (ω/60)⁴/384 of the amplitude, at most; a crossing of the level by as
+// much of 1/ω over the cosine of the phase there, and the period by two of these over their number.
+TEST(FindSwing, HasTheSpringsPeriod) {
+    const Looks looks{.per_second = 60, .count = 20 * 60 + 1};
+    const double omega = std::sqrt(15.0);
+    const auto swing = find_swing(track_of({article_motion(0)}, looks), looks);
+    ASSERT_TRUE(swing);
+    ASSERT_EQ(swing->crossings.size(), 12U);
+    EXPECT_EQ(swing->row, 0U);
+    EXPECT_EQ(swing->axis, 0);
+    // What the part of the last period adds to the mean, and a look more than there are.
+    EXPECT_LE(std::abs(swing->level), 1000 * (1 / omega / 20 + 1 / 1201.0));
+    const double phase = std::asin(swing->level / 1000);
+    const double bound = std::pow(omega / 60, 4) / 384 / std::cos(phase) / omega;
+    EXPECT_NEAR(swing->period, 2 * std::numbers::pi / omega, 2 * bound / 11);
+    // Upwards: sin(ωt − π/2) = level/1000, first after half a period less a quarter.
+    for (std::size_t i = 0; i < 12; ++i)
+        EXPECT_NEAR(swing->crossings[i],
+                    (std::numbers::pi * (2 * static_cast<double>(i) + 1.5) + phase) / omega, bound)
+            << i;
+}
+
+// Damping makes the level a growing part of the amplitude: crossings shift by its arc sine.
+TEST(FindSwing, HasTheDampedSpringsPeriod) {
+    const Looks looks{.per_second = 50, .count = 10 * 50 + 1};
+    const double omega = std::sqrt(15 - 0.0025);
+    const auto swing = find_swing(track_of({article_motion(0.1L)}, looks), looks);
+    ASSERT_TRUE(swing);
+    const double amplitude = 1000 * std::exp(-0.05 * 10);
+    const double shift = std::asin(std::abs(swing->level) / amplitude) / omega;
+    EXPECT_NEAR(swing->period, 2 * std::numbers::pi / omega,
+                shift / static_cast<double>(swing->crossings.size() - 1));
+    EXPECT_LE(shift, 0.02);
+}
+
+ExactMotion turned_to(int axis, Real size, Real omega) {
+    return [=](Real t) {
+        State3 state{};
+        state.x[axis] = 5 - size * std::cos(omega * t);
+        state.v[axis] = size * omega * std::sin(omega * t);
+        return state;
+    };
+}
+
+TEST(FindSwing, IsOfWhatMovesMost) {
+    const Looks looks{.per_second = 60, .count = 601};
+    const Track track =
+        track_of({turned_to(0, 1, 2), turned_to(2, 3, 4), turned_to(1, 2, 3)}, looks);
+    const auto widest = find_swing(track, looks);
+    ASSERT_TRUE(widest);
+    EXPECT_EQ(widest->row, 1U);
+    EXPECT_EQ(widest->axis, 2);
+    EXPECT_NEAR(widest->period, std::numbers::pi / 2, 1e-5);
+    const auto only = find_swing(track, looks, 2);
+    ASSERT_TRUE(only);
+    EXPECT_EQ(only->row, 2U);
+    EXPECT_EQ(only->axis, 1);
+    EXPECT_NEAR(only->period, 2 * std::numbers::pi / 3, 1e-5);
+}
+
+TEST(FindSwing, IsNoneOfAProjectile) {
+    const Looks looks{.per_second = 60, .count = 301};
+    const ExactMotion thrown = [](Real t) {
+        return State3{{20 * t, 20 * t - 5 * t * t, 0}, {20, 20 - 10 * t, 0}};
+    };
+    EXPECT_FALSE(find_swing(track_of({thrown}, looks), looks));
+    const ExactMotion at_rest = [](Real) { return along_x(3, 0); };
+    EXPECT_FALSE(find_swing(track_of({at_rest}, looks), looks));
+}
+
+// Two swings have two crossings; 7 looks to a swing are too few, 9 are enough.
+TEST(FindSwing, IsNoneOfWhatSwingsTooSeldomOrTooFast) {
+    const Looks looks{.per_second = 60, .count = 601};
+    const auto found = [&](Real period) {
+        const Real omega = 2 * std::numbers::pi_v<Real> / period;
+        return find_swing(track_of({turned_to(0, 1, omega)}, looks), looks).has_value();
+    };
+    EXPECT_TRUE(found(3.1L));
+    EXPECT_FALSE(found(5.0L));
+    EXPECT_TRUE(found(9 / 60.0L));
+    EXPECT_FALSE(found(7 / 60.0L));
+}
+
+}  // namespace
