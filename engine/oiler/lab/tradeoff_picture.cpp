@@ -83,10 +83,37 @@ public:
         plot_.y = decades(least_.y, std::min(most_.y, 2 * tradeoff_.reference.extent));
         Picture picture;
         plot_.draw(picture, {});
+        add_cheapest(picture);
         return picture;
     }
 
 private:
+    /// Below the legend, for whoever has an error in mind.
+    void add_cheapest(Picture& picture) const {
+        constexpr float size = 8;
+        constexpr float pitch = 11;
+        constexpr int most = 9;
+        float y = 156;
+        const auto write = [&](float x, const std::string& words) {
+            picture.labels.push_back(
+                {.at = {x, y}, .text = words, .size = size, .colour = palette::ink});
+        };
+        const float left = plot_box.high.x + 9;
+        write(left, "least cost for an error up to");
+        const auto front = pareto(tradeoff_, cost_);
+        double error = std::pow(10, std::floor(std::log10(tradeoff_.reference.extent / 5)));
+        for (int i = 0; i < most; ++i, error /= 10) {
+            const auto row = std::find_if(front.begin(), front.end(), [&](const TradeoffRow* one) {
+                return shown_error(tradeoff_, *one) <= error * (1 + 1e-9);
+            });
+            if (row == front.end()) break;
+            y -= pitch;
+            write(left, fmt::format("{:g} m", error));
+            write(left + 43,
+                  fmt::format("{} {} Hz{}", (*row)->choice.method->name, (*row)->choice.rate,
+                              (*row)->choice.precision == Precision::single ? " float" : ""));
+        }
+    }
     void add_method(const Method* method, const Look& look) {
         Series series{.name = std::string(method->name), .colour = look.colour, .mark = look.mark};
         for (const TradeoffRow* row : rows_of(tradeoff_, method)) add(series, *row);
