@@ -120,7 +120,7 @@ Json tradeoff_json(const Tradeoff& tradeoff) {
     Json json{{"machine",
                {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}}},
               {"duration", tradeoff.duration},
-              {"fps", tradeoff.looks.per_second},
+              {"looks_per_second", tradeoff.looks.per_second},
               {"reference",
                {{"kind", tradeoff.reference.closed_form ? "closed form" : "fine steps"},
                 {"words", tradeoff.reference.words},

@@ -145,10 +145,12 @@ void publish(const Tradeoff& tradeoff, const Places& places, Stills& stills) {
     write_file(places.out / "tradeoff.csv", std::as_bytes(std::span(csv)));
     if (!places.json.empty()) save(tradeoff, places.json);
     if (places.json != "-") print(text_of(tradeoff, places.all));
-    stills.write(work_precision(tradeoff, time_of, "computing for a second of the scene, µs", 1e3),
-                 places.out / "error_over_time.png");
-    stills.write(work_precision(tradeoff, evaluations_of, "force evaluations in the run", 1),
-                 places.out / "error_over_evaluations.png");
+    stills.write(
+        work_precision(tradeoff, {time_of, 1e3, "computing for a second of the scene, µs", " µs"}),
+        places.out / "error_over_time.png");
+    stills.write(
+        work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", " forces"}),
+        places.out / "error_over_evaluations.png");
     remark(places.quiet, "the table and its pictures are in {}", places.out.string());
 }
 

@@ -26,8 +26,8 @@ constexpr std::array<Look, most_methods> looks{{{palette::vermilion, Mark::disc}
                                                 {palette::blue, Mark::square},
                                                 {palette::green, Mark::diamond},
                                                 {palette::orange, Mark::triangle},
-                                                {palette::purple, Mark::disc},
-                                                {palette::sky_blue, Mark::ring},
+                                                {palette::purple, Mark::ring},
+                                                {palette::sky_blue, Mark::disc},
                                                 {palette::grey, Mark::square},
                                                 {palette::black, Mark::diamond}}};
 
@@ -61,15 +61,15 @@ void add_if_new(std::vector<const Method*>& methods, const Method* method) {
 
 class WorkPrecision {
 public:
-    WorkPrecision(const Tradeoff& tradeoff, Cost cost, double unit)
-        : tradeoff_(tradeoff), cost_(cost), unit_(unit) {}
+    WorkPrecision(const Tradeoff& tradeoff, const CostAxis& axis)
+        : tradeoff_(tradeoff), axis_(axis) {}
 
-    Picture draw(const std::string& cost_label) {
+    Picture draw() {
         const auto methods = notable_methods(tradeoff_);
         for (std::size_t i = 0; i < methods.size(); ++i) add_method(methods[i], looks[i]);
         add_front();
         add_today();
-        plot_.x_label = cost_label;
+        plot_.x_label = axis_.label;
         plot_.title = fmt::format("What a timestep costs: {}",
                                   tradeoff_.title.empty() ? tradeoff_.scene : tradeoff_.title);
         plot_.y_label = "largest position error over the run, m";
@@ -90,7 +90,7 @@ public:
 private:
     /// Below the legend, for whoever has an error in mind.
     void add_cheapest(Picture& picture) const {
-        constexpr float size = 8;
+        constexpr float size = 7;
         constexpr float pitch = 11;
         constexpr int most = 9;
         float y = 156;
@@ -100,7 +100,7 @@ private:
         };
         const float left = plot_box.high.x + 9;
         write(left, "least cost for an error up to");
-        const auto front = pareto(tradeoff_, cost_);
+        const auto front = pareto(tradeoff_, axis_.of);
         double error = std::pow(10, std::floor(std::log10(tradeoff_.reference.extent / 5)));
         for (int i = 0; i < most; ++i, error /= 10) {
             const auto row = std::find_if(front.begin(), front.end(), [&](const TradeoffRow* one) {
@@ -108,10 +108,13 @@ private:
             });
             if (row == front.end()) break;
             y -= pitch;
-            write(left, fmt::format("{:g} m", error));
-            write(left + 43,
-                  fmt::format("{} {} Hz{}", (*row)->choice.method->name, (*row)->choice.rate,
-                              (*row)->choice.precision == Precision::single ? " float" : ""));
+            write(left,
+                  error < 1e-3 ? fmt::format("{:.0e} m", error) : fmt::format("{:g} m", error));
+            write(
+                left + 43,
+                fmt::format("{} {} Hz{} {:.3g}{}", (*row)->choice.method->name, (*row)->choice.rate,
+                            (*row)->choice.precision == Precision::single ? " float:" : ":",
+                            axis_.of(**row) / axis_.unit, axis_.suffix));
         }
     }
     void add_method(const Method* method, const Look& look) {
@@ -122,10 +125,10 @@ private:
     void add_front() {
         Series series{
             .name = "best of all methods", .colour = palette::ink, .width = 2.2F, .dashed = true};
-        for (const TradeoffRow* row : pareto(tradeoff_, cost_)) {
+        for (const TradeoffRow* row : pareto(tradeoff_, axis_.of)) {
             // A staircase: nothing that costs less is better.
             if (!series.points.empty())
-                series.points.push_back({cost_(*row) / unit_, series.points.back().y});
+                series.points.push_back({axis_.of(*row) / axis_.unit, series.points.back().y});
             add(series, *row);
         }
         plot_.series.push_back(std::move(series));
@@ -134,13 +137,13 @@ private:
         const TradeoffRow* const today = tradeoff_.find(tradeoff_.today);
         if (!today || !today->judgement.stable) return;
         Series series{.name = fmt::format("today: {} Hz", tradeoff_.today.rate),
-                      .colour = palette::ink,
-                      .mark = Mark::disc};
+                      .colour = palette::black,
+                      .mark = Mark::square};
         add(series, *today);
         plot_.series.push_back(std::move(series));
     }
     void add(Series& series, const TradeoffRow& row) {
-        const DataPoint at{cost_(row) / unit_, shown_error(tradeoff_, row)};
+        const DataPoint at{axis_.of(row) / axis_.unit, shown_error(tradeoff_, row)};
         if (!(at.x > 0 && at.y > 0) || !std::isfinite(at.x)) return;
         least_ = {std::min(least_.x, at.x), std::min(least_.y, at.y)};
         most_ = {std::max(most_.x, at.x), std::max(most_.y, at.y)};
@@ -148,8 +151,7 @@ private:
     }
 
     const Tradeoff& tradeoff_;
-    Cost cost_;
-    double unit_;
+    CostAxis axis_;
     DataPoint least_{INFINITY, INFINITY};
     DataPoint most_{0, 0};
     Plot plot_{.box = plot_box,
@@ -179,9 +181,8 @@ std::vector<const Method*> notable_methods(const Tradeoff& tradeoff) {
     return methods;
 }
 
-Picture work_precision(const Tradeoff& tradeoff, Cost cost, const std::string& cost_label,
-                       double unit) {
-    return WorkPrecision(tradeoff, cost, unit).draw(cost_label);
+Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis) {
+    return WorkPrecision(tradeoff, axis).draw();
 }
 
 Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Reference& reference,

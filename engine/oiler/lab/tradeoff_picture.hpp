@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "oiler/lab/tradeoff.hpp"
@@ -12,10 +13,17 @@ namespace oiler {
 /// and those that most often are the best.
 [[nodiscard]] std::vector<const Method*> notable_methods(const Tradeoff& tradeoff);
 
-/// Error over cost, both logarithmic: a curve for each notable method in double, and what is best
-/// at each cost among all methods in both precisions.
-[[nodiscard]] Picture work_precision(const Tradeoff& tradeoff, Cost cost,
-                                     const std::string& cost_label, double unit);
+/// What a diagram has its errors over.
+struct CostAxis {
+    Cost of;
+    double unit = 1;       ///< of the cost, that the axis is in
+    std::string label{};   ///< of the axis
+    std::string suffix{};  ///< of a number on it
+};
+
+/// Error over cost, both logarithmic: a curve for each notable method in double, what is best at
+/// each cost among all methods in both precisions, and what is cheapest for each power of ten.
+[[nodiscard]] Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis);
 
 /// How far the energy of runs, all at one rate, is off over time, of the reference's scale.
 [[nodiscard]] Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff,
