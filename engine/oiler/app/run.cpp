@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <span>
 
 #include "oiler/app/console.hpp"
@@ -83,6 +84,9 @@ int guard_main(std::string_view name, const std::function<Exit()>& program) {
     } catch (const Error& error) {
         say(fmt::format("{}: {}", name, error.what()));
         return static_cast<int>(error.exit());
+    } catch (const std::bad_alloc&) {
+        say(fmt::format("{}: not enough memory; take fewer bodies, or a shorter time", name));
+        return static_cast<int>(Exit::io);
     }
 }
 

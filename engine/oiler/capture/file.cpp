@@ -105,6 +105,9 @@ void File::commit() {
     assert(file_);
     if (std::fclose(file_.release()) != 0) fail_write(path_, errno);
     if (temporary_.empty()) return;
+    std::error_code none;
+    const fs::file_status replaced = fs::status(target_, none);
+    if (!none && fs::exists(replaced)) fs::permissions(temporary_, replaced.permissions(), none);
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, errno);
     temporary_.clear();
 }

@@ -15,7 +15,8 @@ namespace {
 
 struct Checked {
     std::string file;
-    std::vector<BudgetLine> lines;
+    std::vector<BudgetLine> lines{};
+    std::string error{};  ///< why it could not be checked
 
     [[nodiscard]] bool kept() const {
         for (const BudgetLine& line : lines)
@@ -47,6 +48,7 @@ std::string to_junit(const std::vector<Checked>& all) {
     int tests = 0;
     int failures = 0;
     int skipped = 0;
+    int errors = 0;
     for (const Checked& checked : all) {
         const std::string file = escaped(checked.file);
         for (const BudgetLine& line : checked.lines) {
@@ -59,6 +61,13 @@ std::string to_junit(const std::vector<Checked>& all) {
         }
         if (!checked.lines.empty()) continue;
         ++tests;
+        if (!checked.error.empty()) {
+            ++errors;
+            cases += fmt::format(
+                "  <testcase classname=\"{}\" name=\"budget\"><error message=\"{}\"/></testcase>\n",
+                file, escaped(checked.error));
+            continue;
+        }
         ++skipped;
         cases += fmt::format(
             "  <testcase classname=\"{}\" name=\"budget\"><skipped message=\"no [budget]\"/>"
@@ -67,14 +76,15 @@ std::string to_junit(const std::vector<Checked>& all) {
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" tests=\"{}\" "
-        "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}</testsuite>\n",
-        tests, failures, skipped, cases);
+        "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
+        tests, failures, errors, skipped, cases);
 }
 
 nlohmann::ordered_json to_json(const std::vector<Checked>& all) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const Checked& checked : all) {
         nlohmann::ordered_json one{{"scene", checked.file}, {"kept", checked.kept()}};
+        if (!checked.error.empty()) one = {{"scene", checked.file}, {"error", checked.error}};
         for (const BudgetLine& line : checked.lines)
             one[line.name] = {
                 {"measured", number(line.measured)}, {"budget", line.most}, {"kept", line.kept}};
@@ -83,35 +93,54 @@ nlohmann::ordered_json to_json(const std::vector<Checked>& all) {
     return json;
 }
 
+/// One that cannot be checked keeps no other from it.
+Checked check(const std::filesystem::path& path) {
+    Checked checked{.file = path.string()};
+    try {
+        const Scene scene = read_scene(path.string());
+        checked.lines = check_budget(scene, settings_of(scene), Interrupt::requested);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::usage) throw;
+        const std::string what = error.what();
+        checked.error =
+            what.starts_with(checked.file) ? what : fmt::format("{}: {}", checked.file, what);
+    }
+    return checked;
+}
+
+std::string text_of(const std::vector<Checked>& all) {
+    std::string text;
+    for (const Checked& checked : all) {
+        if (checked.lines.empty() && checked.error.empty())
+            text += fmt::format("{}: no [budget]\n", checked.file);
+        for (const BudgetLine& line : checked.lines)
+            text += fmt::format("{}: {}\n", checked.file, words_of(line));
+    }
+    return text;
+}
+
 }  // namespace
 
 Exit CheckCommand::run() const {
     const Interrupt interrupt;
     std::vector<Checked> all;
-    std::string text;
-    bool kept = true;
     for (const std::filesystem::path& path : scenes) {
-        const Scene scene = read_scene(path.string());
-        Checked checked{path.string(), {}};
-        try {
-            checked.lines = check_budget(scene, settings_of(scene), Interrupt::requested);
-        } catch (const Error& error) {
-            throw Error(error.exit(), fmt::format("{}: {}", path.string(), error.what()));
-        }
+        all.push_back(check(path));
         if (Interrupt::requested()) return Exit::interrupted;
-        if (checked.lines.empty()) text += fmt::format("{}: no [budget]\n", path.string());
-        for (const BudgetLine& line : checked.lines)
-            text += fmt::format("{}: {}\n", path.string(), words_of(line));
-        kept = kept && checked.kept();
-        all.push_back(std::move(checked));
     }
     if (!junit.empty()) {
         const std::string xml = to_junit(all);
         write_file(junit, std::as_bytes(std::span(xml)));
     }
     if (!json.empty()) write_json(json, to_json(all));
-    if (json != "-" && junit != "-" && !quiet) print(text);
-    return kept ? Exit::done : Exit::comparison_failed;
+    if (json != "-" && junit != "-") print(text_of(all));
+    Exit exit = Exit::done;
+    for (const Checked& checked : all) {
+        if (!checked.error.empty()) say("oiler: " + checked.error);
+        if (!checked.error.empty()) exit = Exit::usage;
+        if (!checked.kept() && exit == Exit::done) exit = Exit::comparison_failed;
+    }
+    return exit;
 }
 
 }  // namespace oiler

@@ -117,7 +117,6 @@ struct CheckCommand {
     std::vector<std::filesystem::path> scenes;
     std::filesystem::path junit;
     std::filesystem::path json;
-    bool quiet = false;
     Exit run() const;
 };
 

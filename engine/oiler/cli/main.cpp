@@ -206,8 +206,9 @@ private:
             "  oiler merge parts/part-*.json --out whole");
         declare_measured(*command, tradeoff_.measured);
         add_method_list(*command, tradeoff_.methods);
-        add_whole<std::int64_t>(*command, "--max-rate", tradeoff_.max_rate, 1, 1'000'000,
-                                "highest, 1024 times as often as is looked if not given");
+        add_whole<std::int64_t>(
+            *command, "--max-rate", tradeoff_.max_rate, 1, 1'000'000,
+            "highest but for the scene's own, 1024 times as often as is looked if not given");
         command->add_option("--shard", words_.shard, "measure the Kth of N parts")
             ->type_name("K/N");
         command->add_flag("--all", tradeoff_.all, "print all rows")->disable_flag_override();
@@ -262,7 +263,6 @@ private:
         command->add_option("--junit", check_.junit, "write it for a CI to show, - for stdout")
             ->type_name("FILE");
         add_json(*command, check_.json);
-        add_quiet(*command, check_.quiet);
     }
     void declare_report() {
         CLI::App* const command =

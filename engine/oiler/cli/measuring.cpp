@@ -50,6 +50,9 @@ std::vector<const Method*> parse_methods(const std::string& words) {
 
 std::string read_text(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        fail(Exit::io, "{}: it is a folder; give a file", path.string());
     if (!file) fail(Exit::io, "{}: cannot be read: {}", path.string(), system_reason(errno));
     return {std::istreambuf_iterator<char>(file), {}};
 }

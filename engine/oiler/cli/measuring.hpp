@@ -45,7 +45,7 @@ void measure_tradeoff(
     Tradeoff& tradeoff, const Scene& scene, const Reference& reference, const SweepPlan& plan,
     bool quiet, const std::function<void(const Tradeoff&)>& ladder_done = [](const auto&) {});
 
-/// Makes the reference of a scene and says what it is.
+/// Makes the reference of a scene.
 [[nodiscard]] Reference measure_reference(const Scene& scene, const Looks& looks, double wanted,
                                           bool quiet);
 

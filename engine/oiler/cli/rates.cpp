@@ -81,6 +81,9 @@ Exit RatesCommand::run() const {
     const Scene scene = read_measured(measured);
     const Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
+    if (!reference.why_no_longer.empty())
+        remark(measured.quiet, "of {:.4g} s only the first {:.4g} are measured: {}", scene.duration,
+               reference.meaningful_until(), reference.why_no_longer);
     const std::vector<const Method*> chosen =
         methods.empty() ? usual_methods(scene) : parse_methods(methods);
     const std::size_t row =

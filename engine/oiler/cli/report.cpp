@@ -262,6 +262,9 @@ Exit ReportCommand::run() const {
         looks = looks_of(scene);
         reference = measure_reference(scene, looks, 0, measured.quiet);
     }
+    const Wish wish = wish_of(*this, scene, reference);
+    require_judgeable(scene, reference, wish);
+    File page(out);
     SweepPlan plan{.methods = parse_methods("all"),
                    .max_rate = std::min<std::int64_t>(
                        1'000'000, std::max(scene.rate, highest_multiple * looks.per_second)),
@@ -269,7 +272,6 @@ Exit ReportCommand::run() const {
     Tradeoff tradeoff = start_tradeoff(scene, looks, reference, plan);
     tradeoff.scene = name_of(measured);
     measure_tradeoff(tradeoff, scene, reference, plan, measured.quiet);
-    const Wish wish = wish_of(*this, scene, reference);
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
     const Advice advice = advise(scene, reference, wish, watch);
@@ -285,13 +287,12 @@ Exit ReportCommand::run() const {
                     {"stability", stability_json(scene, notable_methods(tradeoff))},
                     {"rates", rates.quantities.empty() ? Json(nullptr) : rates_json(rates)},
                     {"ledger", ledger_json(scene)}};
-    const std::string page =
-        fill({oiler_page, oiler_page_end},
-             {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
-              {"@FRAME@", frame_of(scene)},
-              {"@TITLE@", escaped(scene.title.empty() ? tradeoff.scene : scene.title)},
-              {"@DATA@", for_script(data)}});
-    write_file(out, std::as_bytes(std::span(page)));
+    page.write(fill({oiler_page, oiler_page_end},
+                    {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
+                     {"@FRAME@", frame_of(scene)},
+                     {"@TITLE@", escaped(scene.title.empty() ? tradeoff.scene : scene.title)},
+                     {"@DATA@", for_script(data)}}));
+    page.commit();
     if (!measured.json.empty()) write_json(measured.json, data);
     remark(measured.quiet, "{} is written; open it in a browser", out.string());
     return Exit::done;

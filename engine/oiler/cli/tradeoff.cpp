@@ -114,7 +114,8 @@ std::string text_of(const Tradeoff& tradeoff, bool all) {
 /// What was begun with the same scene and options, and not ended.
 std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
                                         const std::string& fingerprint, bool quiet) try {
-    if (!std::filesystem::exists(path)) return std::nullopt;
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) return std::nullopt;
     Tradeoff found = parse_tradeoff(read_text(path), path.string());
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
@@ -187,8 +188,12 @@ Exit TradeoffCommand::run() const {
     Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene, looks, reference, plan));
     tradeoff.scene = name_of(measured);
     tradeoff.fingerprint = mark;
+    tradeoff.machines = {this_machine()};
     if (unfinished) say_resumed(*unfinished, part, measured.quiet);
     make_folder(out);
+    // Before the work, so that a machine that cannot draw says so at once.
+    std::optional<Stills> stills;
+    if (whole) stills.emplace(size);
     measure_tradeoff(tradeoff, scene, reference, plan, measured.quiet,
                      [&](const Tradeoff& so_far) { save(so_far, part); });
     save(tradeoff, part);
@@ -200,10 +205,11 @@ Exit TradeoffCommand::run() const {
         remark(measured.quiet, "{} is written; oiler merge joins all parts", part.string());
         return Exit::done;
     }
-    Stills stills(size);
-    publish(tradeoff, {out, measured.json, all, measured.quiet}, stills);
-    stills.write(energy_over_time(scene, tradeoff, reference, at_todays_rate(tradeoff)),
-                 out / "energy_over_time.png");
+    publish(tradeoff, {out, measured.json, all, measured.quiet}, *stills);
+    const std::vector<SceneChoice> choices = at_todays_rate(tradeoff);
+    if (!choices.empty())
+        stills->write(energy_over_time(scene, tradeoff, reference, choices),
+                      out / "energy_over_time.png");
     return Exit::done;
 }
 
@@ -212,6 +218,9 @@ Exit MergeCommand::run() const {
     for (const std::filesystem::path& path : parts)
         read.push_back(parse_tradeoff(read_text(path), path.string()));
     const Tradeoff tradeoff = merge(read);
+    if (!tradeoff.timed())
+        fail(Exit::usage,
+             "some parts were interrupted before they were timed: run their commands again");
     make_folder(out);
     Stills stills(size);
     publish(tradeoff, {out, json, all, quiet}, stills);

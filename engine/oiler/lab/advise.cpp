@@ -48,6 +48,7 @@ public:
         };
         if (found) std::stable_sort(front_.begin(), front_.end(), by_time);
         choose();
+        if (advice_.best) explain();
         advice_.runs = search_.runs();
         return std::move(advice_);
     }
@@ -61,8 +62,6 @@ private:
     void consider(const Method& method) {
         const auto& asked = wish_.methods;
         if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
-        for (std::size_t i = 0; i < std::min<std::size_t>(2, front_.size()); ++i)
-            if (front_[i].choice.method == &method) return;
         Alternative alternative{.method = &method};
         SceneChoice choice{&method, search_.rates().front(), Precision::double_};
         alternative.why = why_not(scene_, settings_of(choice));
@@ -72,30 +71,41 @@ private:
                 if (search_.cost_of({&method, rate, Precision::double_}) <= cost)
                     choice.rate = rate;
             alternative.row = search_.try_choice(choice);
-            alternative.why = why_worse(*alternative.row);
         }
         advice_.alternatives.push_back(std::move(alternative));
     }
     [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
         const Judgement& judgement = row.judgement;
+        const double times = row.ns_per_second / advice_.best->ns_per_second;
         const std::int64_t rate = row.choice.rate;
+        std::string text =
+            times > 1.1 ? fmt::format("already at {} Hz it costs {:.3g} times as much", rate, times)
+                        : fmt::format("for the same time it could run at {} Hz", rate);
         if (!judgement.stable)
             return fmt::format("for the same time it could run at {} Hz, where it is unstable",
                                rate);
         if (!wish_.has_tolerance())
-            return fmt::format(
-                "for the same time it could run at {} Hz, and is off by up to {:.3g} m", rate,
-                judgement.position_error);
-        if (search_.good(row)) return "it costs more for no less error";
+            return text + fmt::format(", and is off by up to {:.3g} m", judgement.position_error);
+        if (search_.good(row)) return text + ", and is good enough, too";
         const double off = excess(judgement, wish_);
-        std::string text = fmt::format(
-            "for the same time it could run at {} Hz, and is {:.3g} times too far off", rate, off);
+        text += fmt::format(", and is {:.3g} times too far off", off);
         const bool falls = judgement.position_error < wild * reference_.extent;
         if (falls && row.meets_steps && row.choice.method->order != exact_order)
             text += fmt::format(
                 "; it would need some {:.2g} Hz",
                 static_cast<double>(rate) * std::pow(off, 1.0 / row.choice.method->order));
         return text;
+    }
+    /// Leaves out what is the advice itself, or the runner-up.
+    void explain() {
+        const auto named = [&](const Alternative& alternative) {
+            const bool is_best = alternative.method == advice_.best->choice.method;
+            return is_best ||
+                   (advice_.runner_up && alternative.method == advice_.runner_up->choice.method);
+        };
+        std::erase_if(advice_.alternatives, named);
+        for (Alternative& alternative : advice_.alternatives)
+            if (alternative.row) alternative.why = why_worse(*alternative.row);
     }
 
     void time(const std::function<bool()>& stopped) {
@@ -156,6 +166,8 @@ private:
     Advice advice_;
 };
 
+}  // namespace
+
 void require_judgeable(const Scene& scene, const Reference& reference, const Wish& wish) {
     if (reference.meaningful < reference.looks.count)
         fail(Exit::usage,
@@ -175,8 +187,6 @@ void require_judgeable(const Scene& scene, const Reference& reference, const Wis
     require(wish.position_error, floor.position, "position error", " m");
     require(wish.energy_drift, floor.energy, "energy drift", "");
 }
-
-}  // namespace
 
 bool meets(const Judgement& judgement, const Wish& wish, double slack) {
     return judgement.stable && excess(judgement, wish) <= 1 - slack;

@@ -45,6 +45,9 @@ struct Advice {
 [[nodiscard]] Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
                             const SweepWatch& watch);
 
+/// Throws Error{usage} for a wish that the reference cannot judge.
+void require_judgeable(const Scene& scene, const Reference& reference, const Wish& wish);
+
 /// Whether a judgement is within the tolerances; with a hundredth's part of `slack` to spare.
 [[nodiscard]] bool meets(const Judgement& judgement, const Wish& wish, double slack = 0);
 

@@ -63,6 +63,7 @@ std::string conclusion(const Advice& advice, const Reference& reference, const W
 
 std::string beside(const char* role, const TradeoffRow& row, const Advice& advice,
                    const Reference& reference) {
+    if (!row.judgement.stable) return fmt::format("{}: {}, unstable.", role, words_of(row.choice));
     const double times = row.ns_per_second / advice.best->ns_per_second;
     return fmt::format("{}: {}, {}, {}{}.", role, words_of(row.choice),
                        error_words(row.judgement, reference), cost_words(row),

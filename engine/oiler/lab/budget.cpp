@@ -43,6 +43,7 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
              "shorter duration",
              reference.meaningful_until(), scene.duration, reference.why_no_longer);
     const Judgement judgement = judge(scene, settings, reference, stopped);
+    if (stopped()) return lines;
     const Doubt floor = reference.floor();
     if (budget.position_error)
         lines.push_back(hold("position_error", "m", *budget.position_error, judgement.stable,

@@ -164,13 +164,15 @@ FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffo
     Table table(scene, looks, effort);
     const double work_per_step = work_per_evaluation(scene) * table.method().evaluations;
     FineSteps finest;
+    bool affordable = false;
     std::int64_t most_good = -1;
     int vain = 0;
     for (std::int64_t rate = looks.per_second; vain < most_vain_runs; rate *= 2) {
         const double work = work_per_step * static_cast<double>(rate) * looks.time(looks.count - 1);
         if (work > effort.most_work || effort.stopped()) break;
+        affordable = true;
         if (!table.add_run(rate) || !table.has_doubts()) continue;
-        effort.progress(std::log1p(work) / std::log1p(effort.most_work));
+        effort.progress(work / effort.most_work);
         std::vector<Doubt> doubts = table.doubts();
         const double doubt = doubts.back().position;
         const double extent = extent_of(table.best());
@@ -190,8 +192,13 @@ FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffo
             .finest_run = table.finest_run(),
             .method = &table.method(),
             .rate = rate};
-        if (doubt <= (effort.wanted > 0 ? effort.wanted : least_wanted * extent)) break;
+        // A loose wish is no reason to take a scene for chaotic.
+        const double wanted = effort.wanted > 0
+                                  ? std::min(effort.wanted, resolution * extent / margin)
+                                  : least_wanted * extent;
+        if (doubt <= wanted) break;
     }
+    finest.affordable = affordable;
     return finest;
 }
 

@@ -56,11 +56,14 @@ private:
     [[nodiscard]] double phase_error() const {
         if (!reference_.swing) return unknown;
         const Swing& swing = *reference_.swing;
-        const std::vector<double> at =
-            upward_crossings(swing_, swing.level, static_cast<double>(reference_.looks.per_second));
+        const std::vector<double> at = upward_crossings(
+            swing_, swing.level, swing.band, static_cast<double>(reference_.looks.per_second));
         const std::size_t both = std::min(at.size(), swing.crossings.size());
         if (both == 0) return unknown;
-        return 360 * (swing.crossings[both - 1] - at[both - 1]) / swing.period;
+        const double phase = 360 * (swing.crossings[both - 1] - at[both - 1]) / swing.period;
+        // Of a swing whose middle is passed as fast as it ever is.
+        const double least = 360 * reference_.floor().position / reference_.extent;
+        return std::abs(phase) >= least ? phase : unknown;
     }
 
     const Reference& reference_;

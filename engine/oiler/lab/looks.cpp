@@ -15,6 +15,8 @@ constexpr double usual_looks_per_second = 60;
 constexpr double fewest_looks = 20;
 /// Of all bodies at all looks, which are kept in memory several times over.
 constexpr double most_states = 400'000;
+/// Where one look a second is more than that.
+constexpr double most_kept_states = 4e6;
 
 std::int64_t largest_divisor(std::int64_t number, double most) {
     auto divisor = static_cast<std::int64_t>(std::clamp(most, 1.0, static_cast<double>(number)));
@@ -60,6 +62,12 @@ Looks looks_of(const Scene& scene) {
         most_states / static_cast<double>(std::max<std::int64_t>(1, bodies)) / scene.duration;
     const double wanted = std::max(usual_looks_per_second, fewest_looks / scene.duration);
     Looks looks{.per_second = largest_divisor(look_rate(scene.rate, wanted), affordable)};
+    const double states =
+        static_cast<double>(bodies) * scene.duration * static_cast<double>(looks.per_second);
+    if (states > most_kept_states)
+        fail(Exit::usage,
+             "{} bodies for {:g} s are more than can be kept in memory: give --duration up to {:g}",
+             bodies, scene.duration, scene.duration * most_kept_states / states);
     const double intervals = scene.duration * static_cast<double>(looks.per_second);
     looks.count = static_cast<std::int64_t>(std::floor(intervals * (1 + 1e-12))) + 1;
     return looks;

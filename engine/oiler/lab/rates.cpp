@@ -144,9 +144,13 @@ void notice_swing(Noticed& noticed, const Watch& watch, const Paths& paths) {
     if (!watch.swing) return;
     const Path& path = paths[static_cast<std::size_t>(watch.swing->axis)];
     std::vector<double> up;
-    for (std::size_t i = 1; i < path.size(); ++i)
-        if (path.x[i - 1] < watch.rest && path.x[i] >= watch.rest)
-            up.push_back(path.time(i, path.crossing(i, watch.rest)));
+    bool was_below = false;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        was_below = was_below || path.x[i - 1] < watch.rest - watch.swing->band;
+        if (!was_below || !(path.x[i - 1] < watch.rest && path.x[i] >= watch.rest)) continue;
+        up.push_back(path.time(i, path.crossing(i, watch.rest)));
+        was_below = false;
+    }
     if (up.size() >= 2)
         noticed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
     std::size_t from = path.size() - 1;
@@ -210,15 +214,20 @@ std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Re
 
 /// Where a swing comes to rest that falls by the same factor from each extreme to the next, from
 /// the last three: by Aitken's formula.
-double rest_of(const Path& path) {
+double rest_of(const Path& path, double band) {
     const Path down = turned(path);
     std::vector<double> extremes;
     for (std::size_t i = 1; i < path.size(); ++i) {
         if (path.v[i - 1] > 0 && path.v[i] <= 0) extremes.push_back(path.at(i, summit(path, i)));
         if (path.v[i - 1] < 0 && path.v[i] >= 0) extremes.push_back(-down.at(i, summit(down, i)));
     }
+    // Those that rounding has left something of.
+    while (extremes.size() > 3 &&
+           std::abs(extremes[extremes.size() - 1] - extremes[extremes.size() - 2]) < band)
+        extremes.pop_back();
     if (extremes.size() < 3) return path.x.back();
     const double* const last = extremes.data() + extremes.size() - 3;
+    if (last[0] + last[2] == 2 * last[1]) return last[1];
     return (last[0] * last[2] - last[1] * last[1]) / (last[0] + last[2] - 2 * last[1]);
 }
 
@@ -232,10 +241,10 @@ Watch watch_of(const Scene& scene, const Reference& reference, std::size_t row) 
         watch.up_sign = (*scene.gravity)[up] > 0 ? -1 : 1;
         if (scene.axes > 1) watch.across = up == 0 ? 1 : 0;
     }
-    watch.swing = find_swing(reference.track, reference.looks, row);
+    watch.swing = find_swing(reference.track, reference.meaningful_looks(), row);
     if (watch.swing) {
         const Paths paths = paths_of(reference, row);
-        watch.rest = rest_of(paths[static_cast<std::size_t>(watch.swing->axis)]);
+        watch.rest = rest_of(paths[static_cast<std::size_t>(watch.swing->axis)], watch.swing->band);
     }
     return watch;
 }

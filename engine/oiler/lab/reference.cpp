@@ -68,6 +68,13 @@ std::vector<Doubt> doubts_of(const Track& track, const Looks& looks, double roun
     return doubts;
 }
 
+double largest_coordinate(const Track& track) {
+    double most = 0;
+    for (const State3& state : track.states)
+        most = std::max(most, static_cast<double>(largest(state.x)));
+    return most;
+}
+
 double extent_of(const Track& track, const Looks& looks) {
     double extent = 0;
     for (std::int64_t look = 0; look < looks.count; ++look)
@@ -132,6 +139,7 @@ private:
     }
     void take(FineSteps&& fine) {
         reference_.closed_form = false;
+        affordable_ = fine.affordable;
         if (!fine.track.states.empty()) followed_ = count_followed(fine);
         reference_.track = std::move(fine.track);
         reference_.doubts = std::move(fine.doubts);
@@ -148,6 +156,10 @@ private:
             return;
         }
         const std::int64_t good = count_good(fine.doubts, 10 * margin * effort.wanted);
+        if (good < 2) {
+            reference_.words += ", which fine steps were too coarse to check";
+            return;
+        }
         const double apart = largest_difference(reference_.track, fine.track, good);
         const auto last = static_cast<std::size_t>(good - 1);
         const double allowed =
@@ -155,6 +167,9 @@ private:
         if (apart <= allowed) {
             reference_.words += fmt::format(", which fine steps confirm to {:.2g} m",
                                             std::max(apart, fine.doubts[last].position));
+            if (good < reference_.looks.count)
+                reference_.words +=
+                    fmt::format(" for the first {:.3g} s", reference_.looks.time(good - 1));
             return;
         }
         take(fine_steps(scene_, reference_.looks, effort_));
@@ -166,7 +181,9 @@ private:
 
     /// How many looks until rounding to double alone leads a run of the same steps astray.
     [[nodiscard]] std::int64_t count_followed(const FineSteps& fine) const {
-        const double most = resolution * extent_of(fine.track, reference_.looks);
+        const double most = std::max(
+            resolution * extent_of(fine.track, reference_.looks),
+            margin * std::numeric_limits<double>::epsilon() * largest_coordinate(fine.track));
         Follower follower(scene_, settings_of({fine.method, fine.rate, Precision::double_}),
                           reference_.looks.per_second);
         for (std::int64_t look = 0; look < reference_.looks.count && !effort_.stopped(); ++look) {
@@ -179,7 +196,10 @@ private:
     }
 
     void find_meaningful() {
-        const double most = resolution * reference_.extent;
+        // What hardly moves is not chaotic for being rounded.
+        const double most = std::max(
+            resolution * reference_.extent,
+            margin * std::numeric_limits<double>::epsilon() * largest_coordinate(reference_.track));
         const std::int64_t good = count_good(reference_.doubts, most);
         reference_.meaningful = std::max<std::int64_t>(1, std::min(good, followed_));
         if (reference_.meaningful == reference_.looks.count) return;
@@ -188,7 +208,7 @@ private:
                 ? fmt::format(
                       "rounding to double alone then moves bodies by more than {:.2g} m: the "
                       "motion is chaotic",
-                      resolution * reference_.extent)
+                      most)
                 : fmt::format(
                       "the reference itself is then off by more than {:.2g} m: the motion "
                       "is chaotic, or too much work",
@@ -196,6 +216,11 @@ private:
     }
 
     Reference finish() {
+        if (effort_.stopped()) return std::move(reference_);
+        if (reference_.track.states.empty() && !affordable_)
+            fail(Exit::usage,
+                 "a reference for {} s takes too much work: shorten it with --duration",
+                 scene_.duration);
         if (reference_.track.states.empty())
             fail(Exit::diverged,
                  "no reference stays finite over {} s: the scene is too stiff, or meets an "
@@ -207,7 +232,7 @@ private:
             doubt.energy = std::max(reference_.share_of_energy(doubt.energy),
                                     8 * std::numeric_limits<double>::epsilon());
         find_meaningful();
-        reference_.swing = find_swing(reference_.track, reference_.looks);
+        reference_.swing = find_swing(reference_.track, reference_.meaningful_looks());
         return std::move(reference_);
     }
 
@@ -215,6 +240,7 @@ private:
     const ReferenceEffort& effort_;
     Bodies start_;
     Reference reference_;
+    bool affordable_ = true;
     std::int64_t followed_ = std::numeric_limits<std::int64_t>::max();
 };
 

@@ -35,6 +35,7 @@ struct Swing {
     std::size_t row = 0;
     int axis = 0;
     double level = 0;                 ///< m, which it crosses upwards once in a period
+    double band = 0;                  ///< m, below which it is at rest
     double period = 0;                ///< s
     std::vector<double> crossings{};  ///< s
 };
@@ -59,6 +60,7 @@ struct Reference {
     [[nodiscard]] double share_of_energy(double joules) const;
     /// Below which it cannot tell errors: a hundred times its own.
     [[nodiscard]] Doubt floor() const;
+    [[nodiscard]] Looks meaningful_looks() const { return {looks.per_second, meaningful}; }
     /// In s.
     [[nodiscard]] double meaningful_until() const { return looks.time(meaningful - 1); }
 };

@@ -16,6 +16,7 @@ struct FineSteps {
     Track finest_run{};  ///< which the track was extrapolated from
     const Method* method = nullptr;
     std::int64_t rate = 0;
+    bool affordable = false;  ///< whether even the coarsest was
 };
 
 /// Halves the step until what the method's order extrapolates no longer changes by more than is
@@ -42,8 +43,12 @@ struct SwingLook {
     double v;  ///< m/s
 };
 
-/// When it goes up through a level, in s, between looks by a cubic.
+/// When it goes up through a level, in s, between looks by a cubic; having been below it by `band`
+/// at least, so that the roundings of what has come to rest are no swing.
 [[nodiscard]] std::vector<double> upward_crossings(const std::vector<SwingLook>& looks,
-                                                   double level, double per_second);
+                                                   double level, double band, double per_second);
+
+/// Of how far a coordinate gets, what is at rest.
+inline constexpr double dead_band = 1e-6;
 
 }  // namespace oiler

@@ -199,7 +199,7 @@ void Search::refine() {
         if (row.meets_steps) refine(row);
 }
 
-/// Between the rung that does and the one below, which does not: multiples of how often is looked.
+/// Between the rung that does and the one below: multiples of how often is looked.
 void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.choice.rate);
     if (rung == rungs_.begin()) return;

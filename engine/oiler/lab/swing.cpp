@@ -42,7 +42,10 @@ std::vector<SwingLook> looks_at(const Track& track, std::int64_t looks, std::siz
 std::optional<Swing> swing_of(const std::vector<SwingLook>& all, double per_second) {
     Swing swing;
     for (const SwingLook& look : all) swing.level += look.x / static_cast<double>(all.size());
-    swing.crossings = upward_crossings(all, swing.level, per_second);
+    const auto [low, high] = std::minmax_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+    swing.band = dead_band * (high->x - low->x);
+    swing.crossings = upward_crossings(all, swing.level, swing.band, per_second);
     const std::vector<double>& at = swing.crossings;
     if (at.size() < fewest_crossings) return std::nullopt;
     double shortest = INFINITY;
@@ -59,14 +62,17 @@ std::optional<Swing> swing_of(const std::vector<SwingLook>& all, double per_seco
 
 }  // namespace
 
-std::vector<double> upward_crossings(const std::vector<SwingLook>& looks, double level,
+std::vector<double> upward_crossings(const std::vector<SwingLook>& looks, double level, double band,
                                      double per_second) {
     std::vector<double> at;
+    bool was_below = false;
     for (std::size_t i = 1; i < looks.size(); ++i) {
-        if (!(looks[i - 1].x < level && looks[i].x >= level)) continue;
+        was_below = was_below || looks[i - 1].x < level - band;
+        if (!was_below || !(looks[i - 1].x < level && looks[i].x >= level)) continue;
         const SwingLook a{looks[i - 1].x, looks[i - 1].v / per_second};
         const SwingLook b{looks[i].x, looks[i].v / per_second};
         at.push_back((static_cast<double>(i - 1) + crossing(a, b, level)) / per_second);
+        was_below = false;
     }
     return at;
 }

@@ -180,6 +180,7 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     double work = 0;
     for (const std::size_t i : open) work += evaluations_of(*tradeoff.ladders[i].method);
     std::exception_ptr failure;
+    const int cores = this_machine().cores;
     const auto stopped = [&] { return failed || watch.stopped(); };
     const auto climb_open = [&] {
         for (std::size_t at = next++; at < open.size() && !stopped(); at = next++) {
@@ -204,7 +205,7 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     };
     {
         std::vector<std::jthread> others;
-        for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(climb);
+        for (int i = 1; i < cores; ++i) others.emplace_back(climb);
         climb();
     }
     if (failure) std::rethrow_exception(failure);

@@ -81,7 +81,7 @@ using Cost = double (*)(const TradeoffRow& row);
 }
 
 /// The rows than which no other costs less and is no more wrong, the cheapest first. Errors that
-/// the reference cannot tell count as its floor.
+/// the reference cannot tell count as none.
 [[nodiscard]] std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost);
 
 /// From 1 Hz to `max_rate`: the divisors of how often the scene is looked at, multiples of it that

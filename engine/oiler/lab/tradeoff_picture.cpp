@@ -111,7 +111,7 @@ private:
             write(left,
                   error < 1e-3 ? fmt::format("{:.0e} m", error) : fmt::format("{:g} m", error));
             write(
-                left + 43,
+                left + 36,
                 fmt::format("{} {} Hz{} {:.3g}{}", (*row)->choice.method->name, (*row)->choice.rate,
                             (*row)->choice.precision == Precision::single ? " float:" : ":",
                             axis_.of(**row) / axis_.unit, axis_.suffix));

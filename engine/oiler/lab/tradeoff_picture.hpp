@@ -25,7 +25,8 @@ struct CostAxis {
 /// each cost among all methods in both precisions, and what is cheapest for each power of ten.
 [[nodiscard]] Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis);
 
-/// How far the energy of runs, all at one rate, is off over time, of the reference's scale.
+/// How far the energy of runs, one at least and all at one rate, is off over time, of the
+/// reference's scale.
 [[nodiscard]] Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff,
                                        const Reference& reference,
                                        const std::vector<SceneChoice>& choices);
