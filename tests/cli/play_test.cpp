@@ -47,12 +47,12 @@ TEST(Play, EveryScene) {
 }
 
 TEST(Play, AsTheSceneSaysUnlessTheCommandLineDoes) {
-    const Json own = report_of(scene("orbit") + " --steps 5");
+    const Json own = report_of(scene("chain") + " --steps 5");
     EXPECT_EQ(own.at("method"), "blanes_moan_srkn6b");
-    EXPECT_EQ(own.at("rate"), 500);
+    EXPECT_EQ(own.at("rate"), 1000);
     EXPECT_EQ(own.at("precision"), "double");
     const Json given =
-        report_of("--method rk4 --steps 5 --rate 250 " + scene("orbit") + " --precision float");
+        report_of("--method rk4 --steps 5 --rate 250 " + scene("chain") + " --precision float");
     EXPECT_EQ(given.at("method"), "rk4");
     EXPECT_EQ(given.at("rate"), 250);
     EXPECT_EQ(given.at("precision"), "float");

@@ -24,7 +24,7 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options, 
 using MeasureBudget = std::function<std::vector<BudgetEntry>()>;
 
 /// Plays a game from its start to its end as the options say, and writes what they ask for.
-/// Without a window the budget is measured, and exceeding it is a failed comparison.
+/// With --headless or --json the budget is measured, and exceeding it is a failed comparison.
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget = {});
 

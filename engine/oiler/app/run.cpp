@@ -64,8 +64,8 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());
     report.wall = Clock::now() - start;
-    if (measure_budget && (options.headless || options.steps) && !Interrupt::requested())
-        report.budget = measure_budget();
+    const bool is_checked = options.headless || !options.json.empty();
+    if (measure_budget && is_checked && !Interrupt::requested()) report.budget = measure_budget();
     if (!options.json.empty()) write_report(options.json, report, game->world());
     if (Interrupt::requested()) return Exit::interrupted;
     bool kept = true;
