@@ -468,6 +468,18 @@ TEST(World, ARunThatDivergesSaysSo) {
     }
 }
 
+TEST(World, ARunThatMayDivergeTellsWhere) {
+    World world(1, {.rate = {1}, .precision = Precision::single});
+    world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});
+    EXPECT_FALSE(world.try_step(100));
+    EXPECT_EQ(world.tick(), 100);
+    const auto where = world.try_step(900);
+    ASSERT_TRUE(where);
+    EXPECT_EQ(where->tick, 128);
+    EXPECT_EQ(where->row, 0U);
+    EXPECT_EQ(world.tick(), 100);
+}
+
 // Carrying on would change the entity that lives in the slot now, so these hold in every build.
 TEST(WorldDeathTest, MistakesEndTheProgramAndSayWhich) {
     World world(2);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "oiler/sim/advance.hpp"
 #include "oiler/sim/link_rows.hpp"
@@ -122,10 +123,14 @@ private:
         cache_.half_step = half_step;
         for (std::size_t row = 0; row < columns_.size; ++row)
             cache_.inverse_mass.push(static_cast<T>(1 / columns_.mass[row]));
+        // Most links are like the one before.
+        T rate = 0;
+        T reach = oscillator_response(T(0), rate, half_step).reach;
         for (const LinkRow<T>& link : columns_.links) {
-            const T rate =
-                link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]);
-            cache_.loss.push_back(rate * oscillator_response(T(0), rate, half_step).reach);
+            const T rate_before = std::exchange(
+                rate, link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]));
+            if (rate != rate_before) reach = oscillator_response(T(0), rate, half_step).reach;
+            cache_.loss.push_back(rate * reach);
             if (cache_.runs.empty() || !continues(cache_.runs.back(), link))
                 cache_.runs.push_back({link, 0});
             ++cache_.runs.back().count;

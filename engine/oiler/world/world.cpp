@@ -104,11 +104,16 @@ std::uint32_t World::jumps(Entity entity) const {
 }
 
 void World::step(std::int64_t count) {
-    require(count >= 0, "steps only go forward");
     const Steps steps = next_steps(count);
-    if (const auto at = bodies_.try_step(*settings_.method, steps))
+    if (const auto at = try_step(count))
         fail_diverged(bodies_, *at, *settings_.method, steps, name_of_row());
-    tick_ += count;
+}
+
+std::optional<Divergence> World::try_step(std::int64_t count) {
+    require(count >= 0, "steps only go forward");
+    const auto divergence = bodies_.try_step(*settings_.method, next_steps(count));
+    if (!divergence) tick_ += count;
+    return divergence;
 }
 
 void World::require_applicable() const {

@@ -167,6 +167,9 @@ public:
     /// Steps all bodies `count` times. One call with `count` and as many calls with 1 give the same
     /// bits. Throws Error{diverged}.
     void step(std::int64_t count = 1);
+    /// The same, which tells where the first body diverges instead of looking for the cause; of no
+    /// use after that.
+    [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
     [[nodiscard]] std::int64_t tick() const { return tick_; }
     /// In s, from the tick.
     [[nodiscard]] double time() const { return settings_.rate.time(tick_); }
