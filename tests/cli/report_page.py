@@ -2,14 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Opens a page of `oiler report` in Chromium and holds what is shown against the page's own data.
 
-    report_page.py PAGE                                     a line per failure; exits with 0 or 1
-    report_page.py --fill TEMPLATE DATA LIBRARY FRAME PAGE  fills the template without oiler
+    report_page.py PAGE    a line per failure; exits with 0 or 1
 
 Needs Debian's chromium and nothing else: it is spoken to over a pipe, in its DevTools protocol.
 """
-import base64
 import fcntl
-import html
 import json
 import os
 import re
@@ -160,7 +157,7 @@ def close_to(a, b):
 class Check:
     def __init__(self, browser, data):
         self.browser, self.data, self.failures = browser, data, []
-        self.rows = (data["tradeoff"] or {}).get("rows", [])
+        self.tradeoff, self.rows = data["tradeoff"], data["tradeoff"]["rows"]
 
     def expect(self, holds, words):
         if not holds:
@@ -181,13 +178,13 @@ class Check:
                         f"section {part} is {'there' if there else 'missing'}")
 
     def heading(self):
-        title = self.data["title"] or self.data["scene"]
+        title = self.tradeoff["title"] or self.tradeoff["scene"]
         self.expect(self.texts("h1") == [title], f"the heading is {self.texts('h1')}")
         # The placeholder of the title is filled by oiler, not by the page's own script.
         self.expect("@TITLE@" not in self.browser.value("document.title"), "@TITLE@ is left")
         self.expect(self.browser.value("document.getElementById('frame').naturalWidth") > 0,
                     "the frame is no picture")
-        today, box = self.data["today"], " ".join(self.texts("#today dd"))
+        today, box = self.tradeoff["today"], " ".join(self.texts("#today dd"))
         for word in (today["method"], f"{today['rate']:,} Hz", today["precision"]):
             self.expect(word in box, f"today's box lacks {word}: {box}")
         row = next((r for r in self.rows if same(r, today)), None)
@@ -201,15 +198,19 @@ class Check:
         words = [" ".join(paragraph.split()) for paragraph in advice["words"]]
         self.expect(paragraphs == words, f"the advice reads {paragraphs}")
         table = self.table("#advice tbody tr")
-        self.expect(len(table) == len(advice["rows"]), f"{len(table)} rows of advice")
-        for cells, row in zip(table, advice["rows"]):
-            self.expect(cells[:4] == [row["role"], row["method"], f"{row['rate']:,}",
-                                      row["precision"]] and cells[7] == row["why"]
+        rows = [("advice", advice["advice"]), ("runner-up", advice["runner_up"]),
+                ("today", advice["today"]),
+                *(("alternative", one) for one in advice["alternatives"] if "rate" in one)]
+        rows = [(role, row) for role, row in rows if row]
+        self.expect(len(table) == len(rows), f"{len(table)} rows of advice")
+        for cells, (role, row) in zip(table, rows):
+            self.expect(cells[:4] == [role, row["method"], f"{row['rate']:,}", row["precision"]]
+                        and (cells[7] == row["why"] if "why" in row else cells[7])
                         and near(cells[5], row["energy_drift"])
                         and (row["position_error"] is None or near(cells[4], row["position_error"]))
                         and near(cells[6], micro(row["ns_per_second"])),
                         f"advice {row['method']} at {row['rate']} Hz reads {cells}")
-            if row["role"] == "advice":
+            if role == "advice":
                 text = " ".join(paragraphs)
                 self.expect(row["method"] in text and re.search(rf"\b{row['rate']:,}\b|\b"
                                                                 rf"{row['rate']}\b", text),
@@ -221,31 +222,31 @@ class Check:
         table = self.table(selector)
         self.expect(len(table) == len(self.rows), f"{len(table)} rows of {len(self.rows)} runs")
         for cells, row in zip(table, self.rows):
-            self.expect([cells[0], cells[2], cells[3]] == [row["method"], row["precision"],
-                                                           f"{row['rate']:,}"]
-                        and (row["below_floor"] or near(cells[4], row["position_error"]))
-                        and near(cells[6], row["phase_error"])
-                        and near(cells[9], micro(row["ns_per_second"])),
+            self.expect(cells[:3] == [row["method"], row["precision"],
+                                       f"{row['rate']:,}"]
+                        and (row["below_floor"] or near(cells[3], row["position_error"]))
+                        and near(cells[5], row["phase_error"])
+                        and near(cells[8], micro(row["ns_per_second"])),
                         f"run {row['method']} at {row['rate']} Hz reads {cells}")
         for direction in (1, -1):
-            browser.click("document.querySelectorAll('#tradeoff thead button')[4]")
-            errors = [shown(cells[4]) for cells in self.table(selector)]
+            browser.click("document.querySelectorAll('#tradeoff thead button')[3]")
+            errors = [shown(cells[3]) for cells in self.table(selector)]
             numbers = [e for cells, e in zip(self.table(selector), errors)
-                       if e is not None and "<" not in cells[4]]
+                       if e is not None and "<" not in cells[3]]
             self.expect(numbers == sorted(numbers, reverse=direction < 0),
                         "sorting by position error does not sort")
         browser.click("document.querySelector('#tradeoff summary')")
 
     def place(self, row, axis):
         """Where the diagram has a run; None where it cannot have it."""
-        floor = self.data["tradeoff"]["reference"]["position_floor"]
+        floor = self.tradeoff["reference"]["position_floor"]
         x = micro(row["ns_per_second"]) if axis == "time" else row["evaluations"]
         y = floor if row["below_floor"] or row["position_error"] == 0 else row["position_error"]
         return (x, y) if row["stable"] and x and y else None
 
     def expected_points(self, method, precision, axis):
         runs = [r for r in self.rows if r["method"] == method and r["precision"] == precision]
-        runs.sort(key=lambda r: (not r["aligned"], r["rate"]))
+        runs.sort(key=lambda r: (not r["meets_steps"], r["rate"]))
         return [place for r in runs if (place := self.place(r, axis))]
 
     def datasets(self, expression="true"):
@@ -265,7 +266,7 @@ class Check:
 
     def marks(self):
         [today] = self.datasets("d.label === \"today's choice\"")
-        row = next((r for r in self.rows if same(r, self.data["today"])), None)
+        row = next((r for r in self.rows if same(r, self.tradeoff["today"])), None)
         place = row and self.place(row, "time")
         expected = [place] if place else []
         self.expect(close_to(today["points"], expected), f"today's star is at {today['points']}")
@@ -284,7 +285,7 @@ class Check:
         boxes = "document.querySelectorAll('#methods input')"
         notable = browser.value(f"[...{boxes}].filter(b => b.checked).map(b => b.value)")
         wanted = {r["method"] for r in self.rows if r["pareto"]} | {
-            "semi_implicit_euler", "velocity_verlet", "rk4", "exact", self.data["today"]["method"]}
+            *self.data["obvious_methods"], self.tradeoff["today"]["method"]}
         self.expect(wanted & set(methods) <= set(notable), f"chosen at first: {notable}")
         known = lambda some: [m for m in some if m in methods]
         self.curves(known(notable), precisions, "time", "at first")
@@ -330,7 +331,7 @@ class Check:
 
     def tooltip(self):
         rows = [r for r in self.rows if self.place(r, "time") and not r["below_floor"]]
-        rows.sort(key=lambda r: not same(r, self.data["today"]))
+        rows.sort(key=lambda r: not same(r, self.tradeoff["today"]))
         hovered = 0
         for row in rows[:20]:
             if hovered < 3 and (tip := self.tip(row)):
@@ -453,20 +454,7 @@ def test(page):
             browser.close()
 
 
-def fill(template, data, library, frame, page):
-    read = lambda path: Path(path).read_text(encoding="utf-8")
-    picture = base64.b64encode(Path(frame).read_bytes()).decode()
-    parts = {"@CHART_LIBRARY@": read(library), "@FRAME@": "data:image/png;base64," + picture,
-             "@TITLE@": html.escape(json.loads(read(data))["title"]),
-             "@DATA@": read(data).replace("<", "\\u003c")}
-    text = re.sub("|".join(parts), lambda found: parts[found[0]], read(template))
-    Path(page).write_text(text, encoding="utf-8")
-
-
 def main(arguments):
-    if len(arguments) == 6 and arguments[0] == "--fill":
-        fill(*arguments[1:])
-        return 0
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
         return 2

@@ -5,6 +5,7 @@
 
 #include "oiler/app/interrupt.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/budget.hpp"
@@ -25,21 +26,11 @@ struct Checked {
     }
 };
 
-/// For XML, which has no place for control characters, and none for bytes that are no text.
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        const bool printable = c >= ' ' && c <= '~';
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += printable ? c : '?';
-    }
-    return safe;
+/// XML has no place for control characters, and none for bytes that are no text.
+std::string for_xml(std::string text) {
+    for (char& c : text)
+        if (c < ' ' || c > '~') c = '?';
+    return escaped(text);
 }
 
 /// A test case for each number of a budget; a scene without one was skipped.
@@ -50,12 +41,12 @@ std::string to_junit(const std::vector<Checked>& all) {
     int skipped = 0;
     int errors = 0;
     for (const Checked& checked : all) {
-        const std::string file = escaped(checked.file);
+        const std::string file = for_xml(checked.file);
         for (const BudgetLine& line : checked.lines) {
             ++tests;
             failures += line.kept ? 0 : 1;
             cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", file, line.name);
-            const std::string words = escaped(words_of(line));
+            const std::string words = for_xml(words_of(line));
             cases += line.kept ? fmt::format("><system-out>{}</system-out></testcase>\n", words)
                                : fmt::format("><failure message=\"{}\"/></testcase>\n", words);
         }
@@ -65,7 +56,7 @@ std::string to_junit(const std::vector<Checked>& all) {
             ++errors;
             cases += fmt::format(
                 "  <testcase classname=\"{}\" name=\"budget\"><error message=\"{}\"/></testcase>\n",
-                file, escaped(checked.error));
+                file, for_xml(checked.error));
             continue;
         }
         ++skipped;

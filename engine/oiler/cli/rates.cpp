@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/rates.hpp"
+#include "oiler/lab/json.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,10 @@
 
 #include "oiler/app/interrupt.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/cli/parts_json.hpp"
 #include "oiler/cli/tables.hpp"
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.5g}", value); }
 
@@ -40,41 +37,7 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
            "is not there,\nor unstable. As drawn: straight lines between steps.\n";
 }
 
-Json list_of(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double value : values) list.push_back(number(value));
-    return list;
-}
-
 }  // namespace
-
-nlohmann::ordered_json rates_json(const Rates& rates) {
-    Json quantities = Json::array();
-    for (const RatesQuantity& quantity : rates.quantities) {
-        Json lines = Json::array();
-        for (const RatesLine& line : quantity.lines)
-            lines.push_back({{"method", line.method->name},
-                             {"values", list_of(line.values)},
-                             {"spread_percent", number(line.spread_percent)}});
-        quantities.push_back({{"name", quantity.name},
-                              {"unit", quantity.unit},
-                              {"body", rates.body},
-                              {"truth", number(quantity.truth)},
-                              {"methods", std::move(lines)}});
-    }
-    return {{"rates", rates.rates}, {"quantities", std::move(quantities)}};
-}
-
-std::vector<const Method*> usual_methods(const Scene& scene) {
-    std::vector<const Method*> usual{scene.method};
-    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4", "exact"}) {
-        const Method& method = find_method(name);
-        if (&method != scene.method &&
-            why_not(scene, settings_of({&method, scene.rate, scene.precision})).empty())
-            usual.push_back(&method);
-    }
-    return usual;
-}
 
 Exit RatesCommand::run() const {
     const Interrupt interrupt;
@@ -92,7 +55,7 @@ Exit RatesCommand::run() const {
         measure_rates(scene, reference, row, rates, chosen, Interrupt::requested);
     if (Interrupt::requested()) return Exit::interrupted;
     if (!measured.json.empty()) {
-        Json json = rates_json(measured_rates);
+        Json json = json_of(measured_rates);
         json["scene"] = name_of(measured);
         write_json(measured.json, json);
     }

@@ -7,9 +7,10 @@
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/cli/parts_json.hpp"
 #include "oiler/cli/tables.hpp"
+#include "oiler/lab/json.hpp"
 #include "oiler/lab/ledger.hpp"
 #include "oiler/lab/tradeoff_picture.hpp"
 #include "oiler/scene/draw.hpp"
@@ -23,145 +24,11 @@ extern const char oiler_chart[], oiler_chart_end[];
 namespace oiler {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A page is for a first look: how far a sweep goes for it.
 constexpr std::int64_t highest_multiple = 128;  ///< of how often is looked
 constexpr double most_work = 5e7;
 constexpr Size frame_size{960, 540};
 constexpr double usual_tolerance = 1e-3;  ///< of what bodies move
-
-std::string base64(const std::vector<std::byte>& bytes) {
-    constexpr std::string_view letters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            three = three << 8 |
-                    (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? letters[three >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else
-            safe += c;
-    }
-    return safe;
-}
-
-/// No script's end can hide in a text.
-std::string for_script(const Json& json) {
-    std::string safe;
-    for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-        if (c == '<')
-            safe += "\\u003c";
-        else
-            safe += c;
-    }
-    return safe;
-}
-
-/// The template with each @NAME@ replaced, in one pass: what is put in is not looked at again.
-std::string fill(std::string_view page, const std::map<std::string, std::string>& parts) {
-    std::string text;
-    while (!page.empty()) {
-        std::size_t at = page.npos;
-        const std::pair<const std::string, std::string>* found = nullptr;
-        for (const auto& part : parts)
-            if (const std::size_t here = page.find(part.first); here < at) {
-                at = here;
-                found = &part;
-            }
-        text += page.substr(0, at);
-        if (!found) break;
-        text += found->second;
-        page.remove_prefix(at + found->first.size());
-    }
-    return text;
-}
-
-Json choice_json(const SceneChoice& choice) {
-    return {{"method", choice.method->name},
-            {"rate", choice.rate},
-            {"precision", name_of(choice.precision)}};
-}
-
-Json row_json(const TradeoffRow& row, bool best) {
-    Json json = choice_json(row.choice);
-    const Judgement& judgement = row.judgement;
-    json["order"] =
-        row.choice.method->order == exact_order ? Json("exact") : Json(row.choice.method->order);
-    json["position_error"] = number(judgement.position_error);
-    json["velocity_error"] = number(judgement.velocity_error);
-    json["phase_error"] = number(judgement.phase_error);
-    json["energy_drift"] = number(judgement.energy_drift);
-    json["evaluations"] = number(judgement.evaluations);
-    json["ns_per_second"] = number(row.ns_per_second);
-    json["ns_spread"] = number(row.ns_spread);
-    json["stable"] = judgement.stable;
-    json["aligned"] = row.meets_steps;
-    json["below_floor"] = judgement.below_floor();
-    json["pareto"] = best;
-    return json;
-}
-
-Json tradeoff_json(const Tradeoff& tradeoff) {
-    const Machine machine = this_machine();
-    Json json{{"machine",
-               {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}}},
-              {"duration", tradeoff.duration},
-              {"looks_per_second", tradeoff.looks.per_second},
-              {"reference",
-               {{"kind", tradeoff.reference.closed_form ? "closed form" : "fine steps"},
-                {"words", tradeoff.reference.words},
-                {"position_error", tradeoff.reference.position_error},
-                {"position_floor", tradeoff.reference.floor.position},
-                {"velocity_error", tradeoff.reference.velocity_error},
-                {"meaningful_until", tradeoff.reference.meaningful_until}}},
-              {"rows", Json::array()}};
-    const auto front = pareto(tradeoff, time_of);
-    for (const TradeoffRow* row : tradeoff.rows())
-        json["rows"].push_back(
-            row_json(*row, std::find(front.begin(), front.end(), row) != front.end()));
-    return json;
-}
-
-Json advice_part(const Advice& advice, const Scene& scene, const Reference& reference,
-                 const Wish& wish) {
-    Json rows = Json::array();
-    const auto add = [&](const char* role, const std::optional<TradeoffRow>& row,
-                         const std::string& why) {
-        if (!row) return;
-        Json json = row_json(*row, false);
-        json["role"] = role;
-        json["why"] = why;
-        rows.push_back(std::move(json));
-    };
-    add("advice", advice.best,
-        advice.meets ? "the cheapest that keeps within the tolerance" : "comes nearest");
-    add("runner-up", advice.runner_up, "the cheapest of another method");
-    add("today", advice.today, "what the scene file says");
-    for (const Alternative& alternative : advice.alternatives)
-        add("alternative", alternative.row, alternative.why);
-    const auto optional = [](const std::optional<double>& value) {
-        return value ? Json(*value) : Json(nullptr);
-    };
-    return {{"words", words_of(advice, scene, reference, wish)},
-            {"rows", std::move(rows)},
-            {"tolerance",
-             {{"position_error", optional(wish.position_error)},
-              {"energy_drift", optional(wish.energy_drift)}}}};
-}
 
 /// What swings, alike ones together; the fastest first and not too many.
 Json springs_json(const Scene& scene, const Bodies& bodies) {
@@ -172,13 +39,9 @@ Json springs_json(const Scene& scene, const Bodies& bodies) {
         const double omega = std::sqrt(one.of.k);
         auto& [name, count] = kinds[{-omega, one.of.c / (2 * omega)}];
         if (count++ > 0) continue;
-        const auto body = [&](std::size_t row) {
-            return row < scene.bodies.size() && !scene.bodies[row].name.empty()
-                       ? scene.bodies[row].name
-                       : fmt::format("body {}", row);
-        };
-        name = one.linked ? fmt::format("{} to {}, at most", body(one.row), body(*one.linked))
-                          : fmt::format("springs of {}", body(one.row));
+        name = one.linked ? fmt::format("{} to {}, at most", scene.name_of_body(one.row),
+                                        scene.name_of_body(*one.linked))
+                          : fmt::format("springs of {}", scene.name_of_body(one.row));
     }
     Json list = Json::array();
     for (const auto& [shape, kind] : kinds)
@@ -230,8 +93,7 @@ Json ledger_json(const Scene& scene) {
 std::string frame_of(const Scene& scene) {
     Stills stills(frame_size);
     const World world = make_world(scene, settings_of(scene));
-    return "data:image/png;base64," +
-           base64(stills.png(draw_scene(scene, world, camera_of(scene, world))));
+    return address_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
 }
 
 Wish wish_of(const ReportCommand& command, const Scene& scene, const Reference& reference) {
@@ -247,51 +109,66 @@ Wish wish_of(const ReportCommand& command, const Scene& scene, const Reference& 
     return wish;
 }
 
+/// What is measured of a scene for its page.
+struct Found {
+    Tradeoff tradeoff;
+    Advice advice;
+    Rates rates;
+};
+
+Found measure(const ReportCommand& command, const Scene& scene, const Reference& reference,
+              const Wish& wish) {
+    const Looks& looks = reference.looks;
+    const SweepPlan plan{.methods = parse_methods("all"),
+                         .max_rate = std::min<std::int64_t>(
+                             1'000'000, std::max(scene.rate, highest_multiple * looks.per_second)),
+                         .most_work = most_work};
+    Found found{start_tradeoff(scene, looks, reference, plan), {}, {}};
+    found.tradeoff.scene = name_of(command.measured);
+    measure_tradeoff(found.tradeoff, scene, reference, plan, command.measured.quiet);
+    SweepWatch watch;
+    watch.stopped = Interrupt::requested;
+    found.advice = advise(scene, reference, wish, watch);
+    found.rates = measure_rates(scene, reference, reference.swing ? reference.swing->row : 0,
+                                RatesCommand{}.rates, usual_methods(scene), Interrupt::requested);
+    return found;
+}
+
+Json obvious_names() {
+    Json names = Json::array();
+    for (const Method* method : obvious_methods()) names.push_back(method->name);
+    return names;
+}
+
 }  // namespace
 
 Exit ReportCommand::run() const {
     const Interrupt interrupt;
     Scene scene = read_measured(measured);
-    Looks looks = looks_of(scene);
-    Reference reference = measure_reference(scene, looks, 0, measured.quiet);
+    Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
     if (!reference.why_no_longer.empty()) {
         remark(measured.quiet, "the page is about the first {:.4g} s: {}",
                reference.meaningful_until(), reference.why_no_longer);
         scene.duration = reference.meaningful_until();
-        looks = looks_of(scene);
-        reference = measure_reference(scene, looks, 0, measured.quiet);
+        reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
     }
     const Wish wish = wish_of(*this, scene, reference);
     require_judgeable(scene, reference, wish);
     File page(out);
-    SweepPlan plan{.methods = parse_methods("all"),
-                   .max_rate = std::min<std::int64_t>(
-                       1'000'000, std::max(scene.rate, highest_multiple * looks.per_second)),
-                   .most_work = most_work};
-    Tradeoff tradeoff = start_tradeoff(scene, looks, reference, plan);
-    tradeoff.scene = name_of(measured);
-    measure_tradeoff(tradeoff, scene, reference, plan, measured.quiet);
-    SweepWatch watch;
-    watch.stopped = Interrupt::requested;
-    const Advice advice = advise(scene, reference, wish, watch);
-    const Rates rates =
-        measure_rates(scene, reference, reference.swing ? reference.swing->row : 0,
-                      RatesCommand{}.rates, usual_methods(scene), Interrupt::requested);
+    const auto [tradeoff, advice, rates] = measure(*this, scene, reference, wish);
     if (Interrupt::requested()) return Exit::interrupted;
-    const Json data{{"scene", tradeoff.scene},
-                    {"title", scene.title},
-                    {"today", choice_json(tradeoff.today)},
-                    {"tradeoff", tradeoff_json(tradeoff)},
-                    {"advice", advice_part(advice, scene, reference, wish)},
+    const Json data{{"tradeoff", json_of(tradeoff)},
+                    {"advice", json_of(advice, scene, reference, wish)},
                     {"stability", stability_json(scene, notable_methods(tradeoff))},
-                    {"rates", rates.quantities.empty() ? Json(nullptr) : rates_json(rates)},
-                    {"ledger", ledger_json(scene)}};
-    page.write(fill({oiler_page, oiler_page_end},
-                    {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
-                     {"@FRAME@", frame_of(scene)},
-                     {"@TITLE@", escaped(scene.title.empty() ? tradeoff.scene : scene.title)},
-                     {"@DATA@", for_script(data)}}));
+                    {"rates", rates.quantities.empty() ? Json(nullptr) : json_of(rates)},
+                    {"ledger", ledger_json(scene)},
+                    {"obvious_methods", obvious_names()}};
+    page.write(filled({oiler_page, oiler_page_end},
+                      {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
+                       {"@FRAME@", frame_of(scene)},
+                       {"@TITLE@", escaped(scene.title.empty() ? tradeoff.scene : scene.title)},
+                       {"@DATA@", for_script(data)}}));
     page.commit();
     if (!measured.json.empty()) write_json(measured.json, data);
     remark(measured.quiet, "{} is written; open it in a browser", out.string());

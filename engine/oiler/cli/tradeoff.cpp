@@ -119,6 +119,10 @@ std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
     Tradeoff found = parse_tradeoff(read_text(path), path.string());
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
+    remark(quiet, "going on with {}: {} of {} methods and precisions are done", path.string(),
+           std::count_if(found.ladders.begin(), found.ladders.end(),
+                         [](const Ladder& ladder) { return ladder.done; }),
+           found.ladders.size());
     return found;
 } catch (const Error& error) {
     if (error.exit() != Exit::usage) throw;
@@ -147,26 +151,24 @@ void publish(const Tradeoff& tradeoff, const Places& places, Stills& stills) {
     if (!places.json.empty()) save(tradeoff, places.json);
     if (places.json != "-") print(text_of(tradeoff, places.all));
     stills.write(
-        work_precision(tradeoff, {time_of, 1e3, "computing for a second of the scene, µs", " µs"}),
+        work_precision(tradeoff, {time_of, 1e3, "computing for a second of the scene, µs", "µs"}),
         places.out / "error_over_time.png");
     stills.write(
-        work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", " forces"}),
+        work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", "forces"}),
         places.out / "error_over_evaluations.png");
     remark(places.quiet, "the table and its pictures are in {}", places.out.string());
 }
 
-void say_resumed(const Tradeoff& unfinished, const std::filesystem::path& part, bool quiet) {
-    remark(quiet, "going on with {}: {} of {} methods and precisions are done", part.string(),
-           std::count_if(unfinished.ladders.begin(), unfinished.ladders.end(),
-                         [](const Ladder& ladder) { return ladder.done; }),
-           unfinished.ladders.size());
-}
-
-std::vector<SceneChoice> at_todays_rate(const Tradeoff& tradeoff) {
+/// With the energies of the notable methods at today's rate, which only runs of the scene have.
+void publish_whole(const Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
+                   const Places& places, Stills& stills) {
+    publish(tradeoff, places, stills);
     std::vector<SceneChoice> choices;
     for (const Method* method : notable_methods(tradeoff))
         choices.push_back({method, tradeoff.today.rate, Precision::double_});
-    return choices;
+    if (!choices.empty())
+        stills.write(energy_over_time(scene, tradeoff, reference, choices),
+                     places.out / "energy_over_time.png");
 }
 
 }  // namespace
@@ -189,7 +191,6 @@ Exit TradeoffCommand::run() const {
     tradeoff.scene = name_of(measured);
     tradeoff.fingerprint = mark;
     tradeoff.machines = {this_machine()};
-    if (unfinished) say_resumed(*unfinished, part, measured.quiet);
     make_folder(out);
     // Before the work, so that a machine that cannot draw says so at once.
     std::optional<Stills> stills;
@@ -201,15 +202,11 @@ Exit TradeoffCommand::run() const {
         remark(measured.quiet, "interrupted; the same command goes on from {}", part.string());
         return Exit::interrupted;
     }
-    if (!whole) {
+    if (whole)
+        publish_whole(tradeoff, scene, reference, {out, measured.json, all, measured.quiet},
+                      *stills);
+    else
         remark(measured.quiet, "{} is written; oiler merge joins all parts", part.string());
-        return Exit::done;
-    }
-    publish(tradeoff, {out, measured.json, all, measured.quiet}, *stills);
-    const std::vector<SceneChoice> choices = at_todays_rate(tradeoff);
-    if (!choices.empty())
-        stills->write(energy_over_time(scene, tradeoff, reference, choices),
-                      out / "energy_over_time.png");
     return Exit::done;
 }
 

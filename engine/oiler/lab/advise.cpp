@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
@@ -15,7 +14,6 @@ namespace {
 
 constexpr std::size_t most_contenders = 8;
 constexpr int timing_rounds = 9;
-constexpr std::array obvious{"semi_implicit_euler", "velocity_verlet", "rk4", "exact"};
 
 /// Each method's best in each precision, in the order of `rows`.
 std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) {
@@ -39,9 +37,9 @@ public:
     Advice run(const std::function<bool()>& stopped) {
         const bool found = wish_.has_tolerance() && !search_.good_rows().empty();
         front_ = contenders_among(found ? search_.good_rows() : search_.nearest_rows());
-        if (why_not(scene_, settings_of(today())).empty())
-            advice_.today = search_.try_choice(today());
-        for (const char* name : obvious) consider(find_method(name));
+        if (why_not(scene_, settings_of(scene_)).empty())
+            advice_.today = search_.try_choice(scene_.choice());
+        for (const Method* method : obvious_methods()) consider(*method);
         time(stopped);
         const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
             return a.ns_per_second < b.ns_per_second;
@@ -54,10 +52,6 @@ public:
     }
 
 private:
-    [[nodiscard]] SceneChoice today() const {
-        return {scene_.method, scene_.rate, scene_.precision};
-    }
-
     /// At the highest rate that costs no more than the best.
     void consider(const Method& method) {
         const auto& asked = wish_.methods;

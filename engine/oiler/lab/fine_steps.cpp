@@ -56,11 +56,8 @@ std::vector<Doubt> differences(const Track& a, const Track& b) {
     Doubt most;
     for (std::size_t look = 0; look < a.energies.size(); ++look) {
         for (std::size_t i = look * a.bodies; i < (look + 1) * a.bodies; ++i) {
-            const auto length = [](const Vec<Real, 3>& d) {
-                return static_cast<double>(std::sqrt(squared_length(d)));
-            };
-            most.position = larger(most.position, length(a.states[i].x - b.states[i].x));
-            most.velocity = larger(most.velocity, length(a.states[i].v - b.states[i].v));
+            most.position = larger(most.position, distance(a.states[i].x, b.states[i].x));
+            most.velocity = larger(most.velocity, distance(a.states[i].v, b.states[i].v));
         }
         most.energy = larger(most.energy, std::abs(a.energies[look] - b.energies[look]));
         doubts.push_back(most);
@@ -84,14 +81,6 @@ void add_rounding(std::vector<Doubt>& doubts, const Track& track, const Looks& l
         doubts[look].position += 4 * epsilon * (2 * x + way);
         doubts[look].velocity += 4 * epsilon * v * (2 + (x > 0 ? way / x : 0));
     }
-}
-
-double extent_of(const Track& track) {
-    double most = 0;
-    for (std::size_t i = track.bodies; i < track.states.size(); ++i)
-        most = std::max(most, static_cast<double>(
-                                  largest(track.states[i].x - track.states[i % track.bodies].x)));
-    return most;
 }
 
 /// Romberg's table of runs, each of half the step of the one before.
@@ -162,7 +151,7 @@ std::int64_t count_within(const std::vector<Doubt>& doubts, double most) {
 
 FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffort& effort) {
     Table table(scene, looks, effort);
-    const double work_per_step = work_per_evaluation(scene) * table.method().evaluations;
+    const double work_per_step = work_per_evaluation(scene) * evaluations_of(table.method());
     FineSteps finest;
     bool affordable = false;
     std::int64_t most_good = -1;
@@ -200,13 +189,6 @@ FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffo
     }
     finest.affordable = affordable;
     return finest;
-}
-
-Bodies extended_bodies(const Scene& scene) {
-    return make_world(
-               scene,
-               {.rate = {scene.rate}, .method = scene.method, .precision = Precision::extended})
-        .bodies();
 }
 
 }  // namespace oiler

@@ -35,6 +35,12 @@ struct Judgement {
 /// Why the method cannot step the scene at all; empty where it can.
 [[nodiscard]] std::string why_not(const Scene& scene, const Settings& settings);
 
+/// The methods that people would think of.
+[[nodiscard]] std::vector<const Method*> obvious_methods();
+
+/// The scene's own, and those that people would think of as far as they can step it.
+[[nodiscard]] std::vector<const Method*> usual_methods(const Scene& scene);
+
 /// Evaluations of the forces on the first body in a step, in a run in one go.
 [[nodiscard]] double evaluations_per_step(const Scene& scene, const Settings& settings);
 

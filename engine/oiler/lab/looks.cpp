@@ -78,20 +78,17 @@ Follower::Follower(const Scene& scene, const Settings& settings, std::int64_t lo
     world_.require_applicable();
 }
 
-bool Follower::go_to(std::int64_t look) try {
+bool Follower::go_to(std::int64_t look) {
     const std::int64_t product = look * world_.settings().rate.steps;
     const std::int64_t tick = product / looks_per_second_;
     alpha_ = static_cast<long double>(product % looks_per_second_) /
              static_cast<long double>(looks_per_second_);
-    if (world_.tick() < tick) world_.step(tick - world_.tick());
+    if (world_.tick() < tick && world_.try_step(tick - world_.tick())) return false;
     if (alpha_ > 0 && before_tick_ != tick) {
         remember();
-        world_.step();
+        if (world_.try_step()) return false;
     }
     return true;
-} catch (const Error& error) {
-    if (error.exit() != Exit::diverged) throw;
-    return false;
 }
 
 void Follower::remember() {

@@ -1,86 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/rates.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/path.hpp"
 #include "oiler/lab/reference_parts.hpp"
 
 namespace oiler {
 namespace {
 
 constexpr double settled = 0.05;  ///< of how far it was from rest at the start
-
-/// One coordinate of a body over time.
-struct Path {
-    std::vector<double> t{};  ///< s
-    std::vector<double> x{};  ///< m
-    std::vector<double> v{};  ///< m/s; empty for what is drawn, which is straight in between
-
-    [[nodiscard]] std::size_t size() const { return t.size(); }
-    /// Between point i−1 and the next, s from 0 to 1.
-    [[nodiscard]] double at(std::size_t i, double s) const {
-        const double rise = x[i] - x[i - 1];
-        if (v.empty()) return x[i - 1] + s * rise;
-        const double dt = t[i] - t[i - 1];
-        const double a = v[i - 1] * dt;
-        const double b = v[i] * dt;
-        return x[i - 1] + s * (a + s * ((3 * rise - 2 * a - b) + s * (a + b - 2 * rise)));
-    }
-    [[nodiscard]] double time(std::size_t i, double s) const {
-        return t[i - 1] + s * (t[i] - t[i - 1]);
-    }
-    /// Where between point i−1 and the next it goes through a level, which lies between them.
-    [[nodiscard]] double crossing(std::size_t i, double level) const {
-        double low = 0;
-        double high = 1;
-        const bool up = x[i] > x[i - 1];
-        for (int k = 0; k < 60; ++k) {
-            const double middle = (low + high) / 2;
-            ((at(i, middle) < level) == up ? low : high) = middle;
-        }
-        return (low + high) / 2;
-    }
-};
-
-/// Where between points i−1 and i it is highest, by golden section.
-double summit(const Path& path, std::size_t i) {
-    constexpr double golden = 0.6180339887498949;
-    double low = 0;
-    double high = 1;
-    for (int k = 0; k < 80; ++k) {
-        const double a = high - golden * (high - low);
-        const double b = low + golden * (high - low);
-        (path.at(i, a) < path.at(i, b) ? low : high) = path.at(i, a) < path.at(i, b) ? a : b;
-    }
-    return (low + high) / 2;
-}
-
-struct Peak {
-    double t;
-    double x;
-};
-
-Peak highest(const Path& path, std::size_t from, std::size_t to) {
-    Peak peak{path.t[from], path.x[from]};
-    for (std::size_t i = std::max<std::size_t>(1, from); i < to; ++i) {
-        if (path.x[i] > peak.x) peak = {path.t[i], path.x[i]};
-        if (path.v.empty() || !(path.v[i - 1] > 0 && path.v[i] <= 0)) continue;
-        const double s = summit(path, i);
-        if (path.at(i, s) > peak.x) peak = {path.time(i, s), path.at(i, s)};
-    }
-    return peak;
-}
-
-Path turned(Path path) {
-    for (double& x : path.x) x = -x;
-    for (double& v : path.v) v = -v;
-    return path;
-}
 
 /// All that is noticed of one run, in the order of `things`; unknown where there is no such thing.
 struct Noticed {
@@ -143,14 +75,7 @@ void notice_jump(Noticed& noticed, const Watch& watch, const Paths& paths) {
 void notice_swing(Noticed& noticed, const Watch& watch, const Paths& paths) {
     if (!watch.swing) return;
     const Path& path = paths[static_cast<std::size_t>(watch.swing->axis)];
-    std::vector<double> up;
-    bool was_below = false;
-    for (std::size_t i = 1; i < path.size(); ++i) {
-        was_below = was_below || path.x[i - 1] < watch.rest - watch.swing->band;
-        if (!was_below || !(path.x[i - 1] < watch.rest && path.x[i] >= watch.rest)) continue;
-        up.push_back(path.time(i, path.crossing(i, watch.rest)));
-        was_below = false;
-    }
+    const std::vector<double> up = upward_crossings(path, watch.rest, watch.swing->band);
     if (up.size() >= 2)
         noticed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
     std::size_t from = path.size() - 1;
@@ -176,15 +101,9 @@ Noticed notice(const Watch& watch, const Paths& paths) {
 
 Paths paths_of(const Reference& reference, std::size_t row) {
     Paths paths;
-    for (std::int64_t look = 0; look < reference.meaningful; ++look) {
-        const State<long double, 3>& state = reference.track.at(look, row);
-        for (int axis = 0; axis < 3; ++axis) {
-            Path& path = paths[static_cast<std::size_t>(axis)];
-            path.t.push_back(reference.looks.time(look));
-            path.x.push_back(static_cast<double>(state.x[axis]));
-            path.v.push_back(static_cast<double>(state.v[axis]));
-        }
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        paths[static_cast<std::size_t>(axis)] =
+            path_of(reference.track, reference.meaningful_looks(), row, axis);
     return paths;
 }
 
@@ -198,7 +117,7 @@ std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Re
     const auto steps = static_cast<std::int64_t>(
         std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate)));
     for (std::int64_t tick = 0; tick <= steps && !stopped(); ++tick) {
-        if (tick > 0) world.step();
+        if (tick > 0 && world.try_step()) return std::nullopt;
         const Vec3 at = world.bodies().position(row);
         if (largest(at - start) > 10 * reference.extent) return std::nullopt;
         for (int axis = 0; axis < 3; ++axis) {
@@ -208,7 +127,7 @@ std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Re
     }
     return paths;
 } catch (const Error& error) {
-    if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
+    if (error.exit() != Exit::usage) throw;
     return std::nullopt;
 }
 
@@ -218,8 +137,8 @@ double rest_of(const Path& path, double band) {
     const Path down = turned(path);
     std::vector<double> extremes;
     for (std::size_t i = 1; i < path.size(); ++i) {
-        if (path.v[i - 1] > 0 && path.v[i] <= 0) extremes.push_back(path.at(i, summit(path, i)));
-        if (path.v[i - 1] < 0 && path.v[i] >= 0) extremes.push_back(-down.at(i, summit(down, i)));
+        if (path.v[i - 1] > 0 && path.v[i] <= 0) extremes.push_back(path.at(i, path.summit(i)));
+        if (path.v[i - 1] < 0 && path.v[i] >= 0) extremes.push_back(-down.at(i, down.summit(i)));
     }
     // Those that rounding has left something of.
     while (extremes.size() > 3 &&
@@ -243,8 +162,9 @@ Watch watch_of(const Scene& scene, const Reference& reference, std::size_t row) 
     }
     watch.swing = find_swing(reference.track, reference.meaningful_looks(), row);
     if (watch.swing) {
-        const Paths paths = paths_of(reference, row);
-        watch.rest = rest_of(paths[static_cast<std::size_t>(watch.swing->axis)], watch.swing->band);
+        watch.rest =
+            rest_of(path_of(reference.track, reference.meaningful_looks(), row, watch.swing->axis),
+                    watch.swing->band);
     }
     return watch;
 }
@@ -259,12 +179,6 @@ double spread_percent(const RatesLine& line, double truth) {
     }
     const double scale = truth != 0 ? std::abs(truth) : std::max(std::abs(least), std::abs(most));
     return scale > 0 ? 100 * (most - least) / scale : 0;
-}
-
-std::string name_of_body(const Scene& scene, std::size_t row) {
-    return row < scene.bodies.size() && !scene.bodies[row].name.empty()
-               ? scene.bodies[row].name
-               : fmt::format("body {}", row);
 }
 
 }  // namespace
@@ -282,7 +196,7 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
                 run(scene, {methods[i], rate, scene.precision}, reference, row, stopped);
             noticed[i].push_back(paths ? notice(watch, *paths) : Noticed{});
         }
-    Rates result{.body = name_of_body(scene, row), .rates = rates};
+    Rates result{.body = scene.name_of_body(row), .rates = rates};
     for (const Thing& thing : things) {
         if (std::isnan(truth.*thing.value)) continue;
         RatesQuantity quantity{thing.name, thing.unit, truth.*thing.value};

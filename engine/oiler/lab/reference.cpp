@@ -20,10 +20,6 @@ using State3 = State<Real, 3>;
 constexpr double checked_to = 1e-9;  ///< of the extent
 constexpr double checking_work = 2e7;
 
-double distance(const Vec<Real, 3>& a, const Vec<Real, 3>& b) {
-    return static_cast<double>(std::sqrt(squared_length(a - b)));
-}
-
 bool is_power_of_two(double number) {
     int exponent = 0;
     return std::frexp(number, &exponent) == 0.5;
@@ -75,14 +71,6 @@ double largest_coordinate(const Track& track) {
     return most;
 }
 
-double extent_of(const Track& track, const Looks& looks) {
-    double extent = 0;
-    for (std::int64_t look = 0; look < looks.count; ++look)
-        for (std::size_t row = 0; row < track.bodies; ++row)
-            extent = std::max(extent, distance(track.at(look, row).x, track.at(0, row).x));
-    return extent;
-}
-
 /// The energy at the start; where that is next to nothing, because it depends on where nought is,
 /// the largest kinetic energy.
 double energy_scale_of(const Track& track, Bodies bodies) {
@@ -116,7 +104,10 @@ std::int64_t count_good(const std::vector<Doubt>& doubts, double tolerable) {
 class Making {
 public:
     Making(const Scene& scene, const Looks& looks, const ReferenceEffort& effort)
-        : scene_(scene), effort_(effort), start_(extended_bodies(scene)) {
+        : scene_(scene),
+          effort_(effort),
+          start_(make_world(scene, settings_of({scene.method, scene.rate, Precision::extended}))
+                     .bodies()) {
         reference_.looks = looks;
     }
 
@@ -148,7 +139,7 @@ private:
 
     void check() {
         ReferenceEffort effort = effort_;
-        effort.wanted = checked_to * extent_of(reference_.track, reference_.looks);
+        effort.wanted = checked_to * extent_of(reference_.track);
         effort.most_work = std::min(effort.most_work, checking_work);
         FineSteps fine = fine_steps(scene_, reference_.looks, effort);
         if (fine.track.states.empty()) {
@@ -182,7 +173,7 @@ private:
     /// How many looks until rounding to double alone leads a run of the same steps astray.
     [[nodiscard]] std::int64_t count_followed(const FineSteps& fine) const {
         const double most = std::max(
-            resolution * extent_of(fine.track, reference_.looks),
+            resolution * extent_of(fine.track),
             margin * std::numeric_limits<double>::epsilon() * largest_coordinate(fine.track));
         Follower follower(scene_, settings_of({fine.method, fine.rate, Precision::double_}),
                           reference_.looks.per_second);
@@ -226,7 +217,7 @@ private:
                  "no reference stays finite over {} s: the scene is too stiff, or meets an "
                  "attractor; shorten it with --duration",
                  scene_.duration);
-        reference_.extent = extent_of(reference_.track, reference_.looks);
+        reference_.extent = extent_of(reference_.track);
         reference_.energy_scale = energy_scale_of(reference_.track, start_);
         for (Doubt& doubt : reference_.doubts)
             doubt.energy = std::max(reference_.share_of_energy(doubt.energy),
@@ -250,6 +241,13 @@ double Reference::share_of_energy(double joules) const {
     return energy_scale > 0 ? joules / energy_scale : joules;
 }
 
+double extent_of(const Track& track) {
+    double extent = 0;
+    for (std::size_t i = 0; i < track.states.size(); ++i)
+        extent = std::max(extent, distance(track.states[i].x, track.states[i % track.bodies].x));
+    return extent;
+}
+
 Doubt Reference::floor() const {
     const Doubt& last = doubts[static_cast<std::size_t>(meaningful - 1)];
     return {margin * last.position, margin * last.velocity, margin * last.energy};
@@ -258,6 +256,11 @@ Doubt Reference::floor() const {
 Reference make_reference(const Scene& scene, const Looks& looks, const ReferenceEffort& effort,
                          const ClosedForm& closed_form) {
     return Making(scene, looks, effort).run(closed_form);
+}
+
+double evaluations_of(const Method& method) {
+    constexpr int to_solve = 4;
+    return method.evaluations > 0 ? method.evaluations : to_solve;
 }
 
 double work_per_evaluation(const Scene& scene) {

@@ -85,7 +85,9 @@ using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const B
                                        const ReferenceEffort& effort,
                                        const ClosedForm& closed_form = exact_motions);
 
-/// What a step of a scene takes: bodies and links that forces are evaluated on.
+/// In a step, about; an implicit method takes as many as it needs.
+[[nodiscard]] double evaluations_of(const Method& method);
+/// Bodies and links of a scene that forces are evaluated on.
 [[nodiscard]] double work_per_evaluation(const Scene& scene);
 
 }  // namespace oiler

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "oiler/lab/reference.hpp"
 
 namespace oiler {
@@ -29,24 +31,16 @@ inline constexpr double resolution = 1e-3;
 /// From a reference's own error to what it can tell.
 inline constexpr double margin = 100;
 
-/// The bodies of the scene at its start, in long double.
-[[nodiscard]] Bodies extended_bodies(const Scene& scene);
+[[nodiscard]] inline double distance(const Vec<long double, 3>& a, const Vec<long double, 3>& b) {
+    return static_cast<double>(std::sqrt(squared_length(a - b)));
+}
+/// How far any body gets from its start, m.
+[[nodiscard]] double extent_of(const Track& track);
 
 /// Of the coordinate that moves most, of that row or of all; none where it does not swing, or too
 /// fast for the looks.
 [[nodiscard]] std::optional<Swing> find_swing(const Track& track, const Looks& looks,
                                               std::optional<std::size_t> only = std::nullopt);
-
-/// A look at the coordinate that swings.
-struct SwingLook {
-    double x;  ///< m
-    double v;  ///< m/s
-};
-
-/// When it goes up through a level, in s, between looks by a cubic; having been below it by `band`
-/// at least, so that the roundings of what has come to rest are no swing.
-[[nodiscard]] std::vector<double> upward_crossings(const std::vector<SwingLook>& looks,
-                                                   double level, double band, double per_second);
 
 /// Of how far a coordinate gets, what is at rest.
 inline constexpr double dead_band = 1e-6;

@@ -16,9 +16,6 @@ constexpr double rival = 1.3;
 /// A runner-up of another method is looked for up to so many times the best's cost.
 constexpr double far_off = 2;
 constexpr std::size_t most_refined = 4;
-constexpr std::size_t most_vain_runs = 3;
-/// An error that is at least this part of the best before is no improvement.
-constexpr double improvement = 0.9;
 
 double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
@@ -44,7 +41,7 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate", wish.min_rate,
              wish.max_rate);
-    work_per_step_ = work_per_evaluation(scene) * reference.meaningful_until();
+    work_per_hertz_ = work_per_evaluation(scene) * reference.meaningful_until();
     for (const Method* method : wish.methods)
         for (const Precision precision : {Precision::single, Precision::double_})
             if (why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
@@ -54,11 +51,18 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
 void Search::add_candidate(const Method& method, Precision precision) {
     // Any step costs the same; one that is short is stable.
     constexpr std::int64_t rate = 1 << 16;
-    constexpr std::int64_t many = 64;
+    constexpr double most_steps = 64;
+    constexpr double longest_call = 5e6;  // ns
     Candidate candidate{.method = &method, .precision = precision};
     candidate.alone = ns_per_step(scene_, candidate.at(rate), 1);
-    candidate.together = std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
-    if (!std::isnan(candidate.alone)) candidates_.push_back(candidate);
+    if (std::isnan(candidate.alone)) return;
+    const auto many =
+        static_cast<std::int64_t>(std::min(most_steps, longest_call / candidate.alone));
+    candidate.together = candidate.alone;
+    if (many > 1)
+        candidate.together =
+            std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
+    candidates_.push_back(candidate);
 }
 
 void Search::run() {
@@ -112,8 +116,8 @@ std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& r
 }
 
 bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
-    const int evaluations = std::max(1, candidate.method->evaluations);
-    return work_per_step_ * evaluations * static_cast<double>(rate) <= wish_.most_work;
+    return work_per_hertz_ * evaluations_of(*candidate.method) * static_cast<double>(rate) <=
+           wish_.most_work;
 }
 
 /// To the next rung that is worth a run, if any.
@@ -121,12 +125,11 @@ void Search::go_on(Candidate& candidate, const TradeoffRow& row, double excess) 
     std::int64_t least = row.choice.rate + 1;
     if (row.judgement.stable && row.meets_steps) {
         const double error = row.judgement.position_error;
-        candidate.vain = error >= improvement * candidate.best ? candidate.vain + 1 : 0;
-        candidate.best = std::fmin(candidate.best, error);
+        candidate.descent.take(error);
         candidate.tried = row.choice.rate;
         candidate.error = error;
         const bool only_rounding = candidate.method->order == exact_order;
-        candidate.over = only_rounding || candidate.vain == most_vain_runs;
+        candidate.over = only_rounding || candidate.descent.ended();
         if (!candidate.over) least = least_rate(candidate, row, excess);
     }
     while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
@@ -163,8 +166,7 @@ void Search::try_highest() {
         std::int64_t rate = candidate.tried;
         for (const std::int64_t rung : rungs_)
             if (affordable(candidate, rung)) rate = std::max(rate, rung);
-        if (candidate.tried == 0 || rate == candidate.tried || candidate.vain == most_vain_runs)
-            continue;
+        if (candidate.tried == 0 || rate == candidate.tried || candidate.descent.ended()) continue;
         const double times = static_cast<double>(rate) / static_cast<double>(candidate.tried);
         highest.emplace_back(candidate.error / std::pow(times, candidate.method->order),
                              candidate.at(rate));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "oiler/lab/advise.hpp"
+#include "oiler/lab/descent.hpp"
 
 namespace oiler {
 
@@ -42,10 +43,9 @@ private:
         double alone = unknown;     ///< a call of one step
         double together = unknown;  ///< a step of many in a call
         std::size_t next = 0;       ///< rung
-        double best = unknown;      ///< m
-        std::int64_t tried = 0;     ///< last rate at which it was stable and met its looks
-        double error = unknown;     ///< m, there
-        std::size_t vain = 0;
+        Descent descent{};
+        std::int64_t tried = 0;  ///< last rate at which it was stable and met its looks
+        double error = unknown;  ///< m, there
         bool over = false;
 
         [[nodiscard]] SceneChoice at(std::int64_t rate) const { return {method, rate, precision}; }
@@ -73,7 +73,7 @@ private:
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
     std::vector<TradeoffRow> rows_;
-    double work_per_step_ = 0;
+    double work_per_hertz_ = 0;
 };
 
 /// How many times the tolerances a run is off.

@@ -29,7 +29,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 // Runs start over when the scene ends, since what is stable up to then may not be afterwards.
 double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t at_once) try {
     World start = make_world(scene, settings_of(choice));
-    start.step();
+    if (start.try_step()) return unknown;
     const auto last = std::max<std::int64_t>(
         1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate)));
     double seconds = 0;
@@ -39,7 +39,7 @@ double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t a
         const Clock::time_point begin = Clock::now();
         double taken = 0;
         while (world.tick() + at_once <= last && taken < shortest) {
-            world.step(at_once);
+            if (world.try_step(at_once)) return unknown;
             taken = std::chrono::duration<double>(Clock::now() - begin).count();
         }
         seconds += taken;

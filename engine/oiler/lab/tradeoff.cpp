@@ -10,21 +10,10 @@
 #include <thread>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/descent.hpp"
 
 namespace oiler {
 namespace {
-
-/// The rows at the end of a ladder that may gain nothing before it ends.
-constexpr std::size_t most_vain_rows = 3;
-/// What an implicit step takes, about.
-constexpr int evaluations_to_solve = 4;
-
-double evaluations_of(const Method& method) {
-    return method.evaluations > 0 ? method.evaluations : evaluations_to_solve;
-}
-
-/// An error that counts as no improvement is at least this part of the best before.
-constexpr double improvement = 0.9;
 
 class Climb {
 public:
@@ -38,8 +27,7 @@ public:
         std::string end = why_not(scene_, settings_of(choice(rungs_.front())));
         const double work_per_step = work_per_evaluation(scene_) * evaluations_of(*ladder_.method) *
                                      reference_.meaningful_until();
-        double best = INFINITY;
-        std::size_t vain = 0;
+        Descent descent;
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
             if (work_per_step * static_cast<double>(rate) > plan_.most_work) {
@@ -54,9 +42,8 @@ public:
             const Judgement& judgement = rows.back().judgement;
             if (judgement.below_floor()) end = "the reference cannot tell smaller errors";
             if (!judgement.stable || !rows.back().meets_steps) continue;
-            vain = judgement.position_error < improvement * best ? 0 : vain + 1;
-            best = std::min(best, judgement.position_error);
-            if (vain == most_vain_rows && end.empty()) end = "round-off keeps errors from falling";
+            descent.take(judgement.position_error);
+            if (descent.ended() && end.empty()) end = "round-off keeps errors from falling";
         }
         ladder_.rows = std::move(rows);
         ladder_.end = end.empty() ? "no higher rates were asked for" : end;
@@ -74,6 +61,32 @@ private:
     const SweepPlan& plan_;
     const std::vector<std::int64_t>& rungs_;
 };
+
+/// Calls task(i, stopped) for each i below `count`, until one throws: then all stop, and so does
+/// this.
+template <class Task>
+void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop, Task task) {
+    std::atomic<std::size_t> next = 0;
+    std::atomic<bool> failed = false;
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const std::function<bool()> stopped = [&] { return failed || asked_to_stop(); };
+    const auto work = [&] {
+        try {
+            for (std::size_t i = next++; i < count && !stopped(); i = next++) task(i, stopped);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            failed = true;
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(work);
+        work();
+    }
+    if (failure) std::rethrow_exception(failure);
+}
 
 std::int64_t max_rate_of(const SweepPlan& plan, const Looks& looks) {
     constexpr std::int64_t highest = 1'000'000;
@@ -155,7 +168,7 @@ Tradeoff start_tradeoff(const Scene& scene, const Looks& looks, const Reference&
                       .title = scene.title,
                       .fingerprint = {},
                       .duration = scene.duration,
-                      .today = {scene.method, scene.rate, scene.precision},
+                      .today = scene.choice(),
                       .looks = looks,
                       .reference = summary(reference),
                       .machines = {this_machine()}};
@@ -173,42 +186,20 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
          i += static_cast<std::size_t>(plan.shards))
         if (!tradeoff.ladders[i].done) open.push_back(i);
-    std::atomic<std::size_t> next = 0;
-    std::atomic<bool> failed = false;
-    std::mutex mutex;
-    double work_done = 0;
     double work = 0;
     for (const std::size_t i : open) work += evaluations_of(*tradeoff.ladders[i].method);
-    std::exception_ptr failure;
-    const int cores = this_machine().cores;
-    const auto stopped = [&] { return failed || watch.stopped(); };
-    const auto climb_open = [&] {
-        for (std::size_t at = next++; at < open.size() && !stopped(); at = next++) {
-            Ladder ladder = tradeoff.ladders[open[at]];
-            Climb(ladder, scene, reference, plan, rates).run(stopped);
-            if (!ladder.done) return;
-            const std::lock_guard lock(mutex);
-            work_done += evaluations_of(*ladder.method);
-            tradeoff.ladders[open[at]] = std::move(ladder);
-            watch.ladder_done(tradeoff);
-            watch.progress(work_done / work);
-        }
-    };
-    const auto climb = [&] {
-        try {
-            climb_open();
-        } catch (...) {
-            const std::lock_guard lock(mutex);
-            if (!failure) failure = std::current_exception();
-            failed = true;
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int i = 1; i < cores; ++i) others.emplace_back(climb);
-        climb();
-    }
-    if (failure) std::rethrow_exception(failure);
+    double work_done = 0;
+    std::mutex mutex;
+    on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
+        Ladder ladder = tradeoff.ladders[open[at]];
+        Climb(ladder, scene, reference, plan, rates).run(stopped);
+        if (!ladder.done) return;
+        const std::lock_guard lock(mutex);
+        work_done += evaluations_of(*ladder.method);
+        tradeoff.ladders[open[at]] = std::move(ladder);
+        watch.ladder_done(tradeoff);
+        watch.progress(work_done / work);
+    });
 }
 
 Tradeoff merge(const std::vector<Tradeoff>& parts) {

@@ -4,19 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/lab/json.hpp"
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 double to_number(const Json& json) { return json.is_null() ? unknown : json.get<double>(); }
 
@@ -26,60 +22,16 @@ Precision to_precision(const std::string& name) {
     fail(Exit::usage, "no precision is called {}: float or double", name);
 }
 
-Json to_json(const SceneChoice& choice) {
-    return {{"method", choice.method->name},
-            {"rate", choice.rate},
-            {"precision", name_of(choice.precision)}};
-}
-
 SceneChoice to_choice(const Json& json) {
     return {&find_method(json.at("method").get<std::string>()), json.at("rate"),
             to_precision(json.at("precision"))};
 }
 
-/// A row's measured numbers by their names in files.
-struct Field {
-    const char* name;
-    double& (*of)(TradeoffRow& row);
-};
-constexpr Field fields[]{
-    {"position_error", [](TradeoffRow& row) -> double& { return row.judgement.position_error; }},
-    {"velocity_error", [](TradeoffRow& row) -> double& { return row.judgement.velocity_error; }},
-    {"phase_error", [](TradeoffRow& row) -> double& { return row.judgement.phase_error; }},
-    {"energy_drift", [](TradeoffRow& row) -> double& { return row.judgement.energy_drift; }},
-    {"evaluations", [](TradeoffRow& row) -> double& { return row.judgement.evaluations; }},
-    {"ns_per_second", [](TradeoffRow& row) -> double& { return row.ns_per_second; }},
-    {"ns_spread", [](TradeoffRow& row) -> double& { return row.ns_spread; }},
-};
-
-Json to_json(TradeoffRow row) {
-    Json json = to_json(row.choice);
-    json["stable"] = row.judgement.stable;
-    json["meets_steps"] = row.meets_steps;
-    json["below_floor"] = row.judgement.below_floor();
-    for (const Field& field : fields) json[field.name] = number(field.of(row));
-    return json;
-}
-
 TradeoffRow to_row(const Json& json) {
     TradeoffRow row{.choice = to_choice(json), .meets_steps = json.at("meets_steps")};
     row.judgement.stable = json.at("stable");
-    for (const Field& field : fields) field.of(row) = to_number(json.at(field.name));
+    for (const RowNumber& number : row_numbers) number.of(row) = to_number(json.at(number.name));
     return row;
-}
-
-Json to_json(const ReferenceSummary& reference) {
-    return {{"words", reference.words},
-            {"closed_form", reference.closed_form},
-            {"position_error", reference.position_error},
-            {"velocity_error", reference.velocity_error},
-            {"position_floor", reference.floor.position},
-            {"velocity_floor", reference.floor.velocity},
-            {"energy_floor", reference.floor.energy},
-            {"extent", reference.extent},
-            {"meaningful_until", reference.meaningful_until},
-            {"why_no_longer", reference.why_no_longer},
-            {"period", number(reference.period)}};
 }
 
 ReferenceSummary to_reference(const Json& json) {
@@ -93,10 +45,6 @@ ReferenceSummary to_reference(const Json& json) {
         .meaningful_until = json.at("meaningful_until"),
         .why_no_longer = json.at("why_no_longer"),
         .period = to_number(json.at("period"))};
-}
-
-Json to_json(const Machine& machine) {
-    return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}};
 }
 
 Tradeoff from_json(const Json& json) {
@@ -129,32 +77,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}",
 }  // namespace
 
 std::string to_json(const Tradeoff& tradeoff) {
-    Json json{{"oiler", version()},
-              {"scene", tradeoff.scene},
-              {"title", tradeoff.title},
-              {"fingerprint", tradeoff.fingerprint},
-              {"complete", tradeoff.complete()},
-              {"duration", tradeoff.duration},
-              {"looks_per_second", tradeoff.looks.per_second},
-              {"looks", tradeoff.looks.count},
-              {"today", to_json(tradeoff.today)},
-              {"reference", to_json(tradeoff.reference)},
-              {"machines", Json::array()},
-              {"ladders", Json::array()},
-              {"rows", Json::array()}};
-    for (const Machine& machine : tradeoff.machines) json["machines"].push_back(to_json(machine));
-    for (const Ladder& ladder : tradeoff.ladders)
-        json["ladders"].push_back({{"method", ladder.method->name},
-                                   {"precision", name_of(ladder.precision)},
-                                   {"done", ladder.done},
-                                   {"end", ladder.end}});
-    const auto front = pareto(tradeoff, time_of);
-    for (const TradeoffRow* row : tradeoff.rows()) {
-        Json one = to_json(*row);
-        one["pareto"] = std::find(front.begin(), front.end(), row) != front.end();
-        json["rows"].push_back(std::move(one));
-    }
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_of(tradeoff).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
@@ -171,7 +94,7 @@ Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
 
 std::string to_csv(const Tradeoff& tradeoff) {
     std::string text = "method,rate,precision,stable,meets_steps,below_floor,pareto";
-    for (const Field& field : fields) text += fmt::format(",{}", field.name);
+    for (const RowNumber& number : row_numbers) text += fmt::format(",{}", number.name);
     text += "\n";
     const auto front = pareto(tradeoff, time_of);
     for (const TradeoffRow* found : tradeoff.rows()) {
@@ -180,7 +103,8 @@ std::string to_csv(const Tradeoff& tradeoff) {
         text += fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.choice.method->name,
                             row.choice.rate, name_of(row.choice.precision), row.judgement.stable,
                             row.meets_steps, row.judgement.below_floor(), best);
-        for (const Field& field : fields) text += fmt::format(",{}", cell(field.of(row)));
+        for (const RowNumber& number : row_numbers)
+            text += fmt::format(",{}", cell(number.of(row)));
         text += "\n";
     }
     return text;

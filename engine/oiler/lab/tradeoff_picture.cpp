@@ -99,7 +99,7 @@ private:
                 {.at = {x, y}, .text = words, .size = size, .colour = palette::ink});
         };
         const float left = plot_box.high.x + 9;
-        write(left, "least cost for an error up to");
+        write(left, fmt::format("least cost, {}, for an error up to", axis_.unit_name));
         const auto front = pareto(tradeoff_, axis_.of);
         double error = std::pow(10, std::floor(std::log10(tradeoff_.reference.extent / 5)));
         for (int i = 0; i < most; ++i, error /= 10) {
@@ -110,11 +110,10 @@ private:
             y -= pitch;
             write(left,
                   error < 1e-3 ? fmt::format("{:.0e} m", error) : fmt::format("{:g} m", error));
-            write(
-                left + 36,
-                fmt::format("{} {} Hz{} {:.3g}{}", (*row)->choice.method->name, (*row)->choice.rate,
-                            (*row)->choice.precision == Precision::single ? " float:" : ":",
-                            axis_.of(**row) / axis_.unit, axis_.suffix));
+            write(left + 36,
+                  fmt::format("{} {} Hz{} {:.4g}", (*row)->choice.method->name, (*row)->choice.rate,
+                              (*row)->choice.precision == Precision::single ? " float:" : ":",
+                              axis_.of(**row) / axis_.unit));
         }
     }
     void add_method(const Method* method, const Look& look) {
@@ -167,8 +166,8 @@ std::vector<const Method*> notable_methods(const Tradeoff& tradeoff) {
     std::vector<const Method*> methods;
     const auto has_rows = [&](const Method* method) { return !rows_of(tradeoff, method).empty(); };
     if (has_rows(tradeoff.today.method)) methods.push_back(tradeoff.today.method);
-    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4", "exact"})
-        if (has_rows(&find_method(name))) add_if_new(methods, &find_method(name));
+    for (const Method* method : obvious_methods())
+        if (has_rows(method)) add_if_new(methods, method);
     std::map<const Method*, int> best;
     for (const TradeoffRow* row : pareto(tradeoff, time_of)) ++best[row->choice.method];
     std::vector<std::pair<int, const Method*>> order;

@@ -16,9 +16,9 @@ namespace oiler {
 /// What a diagram has its errors over.
 struct CostAxis {
     Cost of;
-    double unit = 1;       ///< of the cost, that the axis is in
-    std::string label{};   ///< of the axis
-    std::string suffix{};  ///< of a number on it
+    double unit = 1;  ///< of the cost, that the axis is in
+    std::string label{};
+    std::string unit_name{};
 };
 
 /// Error over cost, both logarithmic: a curve for each notable method in double, what is best at

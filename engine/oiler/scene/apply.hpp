@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "oiler/sim/body.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/scene/scene.hpp"
 
 namespace oiler {
-
-/// How a scene is stepped.
-struct SceneChoice {
-    const Method* method = nullptr;
-    std::int64_t rate = 0;  ///< steps per second
-    Precision precision = Precision::double_;
-    friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
-};
 
 /// The text of a scene file with another choice in its table `scene`; all else, comments and
 /// spacing too, stays as it was, and so does what says the same already. Throws Error{usage} where

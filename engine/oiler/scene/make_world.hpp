@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "oiler/scene/apply.hpp"
 #include "oiler/scene/scene.hpp"
 #include "oiler/world/world.hpp"
 

@@ -106,6 +106,14 @@ struct SceneBudget {
     friend bool operator==(const SceneBudget&, const SceneBudget&) = default;
 };
 
+/// How a scene is stepped.
+struct SceneChoice {
+    const Method* method = nullptr;
+    std::int64_t rate = 0;  ///< steps per second
+    Precision precision = Precision::double_;
+    friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
+};
+
 /// A scene as its file describes it, all of whose numbers are within the limits of the table of
 /// keys. Grids and scatters stay what they are until a world is made.
 struct Scene {
@@ -131,6 +139,13 @@ struct Scene {
         for (const SceneGrid& grid : grids) count += grid.size();
         for (const SceneScatter& scatter : scatters) count += scatter.count;
         return count;
+    }
+    /// Its own.
+    [[nodiscard]] SceneChoice choice() const { return {method, rate, precision}; }
+    /// How a body is called, "body 3" where it has no name.
+    [[nodiscard]] std::string name_of_body(std::size_t row) const {
+        return row < bodies.size() && !bodies[row].name.empty() ? bodies[row].name
+                                                                : "body " + std::to_string(row);
     }
 };
 

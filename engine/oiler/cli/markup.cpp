@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/markup.hpp"
+
+#include <cstdint>
+
+namespace oiler {
+namespace {
+
+std::string base64(const std::vector<std::byte>& bytes) {
+    constexpr std::string_view letters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            three = three << 8 |
+                    (i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? letters[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (c == '"')
+            safe += "&quot;";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
+std::string for_script(const nlohmann::ordered_json& json) {
+    std::string safe;
+    for (const char c :
+         json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
+        if (c == '<')
+            safe += "\\u003c";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
+std::string address_of(const std::vector<std::byte>& png) {
+    return "data:image/png;base64," + base64(png);
+}
+
+std::string filled(std::string_view page, const std::map<std::string, std::string>& parts) {
+    std::string text;
+    while (!page.empty()) {
+        std::size_t at = page.npos;
+        const std::pair<const std::string, std::string>* found = nullptr;
+        for (const auto& part : parts)
+            if (const std::size_t here = page.find(part.first); here < at) {
+                at = here;
+                found = &part;
+            }
+        text += page.substr(0, at);
+        if (!found) break;
+        text += found->second;
+        page.remove_prefix(at + found->first.size());
+    }
+    return text;
+}
+
+}  // namespace oiler
