@@ -8,17 +8,12 @@
 
 #include "oiler/sim/methods.hpp"
 #include "support/program.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
 
 using Json = nlohmann::json;
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
 TEST(Oiler, ListsEveryMethodOnALine) {
     const Outcome run = shell("oiler methods");

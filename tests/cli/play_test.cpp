@@ -14,6 +14,7 @@
 #include "scene/bad_files.hpp"
 #include "scene/everything.hpp"
 #include "support/program.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
@@ -22,10 +23,6 @@ using Json = nlohmann::json;
 using Seconds = std::chrono::duration<double>;
 
 const std::string scenes = OILER_SOURCE "/assets/scenes/";
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 Outcome play(const std::string& words) { return shell("oiler play " + words); }
 

@@ -11,15 +11,12 @@
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
 #include "support/reference.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
 
 using Real = long double;
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<const Method*> all_methods() {
     std::vector<const Method*> all;
@@ -31,12 +28,6 @@ std::vector<const Method*> splittings() {
     std::vector<const Method*> all;
     for (const Method& method : methods())
         if (std::holds_alternative<Splitting>(method.rule)) all.push_back(&method);
-    return all;
-}
-
-std::vector<const Method*> methods_of(const std::vector<const char*>& names) {
-    std::vector<const Method*> all;
-    for (const char* name : names) all.push_back(&find_method(name));
     return all;
 }
 

@@ -8,13 +8,10 @@
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/core/error.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,
                                 const char* method = "semi_implicit_euler") {

@@ -31,7 +31,6 @@ using oiler::Settings;
 using oiler::Splitting;
 using oiler::Tableau;
 using oiler::why_not;
-using oiler::test::holds;
 using oiler::test::line_of_error;
 using Real = long double;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "oiler/lab/reference.hpp"
 #include "oiler/scene/read.hpp"
@@ -15,6 +16,12 @@ inline const std::string article_spring =
     one_axis +
     "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
     "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\ndamping = 0.1\n";
+
+inline std::vector<const Method*> methods_of(const std::vector<const char*>& names) {
+    std::vector<const Method*> all;
+    for (const char* name : names) all.push_back(&find_method(name));
+    return all;
+}
 
 /// A scene, when it is looked at and what it is held against.
 struct MeasuredScene {

@@ -6,40 +6,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
-#include "oiler/lab/reference_parts.hpp"
+#include "lab/motions.hpp"
 #include "oiler/scene/read.hpp"
-#include "support/oscillator.hpp"
 #include "support/reference.hpp"
+#include "support/text.hpp"
 
 namespace {
 
 using oiler::Bodies;
 using oiler::ClosedForm;
 using oiler::ExactMotion;
-using oiler::Exit;
-using oiler::find_swing;
 using oiler::Looks;
 using oiler::looks_of;
 using oiler::make_reference;
 using oiler::Reference;
 using oiler::ReferenceEffort;
 using oiler::Scene;
-using oiler::State;
-using oiler::Track;
 using oiler::Vec;
+using oiler::test::along_x;
+using oiler::test::article_motion;
 using oiler::test::holds;
-using oiler::test::line_of_error;
-using Real = long double;
-using State3 = State<Real, 3>;
+using oiler::test::Motions;
+using oiler::test::Real;
+using oiler::test::State3;
 
 constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
-
-/// Where every body is at t s.
-using Motions = std::vector<ExactMotion>;
 
 ClosedForm claimed(const Motions& motions) {
     return [motions](const Bodies&) { return std::optional(motions); };
@@ -54,19 +48,6 @@ ReferenceEffort effort() {
 }
 
 double length(const Vec<Real, 3>& a) { return static_cast<double>(std::hypot(a[0], a[1], a[2])); }
-
-State3 along_x(Real x, Real v) { return {{x, 0, 0}, {v, 0, 0}}; }
-
-/// The article's spring: x0·e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t) from x0 = 1000 m at rest.
-ExactMotion article_motion(Real damping, Real stiffness = 15) {
-    return [=](Real t) {
-        const Real gamma = damping / 2;
-        const Real omega = std::sqrt(stiffness - gamma * gamma);
-        const Real decay = 1000 * std::exp(-gamma * t);
-        return along_x(decay * (std::cos(omega * t) + gamma / omega * std::sin(omega * t)),
-                       -decay * stiffness / omega * std::sin(omega * t));
-    };
-}
 
 Scene article_scene(double damping, double duration) {
     Scene scene;
@@ -352,170 +333,6 @@ TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
     }
     EXPECT_TRUE(holds(poor.why_no_longer, "chaotic")) << poor.why_no_longer;
     EXPECT_LE(poor.floor().position, 1e-3 * poor.extent);
-}
-
-Scene falling(std::int64_t rate, double duration, std::int64_t bodies = 1) {
-    Scene scene;
-    scene.rate = rate;
-    scene.duration = duration;
-    scene.gravity = {-9.81, 0, 0};
-    scene.scatters = {{.count = bodies}};
-    return scene;
-}
-
-struct LooksCase {
-    std::int64_t rate;
-    double duration;
-    std::int64_t bodies;
-    std::int64_t per_second;
-    std::int64_t count;
-};
-
-// The largest divisor up to 60; 20 looks of a short scene; of 400,000 states what the bodies leave.
-TEST(LooksOf, AreADivisorOfTheRateOrAMultipleOfALowOne) {
-    for (const LooksCase& c : {LooksCase{60, 10, 1, 60, 601},
-                               {100, 90, 1, 50, 4501},
-                               {1000, 17, 1, 50, 851},
-                               {120, 2.5, 1, 60, 151},
-                               {61, 3, 1, 61, 184},
-                               {15, 2, 1, 15, 31},
-                               {14, 2, 1, 56, 113},
-                               {7, 2, 1, 63, 127},
-                               {1, 5, 1, 60, 301},
-                               // A prime without a divisor near 60.
-                               {997, 1, 1, 60, 61},
-                               // It ends between two looks.
-                               {60, 1.99, 1, 60, 120},
-                               {500, 12.566, 1, 50, 629},
-                               // 2.05·60 and 0.58·50 are less than 123 and 29 in double.
-                               {60, 2.05, 1, 60, 124},
-                               {100, 0.58, 1, 50, 30},
-                               {60, 0.3, 1, 60, 19},
-                               // Short: more than 60.
-                               {1000, 0.1, 1, 200, 21},
-                               {1000, 0.29, 1, 50, 15},
-
-                               {1'000'000, 1e-5, 1, 1'000'000, 11},
-                               // Many: 400,000/1000/10 = 40, and the divisors are 20 and 25.
-                               {60, 10, 1000, 30, 301},
-                               {100, 10, 1000, 25, 251},
-                               {60, 10, 100'000, 1, 11},
-                               {60, 100'000, 1, 4, 400'001}}) {
-        const Looks looks = looks_of(falling(c.rate, c.duration, c.bodies));
-        EXPECT_EQ(looks, (Looks{c.per_second, c.count})) << c.rate << " Hz, " << c.duration << " s";
-        EXPECT_EQ(looks.meet_steps(c.rate), c.rate >= 15 && c.rate != 997) << c.rate << " Hz";
-    }
-}
-
-TEST(LooksOf, TellsTheirTimes) {
-    const Looks looks{.per_second = 60, .count = 601};
-    EXPECT_EQ(looks.time(600), 10);
-    EXPECT_TRUE(looks.meet_steps(120));
-    EXPECT_FALSE(looks.meet_steps(90));
-    EXPECT_FALSE(looks.meet_steps(30));
-}
-
-TEST(LooksOf, RefusesWhatItCannotFollow) {
-    const auto refusal = [](const Scene& scene) {
-        return line_of_error(Exit::usage, [&] { (void)looks_of(scene); });
-    };
-    EXPECT_TRUE(holds(refusal(falling(60, 10, 100'001)), "100001 bodies"));
-    EXPECT_TRUE(holds(refusal(falling(60, 100'001)), "a duration of 100001 s"));
-    EXPECT_TRUE(holds(refusal(falling(60, 0)), "give --duration"));
-    EXPECT_TRUE(holds(refusal(falling(60, NAN)), "give --duration"));
-    EXPECT_TRUE(holds(refusal(falling(10, 0.05)), "within one of its steps"));
-}
-
-Track track_of(const Motions& motions, const Looks& looks) {
-    Track track{.bodies = motions.size()};
-    for (std::int64_t look = 0; look < looks.count; ++look)
-        for (const ExactMotion& motion : motions)
-            track.states.push_back(
-                motion(static_cast<Real>(look) / static_cast<Real>(looks.per_second)));
-    return track;
-}
-
-// Hermite's cubic is off by (ω/60)⁴/384 of the amplitude, at most; a crossing of the level by as
-// much of 1/ω over the cosine of the phase there, and the period by two of these over their number.
-TEST(FindSwing, HasTheSpringsPeriod) {
-    const Looks looks{.per_second = 60, .count = 20 * 60 + 1};
-    const double omega = std::sqrt(15.0);
-    const auto swing = find_swing(track_of({article_motion(0)}, looks), looks);
-    ASSERT_TRUE(swing);
-    ASSERT_EQ(swing->crossings.size(), 12U);
-    EXPECT_EQ(swing->row, 0U);
-    EXPECT_EQ(swing->axis, 0);
-    // What the part of the last period adds to the mean, and a look more than there are.
-    EXPECT_LE(std::abs(swing->level), 1000 * (1 / omega / 20 + 1 / 1201.0));
-    const double phase = std::asin(swing->level / 1000);
-    const double bound = std::pow(omega / 60, 4) / 384 / std::cos(phase) / omega;
-    EXPECT_NEAR(swing->period, 2 * std::numbers::pi / omega, 2 * bound / 11);
-    // Upwards: sin(ωt − π/2) = level/1000, first after half a period less a quarter.
-    for (std::size_t i = 0; i < 12; ++i)
-        EXPECT_NEAR(swing->crossings[i],
-                    (std::numbers::pi * (2 * static_cast<double>(i) + 1.5) + phase) / omega, bound)
-            << i;
-}
-
-// Damping makes the level a growing part of the amplitude: crossings shift by its arc sine.
-TEST(FindSwing, HasTheDampedSpringsPeriod) {
-    const Looks looks{.per_second = 50, .count = 10 * 50 + 1};
-    const double omega = std::sqrt(15 - 0.0025);
-    const auto swing = find_swing(track_of({article_motion(0.1L)}, looks), looks);
-    ASSERT_TRUE(swing);
-    const double amplitude = 1000 * std::exp(-0.05 * 10);
-    const double shift = std::asin(std::abs(swing->level) / amplitude) / omega;
-    EXPECT_NEAR(swing->period, 2 * std::numbers::pi / omega,
-                shift / static_cast<double>(swing->crossings.size() - 1));
-    EXPECT_LE(shift, 0.02);
-}
-
-ExactMotion turned_to(int axis, Real size, Real omega) {
-    return [=](Real t) {
-        State3 state{};
-        state.x[axis] = 5 - size * std::cos(omega * t);
-        state.v[axis] = size * omega * std::sin(omega * t);
-        return state;
-    };
-}
-
-TEST(FindSwing, IsOfWhatMovesMost) {
-    const Looks looks{.per_second = 60, .count = 601};
-    const Track track =
-        track_of({turned_to(0, 1, 2), turned_to(2, 3, 4), turned_to(1, 2, 3)}, looks);
-    const auto widest = find_swing(track, looks);
-    ASSERT_TRUE(widest);
-    EXPECT_EQ(widest->row, 1U);
-    EXPECT_EQ(widest->axis, 2);
-    EXPECT_NEAR(widest->period, std::numbers::pi / 2, 1e-5);
-    const auto only = find_swing(track, looks, 2);
-    ASSERT_TRUE(only);
-    EXPECT_EQ(only->row, 2U);
-    EXPECT_EQ(only->axis, 1);
-    EXPECT_NEAR(only->period, 2 * std::numbers::pi / 3, 1e-5);
-}
-
-TEST(FindSwing, IsNoneOfAProjectile) {
-    const Looks looks{.per_second = 60, .count = 301};
-    const ExactMotion thrown = [](Real t) {
-        return State3{{20 * t, 20 * t - 5 * t * t, 0}, {20, 20 - 10 * t, 0}};
-    };
-    EXPECT_FALSE(find_swing(track_of({thrown}, looks), looks));
-    const ExactMotion at_rest = [](Real) { return along_x(3, 0); };
-    EXPECT_FALSE(find_swing(track_of({at_rest}, looks), looks));
-}
-
-// Two swings have two crossings; 7 looks to a swing are too few, 9 are enough.
-TEST(FindSwing, IsNoneOfWhatSwingsTooSeldomOrTooFast) {
-    const Looks looks{.per_second = 60, .count = 601};
-    const auto found = [&](Real period) {
-        const Real omega = 2 * std::numbers::pi_v<Real> / period;
-        return find_swing(track_of({turned_to(0, 1, omega)}, looks), looks).has_value();
-    };
-    EXPECT_TRUE(found(3.1L));
-    EXPECT_FALSE(found(5.0L));
-    EXPECT_TRUE(found(9 / 60.0L));
-    EXPECT_FALSE(found(7 / 60.0L));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,7 @@ struct Named {
     std::string method;
     std::string in_reference;
 };
+void PrintTo(const Named& named, std::ostream* out) { *out << named.method; }
 
 /// Without optimisation a run of many million steps takes too long.
 #ifdef NDEBUG

@@ -6,6 +6,7 @@
 #include "oiler/scene/read.hpp"
 #include "scene/bad_files.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {

@@ -10,6 +10,7 @@
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {

@@ -13,6 +13,7 @@
 #include "scene/everything.hpp"
 #include "support/folder.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "oiler/sim/closed_forms.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace {
 

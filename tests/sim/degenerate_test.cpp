@@ -9,6 +9,7 @@
 
 #include "oiler/sim/stability.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace {
 

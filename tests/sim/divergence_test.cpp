@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "oiler/sim/preflight.hpp"
 #include "oiler/sim/stability.hpp"
 #include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace {
 

@@ -87,8 +87,4 @@ std::string line_of_error(Exit exit, F f) {
     return {};
 }
 
-inline bool holds(const std::string& line, const std::string& part) {
-    return line.find(part) != std::string::npos;
-}
-
 }  // namespace oiler::test

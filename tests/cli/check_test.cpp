@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// `oiler check`, and the budgets that `oiler play` keeps, as their users run them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cli/desk.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+// ---- check
+
+/// Whether it is one element with what is in it, all of whose marks are closed and in order.
+bool is_well_formed(const std::string& xml) {
+    std::vector<std::string> open;
+    std::size_t at = xml.find("?>");
+    if (!xml.starts_with("<?xml ") || at == std::string::npos) return false;
+    at += 2;
+    std::size_t roots = 0;
+    while ((at = xml.find_first_of("<&", at)) != std::string::npos) {
+        if (xml[at] == '&') {
+            const std::string rest = xml.substr(at, 6);
+            if (!rest.starts_with("&amp;") && !rest.starts_with("&lt;") &&
+                !rest.starts_with("&quot;") && !rest.starts_with("&gt;"))
+                return false;
+            ++at;
+            continue;
+        }
+        bool quoted = false;
+        std::size_t end = at;
+        for (; end < xml.size() && (quoted || xml[end] != '>'); ++end) quoted ^= xml[end] == '"';
+        if (end == xml.size()) return false;
+        const std::string mark = xml.substr(at + 1, end - at - 1);
+        if (holds(mark, "<")) return false;
+        std::string name;
+        std::istringstream(mark) >> name;
+        if (mark.starts_with("/")) {
+            if (open.empty() || "/" + open.back() != mark) return false;
+            open.pop_back();
+        } else {
+            if (open.empty()) ++roots;
+            if (!mark.ends_with("/")) open.push_back(name);
+        }
+        at = std::min(end, xml.find('&', at));
+    }
+    return open.empty() && roots == 1;
+}
+
+TEST(IsWellFormed, TellsWhatIsNot) {
+    EXPECT_TRUE(is_well_formed("<?xml version=\"1.0\"?>\n<a x=\"1\"><b/>&amp;</a>\n"));
+    for (const char* bad : {"<a/>", "<?xml ?><a>", "<?xml ?><a></b>", "<?xml ?><a/><b/>",
+                            "<?xml ?><a x=\"&\"/>", "<?xml ?><a x=\"/>", "<?xml ?><a x=\"<\"/>"})
+        EXPECT_FALSE(is_well_formed(bad)) << bad;
+}
+
+TEST(Check, IsDoneWhereBudgetsAreKept) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 25.0\n"));
+    const Outcome run = desk.run("oiler check scene.toml");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(run.out, "scene.toml: position_error 19.8 m of 25 m: kept\n");
+    EXPECT_EQ(run.err, "");
+}
+
+TEST(Check, OfSeveralScenesTellsEachForACi) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 25.0\nenergy_drift = 1e-4\n"));
+    desk.put("a <b> & \"c\".toml", spring_scene("[budget]\nposition_error = 19.0\n"));
+    desk.put("none.toml", spring_scene(""));
+    const Outcome run =
+        desk.run("oiler check scene.toml a*.toml none.toml --junit a.xml --json a.json");
+    EXPECT_EQ(run.exit, 1) << run.err;
+    EXPECT_EQ(lines(run.out), 4) << run.out;
+    EXPECT_TRUE(holds(run.out, "none.toml: no [budget]\n"));
+    EXPECT_TRUE(holds(run.out, "19.8 m of 19 m: exceeded\n")) << run.out;
+    const std::string xml = desk.text("a.xml");
+    EXPECT_TRUE(is_well_formed(xml)) << xml;
+    EXPECT_TRUE(holds(xml, "tests=\"4\" failures=\"2\" errors=\"0\" skipped=\"1\"")) << xml;
+    EXPECT_EQ(count_of(xml, "<testcase "), 4U);
+    EXPECT_EQ(count_of(xml, "<failure "), 2U);
+    EXPECT_EQ(count_of(xml, "<skipped "), 1U);
+    EXPECT_TRUE(holds(xml, "<failure message=\"position_error 19.8 m of 19 m: exceeded\"/>"));
+    EXPECT_TRUE(holds(xml, "classname=\"a &lt;b> &amp; &quot;c&quot;.toml\"")) << xml;
+    const Json json = desk.json("a.json");
+    ASSERT_EQ(json.size(), 3U);
+    EXPECT_EQ(json.at(0).at("kept"), false);
+    EXPECT_EQ(json.at(0).at("position_error").at("kept"), true);
+    EXPECT_NEAR(json.at(0).at("position_error").at("measured").get<double>(), 19.8, 0.05);
+    EXPECT_EQ(json.at(0).at("position_error").at("budget"), 25);
+    EXPECT_EQ(json.at(0).at("energy_drift").at("kept"), false);
+    EXPECT_EQ(json.at(1).at("kept"), false);
+    EXPECT_EQ(json.at(2).at("kept"), true);
+}
+
+TEST(Check, OfTheHousesScenesIsDone) {
+    const Outcome run = shell("cd '" OILER_SOURCE
+                              "/assets/scenes'; oiler check article_spring.toml jump.toml "
+                              "article_spring_undamped.toml orbit.toml");
+    EXPECT_EQ(run.exit, 0) << run.out << run.err;
+    EXPECT_EQ(count_of(run.out, ": kept\n"), 4U) << run.out;
+}
+
+// A file may be called anything; what is written of it is JSON and XML all the same.
+TEST(Check, OfAFileWhoseNameIsNoText) {
+    const Desk desk;
+    const Outcome run = desk.run(
+        "name=$(printf 'b\\377\\001.toml'); cp scene.toml \"$name\"; "
+        "oiler check \"$name\" --json a.json --junit a.xml");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(desk.json("a.json").size(), 1U);
+    EXPECT_FALSE(holds(desk.text("a.xml"), "\377"));
+    EXPECT_FALSE(holds(desk.text("a.xml"), "\001"));
+}
+
+// ---- play
+
+class BudgetOfPlay : public testing::TestWithParam<const char*> {};
+
+TEST_P(BudgetOfPlay, ThatIsExceededFailsInOneLine) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 5.0\n"));
+    const std::string command =
+        std::string("oiler play scene.toml --quiet --json a.json ") + GetParam();
+    const Outcome run = desk.run(command);
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 1) << run.err;
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+    EXPECT_TRUE(run.err.starts_with("[budget] ")) << run.err;
+    EXPECT_TRUE(holds(run.err, "position_error 19.8 m of 5 m: exceeded")) << run.err;
+    const Json budget = desk.json("a.json").at("budget").at("position_error");
+    EXPECT_EQ(budget.at("budget"), 5);
+    EXPECT_EQ(budget.at("kept"), false);
+    EXPECT_NEAR(budget.at("measured").get<double>(), 19.8, 0.05);
+
+    const Outcome kept = desk.run(command + " --method rk4");
+    EXPECT_EQ(kept.exit, 0) << kept.err;
+    EXPECT_EQ(kept.err, "");
+    EXPECT_EQ(desk.json("a.json").at("budget").at("position_error").at("kept"), true);
+    // An error of first order: a tenth of the step is a tenth of 19.8 m, more or less.
+    EXPECT_EQ(desk.run(command + " --rate 1000").exit, 0);
+    EXPECT_NEAR(desk.json("a.json").at("budget").at("position_error").at("measured").get<double>(),
+                1.98, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BudgetOfPlay,
+                         testing::Values("--headless --frames 2 --size 64x36 --out frames",
+                                         "--steps 20"));
+
+TEST(PlayBudget, ThatIsNoneIsNotReported) {
+    const Desk desk;
+    EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 3 --json a.json").exit, 0);
+    EXPECT_FALSE(desk.json("a.json").contains("budget"));
+}
+
+}  // namespace
+}  // namespace oiler::test

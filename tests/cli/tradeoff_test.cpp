@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// `oiler tradeoff` and `oiler merge` as their users run them.
+#include <gtest/gtest.h>
+
+#include "cli/desk.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+const std::string few = "--methods semi_implicit_euler,velocity_verlet,rk4,exact --max-rate 400 ";
+
+/// All but times and what is best by them.
+Json accuracy_of(Json tradeoff) {
+    for (Json& row : tradeoff.at("rows"))
+        for (const char* name : {"ns_per_second", "ns_spread", "pareto"}) row.erase(name);
+    tradeoff.erase("machines");
+    return tradeoff;
+}
+
+TEST(TradeoffCommand, WritesATableAndItsPictures) {
+    const Desk desk;
+    const Outcome run =
+        desk.run("oiler tradeoff scene.toml " + few + "--out t --size 64x36 --quiet");
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(desk.names("t"),
+              (std::vector<std::string>{"energy_over_time.png", "error_over_evaluations.png",
+                                        "error_over_time.png", "tradeoff.csv", "tradeoff.json"}));
+    const Json json = desk.json("t/tradeoff.json");
+    EXPECT_EQ(json.at("scene"), "scene");
+    EXPECT_EQ(json.at("complete"), true);
+    EXPECT_EQ(json.at("ladders").size(), 8U);
+    EXPECT_EQ(lines(desk.text("t/tradeoff.csv")),
+              static_cast<std::ptrdiff_t>(1 + json.at("rows").size()));
+    for (const Json& row : json.at("rows"))
+        EXPECT_EQ(row.at("ns_per_second").is_number(), row.at("stable").get<bool>());
+    EXPECT_TRUE(holds(run.out, "\n> semi_implicit_euler ")) << run.out;
+    const Outcome all = desk.run("oiler tradeoff scene.toml " + few +
+                                 "--out t --size 64x36 --quiet --all --json copy.json");
+    EXPECT_GE(lines(all.out), static_cast<std::ptrdiff_t>(json.at("rows").size()));
+    EXPECT_EQ(desk.text("copy.json"), desk.text("t/tradeoff.json"));
+}
+
+// The file is there as soon as a method is done; then there is a second and more to go.
+TEST(TradeoffCommand, InterruptedGoesOnWhereItWas) {
+    const Desk desk;
+    const std::string command =
+        "oiler tradeoff scene.toml --methods splitting --max-rate 6400 --size 64x36 --quiet --out ";
+    const Outcome run = desk.run(command +
+                                 "a & program=$!; while ! test -e a/tradeoff.json; do sleep 0.01; "
+                                 "done; kill -INT $program; wait $program");
+    EXPECT_EQ(run.exit, 130) << run.err;
+    const Json part = desk.json("a/tradeoff.json");
+    EXPECT_EQ(desk.names("a"), std::vector<std::string>{"tradeoff.json"});
+    EXPECT_GE(part.at("rows").size(), 1U);
+    // What it goes on with is not measured again: a mark in it stays.
+    Json marked = part;
+    marked.at("rows").at(0).at("velocity_error") = 4242;
+    desk.put("a/tradeoff.json", marked.dump());
+    const Outcome rest = desk.run(command + "a");
+    if (rest.exit == 3) GTEST_SKIP() << rest.err;
+    EXPECT_EQ(rest.exit, 0) << rest.err;
+    EXPECT_EQ(desk.run(command + "b").exit, 0);
+    Json resumed = accuracy_of(desk.json("a/tradeoff.json"));
+    const Json whole = accuracy_of(desk.json("b/tradeoff.json"));
+    std::size_t marks = 0;
+    for (std::size_t i = 0; i < resumed.at("rows").size(); ++i) {
+        Json& row = resumed.at("rows").at(i);
+        if (row.at("velocity_error") != 4242) continue;
+        row.at("velocity_error") = whole.at("rows").at(i).at("velocity_error");
+        ++marks;
+    }
+    EXPECT_EQ(marks, 1U);
+    EXPECT_EQ(resumed, whole);
+    EXPECT_EQ(desk.names("a").size(), 5U);
+}
+
+TEST(TradeoffCommand, InShardsAndMergedIsOneRun) {
+    const Desk desk;
+    const std::string command = "oiler tradeoff scene.toml " + few + "--size 64x36 --quiet --out ";
+    for (const char* shard : {"1/4", "2/4", "3/4", "4/4"}) {
+        const Outcome run = desk.run(command + "parts --shard " + shard);
+        EXPECT_EQ(run.exit, 0) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+    EXPECT_EQ(desk.names("parts"),
+              (std::vector<std::string>{"part-1-of-4.json", "part-2-of-4.json", "part-3-of-4.json",
+                                        "part-4-of-4.json"}));
+    const Outcome missing = desk.run("oiler merge parts/part-[123]*.json --out merged");
+    EXPECT_EQ(missing.exit, 2);
+    EXPECT_EQ(lines(missing.err), 1) << missing.err;
+    const Outcome merge =
+        desk.run("oiler merge parts/part-*.json --out merged --size 64x36 --quiet");
+    if (merge.exit == 3) GTEST_SKIP() << merge.err;
+    EXPECT_EQ(merge.exit, 0) << merge.err;
+    EXPECT_EQ(desk.run(command + "whole").exit, 0);
+    EXPECT_EQ(accuracy_of(desk.json("merged/tradeoff.json")),
+              accuracy_of(desk.json("whole/tradeoff.json")));
+    EXPECT_EQ(desk.text("merged/tradeoff.csv").substr(0, 60),
+              desk.text("whole/tradeoff.csv").substr(0, 60));
+    // Parts of another duration are of another sweep.
+    EXPECT_EQ(desk.run(command + "parts --shard 2/4 --duration 9").exit, 0);
+    EXPECT_EQ(desk.run("oiler merge parts/part-*.json --out merged").exit, 2);
+}
+
+TEST(TradeoffCommand, MeasuresAMethodThatIsNamedTwiceOnce) {
+    const Desk desk;
+    const std::string command =
+        "oiler tradeoff scene.toml --max-rate 200 --shard 1/1 --quiet "
+        "--size 64x36 --duration 2 --out ";
+    const Outcome twice = desk.run(command + "twice --methods rk4,rk4");
+    if (twice.exit == 2) return;  // refusing it will do, too
+    EXPECT_EQ(desk.run(command + "once --methods rk4").exit, twice.exit);
+    EXPECT_EQ(desk.json("twice/tradeoff.json").at("rows").size(),
+              desk.json("once/tradeoff.json").at("rows").size());
+}
+
+// What else there is is done by threads; an error of writing is one line from any of them.
+TEST(TradeoffCommand, ThatCannotWriteSaysSo) {
+    const Desk desk;
+    const Outcome run =
+        desk.run("trap '' XFSZ; ulimit -f 4; oiler tradeoff scene.toml " + few + "--out t --quiet");
+    EXPECT_EQ(run.exit, 4) << run.err;
+    EXPECT_EQ(lines(run.err), 1) << run.err;
+}
+
+// Where nothing moves there is no energy to tell drifts by; what is written is read again.
+TEST(TradeoffCommand, OfASceneAtRestIsReadBack) {
+    const Desk desk("[scene]\naxes = 1\nduration = 1.0\n[[body]]\nname = \"a\"\n");
+    const Outcome run = desk.run(
+        "oiler tradeoff scene.toml --methods rk4 --max-rate 100 --out t --shard 1/1 "
+        "--size 64x36 --quiet");
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 0) << run.err;
+    const Outcome merge = desk.run("oiler merge t/tradeoff.json --out u --size 64x36 --quiet");
+    EXPECT_EQ(merge.exit, 0) << merge.err;
+}
+
+}  // namespace
+}  // namespace oiler::test

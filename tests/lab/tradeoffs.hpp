@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab/measured_scenes.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/lab/tradeoff_file.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+
+inline const MeasuredScene& spring() {
+    static const MeasuredScene measured(article_spring);
+    return measured;
+}
+
+inline SweepPlan small_plan() {
+    return {.methods = methods_of({"explicit_euler", "semi_implicit_euler", "velocity_verlet",
+                                   "rk4", "exact", "kahan_li8_kdk"}),
+            .max_rate = 800};
+}
+
+inline Tradeoff started(const MeasuredScene& measured, const SweepPlan& plan) {
+    Tradeoff tradeoff = start_tradeoff(measured.scene, measured.looks, measured.reference, plan);
+    tradeoff.scene = "test";
+    tradeoff.fingerprint = fingerprint(measured.text, measured.scene, measured.looks, plan);
+    return tradeoff;
+}
+
+// What is compared is told apart to the bit, and so are different NaNs of the same meaning: none.
+inline bool same(double a, double b) {
+    return (std::isnan(a) && std::isnan(b)) ||
+           std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+inline bool same_errors(const Judgement& a, const Judgement& b) {
+    return a.stable == b.stable && same(a.position_error, b.position_error) &&
+           same(a.velocity_error, b.velocity_error) && same(a.phase_error, b.phase_error) &&
+           same(a.energy_drift, b.energy_drift) && same(a.evaluations, b.evaluations);
+}
+
+inline std::string named(const SceneChoice& choice) {
+    return std::string(choice.method->name) + " at " + std::to_string(choice.rate);
+}
+
+inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
+    ASSERT_EQ(a.ladders.size(), b.ladders.size());
+    for (std::size_t i = 0; i < a.ladders.size(); ++i) {
+        const Ladder& one = a.ladders[i];
+        const Ladder& other = b.ladders[i];
+        EXPECT_EQ(one.method, other.method);
+        EXPECT_EQ(one.precision, other.precision);
+        EXPECT_EQ(one.end, other.end);
+        EXPECT_EQ(one.done, other.done);
+        ASSERT_EQ(one.rows.size(), other.rows.size()) << one.method->name;
+        for (std::size_t row = 0; row < one.rows.size(); ++row) {
+            EXPECT_EQ(one.rows[row].choice, other.rows[row].choice);
+            EXPECT_EQ(one.rows[row].meets_steps, other.rows[row].meets_steps);
+            EXPECT_TRUE(same_errors(one.rows[row].judgement, other.rows[row].judgement))
+                << named(one.rows[row].choice);
+        }
+    }
+}
+
+inline void expect_usage(const std::function<void()>& wrong, const std::string& words) {
+    try {
+        wrong();
+        ADD_FAILURE() << "is not refused";
+    } catch (const Error& error) {
+        const std::string line = error.what();
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_TRUE(holds(line, words)) << line;
+        EXPECT_FALSE(holds(line, "\n")) << line;
+    }
+}
+
+}  // namespace oiler::test
