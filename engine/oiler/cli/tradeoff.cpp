@@ -25,6 +25,10 @@ std::string head(const Tradeoff& tradeoff) {
     text += fmt::format(
         "  errors below {:.2g} m are not told: a hundred times the reference's own {:.2g} m\n",
         reference.floor.position, reference.position_error);
+    if (tradeoff.machines.size() > 1)
+        text += fmt::format(
+            "  times are of {} machines: compare only those of a method in one precision\n",
+            tradeoff.machines.size());
     if (!reference.why_no_longer.empty())
         text += fmt::format("  of its {:.4g} s only the first {:.4g} mean anything:\n  {}\n",
                             tradeoff.duration, reference.meaningful_until, reference.why_no_longer);

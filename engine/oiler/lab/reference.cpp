@@ -258,14 +258,14 @@ Reference make_reference(const Scene& scene, const Looks& looks, const Reference
     return Making(scene, looks, effort).run(closed_form);
 }
 
-double evaluations_of(const Method& method) {
-    constexpr int to_solve = 4;
-    return method.evaluations > 0 ? method.evaluations : to_solve;
-}
-
-double work_per_evaluation(const Scene& scene) {
+double work_per_step(const Scene& scene, const Method& method) {
     const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
-    return static_cast<double>(bodies.size() + bodies.link_count());
+    const auto size = static_cast<double>(bodies.size());
+    const auto links = static_cast<double>(bodies.link_count());
+    if (method.evaluations > 0) return (size + links) * method.evaluations;
+    // An implicit step takes a few of them, and for a net as many factorisations of its matrix.
+    constexpr double to_solve = 4;
+    return (size + links) * to_solve * (links > 0 ? std::sqrt(size * scene.axes) : 1);
 }
 
 }  // namespace oiler

@@ -85,9 +85,7 @@ using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const B
                                        const ReferenceEffort& effort,
                                        const ClosedForm& closed_form = exact_motions);
 
-/// In a step, about; an implicit method takes as many as it needs.
-[[nodiscard]] double evaluations_of(const Method& method);
-/// Bodies and links of a scene that forces are evaluated on.
-[[nodiscard]] double work_per_evaluation(const Scene& scene);
+/// What a step of a scene takes, about: evaluations of the forces on one body or link.
+[[nodiscard]] double work_per_step(const Scene& scene, const Method& method);
 
 }  // namespace oiler

@@ -41,7 +41,6 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate", wish.min_rate,
              wish.max_rate);
-    work_per_hertz_ = work_per_evaluation(scene) * reference.meaningful_until();
     for (const Method* method : wish.methods)
         for (const Precision precision : {Precision::single, Precision::double_})
             if (why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
@@ -51,15 +50,13 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
 void Search::add_candidate(const Method& method, Precision precision) {
     // Any step costs the same; one that is short is stable.
     constexpr std::int64_t rate = 1 << 16;
-    constexpr double most_steps = 64;
-    constexpr double longest_call = 5e6;  // ns
+    constexpr std::int64_t many = 64;
+    constexpr double dear = 5e6;  // ns, beside which calling is nothing
     Candidate candidate{.method = &method, .precision = precision};
-    candidate.alone = ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.alone = candidate.together = ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.alone)) return;
-    const auto many =
-        static_cast<std::int64_t>(std::min(most_steps, longest_call / candidate.alone));
-    candidate.together = candidate.alone;
-    if (many > 1)
+    candidate.work_per_hertz = work_per_step(scene_, method) * reference_.meaningful_until();
+    if (candidate.alone < dear)
         candidate.together =
             std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
     candidates_.push_back(candidate);
@@ -116,8 +113,7 @@ std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& r
 }
 
 bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
-    return work_per_hertz_ * evaluations_of(*candidate.method) * static_cast<double>(rate) <=
-           wish_.most_work;
+    return candidate.work_per_hertz * static_cast<double>(rate) <= wish_.most_work;
 }
 
 /// To the next rung that is worth a run, if any.

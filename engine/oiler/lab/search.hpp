@@ -42,6 +42,7 @@ private:
         Precision precision = Precision::double_;
         double alone = unknown;     ///< a call of one step
         double together = unknown;  ///< a step of many in a call
+        double work_per_hertz = 0;  ///< see SweepPlan
         std::size_t next = 0;       ///< rung
         Descent descent{};
         std::int64_t tried = 0;  ///< last rate at which it was stable and met its looks
@@ -73,7 +74,6 @@ private:
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
     std::vector<TradeoffRow> rows_;
-    double work_per_hertz_ = 0;
 };
 
 /// How many times the tolerances a run is off.

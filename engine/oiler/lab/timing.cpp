@@ -17,6 +17,15 @@ constexpr double shortest = 100e-6;  // s
 /// Of a frame at a high rate no more steps are taken: each costs what the others do.
 constexpr std::int64_t most_steps_at_once = 256;
 
+/// Of a call, in s: what takes longer by far than calling is called with fewer steps.
+constexpr double longest_call = 50e-3;
+
+double seconds_of(World& world, std::int64_t steps) {
+    const Clock::time_point begin = Clock::now();
+    if (world.try_step(steps)) return unknown;
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto low = static_cast<std::size_t>(at);
@@ -30,19 +39,20 @@ double quantile(const std::vector<double>& sorted, double share) {
 double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t at_once) try {
     World start = make_world(scene, settings_of(choice));
     if (start.try_step()) return unknown;
+    if (at_once > 1) {
+        World probe = start;
+        const double most = longest_call / seconds_of(probe, 1);
+        if (most < static_cast<double>(at_once))
+            at_once = std::max<std::int64_t>(1, std::llround(most));
+    }
     const auto last = std::max<std::int64_t>(
         1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate)));
     double seconds = 0;
     std::int64_t steps = 0;
     while (seconds < shortest) {
         World world = start;
-        const Clock::time_point begin = Clock::now();
-        double taken = 0;
-        while (world.tick() + at_once <= last && taken < shortest) {
-            if (world.try_step(at_once)) return unknown;
-            taken = std::chrono::duration<double>(Clock::now() - begin).count();
-        }
-        seconds += taken;
+        while (world.tick() + at_once <= last && seconds < shortest)
+            seconds += seconds_of(world, at_once);
         steps += world.tick() - start.tick();
     }
     return 1e9 * seconds / static_cast<double>(steps);

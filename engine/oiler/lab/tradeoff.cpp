@@ -25,12 +25,12 @@ public:
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
         std::string end = why_not(scene_, settings_of(choice(rungs_.front())));
-        const double work_per_step = work_per_evaluation(scene_) * evaluations_of(*ladder_.method) *
-                                     reference_.meaningful_until();
+        const double work_per_hertz =
+            work_per_step(scene_, *ladder_.method) * reference_.meaningful_until();
         Descent descent;
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
-            if (work_per_step * static_cast<double>(rate) > plan_.most_work) {
+            if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
                 end = "a run at higher rates is too much work";
                 break;
             }
@@ -187,7 +187,7 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
          i += static_cast<std::size_t>(plan.shards))
         if (!tradeoff.ladders[i].done) open.push_back(i);
     double work = 0;
-    for (const std::size_t i : open) work += evaluations_of(*tradeoff.ladders[i].method);
+    for (const std::size_t i : open) work += work_per_step(scene, *tradeoff.ladders[i].method);
     double work_done = 0;
     std::mutex mutex;
     on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
@@ -195,7 +195,7 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
         Climb(ladder, scene, reference, plan, rates).run(stopped);
         if (!ladder.done) return;
         const std::lock_guard lock(mutex);
-        work_done += evaluations_of(*ladder.method);
+        work_done += work_per_step(scene, *ladder.method);
         tradeoff.ladders[open[at]] = std::move(ladder);
         watch.ladder_done(tradeoff);
         watch.progress(work_done / work);
