@@ -146,6 +146,15 @@ INSTANTIATE_TEST_SUITE_P(All, BudgetOfPlay,
                          testing::Values("--headless --frames 2 --size 64x36 --out frames",
                                          "--steps 20"));
 
+TEST(PlayBudget, IsCheckedWithoutAScreenAndNotForPlayers) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 5.0\n"));
+    const Outcome run =
+        desk.run("oiler play scene.toml --headless --frames 2 --size 64x36 --out frames");
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 1) << run.err;
+    EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 20 --trace t.csv").exit, 0);
+}
+
 TEST(PlayBudget, ThatIsNoneIsNotReported) {
     const Desk desk;
     EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 3 --json a.json").exit, 0);
