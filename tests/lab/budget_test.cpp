@@ -44,6 +44,19 @@ double error_of_article(int rate, int stride, double damping) {
     return most;
 }
 
+// A reference is as good as the budget needs it: a hundred times better.
+TEST(Budget, OfASceneWithoutAClosedFormIsCheckedHoweverTightItIs) {
+    const std::string thrown =
+        "[scene]\naxes = 2\nrate = 60\nduration = 4.0\nmethod = \"rk4\"\n[gravity]\n"
+        "acceleration = [0.0, -9.8]\n[[body]]\nquadratic_drag = 0.1\nvelocity = [20.0, 20.0]\n";
+    for (const char* most : {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}) {
+        const std::vector<BudgetLine> lines =
+            checked(thrown + "[budget]\nposition_error = " + most + "\n", 60, "rk4");
+        ASSERT_EQ(lines.size(), 1U);
+        EXPECT_LE(lines[0].told_from, lines[0].most);
+    }
+}
+
 // Looked at 50 times a second, at 100 Hz after every other step; both round 1000 m a thousand
 // times.
 TEST(Budget, ThatIsKept) {
