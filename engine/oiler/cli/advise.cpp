@@ -11,6 +11,17 @@
 #include "oiler/scene/apply.hpp"
 
 namespace oiler {
+namespace {
+
+Advice search(const Scene& scene, const Reference& reference, const Wish& wish, bool quiet) {
+    Percent percent(quiet, "of the ways to step it, of which most need no run");
+    SweepWatch watch;
+    watch.progress = [&](double share) { percent(share); };
+    watch.stopped = Interrupt::requested;
+    return advise(scene, reference, wish, watch);
+}
+
+}  // namespace
 
 Exit AdviseCommand::run() const {
     const Interrupt interrupt;
@@ -27,9 +38,7 @@ Exit AdviseCommand::run() const {
     const Reference reference =
         measure_reference(scene, looks, wanted_of(wish) / 2, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
-    SweepWatch watch;
-    watch.stopped = Interrupt::requested;
-    const Advice advice = advise(scene, reference, wish, watch);
+    const Advice advice = search(scene, reference, wish, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
     if (!measured.json.empty()) write_json(measured.json, json_of(advice, scene, reference, wish));
     if (measured.json != "-") {

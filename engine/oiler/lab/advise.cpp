@@ -140,6 +140,12 @@ private:
     void add_rounding_and_rates() {
         const std::vector<TradeoffRow> nearest = search_.nearest_rows();
         for (const Precision precision : {Precision::single, Precision::double_}) {
+            const auto rounding = search_.too_coarse_float();
+            if (precision == Precision::single && rounding) {
+                advice_.obstacles.push_back(
+                    fmt::format("in float rounding alone moves bodies by {:.3g} m", *rounding));
+                continue;
+            }
             const auto row = std::find_if(nearest.begin(), nearest.end(), [&](const auto& one) {
                 return one.choice.precision == precision;
             });

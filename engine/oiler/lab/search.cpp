@@ -21,6 +21,15 @@ double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
 }
 
+/// The farthest that a body is from the nearest numbers of float, m: no run in float comes nearer.
+double rounding_to_float(const Reference& reference) {
+    long double most = 0;
+    for (const State<long double, 3>& state : reference.track.states)
+        for (int axis = 0; axis < 3; ++axis)
+            most = std::max(most, std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
+    return static_cast<double>(most);
+}
+
 }  // namespace
 
 double excess(const Judgement& judgement, const Wish& wish) {
@@ -41,9 +50,12 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate", wish.min_rate,
              wish.max_rate);
+    const double rounding = rounding_to_float(reference);
+    if (wish.position_error && rounding > *wish.position_error) too_coarse_float_ = rounding;
     for (const Method* method : wish.methods)
         for (const Precision precision : {Precision::single, Precision::double_})
-            if (why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
+            if (!(precision == Precision::single && too_coarse_float_) &&
+                why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
                 add_candidate(*method, precision);
 }
 
@@ -140,6 +152,7 @@ void Search::find_cheapest() {
     for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
         const double cost = next_cost(*next);
         if (cost > first * (has_second ? rival : far_off)) break;
+        tell_progress();
         const TradeoffRow row = try_next(*next);
         if (!good(row)) {
             go_on(*next, row, excess(row.judgement, wish_));
@@ -151,6 +164,14 @@ void Search::find_cheapest() {
         has_second = has_second || row.choice.method != first_method;
     }
     if (!first_method) try_highest();
+}
+
+void Search::tell_progress() const {
+    std::size_t done = 0;
+    for (const Candidate& candidate : candidates_)
+        done += candidate.over ? rungs_.size() : candidate.next;
+    watch_.progress(static_cast<double>(done) /
+                    static_cast<double>(candidates_.size() * rungs_.size()));
 }
 
 /// Where nothing is good enough, what should come nearest, by the order, at the highest rates that
@@ -178,6 +199,7 @@ void Search::find_most_accurate() {
     double least = INFINITY;
     for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
         if (next_cost(*next) > *wish_.ns_per_second && !rows_.empty()) break;
+        tell_progress();
         const TradeoffRow row = try_next(*next);
         const Judgement& judgement = row.judgement;
         if (judgement.below_floor()) {

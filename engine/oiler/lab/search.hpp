@@ -32,6 +32,8 @@ public:
     /// accurate.
     [[nodiscard]] std::vector<TradeoffRow> nearest_rows() const;
 
+    /// By how much rounding to float alone moves bodies, in m, where that rules out all runs in it.
+    [[nodiscard]] std::optional<double> too_coarse_float() const { return too_coarse_float_; }
     [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rungs_; }
     [[nodiscard]] std::int64_t runs() const { return static_cast<std::int64_t>(rows_.size()); }
 
@@ -61,6 +63,8 @@ private:
     [[nodiscard]] std::int64_t least_rate(const Candidate& candidate, const TradeoffRow& row,
                                           double excess) const;
     [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
+    /// How many of all ways were tried or ruled out.
+    void tell_progress() const;
     void try_highest();
     void find_cheapest();
     void find_most_accurate();
@@ -73,6 +77,7 @@ private:
     const SweepWatch& watch_;
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
+    std::optional<double> too_coarse_float_;
     std::vector<TradeoffRow> rows_;
 };
 
