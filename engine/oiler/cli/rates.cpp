@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/json.hpp"
+#include "oiler/lab/rates.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "oiler/app/interrupt.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
+#include "oiler/lab/json.hpp"
 
 namespace oiler {
 namespace {

@@ -151,14 +151,13 @@ std::int64_t count_within(const std::vector<Doubt>& doubts, double most) {
 
 FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffort& effort) {
     Table table(scene, looks, effort);
-    const double work_of_a_step = work_per_step(scene, table.method());
+    const double work_per_step = Work(scene).per_step(table.method());
     FineSteps finest;
     bool affordable = false;
     std::int64_t most_good = -1;
     int vain = 0;
     for (std::int64_t rate = looks.per_second; vain < most_vain_runs; rate *= 2) {
-        const double work =
-            work_of_a_step * static_cast<double>(rate) * looks.time(looks.count - 1);
+        const double work = work_per_step * static_cast<double>(rate) * looks.time(looks.count - 1);
         if (work > effort.most_work || effort.stopped()) break;
         affordable = true;
         if (!table.add_run(rate) || !table.has_doubts()) continue;

@@ -71,12 +71,13 @@ private:
 
 /// Whether a body gets away at a step, told without looking in between: of runs at low rates this
 /// is what most do.
-bool gets_lost(const Scene& scene, const Settings& settings, const Reference& reference) {
+bool gets_lost(const Scene& scene, const Settings& settings, const Reference& reference,
+               const std::function<bool()>& stopped) {
     World world = make_world(scene, settings);
     world.require_applicable();
     const auto steps = static_cast<std::int64_t>(reference.meaningful_until() *
                                                  static_cast<double>(settings.rate.steps));
-    for (std::int64_t tick = 0; tick < steps; ++tick) {
+    for (std::int64_t tick = 0; tick < steps && !stopped(); ++tick) {
         if (world.try_step()) return true;
         for (std::size_t row = 0; row < reference.track.bodies; ++row)
             if (!(distance(world.bodies().state(row).x, reference.track.at(0, row).x) <=
@@ -90,7 +91,8 @@ bool gets_lost(const Scene& scene, const Settings& settings, const Reference& re
 
 Judgement judge(const Scene& scene, const Settings& settings, const Reference& reference,
                 const std::function<bool()>& stopped) {
-    if (settings.rate.steps < reference.looks.per_second && gets_lost(scene, settings, reference))
+    if (settings.rate.steps < reference.looks.per_second &&
+        gets_lost(scene, settings, reference, stopped))
         return {.stable = false};
     Follower follower(scene, settings, reference.looks.per_second);
     Notes notes(reference);

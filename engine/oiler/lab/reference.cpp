@@ -258,14 +258,17 @@ Reference make_reference(const Scene& scene, const Looks& looks, const Reference
     return Making(scene, looks, effort).run(closed_form);
 }
 
-double work_per_step(const Scene& scene, const Method& method) {
+Work::Work(const Scene& scene) {
     const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
     const auto size = static_cast<double>(bodies.size());
     const auto links = static_cast<double>(bodies.link_count());
-    if (method.evaluations > 0) return (size + links) * method.evaluations;
-    // An implicit step takes a few of them, and for a net as many factorisations of its matrix.
-    constexpr double to_solve = 4;
-    return (size + links) * to_solve * (links > 0 ? std::sqrt(size * scene.axes) : 1);
+    per_evaluation_ = size + links;
+    // A few of them; for a net as many factorisations of its matrix.
+    to_solve_ = 4 * (links > 0 ? std::sqrt(size * scene.axes) : 1);
+}
+
+double Work::per_step(const Method& method) const {
+    return per_evaluation_ * (method.evaluations > 0 ? method.evaluations : to_solve_);
 }
 
 }  // namespace oiler

@@ -85,7 +85,15 @@ using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const B
                                        const ReferenceEffort& effort,
                                        const ClosedForm& closed_form = exact_motions);
 
-/// What a step of a scene takes, about: evaluations of the forces on one body or link.
-[[nodiscard]] double work_per_step(const Scene& scene, const Method& method);
+/// What steps of a scene take, about: evaluations of the forces on one body or link.
+class Work {
+public:
+    explicit Work(const Scene& scene);
+    [[nodiscard]] double per_step(const Method& method) const;
+
+private:
+    double per_evaluation_;
+    double to_solve_;  ///< evaluations, of an implicit step
+};
 
 }  // namespace oiler

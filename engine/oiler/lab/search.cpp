@@ -21,12 +21,16 @@ double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
 }
 
-/// The farthest that a body is from the nearest numbers of float, m: no run in float comes nearer.
+/// The farthest that a body is from the nearest numbers of float, m, at whole seconds: at these all
+/// rates have a step, and no run in float comes nearer.
 double rounding_to_float(const Reference& reference) {
     long double most = 0;
-    for (const State<long double, 3>& state : reference.track.states)
-        for (int axis = 0; axis < 3; ++axis)
-            most = std::max(most, std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
+    for (std::int64_t look = 0; look < reference.looks.count; look += reference.looks.per_second)
+        for (std::size_t row = 0; row < reference.track.bodies; ++row)
+            for (int axis = 0; axis < 3; ++axis) {
+                const long double x = reference.track.at(look, row).x[axis];
+                most = std::max(most, std::abs(x - static_cast<float>(x)));
+            }
     return static_cast<double>(most);
 }
 
@@ -44,7 +48,7 @@ double Search::Candidate::cost(std::int64_t rate) const {
 
 Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
                const SweepWatch& watch)
-    : scene_(scene), reference_(reference), wish_(wish), watch_(watch) {
+    : scene_(scene), reference_(reference), wish_(wish), watch_(watch), work_(scene) {
     for (const std::int64_t rate : oiler::rungs(scene, reference.looks, wish.max_rate))
         if (rate >= wish.min_rate && rate <= wish.max_rate) rungs_.push_back(rate);
     if (rungs_.empty())
@@ -67,7 +71,7 @@ void Search::add_candidate(const Method& method, Precision precision) {
     Candidate candidate{.method = &method, .precision = precision};
     candidate.alone = candidate.together = ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.alone)) return;
-    candidate.work_per_hertz = work_per_step(scene_, method) * reference_.meaningful_until();
+    candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until();
     if (candidate.alone < dear)
         candidate.together =
             std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));

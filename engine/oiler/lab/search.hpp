@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "oiler/lab/advise.hpp"
@@ -44,7 +45,7 @@ private:
         Precision precision = Precision::double_;
         double alone = unknown;     ///< a call of one step
         double together = unknown;  ///< a step of many in a call
-        double work_per_hertz = 0;  ///< see SweepPlan
+        double work_per_hertz = 0;  ///< of a run at 1 Hz
         std::size_t next = 0;       ///< rung
         Descent descent{};
         std::int64_t tried = 0;  ///< last rate at which it was stable and met its looks
@@ -75,6 +76,7 @@ private:
     const Reference& reference_;
     const Wish& wish_;
     const SweepWatch& watch_;
+    Work work_;
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
     std::optional<double> too_coarse_float_;

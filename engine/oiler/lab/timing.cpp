@@ -41,7 +41,8 @@ double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t a
     if (start.try_step()) return unknown;
     if (at_once > 1) {
         World probe = start;
-        const double most = longest_call / seconds_of(probe, 1);
+        const double first = seconds_of(probe, 1);
+        const double most = longest_call / std::min(first, seconds_of(probe, 1));
         if (most < static_cast<double>(at_once))
             at_once = std::max<std::int64_t>(1, std::llround(most));
     }

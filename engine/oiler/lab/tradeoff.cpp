@@ -18,15 +18,20 @@ namespace {
 class Climb {
 public:
     Climb(Ladder& ladder, const Scene& scene, const Reference& reference, const SweepPlan& plan,
-          const std::vector<std::int64_t>& rungs)
-        : ladder_(ladder), scene_(scene), reference_(reference), plan_(plan), rungs_(rungs) {}
+          const Work& work, const std::vector<std::int64_t>& rungs)
+        : ladder_(ladder),
+          scene_(scene),
+          reference_(reference),
+          plan_(plan),
+          work_(work),
+          rungs_(rungs) {}
 
     /// Leaves the ladder as it was where it was stopped.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
         std::string end = why_not(scene_, settings_of(choice(rungs_.front())));
         const double work_per_hertz =
-            work_per_step(scene_, *ladder_.method) * reference_.meaningful_until();
+            work_.per_step(*ladder_.method) * reference_.meaningful_until();
         Descent descent;
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
@@ -59,6 +64,7 @@ private:
     const Scene& scene_;
     const Reference& reference_;
     const SweepPlan& plan_;
+    const Work& work_;
     const std::vector<std::int64_t>& rungs_;
 };
 
@@ -186,19 +192,20 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
          i += static_cast<std::size_t>(plan.shards))
         if (!tradeoff.ladders[i].done) open.push_back(i);
-    double work = 0;
-    for (const std::size_t i : open) work += work_per_step(scene, *tradeoff.ladders[i].method);
-    double work_done = 0;
+    const Work work(scene);
+    double all = 0;
+    for (const std::size_t i : open) all += work.per_step(*tradeoff.ladders[i].method);
+    double done = 0;
     std::mutex mutex;
     on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
         Ladder ladder = tradeoff.ladders[open[at]];
-        Climb(ladder, scene, reference, plan, rates).run(stopped);
+        Climb(ladder, scene, reference, plan, work, rates).run(stopped);
         if (!ladder.done) return;
         const std::lock_guard lock(mutex);
-        work_done += work_per_step(scene, *ladder.method);
+        done += work.per_step(*ladder.method);
         tradeoff.ladders[open[at]] = std::move(ladder);
         watch.ladder_done(tradeoff);
-        watch.progress(work_done / work);
+        watch.progress(done / all);
     });
 }
 

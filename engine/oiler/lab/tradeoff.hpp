@@ -113,7 +113,7 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
 
 /// In ns for a second of the scene, once.
 [[nodiscard]] double time_once(const Scene& scene, const SceneChoice& choice);
-/// Once, where the world is stepped so often in a call.
+/// Once, where the world is stepped so often in a call, or less where a call takes long.
 [[nodiscard]] double ns_per_step(const Scene& scene, const SceneChoice& choice,
                                  std::int64_t at_once);
 /// How often a game that shows 60 frames per second steps in a call, but for very high rates.

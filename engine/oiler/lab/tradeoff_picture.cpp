@@ -79,7 +79,7 @@ public:
             tradeoff_.reference.meaningful_until,
             tradeoff_.reference.closed_form ? "the closed form of the motion"
                                             : "fine steps in long double");
-        if (tradeoff_.machines.size() > 1)
+        if (axis_.of == time_of && tradeoff_.machines.size() > 1)
             plot_.caption += fmt::format(" Times are of {} machines.", tradeoff_.machines.size());
         plot_.x = decades(least_.x, most_.x);
         plot_.y = decades(least_.y, std::min(most_.y, 2 * tradeoff_.reference.extent));
