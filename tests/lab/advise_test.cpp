@@ -277,8 +277,9 @@ TEST(Advice, ThatCannotBeGivenNamesWhatIsInTheWay) {
     EXPECT_FALSE(advice.meets);
     ASSERT_TRUE(advice.best);
     ASSERT_EQ(advice.obstacles.size(), 2U);
-    // Between 512 and 1024 m numbers of float are 2⁻¹⁴ m apart: 501 looks come near half of it.
-    EXPECT_TRUE(holds(advice.obstacles[0], "in float rounding alone moves bodies by 3.0"))
+    // At whole seconds it is farthest after 8 s: 604.35000417 m, where numbers of float are 2⁻¹⁴ m
+    // apart and the nearest one is 2.85839e-5 m off.
+    EXPECT_TRUE(holds(advice.obstacles[0], "in float rounding alone moves bodies by 2.86e-05 m"))
         << advice.obstacles[0];
     EXPECT_TRUE(holds(advice.obstacles[1], "double"));
     const std::vector<std::string> words =
