@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "oiler/core/error.hpp"
@@ -244,7 +245,10 @@ Sweep sweep_all(const Scene& scene, const Wish& wish) {
     const SweepPlan plan{.methods = wish.methods, .most_work = wish.most_work};
     Sweep sweep_of{start_tradeoff(scene, looks, reference, plan), 0};
     SweepWatch watch;
-    watch.progress = [](double share) { fmt::print(stderr, "\r{:3.0f} %", 100 * share); };
+    watch.progress = [shown = -1](double share) mutable {
+        const int percent = static_cast<int>(100 * share);
+        if (std::exchange(shown, percent) != percent) fmt::print(stderr, "\r{:3} %", percent);
+    };
     sweep(sweep_of.tradeoff, scene, reference, plan, watch);
     std::vector<TradeoffRow*> rows;
     for (Ladder& ladder : sweep_of.tradeoff.ladders)
