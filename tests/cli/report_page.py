@@ -216,6 +216,12 @@ class Check:
                                                                 rf"{row['rate']}\b", text),
                             f"no paragraph advises {row['method']} at {row['rate']} Hz")
 
+    def reference(self):
+        reference, [text] = self.tradeoff["reference"], self.texts("#reference")
+        self.expect(reference["words"] in text, f"the reference reads {text}")
+        self.expect(("They count until" in text) == bool(reference["why_no_longer"]),
+                    f"how long errors count: {text}")
+
     def run_table(self):
         browser, selector = self.browser, "#tradeoff tbody tr"
         browser.click("document.querySelector('#tradeoff summary')")
@@ -411,7 +417,7 @@ class Check:
         self.sections()
         self.heading()
         if self.rows:
-            for step in (self.run_table, self.marks, self.filter, self.tooltip):
+            for step in (self.reference, self.run_table, self.marks, self.filter, self.tooltip):
                 step()
         for part in ("advice", "stability", "rates", "ledger"):
             if self.data[part]:

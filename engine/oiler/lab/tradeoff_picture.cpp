@@ -70,6 +70,8 @@ public:
         add_front();
         add_today();
         plot_.x_label = axis_.label;
+        if (axis_.of == time_of && tradeoff_.machines.size() > 1)
+            plot_.x_label += fmt::format(", on {} machines", tradeoff_.machines.size());
         plot_.title = fmt::format("What a timestep costs: {}",
                                   tradeoff_.title.empty() ? tradeoff_.scene : tradeoff_.title);
         plot_.y_label = "largest position error over the run, m";
@@ -79,8 +81,6 @@ public:
             tradeoff_.reference.meaningful_until,
             tradeoff_.reference.closed_form ? "the closed form of the motion"
                                             : "fine steps in long double");
-        if (axis_.of == time_of && tradeoff_.machines.size() > 1)
-            plot_.caption += fmt::format(" Times are of {} machines.", tradeoff_.machines.size());
         plot_.x = decades(least_.x, most_.x);
         plot_.y = decades(least_.y, std::min(most_.y, 2 * tradeoff_.reference.extent));
         Picture picture;
