@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/certify.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "oiler/app/console.hpp"
@@ -10,8 +10,6 @@
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// "4.00/4.01", of positions and velocities.
 std::string slopes(const Certificate& certificate, std::string_view problem) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -71,10 +71,10 @@ std::string to_junit(const std::vector<Checked>& all) {
         tests, failures, errors, skipped, cases);
 }
 
-nlohmann::ordered_json to_json(const std::vector<Checked>& all) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json to_json(const std::vector<Checked>& all) {
+    Json json = Json::array();
     for (const Checked& checked : all) {
-        nlohmann::ordered_json one{{"scene", checked.file}, {"kept", checked.kept()}};
+        Json one{{"scene", checked.file}, {"kept", checked.kept()}};
         if (!checked.error.empty()) one = {{"scene", checked.file}, {"error", checked.error}};
         for (const BudgetLine& line : checked.lines)
             one[line.name] = {

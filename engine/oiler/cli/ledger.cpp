@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/ledger.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
@@ -14,8 +14,6 @@
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// As many as the scene lasts, and two at least.
 std::int64_t steps_of(const Scene& scene) {

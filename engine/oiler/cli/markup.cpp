@@ -38,10 +38,10 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
-std::string for_script(const nlohmann::ordered_json& json) {
+std::string for_script(const Json& json) {
     std::string safe;
     for (const char c :
-         json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
+         json.dump(-1, Json::Characters::ascii)) {
         if (c == '<')
             safe += "\\u003c";
         else

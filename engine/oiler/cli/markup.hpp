@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "oiler/core/json.hpp"
 
 namespace oiler {
 
@@ -16,7 +17,7 @@ namespace oiler {
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// For a script: no end of it can hide in a text.
-[[nodiscard]] std::string for_script(const nlohmann::ordered_json& json);
+[[nodiscard]] std::string for_script(const Json& json);
 
 /// A PNG file as an address.
 [[nodiscard]] std::string address_of(const std::vector<std::byte>& png);

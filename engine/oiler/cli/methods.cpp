@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "oiler/capture/file.hpp"
@@ -13,8 +12,6 @@
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr Oscillation undamped{1, 0};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ Json stability_json(const Scene& scene, const std::vector<const Method*>& method
             const double limit = method->order == exact_order
                                      ? INFINITY
                                      : stability_limit(*method, method->damping, {1, 2 * zeta});
-            curve.push_back({zeta, std::isinf(limit) ? Json(nullptr) : Json(limit)});
+            curve.push_back(Json::array({zeta, std::isinf(limit) ? Json() : Json(limit)}));
         }
         curves.push_back({{"method", method->name}, {"points", std::move(curve)}});
     }

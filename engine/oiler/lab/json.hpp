@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "oiler/core/json.hpp"
 #include "oiler/lab/advise.hpp"
 #include "oiler/lab/rates.hpp"
 
 namespace oiler {
 
 // What the lab finds, as files and pages have it; null is what is unknown.
-
-using Json = nlohmann::ordered_json;
 
 /// A row's measured numbers by their names in files.
 struct RowNumber {

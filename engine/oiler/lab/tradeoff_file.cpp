@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/tradeoff_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "oiler/core/error.hpp"
@@ -15,7 +16,9 @@
 namespace oiler {
 namespace {
 
-double to_number(const Json& json) { return json.is_null() ? unknown : json.get<double>(); }
+using Parsed = nlohmann::json;
+
+double to_number(const Parsed& json) { return json.is_null() ? unknown : json.get<double>(); }
 
 Precision to_precision(const std::string& name) {
     for (const Precision precision : {Precision::single, Precision::double_})
@@ -23,19 +26,19 @@ Precision to_precision(const std::string& name) {
     fail(Exit::usage, "no precision is called {}: float or double", name);
 }
 
-SceneChoice to_choice(const Json& json) {
+SceneChoice to_choice(const Parsed& json) {
     return {&find_method(json.at("method").get<std::string>()), json.at("rate"),
             to_precision(json.at("precision"))};
 }
 
-TradeoffRow to_row(const Json& json) {
+TradeoffRow to_row(const Parsed& json) {
     TradeoffRow row{.choice = to_choice(json), .meets_steps = json.at("meets_steps")};
     row.judgement.stable = json.at("stable");
     for (const RowNumber& number : row_numbers) number.of(row) = to_number(json.at(number.name));
     return row;
 }
 
-ReferenceSummary to_reference(const Json& json) {
+ReferenceSummary to_reference(const Parsed& json) {
     return {
         .words = json.at("words"),
         .closed_form = json.at("closed_form"),
@@ -48,7 +51,7 @@ ReferenceSummary to_reference(const Json& json) {
         .period = to_number(json.at("period"))};
 }
 
-Tradeoff from_json(const Json& json) {
+Tradeoff from_json(const Parsed& json) {
     Tradeoff tradeoff{.scene = json.at("scene"),
                       .title = json.at("title"),
                       .fingerprint = json.at("fingerprint"),
@@ -56,15 +59,15 @@ Tradeoff from_json(const Json& json) {
                       .today = to_choice(json.at("today")),
                       .looks = {json.at("looks_per_second"), json.at("looks")},
                       .reference = to_reference(json.at("reference"))};
-    for (const Json& machine : json.at("machines"))
+    for (const Parsed& machine : json.at("machines"))
         tradeoff.machines.push_back(
             {machine.at("cpu"), machine.at("cores"), machine.at("compiler")});
-    for (const Json& ladder : json.at("ladders"))
+    for (const Parsed& ladder : json.at("ladders"))
         tradeoff.ladders.push_back({.method = &find_method(ladder.at("method").get<std::string>()),
                                     .precision = to_precision(ladder.at("precision")),
                                     .end = ladder.at("end"),
                                     .done = ladder.at("done")});
-    for (const Json& json_row : json.at("rows")) {
+    for (const Parsed& json_row : json.at("rows")) {
         const TradeoffRow row = to_row(json_row);
         for (Ladder& ladder : tradeoff.ladders)
             if (ladder.method == row.choice.method && ladder.precision == row.choice.precision)
@@ -78,18 +81,18 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}",
 }  // namespace
 
 std::string to_json(const Tradeoff& tradeoff) {
-    return json_of(tradeoff).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_of(tradeoff).dump(1) + "\n";
 }
 
 Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
-    const Json json = Json::parse(text);
+    const Parsed json = Parsed::parse(text);
     if (json.at("oiler") != version())
         fail(Exit::usage, "it is of version {} of oiler, this is {}: measure again",
              json.at("oiler").get<std::string>(), version());
     return from_json(json);
 } catch (const Error& error) {
     throw Error(error.exit(), fmt::format("{}: {}", file, error.what()));
-} catch (const Json::exception& error) {
+} catch (const Parsed::exception& error) {
     fail(Exit::usage, "{}: it is not what oiler tradeoff writes ({})", file, error.what());
 }
 

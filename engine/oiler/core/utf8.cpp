@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/render/utf8.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
