@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A salvo at seven elevations: without drag, with linear and with quadratic drag, over the exact
 // trajectories of those that have a closed form.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "oiler/app/run.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 
 using namespace oiler;
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/advise.hpp"
+#include "oiler/lab/advice/advise.hpp"
 #include "oiler/scene/read.hpp"
 
 // Whether advice holds: for each scene and tolerance the advice is run again and held against a

@@ -12,7 +12,7 @@
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/lab/tradeoff_file.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "support/text.hpp"
 
 namespace oiler::test {

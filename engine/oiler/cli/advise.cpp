@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/advise.hpp"
+#include "oiler/lab/advice/advise.hpp"
 
 #include <span>
 
@@ -7,10 +7,10 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
+#include "oiler/lab/advice/json.hpp"
 #include "oiler/scene/apply.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 Advice search(const Scene& scene, const Reference& reference, const Wish& wish, bool quiet) {
@@ -58,4 +58,4 @@ Exit AdviseCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/certify.hpp"
+#include "oiler/certify/certify.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include "oiler/cli/commands.hpp"
 #include "oiler/cli/tables.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 /// "4.00/4.01", of positions and velocities.
@@ -108,7 +108,7 @@ Exit CertifyCommand::run() const {
                       static_cast<std::int64_t>(methods.size()));
     if (table) print(header());
     for (const Method* method : methods) {
-        const Certificate certificate = certify(*method, damping.value_or(method->damping), steps);
+        const Certificate certificate = certify::certify(*method, damping.value_or(method->damping), steps);
         certificates.push_back(to_json(certificate));
         if (table) print(row_of(certificate));
         progress.show(static_cast<std::int64_t>(certificates.size()));
@@ -123,4 +123,4 @@ Exit CertifyCommand::run() const {
     return Exit::comparison_failed;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

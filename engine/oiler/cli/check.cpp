@@ -11,7 +11,7 @@
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 struct Checked {
@@ -134,4 +134,4 @@ Exit CheckCommand::run() const {
     return exit;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

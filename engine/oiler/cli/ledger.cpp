@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/ledger.hpp"
+#include "oiler/lab/ledger/ledger.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "oiler/cli/tables.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 /// As many as the scene lasts, and two at least.
@@ -209,4 +209,4 @@ Exit LedgerCommand::run() const {
     return Exit::diverged;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

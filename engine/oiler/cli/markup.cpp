@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -72,4 +72,4 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
     return text;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

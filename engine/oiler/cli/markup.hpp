@@ -9,7 +9,7 @@
 
 #include "oiler/core/json.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 // How texts and numbers get into HTML and XML.
 
@@ -27,4 +27,4 @@ namespace oiler {
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::map<std::string, std::string>& parts);
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -8,9 +8,9 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/commands.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/sim/stability.hpp"
+#include "oiler/stability/stability.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 constexpr Oscillation undamped{1, 0};
@@ -76,4 +76,4 @@ Exit MethodsCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -12,7 +12,7 @@
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 class SceneGame final : public AnyGame {
@@ -73,4 +73,4 @@ Exit run_play(int argc, char** argv) {
     return run_game(line.options, line.about, make, measure_budget);
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -8,9 +8,9 @@
 #include "oiler/app/interrupt.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
+#include "oiler/lab/rates_json.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.5g}", value); }
@@ -64,4 +64,4 @@ Exit RatesCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -11,18 +11,20 @@
 #include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
-#include "oiler/lab/ledger.hpp"
-#include "oiler/lab/tradeoff_picture.hpp"
+#include "oiler/lab/advice/json.hpp"
+#include "oiler/lab/rates_json.hpp"
+#include "oiler/lab/sweep/json.hpp"
+#include "oiler/lab/ledger/ledger.hpp"
+#include "oiler/lab/sweep/tradeoff_picture.hpp"
 #include "oiler/scene/draw.hpp"
-#include "oiler/sim/oscillations.hpp"
+#include "oiler/stability/oscillations.hpp"
 
 extern "C" {
 extern const char oiler_page[], oiler_page_end[];
 extern const char oiler_chart[], oiler_chart_end[];
 }
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 /// A page is for a first look: how far a sweep goes for it.
@@ -176,4 +178,4 @@ Exit ReportCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -10,9 +10,9 @@
 
 #include "oiler/capture/file.hpp"
 #include "oiler/core/json.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/physics/methods/methods.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 // How the commands write numbers of methods.
 
@@ -41,4 +41,4 @@ inline void write_json(const std::filesystem::path& path, const Json& json) {
     write_file(path, std::as_bytes(std::span(text)));
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/tradeoff.hpp"
+#include "oiler/lab/sweep/tradeoff.hpp"
 
 #include <fmt/core.h>
 
@@ -10,10 +10,10 @@
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/lab/tradeoff_file.hpp"
-#include "oiler/lab/tradeoff_picture.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
+#include "oiler/lab/sweep/tradeoff_picture.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string head(const Tradeoff& tradeoff) {
@@ -228,4 +228,4 @@ Exit MergeCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/path.hpp"
-#include "oiler/lab/reference_parts.hpp"
+#include "oiler/lab/reference/path.hpp"
+#include "oiler/lab/reference/parts.hpp"
 
-namespace oiler {
+namespace oiler::lab {
 namespace {
 
 constexpr double settled = 0.05;  ///< of how far it was from rest at the start
@@ -223,4 +223,4 @@ std::size_t find_body(const Scene& scene, const std::string& name) {
          name, scene.body_count() - 1);
 }
 
-}  // namespace oiler
+}  // namespace oiler::lab

@@ -9,7 +9,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/physics/methods/methods.hpp"
 
 namespace oiler {
 

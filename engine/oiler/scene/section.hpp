@@ -10,7 +10,7 @@
 #include "oiler/scene/document.hpp"
 #include "oiler/scene/keys.hpp"
 #include "oiler/scene/refuse.hpp"
-#include "oiler/sim/vec.hpp"
+#include "oiler/math/vec.hpp"
 
 namespace oiler {
 

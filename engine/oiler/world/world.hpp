@@ -11,7 +11,7 @@
 
 #include "oiler/core/require.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/preflight.hpp"
+#include "oiler/stability/preflight.hpp"
 #include "oiler/world/entity.hpp"
 #include "oiler/world/pool.hpp"
 
