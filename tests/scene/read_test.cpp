@@ -62,7 +62,7 @@ struct Shown {
 };
 
 Shown shown(const Scene& scene) {
-    World world = make_world(scene, settings_of(scene));
+    World world = make_world(scene, Settings{scene.stepping});
     const Camera camera = camera_of(scene, world);
     world.step(3);
     return {world.state_hash(), draw_scene(scene, world, camera)};
@@ -151,9 +151,9 @@ TEST(Read, ASceneIsWhatItsFileSays) {
     const Scene scene = parsed(everything);
     EXPECT_EQ(scene.title, "Everything");
     EXPECT_EQ(scene.axes, 2);
-    EXPECT_EQ(scene.rate, 100);
-    EXPECT_EQ(scene.method->name, "velocity_verlet");
-    EXPECT_EQ(scene.precision, Precision::double_);
+    EXPECT_EQ(scene.stepping.rate.steps, 100);
+    EXPECT_EQ(scene.stepping.method->name, "velocity_verlet");
+    EXPECT_EQ(scene.stepping.precision, Precision::double_);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
     ASSERT_EQ(scene.bodies.size(), 3U);
@@ -205,7 +205,7 @@ TEST(Read, TakesWhatTomlTakesForTheSame) {
         "body = [{ name = 'a', mass = 2 }, { name = \"\\u00e9\", colour = \"#0072B2\" }]\n"
         "# brackets [[[ and dots .................................... in a comment\n"
         "spring = [{ body = 'a', to = \"\\u00e9\", stiffness = 1e1 }]\r\n");
-    EXPECT_EQ(scene.rate, 1000);
+    EXPECT_EQ(scene.stepping.rate.steps, 1000);
     EXPECT_EQ(scene.bodies[0].matter.mass, 2);
     EXPECT_EQ(scene.bodies[1].name, "é");
     EXPECT_EQ(scene.bodies[1].matter.colour, palette::blue);

@@ -50,10 +50,10 @@ Exit AdviseCommand::run() const {
     if (!advice.meets) return Exit::comparison_failed;
     if (apply_it) {
         const std::string text =
-            apply(read_text(measured.scene), measured.scene.string(), advice.best->choice);
+            apply(read_text(measured.scene), measured.scene.string(), advice.best->stepping);
         write_file(measured.scene, std::as_bytes(std::span(text)));
         remark(measured.quiet, "{} now says {}", measured.scene.string(),
-               words_of(advice.best->choice));
+               words_of(advice.best->stepping));
     }
     return Exit::done;
 }

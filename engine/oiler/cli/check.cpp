@@ -89,7 +89,7 @@ Checked check(const std::filesystem::path& path) {
     Checked checked{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
-        checked.lines = check_budget(scene, settings_of(scene), Interrupt::requested);
+        checked.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
         const std::string what = error.what();

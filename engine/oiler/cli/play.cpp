@@ -37,10 +37,11 @@ private:
 About describe(const Scene& scene, const std::string& name) {
     return {.name = name,
             .title = scene.title.empty() ? name : scene.title,
-            .rate = static_cast<int>(scene.rate),
-            .method = scene.method->name,
-            .precision = scene.precision,
-            .duration = scene.duration};
+            .rate = static_cast<int>(scene.stepping.rate.steps),
+            .method = scene.stepping.method->name,
+            .precision = scene.stepping.precision,
+            .duration = scene.duration,
+            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : ""};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{
 
 std::string text_of(const Scene& scene, const std::string& name, const Rates& rates) {
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
-                                   rates.body, name_of(scene.precision));
+                                   rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
         text += "It neither jumps nor swings: there is nothing to notice.\n";
     for (const RatesQuantity& quantity : rates.quantities) {

@@ -27,6 +27,7 @@ Words method_words() {
     return words;
 }
 Words precision_words() { return {name_of(Precision::single), name_of(Precision::double_)}; }
+Words damping_words() { return {name_of(Damping::in_kick), name_of(Damping::in_drift)}; }
 Words hang_words() { return {"none", "corners", "top"}; }
 
 constexpr std::string_view required = "required";
@@ -46,6 +47,8 @@ constexpr std::array keys{
         method_words},
     Key{"scene", "precision", word, "", any, "\"double\"", "", "of positions and velocities",
         precision_words},
+    Key{"scene", "damping", word, "", any, "\"drift\"", "the method's own",
+        "where a splitting puts linear damping: into its kicks or its drifts", damping_words},
     Key{"scene", "duration", number, "s", {0, 1e9, true}, "10.0", "", "of the run and its film"},
     Key{"gravity", "acceleration", vector, "m/s²", any, "[0.0, -9.81]", required, "of every body"},
     Key{"body", "name", text, "", any, "\"mass\"", "no name", "for springs to refer to"},

@@ -40,7 +40,7 @@ const double omega = std::sqrt(15.0);
 /// The article's spring, looked at `rate` times a second where that is at most 60.
 Scene spring(std::int64_t rate, double duration, double damping = 0, double stiffness = 15) {
     Scene scene;
-    scene.rate = rate;
+    scene.stepping.rate.steps = rate;
     scene.duration = duration;
     scene.bodies = {{.position = {start_x, 0, 0}}};
     scene.springs = {{.stiffness = stiffness, .damping = damping}};
@@ -54,7 +54,7 @@ Reference reference_of(const Scene& scene) {
 }
 
 Settings with(const Method& method, std::int64_t rate) {
-    return {.rate = {rate}, .method = &method};
+    return {.method = &method, .rate = {rate}};
 }
 Settings with(const char* method, std::int64_t rate) { return with(find_method(method), rate); }
 
@@ -271,7 +271,7 @@ TEST(Judge, TellsARunThatLeavesAllNumbers) {
     const Reference reference = make_reference(scene, {.per_second = 1, .count = 6}, {});
     Settings settings = with("explicit_euler", 61);
     expect_unstable(judge(scene, settings, reference));
-    settings.precision = Precision::single;
+    settings.stepping.precision = Precision::single;
     expect_unstable(judge(scene, settings, reference));
 }
 
@@ -329,7 +329,7 @@ TEST(Judge, CountsWholeCyclesAndLags) {
 
 TEST(Judge, TellsNoPhaseOfWhatDoesNotSwing) {
     Scene scene;
-    scene.rate = 60;
+    scene.stepping.rate.steps = 60;
     scene.duration = 2;
     scene.gravity = {-10, 0, 0};
     scene.bodies = {{.velocity = {10, 0, 0}}};
@@ -367,7 +367,7 @@ TEST(Judge, CountsEvaluations) {
     const Scene damped = spring(60, 10, 0.1);
     Settings settings = with("velocity_verlet", 60);
     EXPECT_EQ(evaluations_per_step(damped, settings), 1);
-    settings.damping = Damping::in_kick;
+    settings.stepping.damping = Damping::in_kick;
     EXPECT_EQ(evaluations_per_step(damped, settings), 2);
 }
 

@@ -28,7 +28,7 @@ const Tradeoff& whole_sweep() {
 
 std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t looks, std::int64_t most) {
     Scene scene;
-    scene.rate = rate;
+    scene.stepping.rate.steps = rate;
     return rungs(scene, {.per_second = looks, .count = 2}, most);
 }
 
@@ -80,12 +80,12 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
     EXPECT_TRUE(whole_sweep().complete());
     EXPECT_EQ(whole_sweep().ladders.size(), 12U);
     EXPECT_EQ(whole_sweep().today,
-              (SceneChoice{&find_method("semi_implicit_euler"), 100, Precision::double_}));
+              (Stepping{&find_method("semi_implicit_euler"), 100, Precision::double_}));
     for (const Ladder& ladder : whole_sweep().ladders) {
         EXPECT_FALSE(ladder.rows.empty());
         for (std::size_t i = 0; i < ladder.rows.size(); ++i) {
             EXPECT_EQ(ladder.rows[i].choice,
-                      (SceneChoice{ladder.method, rates[i], ladder.precision}));
+                      (Stepping{ladder.method, rates[i], ladder.precision}));
             EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().looks.per_second == 0);
         }
     }
@@ -95,8 +95,8 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
 TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
     std::size_t count = 0;
     for (const TradeoffRow* row : whole_sweep().rows()) {
-        const Judgement alone = judge(spring().scene, settings_of(row->choice), spring().reference);
-        EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->choice);
+        const Judgement alone = judge(spring().scene, settings_of(row->stepping), spring().reference);
+        EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->stepping);
         ++count;
     }
     EXPECT_GT(count, 80U);
@@ -205,7 +205,7 @@ TEST(TimeRows, TimesWhatIsStableAndChangesNoError) {
     EXPECT_TRUE(tradeoff.timed());
     expect_same_errors(tradeoff, whole_sweep());
     for (const TradeoffRow* row : rows) {
-        EXPECT_EQ(std::isnan(row->ns_per_second), !row->judgement.stable) << named(row->choice);
+        EXPECT_EQ(std::isnan(row->ns_per_second), !row->judgement.stable) << named(row->stepping);
         EXPECT_FALSE(row->ns_per_second <= 0);
     }
 }
@@ -264,14 +264,14 @@ TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     const Ladder& ladder = tradeoff.ladders.front();
     EXPECT_EQ(ladder.end, "a run at higher rates is too much work");
     ASSERT_FALSE(ladder.rows.empty());
-    EXPECT_EQ(ladder.rows.back().choice.rate, 400);
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 400);
     EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
 }
 
 TEST(Ladder, EndsWhereNoMoreIsAskedFor) {
     const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
     EXPECT_EQ(ladder.end, "no higher rates were asked for");
-    EXPECT_EQ(ladder.rows.back().choice.rate, 800);
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 800);
 }
 
 TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {

@@ -13,7 +13,7 @@ namespace oiler::lab {
 
 /// One way to step a scene: what it is wrong by and what it costs.
 struct TradeoffRow {
-    SceneChoice choice{};
+    Stepping stepping{};
     Judgement judgement{};
     bool meets_steps = true;         ///< at every look, so that nothing is drawn between steps
     double ns_per_second = unknown;  ///< of computing for a second of the scene: a median
@@ -60,7 +60,7 @@ struct Tradeoff {
     std::string title;
     std::string fingerprint;  ///< of the scene's file and all that decides on errors
     double duration = 0;      ///< s
-    SceneChoice today{};      ///< the scene's own choice
+    Stepping today{};      ///< the scene's own choice
     Looks looks{};
     ReferenceSummary reference{};
     std::vector<Machine> machines{};
@@ -70,7 +70,7 @@ struct Tradeoff {
     /// Nothing of them was left out, and all that are stable were timed.
     [[nodiscard]] bool timed() const;
     [[nodiscard]] std::vector<const TradeoffRow*> rows() const;
-    [[nodiscard]] const TradeoffRow* find(const SceneChoice& choice) const;
+    [[nodiscard]] const TradeoffRow* find(const Stepping& choice) const;
 };
 
 /// A row's cost, by which a diagram is drawn: lower is better.
@@ -112,9 +112,9 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
                const SweepWatch& watch);
 
 /// In ns for a second of the scene, once.
-[[nodiscard]] double time_once(const Scene& scene, const SceneChoice& choice);
+[[nodiscard]] double time_once(const Scene& scene, const Stepping& choice);
 /// Once, where the world is stepped so often in a call, or less where a call takes long.
-[[nodiscard]] double ns_per_step(const Scene& scene, const SceneChoice& choice,
+[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
                                  std::int64_t at_once);
 /// How often a game that shows 60 frames per second steps in a call, but for very high rates.
 [[nodiscard]] std::int64_t steps_at_once(std::int64_t rate);
