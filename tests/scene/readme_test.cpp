@@ -11,7 +11,7 @@
 namespace oiler::test {
 namespace {
 
-std::string range_text(const Range& range) {
+std::string range_text(const ValueRange& range) {
     if (range.high < 1e300)
         return fmt::format(" {}{:.16g} to {:.16g}", range.without_low ? "above " : "", range.low,
                            range.high);
@@ -19,7 +19,7 @@ std::string range_text(const Range& range) {
     return fmt::format(" {} {:g}", range.without_low ? ">" : "≥", range.low);
 }
 
-std::string type_text(const Key& key) {
+std::string type_text(const SceneKey& key) {
     switch (key.kind) {
         case KeyKind::text:
             return "text";
@@ -41,12 +41,12 @@ std::string type_text(const Key& key) {
     return key.name == "method" ? "method" : fmt::format("{}", fmt::join(key.words(), ", "));
 }
 
-std::string default_text(const Key& key) {
+std::string default_text(const SceneKey& key) {
     if (!key.absent.empty()) return std::string(key.absent);
     return key.kind == KeyKind::vector ? "zeros" : fmt::format("`{}`", key.value);
 }
 
-std::string row(const Key& key) {
+std::string row(const SceneKey& key) {
     const std::string table =
         is_repeated(key.table) ? fmt::format("[[{}]]", key.table) : fmt::format("[{}]", key.table);
     const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
@@ -63,7 +63,7 @@ TEST(Readme, ListsEveryKeyOfASceneAndNoOther) {
     ASSERT_NE(from, std::string::npos);
     const std::string section = readme.substr(from, readme.find("\n## ", from + 1) - from);
     std::string table = "| table | key | value | default | |\n|---|---|---|---|---|\n";
-    for (const Key& key : scene_keys()) table += row(key) + "\n";
+    for (const SceneKey& key : scene_keys()) table += row(key) + "\n";
     EXPECT_NE(section.find("\n" + table + "\n"), std::string::npos)
         << "the table of README.md should be:\n"
         << table;

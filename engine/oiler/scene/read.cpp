@@ -64,7 +64,7 @@ private:
     static std::string remedy_for(const std::string& key,
                                   const std::vector<std::string_view>& tables) {
         std::string owners;
-        for (const Key& known : scene_keys())
+        for (const SceneKey& known : scene_keys())
             if (known.name == key) owners += fmt::format(" [{}]", known.table);
         if (!owners.empty()) return "; it is a key of" + owners + ", below which it belongs";
         const std::string near = did_you_mean(key, tables);
