@@ -13,8 +13,8 @@ using namespace oiler;
 
 namespace {
 
-constexpr float gravity = 20;         // m/s²
-constexpr Point take_off{1.8F, 9};    // m/s
+constexpr double gravity = 20;        // m/s²
+constexpr Vec3 take_off{1.8, 9};      // m/s
 constexpr float ledge = 2;            // m
 constexpr std::int64_t slow = 60;     // Hz
 constexpr std::int64_t interval = 2;  // s from one take-off to the next
@@ -26,7 +26,7 @@ struct Jumper {
 
     void jump(World& world) {
         if (world.alive(body)) world.destroy(body);
-        *this = {world.spawn(Body{.velocity = {take_off.x, take_off.y}}), {{0, 0}}};
+        *this = {world.spawn(Body{.velocity = take_off}), {{0, 0}}};
     }
 
     /// Takes the position after a step. A body that falls onto the ledge or the ground stays there.
@@ -58,8 +58,8 @@ void draw(Picture& picture, const World& world, Entity body, std::vector<Point> 
                                   .space = Space::world});
     };
     std::vector<Point> arc;
-    for (float t = 0; t < 2.001F * take_off.y / gravity; t += 0.01F)
-        arc.push_back({take_off.x * t, take_off.y * t - gravity / 2 * t * t});
+    for (double t = 0; t < 2.001 * take_off[1] / gravity; t += 0.01)
+        arc.push_back(to_point({take_off[0] * t, take_off[1] * t - gravity / 2 * t * t}));
     line(arc, 8, palette::pale);
     text({1.5F, 1.5F}, "exact", 17, palette::grey);
     for (float x = -0.2F; x < 1.8F; x += 0.1F)
