@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The same jump twice: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on the ledge.
 // --rate changes the second rate, --method changes the method of both.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
