@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/keys.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -39,19 +39,19 @@ constexpr double most = double{most_bodies};
 constexpr double largest_whole = 9007199254740992.0;
 
 constexpr std::array keys{
-    SceneKey{"scene", "title", text, "", any, "\"\"", "", "of the window, at most 200 bytes"},
+    SceneKey{"scene", "title", text, "", any, "\"\"", "", "of the window, at most 200 bytes long"},
     SceneKey{"scene", "axes", whole, "", from_to(1, 3), "2", required,
-        "vectors have that many numbers; pictures show x and y"},
-    SceneKey{"scene", "rate", whole, "1/s", from_to(1, 1e6), "100", "", "steps: dt = 1/rate"},
+        "numbers in a vector; pictures show x and y"},
+    SceneKey{"scene", "rate", whole, "1/s", from_to(1, 1e6), "100", "", "steps per second: dt = 1/rate"},
     SceneKey{"scene", "method", word, "", any, "\"semi_implicit_euler\"", "", "see `oiler methods`",
         method_words},
     SceneKey{"scene", "precision", word, "", any, "\"double\"", "", "of positions and velocities",
         precision_words},
     SceneKey{"scene", "damping", word, "", any, "\"drift\"", "the method's own",
         "where a splitting puts linear damping: into its kicks or its drifts", damping_words},
-    SceneKey{"scene", "duration", number, "s", {0, 1e9, true}, "10.0", "", "of the run and its film"},
+    SceneKey{"scene", "duration", number, "s", {0, 1e9, true}, "10.0", "", "of a run and of its film"},
     SceneKey{"gravity", "acceleration", vector, "m/s²", any, "[0.0, -9.81]", required, "of every body"},
-    SceneKey{"body", "name", text, "", any, "\"mass\"", "no name", "for springs to refer to"},
+    SceneKey{"body", "name", text, "", any, "\"mass\"", "no name", "springs refer to it"},
     SceneKey{"body", "mass", number, "kg", positive, "1.0", "", ""},
     SceneKey{"body", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
     SceneKey{"body", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", ""},
@@ -60,13 +60,15 @@ constexpr std::array keys{
         "c of the force −c·|v|·v"},
     SceneKey{"body", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
     SceneKey{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
-    SceneKey{"spring", "body", text, "", any, "\"mass\"", required, "that it acts on"},
-    SceneKey{"spring", "anchor", vector, "m", any, "[0.0, 0.0]", "`to` is given", "its fixed end"},
+    SceneKey{"spring", "body", text, "", any, "\"mass\"", required,
+        "name of the body that the spring pulls"},
+    SceneKey{"spring", "anchor", vector, "m", any, "[0.0, 0.0]", "`to` is given",
+        "position of the fixed end"},
     SceneKey{"spring", "to", text, "", any, "\"other\"", "`anchor` is given",
-        "the body at its other end"},
+        "name of the body at the other end"},
     SceneKey{"spring", "stiffness", number, "N/m", not_negative, "15.0", required, ""},
     SceneKey{"spring", "damping", number, "N·s/m", not_negative, "0.0", "",
-        "in all directions; along the spring where it has a rest length"},
+        "in all directions; with a rest length only along the spring"},
     SceneKey{"spring", "rest_length", number, "m", not_negative, "0.0", "", ""},
     SceneKey{"spring", "colour", colour, "", any, "\"grey\"", "", "", colour_words},
     SceneKey{"attractor", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
@@ -75,9 +77,9 @@ constexpr std::array keys{
     SceneKey{"attractor", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
     SceneKey{"attractor", "colour", colour, "", any, "\"orange\"", "", "", colour_words},
     SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
-        "bodies in a row, and rows"},
-    SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "", "of the lower left body"},
-    SceneKey{"grid", "spacing", number, "m", positive, "1.0", required, "of neighbours"},
+        "bodies in a row, number of rows"},
+    SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "", "position of the lower left body"},
+    SceneKey{"grid", "spacing", number, "m", positive, "1.0", required, "distance between neighbours"},
     SceneKey{"grid", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", "of each body"},
     SceneKey{"grid", "mass", number, "kg", positive, "1.0", "", "of each body"},
     SceneKey{"grid", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "of each body"},
@@ -85,15 +87,15 @@ constexpr std::array keys{
     SceneKey{"grid", "stiffness", number, "N/m", not_negative, "100.0", required, "of each spring"},
     SceneKey{"grid", "damping", number, "N·s/m", not_negative, "0.0", "", "of each spring"},
     SceneKey{"grid", "rest_length", number, "m", not_negative, "0.5", "the spacing",
-        "of each spring; of diagonal ones √2 times that"},
-    SceneKey{"grid", "diagonals", flag, "", any, "false", "", "springs across each mesh, too"},
+        "of each spring; diagonal springs have √2 times that"},
+    SceneKey{"grid", "diagonals", flag, "", any, "false", "", "adds two diagonal springs to each cell"},
     SceneKey{"grid", "hang", word, "", any, "\"none\"", "",
-        "an anchored spring for both ends of the uppermost row, or for all of it", hang_words},
+        "anchored springs: none, at both ends of the top row, at the whole top row", hang_words},
     SceneKey{"grid", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
     SceneKey{"grid", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
-    SceneKey{"scatter", "count", whole, "", from_to(1, most), "3", required, "of bodies"},
+    SceneKey{"scatter", "count", whole, "", from_to(1, most), "3", required, "number of bodies"},
     SceneKey{"scatter", "seed", whole, "", from_to(0, largest_whole), "0", "",
-        "another one, or another `--seed`, gives other bodies"},
+        "a different seed, here or with `--seed`, gives different bodies"},
     SceneKey{"scatter", "position_from", vector, "m", any, "[-1.0, 0.0]", required, ""},
     SceneKey{"scatter", "position_to", vector, "m", any, "[1.0, 2.0]", required, ""},
     SceneKey{"scatter", "velocity_from", vector, "m/s", any, "[0.0, 0.0]", "", ""},
@@ -104,11 +106,11 @@ constexpr std::array keys{
     SceneKey{"scatter", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
     SceneKey{"scatter", "colour", colour, "", any, "\"sky_blue\"", "", "", colour_words},
     SceneKey{"camera", "centre", vector, "m", any, "[0.0, 0.0]", fits, "of the picture"},
-    SceneKey{"camera", "height", number, "m", {1e-30, 1e30}, "10.0", fits, "of the picture"},
+    SceneKey{"camera", "height", number, "m", {1e-30, 1e30}, "10.0", fits, "metres from bottom to top"},
     SceneKey{"budget", "position_error", number, "m", positive, "1.0", "no limit",
-        "the largest of the run"},
+        "largest error of the run"},
     SceneKey{"budget", "energy_drift", number, "", positive, "0.01", "no limit",
-        "the largest change of the energy, relative"},
+        "largest relative change of the energy"},
 };
 
 std::string in_range(const ValueRange& range) {
