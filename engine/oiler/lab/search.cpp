@@ -69,12 +69,12 @@ void Search::add_candidate(const Method& method, Precision precision) {
     constexpr std::int64_t many = 64;
     constexpr double dear = 5e6;  // ns, beside which calling is nothing
     Candidate candidate{.method = &method, .precision = precision};
-    candidate.alone = candidate.together = ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.alone = candidate.together = watch_.ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.alone)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until();
     if (candidate.alone < dear)
         candidate.together =
-            std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
+            std::min(candidate.alone, watch_.ns_per_step(scene_, candidate.at(rate), many));
     candidates_.push_back(candidate);
 }
 
