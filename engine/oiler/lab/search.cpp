@@ -228,7 +228,7 @@ void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.choice.rate);
     if (rung == rungs_.begin()) return;
     const std::int64_t unit = reference_.looks.per_second;
-    std::int64_t low = std::max(*std::prev(rung), wish_.min_rate - 1) / unit;
+    std::int64_t low = *std::prev(rung) / unit;
     std::int64_t high = row.choice.rate / unit;
     SceneChoice choice = row.choice;
     // A thirty-second part of the rate is worth no more runs.
