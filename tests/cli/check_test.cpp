@@ -141,6 +141,12 @@ TEST_F(CheckOfThree, HasAnErrorForTheBadOneAndAFailureForTheExceededOne) {
     EXPECT_EQ(json.at(2).at("kept"), true);
 }
 
+TEST_F(CheckOfThree, WithJsonOnStandardOutputPrintsNothingElse) {
+    const Outcome run = desk_.run("oiler check scene.toml exceeded.toml --json -");
+    EXPECT_EQ(run.exit, 1) << run.err;
+    EXPECT_EQ(Json::parse(run.out).size(), 2U);
+}
+
 TEST_F(CheckOfThree, WithJUnitOnStandardOutputPrintsNothingElse) {
     const Outcome run = desk_.run("oiler check scene.toml --junit -");
     EXPECT_EQ(run.exit, 0) << run.err;
