@@ -76,7 +76,7 @@ void draw(Picture& picture, const World& world, Entity body, std::vector<Point> 
                              .centre = {feet.x + left, feet.y + radius},
                              .radius = radius,
                              .colour = colour});
-    text({0.81F, 1.0F}, fmt::format("{} Hz", world.settings().rate.steps), 33, colour);
+    text({0.81F, 1.0F}, fmt::format("{} Hz", world.settings().stepping.rate.steps), 33, colour);
     text({0.81F, 0.72F}, fmt::format("apex {:.3f} m", apex), 19, palette::ink);
     if (!world.has_body(body))
         text({0.81F, 0.47F}, feet.y < ledge ? "misses" : "lands", 19, colour);
@@ -95,7 +95,7 @@ struct Jump {
     explicit Jump(const Settings& settings)
         : world(2, settings),
           slow_world(2,
-                     {.rate = {slow}, .method = settings.method, .precision = settings.precision}) {
+                     {.method = settings.stepping.method, .rate = {slow}, .precision = settings.stepping.precision}) {
         world.set_gravity({0, -gravity});
         slow_world.set_gravity({0, -gravity});
         jump();
@@ -106,7 +106,7 @@ struct Jump {
     }
 
     void update(const Input&) {
-        const std::int64_t rate = world.settings().rate.steps;
+        const std::int64_t rate = world.settings().stepping.rate.steps;
         const bool again = world.tick() % (interval * rate) == 0;
         again ? jump() : jumper.follow(world);
         while (slow_world.tick() * rate < (world.tick() + 1) * slow) {

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/lab/advice/advise.hpp"
 #include "support/text.hpp"
 
 namespace oiler::test {
@@ -160,6 +162,58 @@ TEST(Budget, ThatIsTooTightIsRefused) {
     } catch (const Error& error) {
         EXPECT_TRUE(holds(error.what(), "energy_drift = 1e-15")) << error.what();
     }
+}
+
+/// 3 kg are no power of two, so that forces per kg are rounded to double.
+const std::string heavy_spring =
+    one_axis +
+    "duration = 10.0\n[[body]]\nname = \"mass\"\nmass = 3.0\nposition = [1000.0]\n[[spring]]\n"
+    "body = \"mass\"\nanchor = [0.0]\nstiffness = 45.0\n";
+
+// The closed form's energies are right to 8 roundings of double, its positions to some of 1000 m:
+// what cannot be told of one is no limit to the other.
+TEST(Budget, OfEnergyIsComparedWithWhatCanBeToldOfEnergy) {
+    const double told_from = 100 * 8 * std::numeric_limits<double>::epsilon();
+    const std::vector<BudgetLine> energy =
+        checked(heavy_spring + "[budget]\nenergy_drift = 1e-11\n", 0, "exact");
+    ASSERT_EQ(energy.size(), 1U);
+    EXPECT_DOUBLE_EQ(energy[0].told_from, told_from);
+    const std::vector<BudgetLine> both = checked(
+        heavy_spring + "[budget]\nposition_error = 1e-6\nenergy_drift = 1e-11\n", 0, "exact");
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_DOUBLE_EQ(both[1].told_from, told_from);
+    // At 1000 m alone 100 × 8 roundings are 1.8e-10 m.
+    EXPECT_GE(both[0].told_from, 1000 * told_from);
+    EXPECT_THROW((void)checked(heavy_spring + "[budget]\nposition_error = 1e-11\n"), Error);
+}
+
+/// A reference of one sample whose own errors are given.
+Reference doubtful(double position, double energy) {
+    Reference reference;
+    reference.looks = {.per_second = 60, .count = 1};
+    reference.meaningful = 1;
+    reference.doubts = {{.position = position, .energy = energy}};
+    return reference;
+}
+
+bool is_judgeable(const Wish& wish, const Reference& reference) try {
+    require_judgeable(Scene{}, reference, wish);
+    return true;
+} catch (const Error&) {
+    return false;
+}
+
+// Advice is asked for as budgets are: from 100 × the reference's own error on, 1 m or 1e-3 of the
+// energy.
+TEST(RequireJudgeable, ComparesEachToleranceWithItsOwnFloor) {
+    const Reference reference = doubtful(0.01, 1e-5);
+    EXPECT_TRUE(is_judgeable({.position_error = 1.01}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 0.99}, reference));
+    EXPECT_TRUE(is_judgeable({.energy_drift = 1.01e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.energy_drift = 0.99e-3}, reference));
+    EXPECT_TRUE(is_judgeable({.position_error = 1.01, .energy_drift = 1.01e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 1.01, .energy_drift = 0.99e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 0.99, .energy_drift = 1.01e-3}, reference));
 }
 
 // A scatter's bodies are those of the seed that is run, and the exact motion is that of these.

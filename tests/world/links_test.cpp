@@ -97,6 +97,17 @@ TEST(Preflight, CountsWhatItDoesNotName) {
     EXPECT_EQ(lines[2], "and 7 more");
 }
 
+TEST(Preflight, CountsNoneWhereAllAreNamed) {
+    World world(1, {.rate = Rate{10}});
+    for (int i = 0; i < 5; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});
+    EXPECT_EQ(world.preflight(5).size(), 5U);
+    EXPECT_EQ(world.preflight(6).size(), 5U);
+    EXPECT_EQ(world.preflight().size(), 5U);
+    for (const std::string& line : world.preflight(5))
+        EXPECT_TRUE(line.starts_with("spring of body ")) << line;
+    EXPECT_EQ(world.preflight(4).back(), "and 1 more");
+}
+
 TEST(Preflight, KnowsWhereDampingIsPut) {
     const auto warnings = [](Damping damping) {
         World world(1, {.rate = Rate{10}, .damping = damping});

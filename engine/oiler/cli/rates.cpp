@@ -50,8 +50,7 @@ Exit RatesCommand::run() const {
                reference.meaningful_until(), reference.why_no_longer);
     const std::vector<const Method*> chosen =
         methods.empty() ? usual_methods(scene) : parse_methods(methods);
-    const std::size_t row =
-        body.empty() ? reference.swing ? reference.swing->row : 0 : find_body(scene, body);
+    const std::size_t row = body.empty() ? most_oscillating_row(reference) : find_body(scene, body);
     const Rates measured_rates =
         measure_rates(scene, reference, row, rates, chosen, Interrupt::requested);
     if (Interrupt::requested()) return Exit::interrupted;

@@ -132,7 +132,7 @@ Found measure(const ReportCommand& command, const Scene& scene, const Reference&
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
     found.advice = advise(scene, reference, wish, watch);
-    found.rates = measure_rates(scene, reference, reference.swing ? reference.swing->row : 0,
+    found.rates = measure_rates(scene, reference, most_oscillating_row(reference),
                                 RatesCommand{}.rates, usual_methods(scene), Interrupt::requested);
     return found;
 }

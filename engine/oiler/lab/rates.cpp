@@ -211,6 +211,10 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
     return result;
 }
 
+std::size_t most_oscillating_row(const Reference& reference) {
+    return reference.swing ? reference.swing->row : 0;
+}
+
 std::size_t find_body(const Scene& scene, const std::string& name) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         if (scene.bodies[i].name == name) return i;

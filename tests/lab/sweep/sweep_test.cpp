@@ -73,6 +73,18 @@ TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
     EXPECT_EQ(rungs_at(60, 60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
 }
 
+// A limit is a rung where it is a divisor of the samples, a power of two times them, or three
+// halves of one; the scene's own 1 Hz is one anyway.
+TEST(RungsAt, TheLimitItselfIsOne) {
+    for (const std::int64_t most : {2, 10, 30, 60, 120, 180, 240, 360, 480, 720, 960}) {
+        const std::vector<std::int64_t> all = rungs_at(1, 60, most);
+        EXPECT_EQ(all.back(), most);
+        EXPECT_LT(rungs_at(1, 60, most - 1).back(), most);
+        // The ladder below is the same.
+        EXPECT_EQ(std::vector(all.begin(), all.end() - 1), rungs_at(1, 60, most - 1));
+    }
+}
+
 // ---- sweeping
 
 TEST(Sweep, ClimbsEachLadderByTheRungs) {
@@ -266,6 +278,18 @@ TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     ASSERT_FALSE(ladder.rows.empty());
     EXPECT_EQ(ladder.rows.back().choice.rate.steps, 400);
     EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
+}
+
+// Sampled 50 times a second: up to 1024 times as often, which is below 1,000,000 Hz.
+TEST(Ladder, GoesUpTo1024TimesTheSamplesWhereNoLimitIsGiven) {
+    SweepPlan plan{.methods = methods_of({"explicit_euler"}), .precisions = {Precision::double_}};
+    const MeasuredScene brief(one_axis + "duration = 2.0\n[[body]]\nposition = [1.0]\n" +
+                              "name = \"a\"\n[[spring]]\nbody = \"a\"\nanchor = [0.0]\n" +
+                              "stiffness = 15.0\n");
+    const Tradeoff tradeoff = swept(brief, plan);
+    const Ladder& ladder = tradeoff.ladders.front();
+    EXPECT_EQ(ladder.end, "no higher rates were asked for");
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 1024 * brief.looks.per_second);
 }
 
 TEST(Ladder, EndsWhereNoMoreIsAskedFor) {

@@ -34,13 +34,13 @@ public:
     Conclusion(const Scene& scene, const Reference& reference, const Wish& wish, Search& search)
         : scene_(scene), reference_(reference), wish_(wish), search_(search) {}
 
-    Advice run(const std::function<bool()>& stopped) {
+    Advice run(const SweepWatch& watch) {
         const bool found = wish_.has_tolerance() && !search_.good_rows().empty();
         front_ = contenders_among(found ? search_.good_rows() : search_.nearest_rows());
         if (why_not(scene_, Settings{scene_.stepping}).empty())
             advice_.today = search_.try_choice(scene_.stepping);
         for (const Method* method : obvious_methods()) consider(*method);
-        time(stopped);
+        time(watch);
         const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
             return a.ns_per_second < b.ns_per_second;
         };
@@ -102,14 +102,15 @@ private:
             if (alternative.row) alternative.why = why_worse(*alternative.row);
     }
 
-    void time(const std::function<bool()>& stopped) {
+    void time(const SweepWatch& whole) {
         std::vector<TradeoffRow*> rows;
         for (TradeoffRow& row : front_) rows.push_back(&row);
         if (advice_.today) rows.push_back(&*advice_.today);
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) rows.push_back(&*alternative.row);
-        SweepWatch watch;
-        watch.stopped = stopped;
+        // The search alone shows its progress.
+        SweepWatch watch = whole;
+        watch.progress = [](double) {};
         time_rows(scene_, rows, timing_rounds, watch);
     }
 
@@ -203,7 +204,7 @@ Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
     Search search(scene, reference, wish, watch);
     search.run();
     if (watch.stopped()) return {};
-    return Conclusion(scene, reference, wish, search).run(watch.stopped);
+    return Conclusion(scene, reference, wish, search).run(watch);
 }
 
 }  // namespace oiler::lab

@@ -69,12 +69,12 @@ void Search::add_candidate(const Method& method, Precision precision) {
     constexpr std::int64_t many = 64;
     constexpr double dear = 5e6;  // ns, beside which calling is nothing
     Candidate candidate{.method = &method, .precision = precision};
-    candidate.alone = candidate.together = ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.alone = candidate.together = watch_.ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.alone)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until();
     if (candidate.alone < dear)
         candidate.together =
-            std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
+            std::min(candidate.alone, watch_.ns_per_step(scene_, candidate.at(rate), many));
     candidates_.push_back(candidate);
 }
 
@@ -228,7 +228,7 @@ void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
     if (rung == rungs_.begin()) return;
     const std::int64_t unit = reference_.looks.per_second;
-    std::int64_t low = std::max(*std::prev(rung), wish_.min_rate - 1) / unit;
+    std::int64_t low = *std::prev(rung) / unit;
     std::int64_t high = row.stepping.rate.steps / unit;
     Stepping choice = row.stepping;
     // A thirty-second part of the rate is worth no more runs.

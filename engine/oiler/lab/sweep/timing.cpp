@@ -65,11 +65,6 @@ std::int64_t steps_at_once(std::int64_t rate) {
     return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_at_once);
 }
 
-double time_once(const Scene& scene, const Stepping& choice) {
-    return ns_per_step(scene, choice, steps_at_once(choice.rate.steps)) *
-           static_cast<double>(choice.rate.steps);
-}
-
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch) {
     std::vector<TradeoffRow*> stable;
@@ -77,11 +72,15 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
         if (row->judgement.stable) stable.push_back(row);
     std::vector<std::vector<double>> times(stable.size());
     const auto all = static_cast<double>(stable.size()) * rounds;
+    const auto ns_per_second = [&](const Stepping& choice) {
+        return watch.ns_per_step(scene, choice, steps_at_once(choice.rate.steps)) *
+               static_cast<double>(choice.rate.steps);
+    };
     double done = 0;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < stable.size(); ++i) {
             if (watch.stopped()) return;
-            times[i].push_back(time_once(scene, stable[i]->stepping));
+            times[i].push_back(ns_per_second(stable[i]->stepping));
             watch.progress(++done / all);
         }
     for (std::size_t i = 0; i < stable.size(); ++i) {

@@ -89,11 +89,21 @@ using Cost = double (*)(const TradeoffRow& row);
 [[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks,
                                               std::int64_t max_rate);
 
+/// Measures the cost of one step in ns, where one call takes `at_once` steps, or fewer where a call
+/// takes long. Returns `unknown` for an unstable run.
+[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
+                                 std::int64_t at_once);
+/// How often a game that shows 60 frames per second steps in a call, but for very high rates.
+[[nodiscard]] std::int64_t steps_at_once(std::int64_t rate);
+
 /// How a sweep tells its caller how far it is, may be stopped, and hands over what is done.
 struct SweepWatch {
     std::function<void(double share)> progress = [](double) {};
     std::function<bool()> stopped = [] { return false; };
     std::function<void(const Tradeoff&)> ladder_done = [](const Tradeoff&) {};
+    /// Measures all costs; tests give costs of their own.
+    std::function<double(const Scene&, const Stepping&, std::int64_t at_once)> ns_per_step =
+        lab::ns_per_step;
 };
 
 /// All ladders of the plan, none climbed.
@@ -110,14 +120,6 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
 /// frames per second.
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch);
-
-/// In ns for a second of the scene, once.
-[[nodiscard]] double time_once(const Scene& scene, const Stepping& choice);
-/// Once, where the world is stepped so often in a call, or less where a call takes long.
-[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
-                                 std::int64_t at_once);
-/// How often a game that shows 60 frames per second steps in a call, but for very high rates.
-[[nodiscard]] std::int64_t steps_at_once(std::int64_t rate);
 
 /// The ladders of parts of one sweep. Throws Error{usage} where they are not of the same one, or
 /// some are missing.
