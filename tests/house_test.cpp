@@ -146,6 +146,47 @@ TEST(House, FilesSayTheirLicenceAndHeadersAreIncludedOnce) {
     EXPECT_GT(count, 55U);
 }
 
+/// The word before the last '_' of "…_test", or nothing.
+std::string tested(const fs::path& file) {
+    const std::string name = file.stem().string();
+    return name.ends_with("_test") ? name.substr(0, name.size() - 5) : std::string();
+}
+
+/// The tests that `text`, the CMakeLists.txt of tests/, lists as "room/name".
+Names listed_tests(const std::string& text) {
+    static const std::regex line(
+        R"re(foreach\(name ([^)]*)\)|oiler_test\((\w+) (\w+|\$\{name\}))re");
+    Names listed;
+    std::string several;
+    for (std::sregex_iterator at(text.begin(), text.end(), line), end; at != end; ++at) {
+        if ((*at)[1].matched) several = (*at)[1];
+        std::istringstream names((*at)[3] == "${name}" ? several : (*at)[3].str());
+        for (std::string name; names >> name;) listed.insert((*at)[2].str() + "/" + name);
+    }
+    return listed;
+}
+
+// A test that no CMakeLists.txt lists fails for nobody.
+TEST(House, EveryTestIsBuilt) {
+    const Names listed = listed_tests(read(source / "tests/CMakeLists.txt"));
+    std::size_t count = 0;
+    for (const fs::path& file : files_below("tests")) {
+        if (tested(file).empty() || file == "house_test.cpp") continue;
+        EXPECT_EQ(listed.count((file.parent_path() / tested(file)).string()), 1U) << file;
+        ++count;
+    }
+    EXPECT_GT(count, 70U);
+}
+
+TEST(HouseRules, FindTheTestsThatAreListed) {
+    const std::string text =
+        "oiler_test(sim rest)\noiler_test(lab advise json::json)\n"
+        "foreach(name play check)\n  oiler_test(cli ${name})\nendforeach()\n";
+    EXPECT_EQ(listed_tests(text), (Names{"cli/check", "cli/play", "lab/advise", "sim/rest"}));
+    EXPECT_EQ(tested("sim/rest_test.cpp"), "rest");
+    EXPECT_EQ(tested("sim/only_sim.cpp"), "");
+}
+
 TEST(HouseRules, FindAnIncludeThatIsNotAllowed) {
     const std::string above = "#pragma once\n#include \"oiler/world/world.hpp\"\n";
     EXPECT_EQ(wrong_includes("sim/a.hpp", above).size(), 1U);
