@@ -216,6 +216,19 @@ TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
     EXPECT_NE(third, second);
 }
 
+// The seed 0 of a run leaves the scene's own.
+TEST(MakeWorld, ASceneWithTheSeedOfARunScattersAsTheRunDoes) {
+    const Scene scene = parsed(altered(scatter, "scatter", "seed", "5"));
+    static_assert(Random::mixed(0) == 0);
+    EXPECT_EQ(with_seed(scene, 0).scatters[0].seed, 5);
+    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}}) {
+        Settings settings = settings_of(scene);
+        const std::uint64_t of_scene = make_world(with_seed(scene, seed), settings).state_hash();
+        settings.seed = seed;
+        EXPECT_EQ(of_scene, make_world(scene, settings).state_hash()) << seed;
+    }
+}
+
 TEST(MakeWorld, PrecisionIsThatOfTheRun) {
     const Scene scene = parsed(scatter);
     Settings settings = settings_of(scene);
