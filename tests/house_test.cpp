@@ -146,7 +146,7 @@ TEST(House, FilesSayTheirLicenceAndHeadersAreIncludedOnce) {
     EXPECT_GT(count, 55U);
 }
 
-/// The word before the last '_' of "…_test", or nothing.
+/// The name before "_test"; empty for files that are no tests.
 std::string tested(const fs::path& file) {
     const std::string name = file.stem().string();
     return name.ends_with("_test") ? name.substr(0, name.size() - 5) : std::string();
@@ -166,7 +166,7 @@ Names listed_tests(const std::string& text) {
     return listed;
 }
 
-// A test that no CMakeLists.txt lists fails for nobody.
+// Unlisted tests are never built and never fail.
 TEST(House, EveryTestIsBuilt) {
     const Names listed = listed_tests(read(source / "tests/CMakeLists.txt"));
     std::size_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many frames a film has, and what its manifest says of them.
+// The number of frames of a film, and its manifest.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -73,7 +73,7 @@ TEST_F(Film, HasAsManyFramesAsTheOptionSays) {
 }
 
 // Frame 28 shows 28/100 s, in which 7 steps a second are 1.96.
-TEST_F(Film, TellsFramesAndStepsPerSecondApart) {
+TEST_F(Film, ManifestHasTheFrameRateAndTheStepRate) {
     const auto manifest = film(options_for(100), 0.29);
     EXPECT_EQ(manifest["fps"], 100);
     EXPECT_EQ(manifest["rate"], 7);

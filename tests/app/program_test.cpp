@@ -190,7 +190,7 @@ TEST(Program, TraceReadsBackAndJsonTellsTheRun) {
     EXPECT_NEAR(x, 303.79268459741713, 1e-9) << row;
 }
 
-// Each option has another value than the demo has without it. 7 steps at 50 Hz are 0.14 s.
+// No option has the value that the demo has without it. 7 steps at 50 Hz are 0.14 s.
 TEST(Program, JsonTellsTheSettingsThatWereGiven) {
     const Outcome run = shell(
         "spring_damper --quiet --steps 7 --rate 50 --method velocity_verlet --precision float "

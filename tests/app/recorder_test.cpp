@@ -12,8 +12,7 @@
 namespace oiler::test {
 namespace {
 
-/// What a recorder writes into a trace and a file of energies: tick 0, then a row after each of
-/// `steps` steps.
+/// The files that a recorder writes of tick 0 and of `steps` steps.
 struct Recorded {
     Recorded(World& world, int steps) {
         const Folder folder;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a frame shows at its edges, and after its size has changed.
+// Frames at their edges, at their largest size, and after a change of size.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <cstdio>
+#include <string>
 
 #include "render/drawing.hpp"
 
@@ -65,6 +66,28 @@ TEST_F(Frame, HasItsSizeAlsoWhereOneSideAloneHasChanged) {
         EXPECT_EQ(total_coverage(pixels), size.width * size.height)
             << size.width << 'x' << size.height;
     }
+}
+
+/// The largest size that the refusal of a larger one names: "… choose a --size from 1x1 to WxH".
+Size largest_frame(drawing::Studio& studio) {
+    try {
+        (void)studio.draw({}, {1 << 20, 1});
+    } catch (const Error& error) {
+        const std::string line = error.what();
+        Size size;
+        const std::string size_named = line.substr(line.rfind(' ') + 1);
+        if (std::sscanf(size_named.c_str(), "%dx%d", &size.width, &size.height) == 2) return size;
+    }
+    ADD_FAILURE() << "no largest size is named";
+    return {1, 1};
+}
+
+TEST_F(Frame, MayBeAsLargeAsTheRefusalOfALargerOneSays) {
+    const Size largest = largest_frame(*studio_);
+    EXPECT_EQ(draw({}, {largest.width, 1}).size.width, largest.width);
+    EXPECT_EQ(draw({}, {1, largest.height}).size.height, largest.height);
+    EXPECT_THROW((void)draw({}, {largest.width + 1, 1}), Error);
+    EXPECT_THROW((void)draw({}, {1, largest.height + 1}), Error);
 }
 
 TEST_F(Frame, IsDrawnAnewInTheSameSize) {

@@ -15,9 +15,9 @@
 namespace oiler {
 namespace {
 
-/// The atlas is full with more rows.
+/// Rows; a higher atlas is full.
 constexpr int full = 2048;
-/// Larger than any letter of 500 pixels.
+/// Rows that one picture of the letters below adds at most.
 constexpr int tallest = 600;
 
 using Placed = std::vector<PlacedGlyph>;
@@ -69,8 +69,8 @@ TEST(Glyphs, AreKeptUntilTheAtlasIsFull) {
     EXPECT_EQ(glyphs.revision(), revision) << "no letter is rasterised twice";
 }
 
-// A picture may need more letters than a full atlas: none of them gives way to another.
-TEST(Glyphs, OfOnePictureAllHaveRoom) {
+// A picture may need more rows than a full atlas has. No letter overwrites another.
+TEST(Glyphs, OfOnePictureAllFitIntoTheAtlas) {
     Glyphs glyphs;
     const std::string text = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
     const Placed placed = place(glyphs, text, 500);
@@ -88,10 +88,11 @@ TEST(Glyphs, AreForgottenWhenTheAtlasIsFull) {
     EXPECT_NE(glyphs.revision(), revision);
     EXPECT_EQ(glyphs.atlas_height(), 0);
     expect_own_pictures(glyphs, place(glyphs, "oiler", 40), "oiler", 40);
-    EXPECT_LE(glyphs.atlas_height(), 40) << "in the first rows again";
+    EXPECT_LE(glyphs.atlas_height(), 40) << "the first rows are used again";
 }
 
-// Two pictures of different letters must not be taken for one.
+// The renderer uploads the atlas when the revision changes; a revision that returns would leave
+// former letters in the texture.
 TEST(Glyphs, NeverComeBackToARevision) {
     Glyphs glyphs;
     std::set<std::uint64_t> revisions{glyphs.revision()};
@@ -122,7 +123,7 @@ TEST(Atlas, IsTidiedBeforeEachPicture) {
         lay_out(of_letters(size), {640, 360}, glyphs, layout);
         largest = std::max(largest, glyphs.atlas_height());
     }
-    EXPECT_GT(largest, full) << "no round of forgetting was seen";
+    EXPECT_GT(largest, full) << "the atlas was never full";
     EXPECT_LE(largest, full + tallest);
 }
 

@@ -189,8 +189,8 @@ const std::string link_of_2_and_1 =
     "link of bodies 2 and 1: ω·dt up to 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
     "implicit_euler";
 
-// Row 1 is the first that is no longer finite, and the second end of its link. The spring has the
-// larger ω·dt, but its body does not move.
+// Row 1 diverges first and is the second end of its link. The spring has the larger ω·dt, but its
+// body does not move.
 TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
     const std::string line =
         end_of(resting_spring_and_stretched_link(), "semi_implicit_euler", 100'000);

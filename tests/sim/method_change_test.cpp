@@ -29,7 +29,7 @@ Bodies unstepped(Bodies made, const Bodies& run) {
     return made;
 }
 
-/// Steps 5 to 7 after a first step with `before`, compared with bodies that never took it.
+/// Compares the steps after a step with `before` with those of bodies that never took it.
 void expect_no_trace_of(const Method& method, const Steps& before, const Method& next,
                         const Steps& after) {
     const bool linear = is_exact(method) || is_exact(next);
@@ -65,7 +65,7 @@ TEST(MethodChange, LeavesNoTraceOfTheFormerDamping) {
                 expect_no_trace_of(method, {Rate{64}, 4, 1, former}, method, {Rate{64}, 5, 2, now});
 }
 
-// Both methods stand at one address, which a plan must not be known by.
+// Both methods have the same address, so an address must not identify a plan.
 TEST(MethodChange, IsSeenInAMethodThatIsNotOfTheList) {
     Method own = find_method("velocity_verlet");
     Bodies run = damped(Precision::double_, false);
@@ -77,7 +77,7 @@ TEST(MethodChange, IsSeenInAMethodThatIsNotOfTheList) {
     EXPECT_EQ(hash_of(run), hash_of(fresh));
 }
 
-// The hashes above tell two plans apart only where their steps differ.
+// The hashes above detect a stale plan only where the steps of the two plans differ.
 TEST(MethodChange, ChangesTheStep) {
     const auto hash_after = [](const char* method, const Rate& rate, Damping damping) {
         Bodies bodies = damped(Precision::double_, false);
