@@ -192,8 +192,14 @@ const std::string link_of_2_and_1 =
 // Row 1 diverges first and is the second end of its link. The spring has the larger ω·dt, but its
 // body does not move.
 TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
-    const std::string line =
-        end_of(resting_spring_and_stretched_link(), "semi_implicit_euler", 100'000);
+    const oiler::Steps steps{rate, 0, 100'000};
+    const Method& method = find_method("semi_implicit_euler");
+    Bodies bodies = resting_spring_and_stretched_link();
+    const auto at = bodies.try_step(method, steps);
+    ASSERT_TRUE(at);
+    const std::string line = line_of_error(Exit::diverged, [&] {
+        fail_diverged(bodies, *at, method, steps, [](std::size_t row) { return row; });
+    });
     EXPECT_TRUE(holds(line, ": position x of body 1 is no longer finite; ")) << line;
     EXPECT_TRUE(line.ends_with("; " + link_of_2_and_1)) << line;
 }
