@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A salvo at seven elevations: without drag, with linear and with quadratic drag, over the exact
 // trajectories of those that have a closed form.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "oiler/app/run.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 
 using namespace oiler;
 
@@ -176,8 +176,8 @@ struct Projectile {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.method->name,
-                                 settings.rate.steps, name_of(settings.precision), world.time()),
+             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
+                                 settings.stepping.rate.steps, name_of(settings.stepping.precision), world.time()),
              .size = 13,
              .colour = palette::ink});
         float y = 296;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The article's spring and damper, its position drawn live over the exact one, and the error of the
 // method below it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 
 using namespace oiler;
 
@@ -140,8 +140,8 @@ struct SpringDamper {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}", settings.method->name, settings.rate.steps,
-                                 name_of(settings.precision)),
+             .text = fmt::format("{} at {} Hz, {}", settings.stepping.method->name, settings.stepping.rate.steps,
+                                 name_of(settings.stepping.precision)),
              .size = 13,
              .colour = palette::ink});
         picture.labels.push_back({.at = {624, 340},

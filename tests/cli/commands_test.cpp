@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "oiler/sim/methods.hpp"
+#include "oiler/physics/methods/methods.hpp"
 #include "support/program.hpp"
 #include "support/text.hpp"
 

@@ -16,9 +16,9 @@ namespace {
 std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,
                                 const char* method = "semi_implicit_euler") {
     const Scene scene = parse_scene(text, "test.toml");
-    Settings settings = settings_of(scene);
-    if (rate > 0) settings.rate = {rate};
-    settings.method = &find_method(method);
+    Settings settings = Settings{scene.stepping};
+    if (rate > 0) settings.stepping.rate.steps = {rate};
+    settings.stepping.method = &find_method(method);
     return check_budget(scene, settings);
 }
 
@@ -169,8 +169,8 @@ TEST(Budget, OfAScatterHoldsForEverySeed) {
         "[[scatter]]\ncount = 10\nposition_from = [0.0, 0.0]\nposition_to = [100.0, 0.0]\n"
         "velocity_from = [1.0, 2.0]\n[budget]\nposition_error = 0.01\n",
         "test.toml");
-    Settings settings = settings_of(scene);
-    settings.method = &find_method("velocity_verlet");
+    Settings settings = Settings{scene.stepping};
+    settings.stepping.method = &find_method("velocity_verlet");
     for (const std::uint64_t seed : {0U, 1U, 2U}) {
         settings.seed = seed;
         const std::vector<BudgetLine> lines = check_budget(scene, settings);
@@ -181,7 +181,7 @@ TEST(Budget, OfAScatterHoldsForEverySeed) {
 
 TEST(Budget, StoppedIsNone) {
     const Scene scene = parse_scene(with_position("25.0"), "test.toml");
-    EXPECT_TRUE(check_budget(scene, settings_of(scene), [] { return true; }).empty());
+    EXPECT_TRUE(check_budget(scene, Settings{scene.stepping}, [] { return true; }).empty());
 }
 
 }  // namespace

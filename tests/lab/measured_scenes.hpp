@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/lab/reference.hpp"
+#include "oiler/lab/reference/reference.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "oiler/lab/exact_motion.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
 
 namespace oiler::test {
 

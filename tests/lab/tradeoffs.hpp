@@ -12,7 +12,7 @@
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/lab/tradeoff_file.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "support/text.hpp"
 
 namespace oiler::test {
@@ -47,8 +47,8 @@ inline bool same_errors(const Judgement& a, const Judgement& b) {
            same(a.energy_drift, b.energy_drift) && same(a.evaluations, b.evaluations);
 }
 
-inline std::string named(const SceneChoice& choice) {
-    return std::string(choice.method->name) + " at " + std::to_string(choice.rate);
+inline std::string named(const Stepping& choice) {
+    return std::string(choice.method->name) + " at " + std::to_string(choice.rate.steps);
 }
 
 inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "oiler/render/polyline_mesh.hpp"
-#include "oiler/render/utf8.hpp"
+#include "oiler/core/utf8.hpp"
 #include "render/drawing.hpp"
 
 namespace oiler {

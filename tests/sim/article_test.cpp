@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
 

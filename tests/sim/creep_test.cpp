@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "support/oscillator.hpp"
 #include "support/text.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "oiler/sim/closed_forms.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "support/oscillator.hpp"
 
 namespace {

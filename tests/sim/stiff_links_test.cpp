@@ -8,7 +8,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/preflight.hpp"
+#include "oiler/stability/preflight.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/forces.hpp"
+#include "oiler/physics/forces/forces.hpp"
 
 namespace {
 

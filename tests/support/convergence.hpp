@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "oiler/sim/advance.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/physics/advance.hpp"
+#include "oiler/physics/methods/methods.hpp"
 
 /// Errors of order p are held against size·(rate·dt)^p.
 struct Scale {

@@ -20,7 +20,7 @@ using oiler::World;
 constexpr Link stiff{.stiffness = 300, .damping = 0.5, .rest_length = 1};
 
 struct Chain {
-    World world{2, {.rate = Rate{100}, .method = &find_method("velocity_verlet")}};
+    World world{2, {.method = &find_method("velocity_verlet"), .rate = Rate{100}}};
     Entity first = world.spawn(Body{.position = {0, 0, 0}});
     Entity second = world.spawn(Body{.position = {1.5, 0, 0}});
     Entity third = world.spawn(Body{.position = {3, 0.5, 0}});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/recorder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <iterator>

@@ -2,17 +2,15 @@
 #include "oiler/app/report.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "oiler/app/recorder.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const Energy& energy) {
     require_finite(energy);
@@ -30,10 +28,10 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
     const Settings& settings = world.settings();
     Json json{
         {"scene", report.scene},
-        {"method", settings.method->name},
-        {"damping", name_of(settings.damping.value_or(settings.method->damping))},
-        {"rate", settings.rate.steps},
-        {"precision", name_of(settings.precision)},
+        {"method", settings.stepping.method->name},
+        {"damping", name_of(settings.stepping.damping.value_or(settings.stepping.method->damping))},
+        {"rate", settings.stepping.rate.steps},
+        {"precision", name_of(settings.stepping.precision)},
         {"threads", settings.threads},
         {"seed", settings.seed},
         {"steps", world.tick()},
@@ -48,7 +46,7 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
             {"budget", entry.most},
             {"measured", std::isfinite(entry.measured) ? Json(entry.measured) : Json("infinite")},
             {"kept", entry.kept}};
-    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = json.dump(2) + "\n";
     write_file(path, std::as_bytes(std::span(text)));
 }
 

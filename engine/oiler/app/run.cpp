@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/run.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <new>
 #include <span>
@@ -14,6 +14,7 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/floating_point.hpp"
+#include "oiler/sim/instructions.hpp"
 
 namespace oiler {
 namespace {
@@ -49,6 +50,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<AnyGame> game = make(options.settings);
     game->world().require_applicable();
+    if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
     for (const std::string& line : game->world().preflight()) remark(options.quiet, "{}", line);
     RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
     Recorder recorder(options.trace, options.energy, game->world());

@@ -3,16 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
 
 namespace oiler {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string dump(const Json& json, int indent) {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
 
 Json header(const Manifest& manifest) {
     return {{"version", manifest.version},
@@ -42,13 +37,13 @@ Json line(const Manifest::Frame& frame) {
 }  // namespace
 
 std::string to_json(const Manifest& manifest) {
-    std::string text = dump(header(manifest), 2);
+    std::string text = header(manifest).dump(2);
     text.resize(text.size() - std::string_view("\n}").size());
     text += ",\n  \"frames\": [";
     const char* separator = "\n";
     for (const Manifest::Frame& frame : manifest.frames) {
         text += separator;
-        text += "    " + dump(line(frame), -1);
+        text += "    " + line(frame).dump(-1);
         separator = ",\n";
     }
     text += "\n  ]\n}\n";
@@ -56,7 +51,7 @@ std::string to_json(const Manifest& manifest) {
 }
 
 bool is_manifest(std::string_view json) {
-    const Json parsed = Json::parse(json, nullptr, false);
+    const auto parsed = nlohmann::json::parse(json, nullptr, false);
     return parsed.is_object() && parsed.contains("gl_renderer") && parsed.contains("frames");
 }
 

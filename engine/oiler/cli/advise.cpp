@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/advise.hpp"
+#include "oiler/lab/advice/advise.hpp"
 
 #include <span>
 
@@ -7,10 +7,10 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
+#include "oiler/lab/advice/json.hpp"
 #include "oiler/scene/apply.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 Advice search(const Scene& scene, const Reference& reference, const Wish& wish, bool quiet) {
@@ -50,12 +50,12 @@ Exit AdviseCommand::run() const {
     if (!advice.meets) return Exit::comparison_failed;
     if (apply_it) {
         const std::string text =
-            apply(read_text(measured.scene), measured.scene.string(), advice.best->choice);
+            apply(read_text(measured.scene), measured.scene.string(), advice.best->stepping);
         write_file(measured.scene, std::as_bytes(std::span(text)));
         remark(measured.quiet, "{} now says {}", measured.scene.string(),
-               words_of(advice.best->choice));
+               words_of(advice.best->stepping));
     }
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/certify.hpp"
+#include "oiler/certify/certify.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "oiler/app/console.hpp"
 #include "oiler/cli/commands.hpp"
 #include "oiler/cli/tables.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// "4.00/4.01", of positions and velocities.
 std::string slopes(const Certificate& certificate, std::string_view problem) {
@@ -110,7 +108,7 @@ Exit CertifyCommand::run() const {
                       static_cast<std::int64_t>(methods.size()));
     if (table) print(header());
     for (const Method* method : methods) {
-        const Certificate certificate = certify(*method, damping.value_or(method->damping), steps);
+        const Certificate certificate = certify::certify(*method, damping.value_or(method->damping), steps);
         certificates.push_back(to_json(certificate));
         if (table) print(row_of(certificate));
         progress.show(static_cast<std::int64_t>(certificates.size()));
@@ -125,4 +123,4 @@ Exit CertifyCommand::run() const {
     return Exit::comparison_failed;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

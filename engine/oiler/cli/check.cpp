@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -11,7 +11,7 @@
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 struct Checked {
@@ -71,10 +71,10 @@ std::string to_junit(const std::vector<Checked>& all) {
         tests, failures, errors, skipped, cases);
 }
 
-nlohmann::ordered_json to_json(const std::vector<Checked>& all) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json to_json(const std::vector<Checked>& all) {
+    Json json = Json::array();
     for (const Checked& checked : all) {
-        nlohmann::ordered_json one{{"scene", checked.file}, {"kept", checked.kept()}};
+        Json one{{"scene", checked.file}, {"kept", checked.kept()}};
         if (!checked.error.empty()) one = {{"scene", checked.file}, {"error", checked.error}};
         for (const BudgetLine& line : checked.lines)
             one[line.name] = {
@@ -89,7 +89,7 @@ Checked check(const std::filesystem::path& path) {
     Checked checked{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
-        checked.lines = check_budget(scene, settings_of(scene), Interrupt::requested);
+        checked.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
         const std::string what = error.what();
@@ -134,4 +134,4 @@ Exit CheckCommand::run() const {
     return exit;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

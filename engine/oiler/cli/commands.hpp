@@ -9,9 +9,17 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/size.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/physics/methods/methods.hpp"
 
 namespace oiler {
+namespace certify {}
+namespace lab {}
+}  // namespace oiler
+
+namespace oiler::cli {
+
+using namespace certify;
+using namespace lab;
 
 // The commands of the program `oiler`, one to a file. Files that are empty paths are not written,
 // "-" is standard output. All throw Error; what they return is the program's exit code.
@@ -133,4 +141,4 @@ struct ReportCommand {
 /// Plays the scene file that the words name, with the options of all games; `argv[0]` is "play".
 Exit run_play(int argc, char** argv);
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/figures.hpp"
+#include "oiler/certify/figures.hpp"
 
 #include "oiler/app/console.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/commands.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 Exit FiguresCommand::run() const {
     const std::vector<Figure> figures = article_figures();
@@ -22,4 +22,4 @@ Exit FiguresCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/ledger.hpp"
+#include "oiler/lab/ledger/ledger.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
@@ -12,23 +12,21 @@
 #include "oiler/cli/tables.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// As many as the scene lasts, and two at least.
 std::int64_t steps_of(const Scene& scene) {
     return std::max<std::int64_t>(2,
-                                  std::llround(scene.duration * static_cast<double>(scene.rate)));
+                                  std::llround(scene.duration * static_cast<double>(scene.stepping.rate.steps)));
 }
 
 std::string head(const Scene& scene, const std::string& name, const Ledger& ledger,
                  std::int64_t wanted) {
     std::string text =
         fmt::format("{}\n  {} at {} Hz in {}, {} {}, {} {}, {} {}, {} steps",
-                    scene.title.empty() ? name : scene.title, scene.method->name, scene.rate,
-                    name_of(scene.precision), scene.axes, scene.axes == 1 ? "axis" : "axes",
+                    scene.title.empty() ? name : scene.title, scene.stepping.method->name, scene.stepping.rate.steps,
+                    name_of(scene.stepping.precision), scene.axes, scene.axes == 1 ? "axis" : "axes",
                     ledger.bodies, ledger.bodies == 1 ? "body" : "bodies", ledger.links,
                     ledger.links == 1 ? "link" : "links", ledger.steps);
     if (ledger.steps < wanted && !ledger.diverged)
@@ -166,9 +164,9 @@ Json list_of(const std::vector<Item>& items) {
 Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) {
     return {{"scene", name},
             {"title", scene.title},
-            {"method", scene.method->name},
-            {"rate", scene.rate},
-            {"precision", name_of(scene.precision)},
+            {"method", scene.stepping.method->name},
+            {"rate", scene.stepping.rate.steps},
+            {"precision", name_of(scene.stepping.precision)},
             {"axes", scene.axes},
             {"bodies", ledger.bodies},
             {"links", ledger.links},
@@ -211,4 +209,4 @@ Exit LedgerCommand::run() const {
     return Exit::diverged;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

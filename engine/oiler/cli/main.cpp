@@ -13,6 +13,7 @@
 #include "oiler/core/version.hpp"
 
 using namespace oiler;
+using namespace oiler::cli;
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -38,10 +38,10 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
-std::string for_script(const nlohmann::ordered_json& json) {
+std::string for_script(const Json& json) {
     std::string safe;
     for (const char c :
-         json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
+         json.dump(-1, Json::Characters::ascii)) {
         if (c == '<')
             safe += "\\u003c";
         else
@@ -72,4 +72,4 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
     return text;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace oiler {
+#include "oiler/core/json.hpp"
+
+namespace oiler::cli {
 
 // How texts and numbers get into HTML and XML.
 
@@ -16,7 +17,7 @@ namespace oiler {
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// For a script: no end of it can hide in a text.
-[[nodiscard]] std::string for_script(const nlohmann::ordered_json& json);
+[[nodiscard]] std::string for_script(const Json& json);
 
 /// A PNG file as an address.
 [[nodiscard]] std::string address_of(const std::vector<std::byte>& png);
@@ -26,4 +27,4 @@ namespace oiler {
 [[nodiscard]] std::string filled(std::string_view page,
                                  const std::map<std::string, std::string>& parts);
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -12,7 +12,7 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 bool is_in(const Method& method, const std::string& group) {
@@ -87,4 +87,4 @@ void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& r
     time_rows(scene, rows, rounds, watch);
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -7,9 +7,9 @@
 
 #include "oiler/app/console.hpp"
 #include "oiler/cli/commands.hpp"
-#include "oiler/lab/tradeoff.hpp"
+#include "oiler/lab/sweep/tradeoff.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 // What the commands that measure scenes have in common.
 
@@ -49,4 +49,4 @@ void measure_tradeoff(
 [[nodiscard]] Reference measure_reference(const Scene& scene, const Looks& looks, double wanted,
                                           bool quiet);
 
-}  // namespace oiler
+}  // namespace oiler::cli

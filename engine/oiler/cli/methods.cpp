@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/commands.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/sim/stability.hpp"
+#include "oiler/stability/stability.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr Oscillation undamped{1, 0};
 
@@ -79,4 +76,4 @@ Exit MethodsCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

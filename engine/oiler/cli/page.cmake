@@ -6,4 +6,6 @@ find_file(OILER_CHART_LIBRARY chart.min.js PATHS /usr/share/javascript/chart.js
 if(NOT OILER_CHART_LIBRARY)
   message(FATAL_ERROR "chart.min.js not found: install the Debian package libjs-chart.js")
 endif()
-oiler_embed(oiler_cli page ${CMAKE_CURRENT_SOURCE_DIR}/cli/report.html chart ${OILER_CHART_LIBRARY})
+set(target oiler_cli)
+set(embed page ${CMAKE_CURRENT_SOURCE_DIR}/report.html chart ${OILER_CHART_LIBRARY})
+include(${OILER_ENGINE}/cmake/embed.cmake)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <span>
 
@@ -12,7 +12,7 @@
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 class SceneGame final : public AnyGame {
@@ -37,10 +37,11 @@ private:
 About describe(const Scene& scene, const std::string& name) {
     return {.name = name,
             .title = scene.title.empty() ? name : scene.title,
-            .rate = static_cast<int>(scene.rate),
-            .method = scene.method->name,
-            .precision = scene.precision,
-            .duration = scene.duration};
+            .rate = static_cast<int>(scene.stepping.rate.steps),
+            .method = scene.stepping.method->name,
+            .precision = scene.stepping.precision,
+            .duration = scene.duration,
+            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : ""};
 }
 
 }  // namespace
@@ -73,4 +74,4 @@ Exit run_play(int argc, char** argv) {
     return run_game(line.options, line.about, make, measure_budget);
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

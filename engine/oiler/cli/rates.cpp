@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/rates.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
 #include "oiler/app/interrupt.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
+#include "oiler/lab/rates_json.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.5g}", value); }
 
 std::string text_of(const Scene& scene, const std::string& name, const Rates& rates) {
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
-                                   rates.body, name_of(scene.precision));
+                                   rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
         text += "It neither jumps nor swings: there is nothing to notice.\n";
     for (const RatesQuantity& quantity : rates.quantities) {
@@ -64,4 +64,4 @@ Exit RatesCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

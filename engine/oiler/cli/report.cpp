@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +11,20 @@
 #include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/json.hpp"
-#include "oiler/lab/ledger.hpp"
-#include "oiler/lab/tradeoff_picture.hpp"
+#include "oiler/lab/advice/json.hpp"
+#include "oiler/lab/rates_json.hpp"
+#include "oiler/lab/sweep/json.hpp"
+#include "oiler/lab/ledger/ledger.hpp"
+#include "oiler/lab/sweep/tradeoff_picture.hpp"
 #include "oiler/scene/draw.hpp"
-#include "oiler/sim/oscillations.hpp"
+#include "oiler/stability/oscillations.hpp"
 
 extern "C" {
 extern const char oiler_page[], oiler_page_end[];
 extern const char oiler_chart[], oiler_chart_end[];
 }
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 /// A page is for a first look: how far a sweep goes for it.
@@ -57,7 +59,7 @@ Json springs_json(const Scene& scene, const Bodies& bodies) {
 Json stability_json(const Scene& scene, const std::vector<const Method*>& methods) {
     constexpr int points = 11;
     constexpr double widest = 1.5;
-    const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
+    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     Json springs = springs_json(scene, bodies);
     if (springs.empty()) return nullptr;
     Json curves = Json::array();
@@ -68,15 +70,15 @@ Json stability_json(const Scene& scene, const std::vector<const Method*>& method
             const double limit = method->order == exact_order
                                      ? INFINITY
                                      : stability_limit(*method, method->damping, {1, 2 * zeta});
-            curve.push_back({zeta, std::isinf(limit) ? Json(nullptr) : Json(limit)});
+            curve.push_back(Json::array({zeta, std::isinf(limit) ? Json() : Json(limit)}));
         }
         curves.push_back({{"method", method->name}, {"points", std::move(curve)}});
     }
-    return {{"methods", std::move(curves)}, {"springs", std::move(springs)}, {"rate", scene.rate}};
+    return {{"methods", std::move(curves)}, {"springs", std::move(springs)}, {"rate", scene.stepping.rate.steps}};
 }
 
 Json ledger_json(const Scene& scene) {
-    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.rate));
+    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
     const Ledger found = ledger(scene, std::max<std::int64_t>(2, steps));
     Json passes = Json::array();
     for (const LedgerPass& pass : found.passes)
@@ -93,7 +95,7 @@ Json ledger_json(const Scene& scene) {
 
 std::string frame_of(const Scene& scene) {
     Stills stills(frame_size);
-    const World world = make_world(scene, settings_of(scene));
+    const World world = make_world(scene, Settings{scene.stepping});
     return address_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
 }
 
@@ -122,7 +124,7 @@ Found measure(const ReportCommand& command, const Scene& scene, const Reference&
     const Looks& looks = reference.looks;
     const SweepPlan plan{.methods = parse_methods("all"),
                          .max_rate = std::min<std::int64_t>(
-                             1'000'000, std::max(scene.rate, highest_multiple * looks.per_second)),
+                             1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
                          .most_work = most_work};
     Found found{start_tradeoff(scene, looks, reference, plan), {}, {}};
     found.tradeoff.scene = name_of(command.measured);
@@ -176,4 +178,4 @@ Exit ReportCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

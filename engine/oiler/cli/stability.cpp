@@ -3,9 +3,9 @@
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/commands.hpp"
-#include "oiler/lab/region.hpp"
+#include "oiler/certify/region.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 Exit StabilityCommand::run() const {
     const StabilityGrid grid;
@@ -26,4 +26,4 @@ Exit StabilityCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

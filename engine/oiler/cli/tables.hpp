@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
 #include "oiler/capture/file.hpp"
-#include "oiler/sim/methods.hpp"
+#include "oiler/core/json.hpp"
+#include "oiler/physics/methods/methods.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 
 // How the commands write numbers of methods.
 
@@ -29,16 +29,16 @@ namespace oiler {
 }
 
 /// JSON has no infinity: "infinite", and null for what is not a number.
-[[nodiscard]] inline nlohmann::ordered_json number(double value) {
+[[nodiscard]] inline Json number(double value) {
     if (std::isnan(value)) return nullptr;
     if (std::isinf(value)) return "infinite";
     return value;
 }
 
-inline void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
+inline void write_json(const std::filesystem::path& path, const Json& json) {
     const std::string text =
-        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        json.dump(2) + "\n";
     write_file(path, std::as_bytes(std::span(text)));
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/tradeoff.hpp"
+#include "oiler/lab/sweep/tradeoff.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/lab/tradeoff_file.hpp"
-#include "oiler/lab/tradeoff_picture.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
+#include "oiler/lab/sweep/tradeoff_picture.hpp"
 
-namespace oiler {
+namespace oiler::cli {
 namespace {
 
 std::string head(const Tradeoff& tradeoff) {
@@ -47,8 +47,8 @@ std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark)
                                   : fmt::format("{:.3g}", judgement.position_error);
     return fmt::format(
         "{} {:<30} {:>7}{} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", mark,
-        row.choice.method->name, row.choice.rate, row.meets_steps ? ' ' : '~',
-        name_of(row.choice.precision), error, cell(judgement.velocity_error, "{:.3g}"),
+        row.stepping.method->name, row.stepping.rate.steps, row.meets_steps ? ' ' : '~',
+        name_of(row.stepping.precision), error, cell(judgement.velocity_error, "{:.3g}"),
         cell(judgement.phase_error, "{:.2g}"), cell(judgement.energy_drift, "{:.2g}"),
         cell(judgement.evaluations, "{:.4g}"), cell(row.ns_per_second / 1e3, "{:.4g}"),
         cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"));
@@ -58,7 +58,7 @@ std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark)
 std::vector<const TradeoffRow*> cheapest_of(const Tradeoff& tradeoff, const Method* method) {
     std::vector<const TradeoffRow*> rows;
     for (const TradeoffRow* row : tradeoff.rows())
-        if (row->choice.method == method && row->judgement.stable) rows.push_back(row);
+        if (row->stepping.method == method && row->judgement.stable) rows.push_back(row);
     std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
         return a->ns_per_second < b->ns_per_second;
     });
@@ -99,7 +99,7 @@ std::string text_of(const Tradeoff& tradeoff, bool all) {
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {
         const bool best = std::find(front.begin(), front.end(), row) != front.end();
-        const char mark = row->choice == tradeoff.today ? '>' : best ? '*' : ' ';
+        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
     text += fmt::format(
@@ -167,7 +167,7 @@ void publish(const Tradeoff& tradeoff, const Places& places, Stills& stills) {
 void publish_whole(const Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
                    const Places& places, Stills& stills) {
     publish(tradeoff, places, stills);
-    std::vector<SceneChoice> choices;
+    std::vector<Stepping> choices;
     for (const Method* method : notable_methods(tradeoff))
         choices.push_back({method, tradeoff.today.rate, Precision::double_});
     if (!choices.empty())
@@ -228,4 +228,4 @@ Exit MergeCommand::run() const {
     return Exit::done;
 }
 
-}  // namespace oiler
+}  // namespace oiler::cli

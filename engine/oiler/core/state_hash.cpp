@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/state_hash.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #define XXH_STATIC_LINKING_ONLY  // for the size of XXH3_state_t
 #include <xxhash.h>

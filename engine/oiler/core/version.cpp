@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/version.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace oiler {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/budget.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
 #include "oiler/core/error.hpp"
 
-namespace oiler {
+namespace oiler::lab {
 namespace {
 
 BudgetLine hold(std::string name, std::string unit, double most, bool stable, double measured,
@@ -65,4 +65,4 @@ std::string words_of(const BudgetLine& line) {
                        line.kept ? "kept" : "exceeded");
 }
 
-}  // namespace oiler
+}  // namespace oiler::lab

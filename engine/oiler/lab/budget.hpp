@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "oiler/lab/judge.hpp"
+#include "oiler/lab/sweep/judge.hpp"
 
-namespace oiler {
+namespace oiler::lab {
 
 /// One number of a scene's budget, held against what was measured.
 struct BudgetLine {
@@ -27,4 +27,4 @@ struct BudgetLine {
 /// "position_error 19.8 m of 25 m: kept"
 [[nodiscard]] std::string words_of(const BudgetLine& line);
 
-}  // namespace oiler
+}  // namespace oiler::lab

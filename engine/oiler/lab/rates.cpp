@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/path.hpp"
-#include "oiler/lab/reference_parts.hpp"
+#include "oiler/lab/reference/path.hpp"
+#include "oiler/lab/reference/parts.hpp"
 
-namespace oiler {
+namespace oiler::lab {
 namespace {
 
 constexpr double settled = 0.05;  ///< of how far it was from rest at the start
@@ -108,14 +108,14 @@ Paths paths_of(const Reference& reference, std::size_t row) {
 }
 
 /// Nothing where the run diverges or is lost.
-std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Reference& reference,
+std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Reference& reference,
                          std::size_t row, const std::function<bool()>& stopped) try {
-    World world = make_world(scene, settings_of(choice));
+    World world = make_world(scene, Settings{choice});
     world.require_applicable();
     const Vec3 start = world.bodies().position(row);
     Paths paths;
     const auto steps = static_cast<std::int64_t>(
-        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate)));
+        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate.steps)));
     for (std::int64_t tick = 0; tick <= steps && !stopped(); ++tick) {
         if (tick > 0 && world.try_step()) return std::nullopt;
         const Vec3 at = world.bodies().position(row);
@@ -193,7 +193,7 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
     for (std::size_t i = 0; i < methods.size(); ++i)
         for (const std::int64_t rate : rates) {
             const auto paths =
-                run(scene, {methods[i], rate, scene.precision}, reference, row, stopped);
+                run(scene, {methods[i], {rate}, scene.stepping.precision, scene.stepping.damping}, reference, row, stopped);
             noticed[i].push_back(paths ? notice(watch, *paths) : Noticed{});
         }
     Rates result{.body = scene.name_of_body(row), .rates = rates};
@@ -223,4 +223,4 @@ std::size_t find_body(const Scene& scene, const std::string& name) {
          name, scene.body_count() - 1);
 }
 
-}  // namespace oiler
+}  // namespace oiler::lab

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "oiler/lab/judge.hpp"
+#include "oiler/lab/sweep/judge.hpp"
 
-namespace oiler {
+namespace oiler::lab {
 
 /// What a player notices, by a method at each of the rates; unknown where it has none, say because
 /// the run is unstable.
@@ -45,4 +45,4 @@ struct Rates {
 /// The row of the body that is called so, or has that number from 0 on. Throws Error{usage}.
 [[nodiscard]] std::size_t find_body(const Scene& scene, const std::string& name);
 
-}  // namespace oiler
+}  // namespace oiler::lab

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "oiler/render/embedded.hpp"
-#include "oiler/render/utf8.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {

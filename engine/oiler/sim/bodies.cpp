@@ -3,6 +3,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
+#include "oiler/sim/any_columns.hpp"
 
 namespace oiler {
 namespace {
@@ -107,34 +108,39 @@ void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t l
 
 }  // namespace
 
-Bodies::Bodies(int axes, Precision precision) {
+Bodies::Bodies(int axes, Precision precision) : columns_(std::make_unique<AnyColumns>()) {
     require(axes >= 1 && axes <= 3, "a world has 1, 2 or 3 axes");
     const auto choose = [&]<class T>(T) {
-        if (axes == 1) columns_.emplace<Columns<T, 1>>();
-        if (axes == 2) columns_.emplace<Columns<T, 2>>();
-        if (axes == 3) columns_.emplace<Columns<T, 3>>();
+        if (axes == 1) columns_->of.emplace<Columns<T, 1>>();
+        if (axes == 2) columns_->of.emplace<Columns<T, 2>>();
+        if (axes == 3) columns_->of.emplace<Columns<T, 3>>();
     };
     if (precision == Precision::single) choose(float{});
     if (precision == Precision::double_) choose(double{});
     if (precision == Precision::extended) choose(0.0L);
 }
 
-Bodies::Bodies(const Bodies&) = default;
+Bodies::Bodies(const Bodies& other)
+    : columns_(std::make_unique<AnyColumns>(*other.columns_)), team_(other.team_) {}
 Bodies::Bodies(Bodies&&) noexcept = default;
-Bodies& Bodies::operator=(const Bodies&) = default;
+Bodies& Bodies::operator=(const Bodies& other) {
+    *columns_ = *other.columns_;
+    team_ = other.team_;
+    return *this;
+}
 Bodies& Bodies::operator=(Bodies&&) noexcept = default;
 Bodies::~Bodies() = default;
 
-int Bodies::axes() const { return static_cast<int>(columns_.index() % 3) + 1; }
+int Bodies::axes() const { return static_cast<int>(columns_->of.index() % 3) + 1; }
 
-Precision Bodies::precision() const { return static_cast<Precision>(columns_.index() / 3); }
+Precision Bodies::precision() const { return static_cast<Precision>(columns_->of.index() / 3); }
 
 void Bodies::require_row(std::size_t row) const {
     require(row < size(), "there is no body in this row");
 }
 
 std::size_t Bodies::size() const {
-    return std::visit([](const auto& columns) { return columns.size; }, columns_);
+    return std::visit([](const auto& columns) { return columns.size; }, columns_->of);
 }
 
 void Bodies::reserve(std::size_t rows) {
@@ -143,7 +149,7 @@ void Bodies::reserve(std::size_t rows) {
             for (auto& column : columns.motion.x) column.reserve(rows);
             for (auto& column : columns.motion.v) column.reserve(rows);
         },
-        columns_);
+        columns_->of);
 }
 
 std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
@@ -163,7 +169,7 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
             columns.forces_changed();
             return columns.size++;
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::attach_given(std::size_t row, std::size_t nth, const GivenForces& forces) {
@@ -178,7 +184,7 @@ void Bodies::attach_given(std::size_t row, std::size_t nth, const GivenForces& f
                            });
             columns.forces_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::remove(std::size_t row) {
@@ -196,7 +202,7 @@ void Bodies::remove(std::size_t row) {
             remove_links(columns.links, row, --columns.size);
             columns.forces_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
@@ -214,11 +220,11 @@ void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
                                      static_cast<T>(link.rest_length)});
             columns.forces_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 std::size_t Bodies::link_count() const {
-    return std::visit([](const auto& columns) { return columns.links.size(); }, columns_);
+    return std::visit([](const auto& columns) { return columns.links.size(); }, columns_->of);
 }
 
 Link Bodies::link_at(std::size_t i) const {
@@ -228,7 +234,7 @@ Link Bodies::link_at(std::size_t i) const {
             return Link{static_cast<double>(link.stiffness), static_cast<double>(link.damping),
                         static_cast<double>(link.rest_length)};
         },
-        columns_);
+        columns_->of);
 }
 
 std::array<std::size_t, 2> Bodies::linked_rows(std::size_t i) const {
@@ -236,7 +242,7 @@ std::array<std::size_t, 2> Bodies::linked_rows(std::size_t i) const {
         [&](const auto& columns) {
             return std::array{columns.links[i].a, columns.links[i].b};
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::set_gravity(const Vec3& acceleration) {
@@ -251,22 +257,22 @@ void Bodies::set_gravity(const Vec3& acceleration) {
             for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
             columns.forces_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 double Bodies::mass(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return columns.mass[row]; }, columns_);
+    return std::visit([&](const auto& columns) { return columns.mass[row]; }, columns_->of);
 }
 
 Vec3 Bodies::position(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); }, columns_);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); }, columns_->of);
 }
 
 Vec3 Bodies::velocity(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); }, columns_);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); }, columns_->of);
 }
 
 void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {
@@ -280,7 +286,7 @@ void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {
             assign(columns.motion.v, row, state.v);
             columns.state_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
@@ -291,7 +297,7 @@ void Bodies::set_position(std::size_t row, const Vec3& position) {
             assign(columns.motion.x, row, position);
             columns.state_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
@@ -302,7 +308,7 @@ void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
             assign(columns.motion.v, row, velocity);
             columns.state_changed();
         },
-        columns_);
+        columns_->of);
 }
 
 }  // namespace oiler

@@ -6,16 +6,17 @@
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "oiler/core/state_hash.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/sim/columns.hpp"
-#include "oiler/sim/methods.hpp"
-#include "oiler/sim/step_rows.hpp"
+#include "oiler/physics/methods/methods.hpp"
+#include "oiler/sim/steps.hpp"
 
 namespace oiler {
+
+class Team;
+struct AnyColumns;
 
 struct Energy {
     double kinetic = 0;    ///< J
@@ -44,7 +45,6 @@ class Bodies {
 public:
     /// `axes` from 1 to 3.
     Bodies(int axes, Precision precision);
-    // Not defined here, where every file that includes this would compile them for all columns.
     Bodies(const Bodies&);
     Bodies(Bodies&&) noexcept;
     Bodies& operator=(const Bodies&);
@@ -103,8 +103,8 @@ public:
     void set_threads(int threads);
 
     /// Throws Error{usage} where the method cannot step these forces: see require_applicable; and
-    /// Error{diverged} naming step, row, field and likely cause when a number stops being finite;
-    /// the bodies are then of no further use.
+    /// Error{diverged} naming step, row and field when a number stops being finite (fail_diverged
+    /// in stability adds the likely cause); the bodies are then of no further use.
     void step(const Method& method, const Steps& steps);
     /// The same for who names bodies in another way: returns where instead.
     [[nodiscard]] std::optional<Divergence> try_step(const Method& method, const Steps& steps);
@@ -154,10 +154,7 @@ private:
     [[nodiscard]] double link_potential(std::size_t i) const;
     void attach_given(std::size_t row, std::size_t nth, const GivenForces& forces);
 
-    std::variant<Columns<float, 1>, Columns<float, 2>, Columns<float, 3>, Columns<double, 1>,
-                 Columns<double, 2>, Columns<double, 3>, Columns<long double, 1>,
-                 Columns<long double, 2>, Columns<long double, 3>>
-        columns_;
+    std::unique_ptr<AnyColumns> columns_;
     std::shared_ptr<Team> team_;
 };
 

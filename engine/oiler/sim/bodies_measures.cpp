@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "oiler/core/require.hpp"
-#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/any_columns.hpp"
 #include "oiler/sim/link_force.hpp"
 
 namespace oiler {
@@ -73,7 +73,7 @@ State<long double, 3> Bodies::state(std::size_t row) const {
             return State<long double, 3>{to_three<long double>(state.x),
                                          to_three<long double>(state.v)};
         },
-        columns_);
+        columns_->of);
 }
 
 GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t nth) const {
@@ -90,7 +90,7 @@ GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t nth) const {
             });
             return given;
         },
-        columns_);
+        columns_->of);
 }
 
 std::size_t Bodies::most_of_a_kind() const {
@@ -99,7 +99,7 @@ std::size_t Bodies::most_of_a_kind() const {
             return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
                               columns.forces);
         },
-        columns_);
+        columns_->of);
 }
 
 double Bodies::link_potential(std::size_t i) const {
@@ -113,7 +113,7 @@ double Bodies::link_potential(std::size_t i) const {
             const auto b = state_of<double>(columns, link.b);
             return LinkForce<double, Axes>(link).potential({a.x - b.x, a.v - b.v});
         },
-        columns_);
+        columns_->of);
 }
 
 std::vector<Stored> Bodies::stored() const {
@@ -132,20 +132,20 @@ std::vector<Stored> Bodies::stored() const {
             });
             return all;
         },
-        columns_);
+        columns_->of);
 }
 
 std::size_t Bodies::bytes_per_link() const {
     return std::visit([]<class T, int Axes>(const Columns<T, Axes>&) { return sizeof(LinkRow<T>); },
-                      columns_);
+                      columns_->of);
 }
 
 Apart Bodies::apart_from(const Bodies& other) const {
-    require(size() == other.size() && columns_.index() == other.columns_.index(),
+    require(size() == other.size() && columns_->of.index() == other.columns_->of.index(),
             "bodies are compared with as many in the same precision and axes");
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const auto& others = std::get<Columns<T, Axes>>(other.columns_);
+            const auto& others = std::get<Columns<T, Axes>>(other.columns_->of);
             Apart apart;
             for (std::size_t row = 0; row < columns.size; ++row) {
                 Vec3 d{};
@@ -159,11 +159,11 @@ Apart Bodies::apart_from(const Bodies& other) const {
             }
             return apart;
         },
-        columns_);
+        columns_->of);
 }
 
 std::int64_t Bodies::evaluations() const {
-    return std::visit([](const auto& columns) { return columns.evaluations; }, columns_);
+    return std::visit([](const auto& columns) { return columns.evaluations; }, columns_->of);
 }
 
 Energy Bodies::energy() const {
@@ -179,7 +179,7 @@ Energy Bodies::energy() const {
                 potential[row % lanes] += mass * forces_of<double>(columns, row).potential(state);
             }
         },
-        columns_);
+        columns_->of);
     for (std::size_t i = 0; i < link_count(); ++i) potential[i % lanes] += link_potential(i);
     Energy sum;
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -198,7 +198,7 @@ void Bodies::hash_into(StateHash& hash) const {
             for (const auto* vector : {&columns.motion.x, &columns.motion.v})
                 for (const Column<T>& column : *vector) hash_column(column, hash);
         },
-        columns_);
+        columns_->of);
 }
 
 }  // namespace oiler

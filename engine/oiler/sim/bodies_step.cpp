@@ -4,9 +4,8 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
-#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/any_columns.hpp"
 #include "oiler/sim/flows.hpp"
-#include "oiler/sim/preflight.hpp"
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {
@@ -41,7 +40,9 @@ void Bodies::set_threads(int threads) {
 
 void Bodies::step(const Method& method, const Steps& steps) {
     if (const auto at = try_step(method, steps))
-        fail_diverged(*this, *at, method, steps, [](std::size_t row) { return row; });
+        fail(Exit::diverged, "{}",
+             describe(*at, method, steps.rate, link_count() > 0,
+                      [](std::size_t row) { return row; }));
 }
 
 std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {
@@ -53,7 +54,7 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
             return columns.links.empty() ? step_rows(columns, plan, steps, team_.get())
                                          : step_linked_rows(columns, plan, steps);
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::require_applicable(const Method& method, const Steps& steps) const {
@@ -65,7 +66,7 @@ void Bodies::require_applicable(const Method& method, const Steps& steps) const 
             Columns<T, Axes> copy = columns;
             prepare_flows(copy, plan);
         },
-        columns_);
+        columns_->of);
 }
 
 void Bodies::require_forces_for(const Method& method) const {
@@ -83,7 +84,7 @@ void Bodies::require_forces_for(const Method& method) const {
                          method.name, Force::name, remedy);
             });
         },
-        columns_);
+        columns_->of);
 }
 
 }  // namespace oiler

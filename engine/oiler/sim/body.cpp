@@ -8,11 +8,6 @@
 
 namespace oiler {
 
-std::string_view name_of(Precision precision) {
-    if (precision == Precision::extended) return "long double";
-    return precision == Precision::single ? "float" : "double";
-}
-
 Limits::Limits(Precision precision, int axes)
     : largest_(precision == Precision::single
                    ? static_cast<double>(std::numeric_limits<float>::max())

@@ -3,21 +3,12 @@
 
 #include <concepts>
 #include <optional>
-#include <string_view>
 #include <tuple>
 
-#include "oiler/sim/forces.hpp"
+#include "oiler/physics/forces/forces.hpp"
+#include "oiler/physics/precision.hpp"
 
 namespace oiler {
-
-enum class Precision {
-    single,
-    double_,
-    extended,  ///< long double: to measure the others against, not to play in
-};
-
-/// "float" or "double", as the options and files say it, or "long double".
-[[nodiscard]] std::string_view name_of(Precision precision);
 
 /// A body as a user describes it. Axes that the world does not have must be zero.
 struct Body {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "oiler/sim/column.hpp"
-#include "oiler/sim/forces.hpp"
-#include "oiler/sim/plan.hpp"
-#include "oiler/sim/rate.hpp"
+#include "oiler/physics/forces/forces.hpp"
+#include "oiler/physics/plan.hpp"
+#include "oiler/physics/rate.hpp"
 
 namespace oiler {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "oiler/core/error.hpp"
-#include "oiler/sim/response.hpp"
+#include "oiler/physics/response.hpp"
 
 namespace oiler {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oiler/sim/columns.hpp"
-#include "oiler/sim/plan.hpp"
+#include "oiler/physics/plan.hpp"
 
 namespace oiler {
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/kernels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "oiler/core/error.hpp"
+#include "oiler/sim/instructions.hpp"
 
 namespace oiler {
 namespace baseline {
@@ -24,73 +26,104 @@ const Kernels<T, Axes>& kernels();
 
 namespace {
 
-/// The kernels as compiled for one set of instructions.
+/// A set of instructions, and whether this build has kernels for it.
 struct InstructionSet {
     std::string_view name;
+    bool built;
     bool (*runs_here)();
 };
 
+#ifdef OILER_KERNELS_BASELINE
+constexpr bool baseline_built = true;
+#else
+constexpr bool baseline_built = false;
+#endif
+#ifdef OILER_KERNELS_AVX2
+constexpr bool avx2_built = true;
+#else
+constexpr bool avx2_built = false;
+#endif
+#ifdef OILER_KERNELS_AVX512
+constexpr bool avx512_built = true;
+#else
+constexpr bool avx512_built = false;
+#endif
+
 /// From the plainest, which every machine runs, to the widest.
-#ifdef OILER_X86
 constexpr std::array sets{
-    InstructionSet{"baseline", [] { return true; }},
-    InstructionSet{"avx2", [] { return bool(__builtin_cpu_supports("avx2")); }},
-    InstructionSet{"avx512",
+    InstructionSet{"baseline", baseline_built, [] { return true; }},
+#ifdef __x86_64__
+    InstructionSet{"avx2", avx2_built, [] { return bool(__builtin_cpu_supports("avx2")); }},
+    InstructionSet{"avx512", avx512_built,
                    [] {
                        return __builtin_cpu_supports("avx512f") &&
                               __builtin_cpu_supports("avx512bw") &&
                               __builtin_cpu_supports("avx512dq") &&
                               __builtin_cpu_supports("avx512vl");
                    }},
-};
-template <class T, int Axes>
-const Kernels<T, Axes>& kernels_of(std::size_t set) {
-    if (set == 2) return avx512::kernels<T, Axes>();
-    if (set == 1) return avx2::kernels<T, Axes>();
-    return baseline::kernels<T, Axes>();
-}
-#else
-constexpr std::array sets{InstructionSet{"baseline", [] { return true; }}};
-template <class T, int Axes>
-const Kernels<T, Axes>& kernels_of(std::size_t) {
-    return baseline::kernels<T, Axes>();
-}
 #endif
+};
+
+template <class T, int Axes>
+const Kernels<T, Axes>* kernels_of(std::string_view set) {
+    if constexpr (avx512_built)
+        if (set == "avx512") return &avx512::kernels<T, Axes>();
+    if constexpr (avx2_built)
+        if (set == "avx2") return &avx2::kernels<T, Axes>();
+    if constexpr (baseline_built)
+        if (set == "baseline") return &baseline::kernels<T, Axes>();
+    return nullptr;
+}
 
 constexpr const char* variable = "OILER_INSTRUCTIONS";
 
-std::size_t widest_set() {
-    std::size_t set = sets.size();
-    while (!sets[--set].runs_here()) {
-    }
-    return set;
+/// Null where no kernels of this build run here.
+const InstructionSet* widest_set() {
+    const auto found = std::find_if(sets.rbegin(), sets.rend(), [](const InstructionSet& set) {
+        return set.built && set.runs_here();
+    });
+    return found == sets.rend() ? nullptr : &*found;
 }
 
-std::size_t chosen_set() {
+std::string_view chosen_set() {
     const char* const wanted = std::getenv(variable);
-    if (wanted == nullptr) return widest_set();
-    std::string names;
-    for (std::size_t set = 0; set < sets.size(); ++set) {
-        if (!sets[set].runs_here()) continue;
-        if (sets[set].name == wanted) return set;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", sets[set].name);
+    if (wanted == nullptr) {
+        const InstructionSet* const widest = widest_set();
+        return widest ? widest->name : sets[0].name;
     }
-    fail(Exit::usage, "{}={}: this machine runs {}", variable, wanted, names);
+    std::string names;
+    for (const InstructionSet& set : sets) {
+        if (!set.runs_here() || (!set.built && &set != &sets[0])) continue;
+        if (set.name == wanted) return set.name;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", set.name);
+    }
+    fail(Exit::usage, "{}={}: this build on this machine runs {}", variable, wanted, names);
 }
 
 }  // namespace
 
+std::optional<std::string> missing_instructions() {
+    if (widest_set() != nullptr || std::getenv(variable) != nullptr) return std::nullopt;
+    std::string names;
+    for (const InstructionSet& set : sets)
+        if (set.built) names += fmt::format("{}{}", names.empty() ? "" : ", ", set.name);
+    return fmt::format(
+        "built for processors with {}, which this one lacks: bodies are stepped one at a time, "
+        "slowly; build with -DOILER_KERNELS=all",
+        names);
+}
+
 template <std::floating_point T, int Axes>
-const Kernels<T, Axes>& kernels() {
-    static const Kernels<T, Axes>& chosen = kernels_of<T, Axes>(chosen_set());
+const Kernels<T, Axes>* kernels() {
+    static const Kernels<T, Axes>* const chosen = kernels_of<T, Axes>(chosen_set());
     return chosen;
 }
 
-template const Kernels<float, 1>& kernels();
-template const Kernels<float, 2>& kernels();
-template const Kernels<float, 3>& kernels();
-template const Kernels<double, 1>& kernels();
-template const Kernels<double, 2>& kernels();
-template const Kernels<double, 3>& kernels();
+template const Kernels<float, 1>* kernels();
+template const Kernels<float, 2>* kernels();
+template const Kernels<float, 3>* kernels();
+template const Kernels<double, 1>* kernels();
+template const Kernels<double, 2>* kernels();
+template const Kernels<double, 3>* kernels();
 
 }  // namespace oiler

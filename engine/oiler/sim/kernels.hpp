@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "oiler/sim/columns.hpp"
-#include "oiler/sim/plan.hpp"
+#include "oiler/physics/plan.hpp"
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {
@@ -35,9 +35,11 @@ struct Kernels {
     LinkedKernels<T, Axes> linked;
 };
 
-/// The kernels for the widest registers of this machine, or for those that the environment variable
-/// OILER_INSTRUCTIONS names. Throws Error{usage} where it names none that this machine has.
+/// The kernels for the widest registers of this machine that this build has (OILER_KERNELS), or for
+/// those that the environment variable OILER_INSTRUCTIONS names. Null for the baseline of a build
+/// without kernels for it: rows are then stepped one at a time, to the same bits. Throws
+/// Error{usage} for a name that is none of these.
 template <std::floating_point T, int Axes>
-[[nodiscard]] const Kernels<T, Axes>& kernels();
+[[nodiscard]] const Kernels<T, Axes>* kernels();
 
 }  // namespace oiler

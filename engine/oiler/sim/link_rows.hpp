@@ -16,18 +16,18 @@ template <class Pack, std::size_t Packs>
 constexpr std::size_t lanes_of<Batch<Pack, Packs>> = Batch<Pack, Packs>::lanes;
 
 template <class V, class T>
-[[gnu::always_inline]] inline V load_unaligned(const T* from) {
-    if constexpr (requires { V::load_unaligned(from); })
-        return V::load_unaligned(from);
-    else
+[[gnu::always_inline]] inline V load_from(const T* from) {
+    if constexpr (std::is_same_v<V, T>)
         return *from;
+    else
+        return V::load(from);
 }
 template <class V, class T>
-[[gnu::always_inline]] inline void store_unaligned(const V& value, T* to) {
-    if constexpr (requires { value.store_unaligned(to); })
-        value.store_unaligned(to);
-    else
+[[gnu::always_inline]] inline void store_to(const V& value, T* to) {
+    if constexpr (std::is_same_v<V, T>)
         *to = value;
+    else
+        value.store(to);
 }
 
 /// The forces on each row but for its links.
@@ -70,12 +70,12 @@ template <class V, class T, std::size_t Axes>
                                              std::size_t row) {
     for_lanes<V, T>(
         count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
-            const N inverse = load_unaligned<N>(inverse_mass.data(row + i));
+            const N inverse = load_from<N>(inverse_mass.data(row + i));
             for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
                 T* const at = to[axis].data() + row + i;
-                const N push = load_unaligned<N>(force[axis] + i) * inverse;
-                const N was = load_unaligned<N>(at);
-                store_unaligned<N>(away ? N(was - push) : N(was + push), at);
+                const N push = load_from<N>(force[axis] + i) * inverse;
+                const N was = load_from<N>(at);
+                store_to<N>(away ? N(was - push) : N(was + push), at);
             });
         });
 }
@@ -94,8 +94,8 @@ template <class V, class T, int Axes>
     const auto ends = [&]<class N>(N, const VecColumns<T, Axes>& columns, std::size_t i)
         __attribute__((always_inline)) {
         return Vec<N, Axes>{generate<Axes>([&](auto axis) __attribute__((always_inline)) {
-            return N(load_unaligned<N>(columns[axis].data() + run.of.a + i) -
-                     load_unaligned<N>(columns[axis].data() + run.of.b + i));
+            return N(load_from<N>(columns[axis].data() + run.of.a + i) -
+                     load_from<N>(columns[axis].data() + run.of.b + i));
         })};
     };
     for_lanes_anyhow<V, T>(
@@ -106,7 +106,7 @@ template <class V, class T, int Axes>
                                        ? link.field(d)
                                        : link.accelerate({d, ends(N(T(0)), motion.v, i)});
             for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
-                store_unaligned<N>(f.axis[axis], force[axis].data() + i);
+                store_to<N>(f.axis[axis], force[axis].data() + i);
             });
         });
     std::array<const T*, Axes> from;

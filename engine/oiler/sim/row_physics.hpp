@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "oiler/sim/batch.hpp"
+#include "oiler/math/batch.hpp"
 #include "oiler/sim/columns.hpp"
-#include "oiler/sim/plan.hpp"
+#include "oiler/physics/plan.hpp"
 
 namespace oiler {
 
@@ -62,6 +62,38 @@ template <std::floating_point T>
     return limit;
 }
 
+/// Puts at rest what linear damping has brought below the limit of rest in velocity and
+/// acceleration, on its anchor where it has one: it would go on towards 0 through subnormal
+/// numbers otherwise, for nobody to see. Returns whether anything was so slow. Never inlined: all
+/// methods share it, and few steps need it.
+template <Number V, class T, int Axes>
+[[gnu::noinline]] bool settle_row(const Columns<T, Axes>& columns, std::size_t row,
+                                  State<V, Axes>& state, double t) {
+    const auto forces = forces_of<V>(columns, row);
+    const std::size_t springs = forces.template count<SpringForce>();
+    if (springs + forces.template count<LinearDragForce>() == 0) return false;
+    const T limit = rest_limit<T>(forces.template count<QuadraticDragForce>() > 0);
+    bool creeps = false;
+    for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
+        creeps = creeps || any_creeps(state.v.axis[i], limit);
+    });
+    if (!creeps) return false;
+    const V rate = forces.damping_rate();
+    if (!any_positive(rate)) return false;
+    const Vec<V, Axes> a = forces.accelerate(state, t);
+    const State<V, Axes> was = state;
+    for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
+        const V& v = was.v.axis[i];
+        if (springs > 0) {
+            const V anchor = forces.template get<SpringForce>(0).anchor.axis[i];
+            const V& x = was.x.axis[i];
+            state.x.axis[i] = where_creeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
+        }
+        state.v.axis[i] = where_creeping(v, V(T(0)), rate, limit, v, a.axis[i]);
+    });
+    return true;
+}
+
 /// Where a plan has the forces that depend on velocity.
 template <class Plan>
 [[gnu::always_inline]] constexpr Damping damping_of(const Plan& plan) {
@@ -79,7 +111,11 @@ public:
 
     [[gnu::always_inline]] RowPhysics(const Columns<T, Axes>& columns, std::size_t row,
                                       Damping damping)
-        : forces_(Source(columns, row)), flows_(columns.flows), row_(row), damping_(damping) {}
+        : columns_(columns),
+          forces_(Source(columns, row)),
+          flows_(columns.flows),
+          row_(row),
+          damping_(damping) {}
 
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) {
         ++evaluations_;
@@ -122,32 +158,11 @@ public:
         slow_quadratic(state, plan.half_step);
     }
 
-    /// Puts at rest what linear damping has brought below the limit of rest in velocity and
-    /// acceleration, on its anchor where it has one: it would go on towards 0 through subnormal
-    /// numbers otherwise, for nobody to see.
+    /// See settle_row.
     [[gnu::always_inline]] void settle(State<V, Axes>& state, double t) {
-        const std::size_t springs = forces_.template count<SpringForce>();
-        if (springs + forces_.template count<LinearDragForce>() == 0) return;
-        const T limit = rest_limit<T>(forces_.template count<QuadraticDragForce>() > 0);
-        bool creeps = false;
-        for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
-            creeps = creeps || any_creeps(state.v.axis[i], limit);
-        });
-        if (!creeps) return;
-        const V rate = forces_.damping_rate();
-        if (!any_positive(rate)) return;
-        const Vec<V, Axes> a = forces_.accelerate(state, t);
-        const State<V, Axes> was = state;
-        for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
-            const V& v = was.v.axis[i];
-            if (springs > 0) {
-                const V anchor = forces_.template get<SpringForce>(0).anchor.axis[i];
-                const V& x = was.x.axis[i];
-                state.x.axis[i] =
-                    where_creeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
-            }
-            state.v.axis[i] = where_creeping(v, V(T(0)), rate, limit, v, a.axis[i]);
-        });
+        State<V, Axes> settled = state;
+        if (!settle_row(columns_, row_, settled, t)) return;
+        state = settled;
         field_valid_ = false;
     }
 
@@ -183,11 +198,12 @@ private:
                                                         load<V>(flows_.coil_loss[nth], row_));
     }
 
+    const Columns<T, Axes>& columns_;
     Forces<V, Axes, Source> forces_;
     const Flows<T>& flows_;
     std::size_t row_;
     Damping damping_;
-    Vec<V, Axes> field_;
+    Vec<V, Axes> field_{};
     bool field_valid_ = false;
     std::int64_t evaluations_ = 0;
 };

@@ -4,10 +4,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "oiler/sim/advance.hpp"
+#include "oiler/physics/advance.hpp"
 #include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
-#include "oiler/sim/response.hpp"
+#include "oiler/physics/response.hpp"
 #include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
@@ -15,12 +15,10 @@ namespace {
 
 template <std::floating_point T, int Axes>
 const LinkedKernels<T, Axes>& linked_kernels_of() {
-    if constexpr (std::is_same_v<T, long double>) {
-        static constexpr auto one_by_one = linked_kernels<T, T, Axes>();
-        return one_by_one;
-    } else {
-        return kernels<T, Axes>().linked;
-    }
+    static constexpr auto one_by_one = linked_kernels<T, T, Axes>();
+    if constexpr (!std::is_same_v<T, long double>)
+        if (const Kernels<T, Axes>* const all = kernels<T, Axes>()) return all->linked;
+    return one_by_one;
 }
 
 }  // namespace

@@ -29,17 +29,28 @@ std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size
     return std::nullopt;
 }
 
+/// Never inlined: it is large, and both callers have it for each type and rule.
+template <std::floating_point T, int Axes, class Rule>
+[[gnu::noinline]] bool take_steps_of_row(const Columns<T, Axes>& columns, const Rule& rule,
+                                         const Steps& steps, std::size_t row,
+                                         State<T, Axes>& state, std::int64_t& evaluations) {
+    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
+    const bool found = take_steps(rule, state, physics, steps);
+    evaluations += physics.evaluations();
+    return found;
+}
+
 /// Of a row that diverges in these steps, one step at a time to see in which.
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Rule& rule, Steps steps,
                                  std::size_t row) {
-    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
     State<T, Axes> state = load<T>(columns.motion, row);
+    std::int64_t evaluations = 0;
     const std::int64_t end = steps.first + steps.count;
     steps.count = 1;
     for (; steps.first < end; ++steps.first) {
         const std::int64_t tick = steps.first + 1;
-        if (!take_steps(rule, state, physics, steps))
+        if (!take_steps_of_row(columns, rule, steps, row, state, evaluations))
             return Divergence{tick, row, 0, Divergence::Of::solution};
         if (const auto found = find_divergence(state, row, tick)) return found;
     }
@@ -49,12 +60,12 @@ std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Rule& ru
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_row(Columns<T, Axes>& columns, const Rule& rule, const Steps& steps,
                                    std::size_t row) {
-    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
     State<T, Axes> state = load<T>(columns.motion, row);
-    if (!take_steps(rule, state, physics, steps) || !all_finite(state))
+    std::int64_t evaluations = 0;
+    if (!take_steps_of_row(columns, rule, steps, row, state, evaluations) || !all_finite(state))
         return replay(columns, rule, steps, row);
     store(state, columns.motion, row);
-    if (row == 0) columns.evaluations += physics.evaluations();
+    if (row == 0) columns.evaluations += evaluations;
     return std::nullopt;
 }
 
@@ -99,18 +110,19 @@ std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule&
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_range(Columns<T, Axes>& columns, const Rule& rule,
                                      const Steps& steps, std::size_t begin, std::size_t end) {
-    constexpr bool rows_go_their_own_ways = std::is_same_v<Rule, ImplicitPlan<T>>;
-    if constexpr (std::is_same_v<T, long double> || rows_go_their_own_ways) {
-        return step_one_by_one(columns, rule, steps, begin, end);
-    } else {
-        const Kernels<T, Axes>& all = kernels<T, Axes>();
-        const auto run = [&](auto kernel) {
-            return step_in_batches(columns, rule, steps, begin, end, kernel);
-        };
-        if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) return run(all.splitting);
-        if constexpr (std::is_same_v<Rule, TableauPlan<T>>) return run(all.tableau);
-        if constexpr (std::is_same_v<Rule, ExactPlan<T>>) return run(all.exact);
+    constexpr bool has_kernels =
+        !std::is_same_v<T, long double> && !std::is_same_v<Rule, ImplicitPlan<T>>;
+    if constexpr (has_kernels) {
+        if (const Kernels<T, Axes>* const all = kernels<T, Axes>()) {
+            const auto run = [&](auto kernel) {
+                return step_in_batches(columns, rule, steps, begin, end, kernel);
+            };
+            if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) return run(all->splitting);
+            if constexpr (std::is_same_v<Rule, TableauPlan<T>>) return run(all->tableau);
+            if constexpr (std::is_same_v<Rule, ExactPlan<T>>) return run(all->exact);
+        }
     }
+    return step_one_by_one(columns, rule, steps, begin, end);
 }
 
 /// Below as many steps of rows a team takes longer to call than to do without.

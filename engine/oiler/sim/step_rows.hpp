@@ -1,34 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "oiler/core/team.hpp"
 #include "oiler/sim/columns.hpp"
-#include "oiler/sim/plan.hpp"
-#include "oiler/sim/rate.hpp"
+#include "oiler/physics/plan.hpp"
+#include "oiler/sim/steps.hpp"
 
 namespace oiler {
-
-/// Which steps to take: `count` of them from tick `first` on.
-struct Steps {
-    Rate rate;
-    std::int64_t first = 0;
-    std::int64_t count = 1;
-    /// The method's own where there is none.
-    std::optional<Damping> damping{};
-};
-
-/// Where a run stopped being finite, or an implicit step found no solution.
-struct Divergence {
-    enum class Of { position, velocity, solution };
-
-    std::int64_t tick;  ///< the first after which it was not
-    std::size_t row;
-    int axis;
-    Of of;
-};
 
 /// Steps all rows; their flows are prepared. Each block of rows is loaded into registers, stepped
 /// `count` times and stored, so that a run nobody looks into pays for memory once; one step at a

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "oiler/sim/advance.hpp"
+#include "oiler/physics/advance.hpp"
 #include "oiler/sim/row_physics.hpp"
 #include "oiler/sim/step_rows.hpp"
 

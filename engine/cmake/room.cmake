@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+# Makes the room in whose CMakeLists.txt it is included the library oiler::ROOM, ROOM being the
+# folder's name. From these variables:
+#   sources        its files, relative to the folder; none where it is all headers
+#   rooms          the rooms that its headers include; those are made first
+#   links          libraries that its users link, too
+#   private_links  libraries that only its own files include
+cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME room)
+foreach(below IN LISTS rooms)
+  if(NOT TARGET oiler_${below})
+    add_subdirectory(${OILER_ENGINE}/oiler/${below} ${OILER_ENGINE_BUILD}/${below})
+  endif()
+endforeach()
+list(TRANSFORM rooms PREPEND oiler:: OUTPUT_VARIABLE room_links)
+if(sources)
+  add_library(oiler_${room} STATIC ${sources})
+  target_link_libraries(oiler_${room} PUBLIC oiler::options ${room_links} ${links}
+                                      PRIVATE $<BUILD_INTERFACE:oiler_warnings> ${private_links})
+else()
+  add_library(oiler_${room} INTERFACE)
+  target_link_libraries(oiler_${room} INTERFACE oiler::options ${room_links} ${links})
+endif()
+add_library(oiler::${room} ALIAS oiler_${room})
+set_target_properties(oiler_${room} PROPERTIES EXPORT_NAME ${room})

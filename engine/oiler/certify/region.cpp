@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/certify/region.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "oiler/sim/bodies.hpp"
+#include "oiler/stability/stability.hpp"
+
+namespace oiler::certify {
+namespace {
+
+std::vector<Oscillation> oscillations(const StabilityGrid& grid) {
+    std::vector<Oscillation> cells;
+    for (int row = 0; row < grid.rows; ++row)
+        for (int column = 0; column < grid.columns; ++column) {
+            const double omega = grid.omega_dt_of(column);
+            cells.push_back({omega * omega, 2 * grid.zeta_of(row) * omega});
+        }
+    return cells;
+}
+
+/// The springs of all cells, stepped together. They start small, so that the first steps of the
+/// most unstable do not overflow; one that has grown a millionfold is unbounded. It is put to rest,
+/// as is one that has all but come to rest, since subnormal numbers are slow.
+class Swings {
+public:
+    Swings(const Method& method, Damping damping, const std::vector<Oscillation>& cells,
+           Precision precision)
+        : method_(method),
+          damping_(damping),
+          bodies_(1, precision),
+          omega_(cells.size()),
+          unbounded_(cells.size()) {
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            omega_[i] = std::sqrt(cells[i].k);
+            bodies_.add({.position = {start}, .velocity = {0.7 * start * omega_[i]}},
+                        Spring{.stiffness = cells[i].k, .damping = cells[i].c});
+        }
+    }
+
+    /// The farthest that each comes in so many looks.
+    std::vector<double> farthest(int looks, int least, int spread) {
+        std::vector<double> most(omega_.size());
+        for (int i = 0; i < looks; ++i) {
+            advance(least + 7 * i % spread);
+            for (std::size_t cell = 0; cell < most.size(); ++cell)
+                most[cell] = std::max(most[cell], look(cell));
+        }
+        return most;
+    }
+    [[nodiscard]] bool unbounded(std::size_t cell) const { return unbounded_[cell]; }
+
+private:
+    static constexpr double start = 0x1p-90;
+
+    /// Those that overflow are unbounded, and put to rest where they were before.
+    void advance(int steps) {
+        for (;;) {
+            Bodies after = bodies_;
+            const auto at =
+                after.try_step(method_, {.rate = {1}, .count = steps, .damping = damping_});
+            if (!at) {
+                bodies_ = std::move(after);
+                return;
+            }
+            unbounded_[at->row] = true;
+            bodies_.set_state(at->row, {});
+        }
+    }
+
+    double look(std::size_t cell) {
+        const double x = std::abs(bodies_.position(cell)[0]);
+        const double size = std::max(x, std::abs(bodies_.velocity(cell)[0]) / omega_[cell]);
+        if (size > start * 1e6) unbounded_[cell] = true;
+        if (size > start * 1e6 || size < start * 1e-8) bodies_.set_state(cell, {});
+        return size;
+    }
+
+    const Method& method_;
+    Damping damping_;
+    Bodies bodies_;
+    std::vector<double> omega_;
+    std::vector<bool> unbounded_;
+};
+
+std::vector<bool> bounded(const Method& method, Damping damping,
+                          const std::vector<Oscillation>& cells, Precision precision) {
+    Swings swings(method, damping, cells, precision);
+    // One by one, until hardly any is left that could overflow between two looks.
+    swings.farthest(20, 1, 1);
+    // After 13 to 23 steps each, so that a swing is not caught at the same phases again and again.
+    const std::vector<double> before = swings.farthest(55, 13, 11);
+    const std::vector<double> after = swings.farthest(55, 13, 11);
+    std::vector<bool> found(cells.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        found[i] = !swings.unbounded(i) && after[i] <= 1.05 * before[i];
+    return found;
+}
+
+}  // namespace
+
+double StabilityGrid::omega_dt_of(int column) const { return omega_dt * (column + 0.5) / columns; }
+
+double StabilityGrid::zeta_of(int row) const { return row == 0 ? 0 : zeta * (row + 0.5) / rows; }
+
+std::size_t StabilityGrid::size() const { return static_cast<std::size_t>(columns * rows); }
+
+std::size_t StabilityGrid::index(int column, int row) const {
+    return static_cast<std::size_t>(row * columns + column);
+}
+
+StabilityRegion measure_region(const Method& method, Damping damping, const StabilityGrid& grid) {
+    const std::vector<Oscillation> cells = oscillations(grid);
+    StabilityRegion region{.method = &method,
+                           .damping = damping,
+                           .spectral_radius = {},
+                           .stable = {},
+                           .bounded_double = bounded(method, damping, cells, Precision::double_),
+                           .bounded_float = bounded(method, damping, cells, Precision::single)};
+    for (const StepMatrix& matrix : step_matrices(method, damping, cells)) {
+        region.spectral_radius.push_back(static_cast<double>(spectral_radius(matrix)));
+        region.stable.push_back(is_stable(matrix));
+    }
+    return region;
+}
+
+std::string to_csv(const std::vector<StabilityRegion>& regions, const StabilityGrid& grid) {
+    std::string csv =
+        "method,damping,omega_dt,zeta,spectral_radius,stable,bounded_double,bounded_float\n";
+    const auto digit = [](bool yes) { return yes ? 1 : 0; };
+    for (const StabilityRegion& region : regions)
+        for (int row = 0; row < grid.rows; ++row)
+            for (int column = 0; column < grid.columns; ++column) {
+                const std::size_t i = grid.index(column, row);
+                fmt::format_to(std::back_inserter(csv), "{},{},{:.6g},{:.6g},{:.9g},{},{},{}\n",
+                               region.method->name, name_of(region.damping),
+                               grid.omega_dt_of(column), grid.zeta_of(row),
+                               region.spectral_radius[i], digit(region.stable[i]),
+                               digit(region.bounded_double[i]), digit(region.bounded_float[i]));
+            }
+    return csv;
+}
+
+}  // namespace oiler::certify

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oiler {
+
+/// A JSON value (RFC 8259) that is built and written, never read. Objects keep their members in the
+/// order in which they were added.
+class Json {
+public:
+    /// A member of an object.
+    struct Member;
+
+    /// null
+    Json();
+    Json(std::nullptr_t);
+    Json(bool value);
+    /// The shortest digits that read back to the same bits; null for infinities and NaN, which JSON
+    /// lacks.
+    Json(double value);
+    template <std::integral Integer>
+    Json(Integer value) : text_(std::to_string(value)) {}
+    Json(std::string value);
+    Json(std::string_view value);
+    Json(const char* value);
+    template <class Item>
+    Json(const std::vector<Item>& items) : kind_(Kind::array), items_(items.begin(), items.end()) {}
+    /// An object.
+    Json(std::initializer_list<Member> members);
+
+    [[nodiscard]] static Json array(std::initializer_list<Json> items = {});
+
+    void push_back(Json item);
+    /// The member of that name, null where the object lacked it.
+    Json& operator[](std::string_view name);
+
+    /// The number of items or members.
+    [[nodiscard]] std::size_t size() const { return items_.size(); }
+    [[nodiscard]] bool empty() const { return items_.empty(); }
+
+    enum class Characters {
+        utf8,
+        ascii,  ///< all others as \uXXXX
+    };
+    /// The text, `indent` spaces more on each level, or on one line if negative. Bytes that are not
+    /// UTF-8 become U+FFFD.
+    [[nodiscard]] std::string dump(int indent, Characters characters = Characters::utf8) const;
+
+private:
+    enum class Kind { literal, string, array, object };
+
+    void append_to(std::string& text, int indent, int level, Characters characters) const;
+
+    Kind kind_ = Kind::literal;
+    std::string text_;                ///< of a literal, or a string without its quotes
+    std::vector<std::string> names_;  ///< of an object's members
+    std::vector<Json> items_;         ///< of an array, or the members' values
+};
+
+struct Json::Member {
+    std::string_view name;
+    Json value;
+};
+
+}  // namespace oiler

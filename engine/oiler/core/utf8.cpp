@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/core/utf8.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr char32_t replacement = 0xFFFD;
+
+/// Bytes that follow a lead byte; -1 for a byte that cannot lead.
+int continuation_bytes(unsigned char lead) {
+    if (lead < 0x80) return 0;
+    if (lead >= 0xC2 && lead < 0xE0) return 1;
+    if (lead >= 0xE0 && lead < 0xF0) return 2;
+    if (lead >= 0xF0 && lead < 0xF5) return 3;
+    return -1;
+}
+
+bool well_formed(char32_t code, int continuations) {
+    constexpr char32_t least[] = {0, 0x80, 0x800, 0x10000};
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    return code >= least[continuations] && code <= 0x10FFFF && !surrogate;
+}
+
+/// Takes the first code point off `text`.
+char32_t take(std::string_view& text) {
+    const auto lead = static_cast<unsigned char>(text.front());
+    const int more = continuation_bytes(lead);
+    text.remove_prefix(1);
+    if (more <= 0) {
+        return more == 0 ? lead : replacement;
+    }
+    char32_t code = lead & (0x3FU >> static_cast<unsigned>(more));
+    for (int i = 0; i < more; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U) {
+            return replacement;
+        }
+        code = (code << 6U) | (static_cast<unsigned char>(text[at]) & 0x3FU);
+    }
+    if (!well_formed(code, more)) {
+        return replacement;
+    }
+    text.remove_prefix(static_cast<std::size_t>(more));
+    return code;
+}
+
+}  // namespace
+
+std::u32string decode_utf8(std::string_view text) {
+    std::u32string codes;
+    while (!text.empty()) {
+        codes.push_back(take(text));
+    }
+    return codes;
+}
+
+}  // namespace oiler

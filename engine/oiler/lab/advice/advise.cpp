@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/advice/advise.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/advice/search.hpp"
+
+namespace oiler::lab {
+namespace {
+
+constexpr std::size_t most_contenders = 8;
+constexpr int timing_rounds = 9;
+
+/// Each method's best in each precision, in the order of `rows`.
+std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) {
+    std::vector<TradeoffRow> kept;
+    for (const TradeoffRow& row : rows) {
+        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TradeoffRow& one) {
+            return one.stepping.method == row.stepping.method &&
+                   one.stepping.precision == row.stepping.precision;
+        });
+        if (is_new && kept.size() < most_contenders) kept.push_back(row);
+    }
+    return kept;
+}
+
+/// Makes an advice of what a search has found.
+class Conclusion {
+public:
+    Conclusion(const Scene& scene, const Reference& reference, const Wish& wish, Search& search)
+        : scene_(scene), reference_(reference), wish_(wish), search_(search) {}
+
+    Advice run(const std::function<bool()>& stopped) {
+        const bool found = wish_.has_tolerance() && !search_.good_rows().empty();
+        front_ = contenders_among(found ? search_.good_rows() : search_.nearest_rows());
+        if (why_not(scene_, Settings{scene_.stepping}).empty())
+            advice_.today = search_.try_choice(scene_.stepping);
+        for (const Method* method : obvious_methods()) consider(*method);
+        time(stopped);
+        const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
+            return a.ns_per_second < b.ns_per_second;
+        };
+        if (found) std::stable_sort(front_.begin(), front_.end(), by_time);
+        choose();
+        if (advice_.best) explain();
+        advice_.runs = search_.runs();
+        return std::move(advice_);
+    }
+
+private:
+    /// At the highest rate that costs no more than the best.
+    void consider(const Method& method) {
+        const auto& asked = wish_.methods;
+        if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
+        Alternative alternative{.method = &method};
+        Stepping choice{&method, {search_.rates().front()}, Precision::double_};
+        alternative.why = why_not(scene_, Settings{choice});
+        if (alternative.why.empty()) {
+            const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
+            for (const std::int64_t rate : search_.rates())
+                if (search_.cost_of({&method, {rate}, Precision::double_}) <= cost)
+                    choice.rate.steps = rate;
+            alternative.row = search_.try_choice(choice);
+        }
+        advice_.alternatives.push_back(std::move(alternative));
+    }
+    [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
+        const Judgement& judgement = row.judgement;
+        const double times = row.ns_per_second / advice_.best->ns_per_second;
+        const std::int64_t rate = row.stepping.rate.steps;
+        std::string text =
+            times > 1.1 ? fmt::format("already at {} Hz it costs {:.3g} times as much", rate, times)
+                        : fmt::format("for the same time it could run at {} Hz", rate);
+        if (!judgement.stable)
+            return fmt::format("for the same time it could run at {} Hz, where it is unstable",
+                               rate);
+        if (!wish_.has_tolerance())
+            return text + fmt::format(", and is off by up to {:.3g} m", judgement.position_error);
+        if (search_.good(row)) return text + ", and is good enough, too";
+        const double off = excess(judgement, wish_);
+        text += fmt::format(", and is {:.3g} times too far off", off);
+        const bool falls = judgement.position_error < wild * reference_.extent;
+        if (falls && row.meets_steps && row.stepping.method->order != exact_order)
+            text += fmt::format(
+                "; it would need some {:.2g} Hz",
+                static_cast<double>(rate) * std::pow(off, 1.0 / row.stepping.method->order));
+        return text;
+    }
+    /// Leaves out what is the advice itself, or the runner-up.
+    void explain() {
+        const auto named = [&](const Alternative& alternative) {
+            const bool is_best = alternative.method == advice_.best->stepping.method;
+            return is_best ||
+                   (advice_.runner_up && alternative.method == advice_.runner_up->stepping.method);
+        };
+        std::erase_if(advice_.alternatives, named);
+        for (Alternative& alternative : advice_.alternatives)
+            if (alternative.row) alternative.why = why_worse(*alternative.row);
+    }
+
+    void time(const std::function<bool()>& stopped) {
+        std::vector<TradeoffRow*> rows;
+        for (TradeoffRow& row : front_) rows.push_back(&row);
+        if (advice_.today) rows.push_back(&*advice_.today);
+        for (Alternative& alternative : advice_.alternatives)
+            if (alternative.row) rows.push_back(&*alternative.row);
+        SweepWatch watch;
+        watch.stopped = stopped;
+        time_rows(scene_, rows, timing_rounds, watch);
+    }
+
+    [[nodiscard]] bool in_time(const TradeoffRow& row) const {
+        return !wish_.ns_per_second || row.ns_per_second <= *wish_.ns_per_second;
+    }
+    void choose() {
+        if (front_.empty()) {
+            advice_.obstacles.push_back(wish_.ns_per_second && !wish_.has_tolerance()
+                                            ? "the time: nothing that is stable takes so little"
+                                            : "no method is stable at any rate that was asked for");
+            return;
+        }
+        std::stable_partition(front_.begin(), front_.end(),
+                              [&](const TradeoffRow& row) { return in_time(row); });
+        advice_.best = front_.front();
+        for (const TradeoffRow& row : front_)
+            if (row.stepping.method != advice_.best->stepping.method && !advice_.runner_up)
+                advice_.runner_up = row;
+        const bool near = lab::meets(advice_.best->judgement, wish_);
+        advice_.meets = near && in_time(*advice_.best);
+        if (!in_time(*advice_.best))
+            advice_.obstacles.push_back(fmt::format(
+                "the time: nothing that is as accurate takes less than {:.3g} µs per frame",
+                advice_.best->ns_per_second / 60'000));
+        if (!near) add_rounding_and_rates();
+    }
+    void add_rounding_and_rates() {
+        const std::vector<TradeoffRow> nearest = search_.nearest_rows();
+        for (const Precision precision : {Precision::single, Precision::double_}) {
+            const auto rounding = search_.too_coarse_float();
+            if (precision == Precision::single && rounding) {
+                advice_.obstacles.push_back(
+                    fmt::format("in float rounding alone moves bodies by {:.3g} m", *rounding));
+                continue;
+            }
+            const auto row = std::find_if(nearest.begin(), nearest.end(), [&](const auto& one) {
+                return one.stepping.precision == precision;
+            });
+            if (row == nearest.end()) continue;
+            advice_.obstacles.push_back(fmt::format(
+                "in {} nothing comes nearer than {}, with {:.3g} times the {} that is asked for: "
+                "higher rates, up to {} Hz, only round more often or are too much work",
+                name_of(precision), words_of(row->stepping), excess(row->judgement, wish_),
+                wish_.position_error ? "error" : "energy drift", search_.rates().back()));
+        }
+    }
+
+    const Scene& scene_;
+    const Reference& reference_;
+    const Wish& wish_;
+    Search& search_;
+    std::vector<TradeoffRow> front_;
+    Advice advice_;
+};
+
+}  // namespace
+
+void require_judgeable(const Scene& scene, const Reference& reference, const Wish& wish) {
+    if (reference.meaningful < reference.looks.count)
+        fail(Exit::usage,
+             "errors on this scene mean nothing after {:.4g} s of {:.4g}: {}; give --duration "
+             "{:.4g}",
+             reference.meaningful_until(), scene.duration, reference.why_no_longer,
+             reference.meaningful_until());
+    const Doubt floor = reference.floor();
+    const auto require = [](const std::optional<double>& wanted, double least, const char* what,
+                            const char* unit) {
+        if (wanted && *wanted < least)
+            fail(Exit::usage,
+                 "a {} of {:g}{} cannot be judged: errors below {:.2g}{} cannot be told, a hundred "
+                 "times the reference's own; ask for less, or give a shorter --duration",
+                 what, *wanted, unit, least, unit);
+    };
+    require(wish.position_error, floor.position, "position error", " m");
+    require(wish.energy_drift, floor.energy, "energy drift", "");
+}
+
+bool meets(const Judgement& judgement, const Wish& wish, double slack) {
+    return judgement.stable && excess(judgement, wish) <= 1 - slack;
+}
+
+double wanted_of(const Wish& wish) {
+    // Energies go with positions; a sharper one is refused where it cannot be judged.
+    return wish.position_error ? *wish.position_error / 100 : 0;
+}
+
+Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
+              const SweepWatch& watch) {
+    require_judgeable(scene, reference, wish);
+    Search search(scene, reference, wish, watch);
+    search.run();
+    if (watch.stopped()) return {};
+    return Conclusion(scene, reference, wish, search).run(watch.stopped);
+}
+
+}  // namespace oiler::lab

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/advice/json.hpp"
+
+#include "oiler/lab/sweep/json.hpp"
+
+namespace oiler::lab {
+namespace {
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json with_frame(const TradeoffRow& row) {
+    Json json = lab::json_of(row);
+    json["us_per_frame"] = number_or_null(row.ns_per_second / 60'000);
+    return json;
+}
+
+Json with_frame(const std::optional<TradeoffRow>& row) {
+    return row ? with_frame(*row) : Json(nullptr);
+}
+
+Json alternatives_of(const Advice& advice) {
+    Json list = Json::array();
+    for (const Alternative& alternative : advice.alternatives) {
+        Json one = alternative.row ? with_frame(*alternative.row)
+                                   : Json{{"method", alternative.method->name}};
+        one["why"] = alternative.why;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+}  // namespace
+
+Json json_of(const Advice& advice, const Scene& scene, const Reference& reference,
+             const Wish& wish) {
+    const Doubt floor = reference.floor();
+    return {{"meets", advice.meets},
+            {"advice", with_frame(advice.best)},
+            {"runner_up", with_frame(advice.runner_up)},
+            {"today", with_frame(advice.today)},
+            {"alternatives", alternatives_of(advice)},
+            {"obstacles", advice.obstacles},
+            {"wish",
+             {{"position_error", optional_number(wish.position_error)},
+              {"energy_drift", optional_number(wish.energy_drift)},
+              {"us_per_frame", wish.ns_per_second ? Json(*wish.ns_per_second / 60'000) : Json()}}},
+            {"reference",
+             {{"words", reference.words},
+              {"closed_form", reference.closed_form},
+              {"position_floor", floor.position},
+              {"energy_floor", floor.energy},
+              {"meaningful_until", reference.meaningful_until()}}},
+            {"runs", advice.runs},
+            {"words", words_of(advice, scene, reference, wish)}};
+}
+
+}  // namespace oiler::lab

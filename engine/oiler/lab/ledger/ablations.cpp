@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "oiler/core/require.hpp"
+#include "oiler/lab/ledger/parts.hpp"
+#include "oiler/scene/grid.hpp"
+
+namespace oiler::lab {
+namespace {
+
+/// More than so many springs and attractors are not left out one by one, nor any where all those
+/// worlds together had more bodies.
+constexpr std::size_t most_parts = 48;
+constexpr std::int64_t most_part_bodies = 100'000;
+
+template <class F>
+void for_each_matter(Scene& scene, F f) {
+    for (SceneBody& body : scene.bodies) f(body.matter);
+    for (SceneGrid& grid : scene.grids) f(grid.matter);
+    for (SceneScatter& scatter : scene.scatters) f(scatter.matter);
+}
+
+std::string_view kind_of(const SceneSpring& spring) {
+    if (spring.to) return "links";
+    return spring.rest_length > 0 ? "coil_spring" : "spring";
+}
+
+void remove_springs(Scene& scene, std::string_view kind) {
+    std::erase_if(scene.springs,
+                  [&](const SceneSpring& spring) { return kind_of(spring) == kind; });
+}
+
+/// The nodes of a grid as bodies of the scene, and the springs on which they hang, without those
+/// between them. Bodies come before grids, so that with all grids so taken apart rows stay.
+void take_apart(Scene& scene, const SceneGrid& grid) {
+    const std::size_t first = scene.bodies.size();
+    for (std::int64_t row = 0; row < grid.count[1]; ++row)
+        for (std::int64_t column = 0; column < grid.count[0]; ++column)
+            scene.bodies.push_back({.matter = grid.matter,
+                                    .position = node_position(grid, column, row),
+                                    .velocity = grid.velocity});
+    for (const std::size_t node : hung_nodes(grid))
+        scene.springs.push_back({.body = first + node,
+                                 .anchor = scene.bodies[first + node].position,
+                                 .stiffness = grid.stiffness,
+                                 .damping = grid.damping});
+}
+
+void leave_out_links(Scene& scene) {
+    remove_springs(scene, "links");
+    for (const SceneGrid& grid : scene.grids) take_apart(scene, grid);
+    scene.grids.clear();
+}
+
+const ForceWords& words_of(std::string_view force) {
+    const auto& all = force_words();
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const ForceWords& words) { return words.name == force; });
+    require(found != all.end(), "the ledger knows every force");
+    return *found;
+}
+
+class Leavings {
+public:
+    explicit Leavings(const Scene& scene) : scene_(scene) {}
+
+    std::vector<Leaving> run(const std::vector<std::string_view>& forces, bool linked) {
+        Scene bare = scene_;
+        for (const std::string_view force : forces) {
+            const ForceWords& words = words_of(force);
+            add(words.words, "", force, words.leave_out);
+            words.leave_out(bare);
+        }
+        if (linked) {
+            add(links_words, "", "links", leave_out_links);
+            leave_out_links(bare);
+        }
+        all_.push_back({"", "", "moving", std::move(bare)});
+        add_parts();
+        return std::move(all_);
+    }
+
+private:
+    static constexpr std::string_view links_words = "springs between bodies";
+
+    template <class Change>
+    void add(std::string_view words, std::string_view part_of, std::string_view pass,
+             const Change& change) {
+        all_.push_back({std::string(words), std::string(part_of), std::string(pass), scene_});
+        change(all_.back().scene);
+    }
+    void add_parts() {
+        const std::size_t parts = 2 * scene_.springs.size() + scene_.attractors.size();
+        if (parts > most_parts ||
+            static_cast<std::int64_t>(parts) * scene_.body_count() > most_part_bodies)
+            return;
+        for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
+        for (std::size_t i = 0; i < scene_.grids.size(); ++i) add_grid(i);
+        for (std::size_t i = 0; i < scene_.attractors.size(); ++i)
+            add(fmt::format("[[attractor]] {}", i + 1), words_of("attractor").words, "",
+                [&](Scene& scene) {
+                    scene.attractors.erase(scene.attractors.begin() + signed_of(i));
+                });
+    }
+    void add_spring(std::size_t i) {
+        const SceneSpring& spring = scene_.springs[i];
+        const std::string& name = scene_.bodies[spring.body].name;
+        const std::string words = fmt::format("[[spring]] {} (of \"{}\")", i + 1, name);
+        const std::string_view kind = kind_of(spring);
+        add(words, kind == "links" ? links_words : words_of(kind).words, "",
+            [&](Scene& scene) { scene.springs.erase(scene.springs.begin() + signed_of(i)); });
+        if (spring.damping > 0)
+            add("`damping` of " + words, words, "",
+                [&](Scene& scene) { scene.springs[i].damping = 0; });
+    }
+    void add_grid(std::size_t i) {
+        if (scene_.grids[i].damping > 0)
+            add(fmt::format("`damping` of [[grid]] {}", i + 1), links_words, "",
+                [&](Scene& scene) { scene.grids[i].damping = 0; });
+    }
+    static std::ptrdiff_t signed_of(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+    const Scene& scene_;
+    std::vector<Leaving> all_;
+};
+
+}  // namespace
+
+const std::vector<ForceWords>& force_words() {
+    static const std::vector<ForceWords> all{
+        {"gravity",
+         "gravity",
+         {"acceleration"},
+         "[gravity]",
+         [](Scene& scene) { scene.gravity.reset(); }},
+        {"spring",
+         "springs",
+         {"anchor", "stiffness", "damping"},
+         "anchored [[spring]] without `rest_length`, `hang` of [[grid]]",
+         [](Scene& scene) {
+             remove_springs(scene, "spring");
+             for (SceneGrid& grid : scene.grids) grid.hang = Hang::none;
+         }},
+        {"linear_drag",
+         "linear drag",
+         {"linear_drag"},
+         "`linear_drag`",
+         [](Scene& scene) {
+             for_each_matter(scene, [](SceneMatter& matter) { matter.linear_drag = 0; });
+         }},
+        {"quadratic_drag",
+         "quadratic drag",
+         {"quadratic_drag"},
+         "`quadratic_drag`",
+         [](Scene& scene) {
+             for_each_matter(scene, [](SceneMatter& matter) { matter.quadratic_drag = 0; });
+         }},
+        {"coil_spring",
+         "coil springs",
+         {"anchor", "stiffness", "damping", "rest_length"},
+         "anchored [[spring]] with `rest_length`",
+         [](Scene& scene) { remove_springs(scene, "coil_spring"); }},
+        {"attractor",
+         "attractors",
+         {"position", "gm"},
+         "[[attractor]]",
+         [](Scene& scene) { scene.attractors.clear(); }},
+    };
+    return all;
+}
+
+std::vector<Leaving> leavings(const Scene& scene, const std::vector<std::string_view>& forces,
+                              bool linked) {
+    return Leavings(scene).run(forces, linked);
+}
+
+}  // namespace oiler::lab

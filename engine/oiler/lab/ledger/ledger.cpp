@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/ledger/ledger.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "oiler/core/require.hpp"
+#include "oiler/lab/ledger/parts.hpp"
+#include "oiler/scene/make_world.hpp"
+
+namespace oiler::lab {
+namespace {
+
+/// About so long is timed at once.
+constexpr double seconds_at_once = 0.02;
+
+/// Raises a flag for what has no effect; none for part of a thing that has none itself.
+class Flags {
+public:
+    Flags(Ledger& ledger, const Comparison& comparison)
+        : ledger_(ledger), comparison_(comparison) {}
+
+    void raise(const std::vector<Leaving>& leavings) {
+        for (std::size_t i = 0; i < leavings.size(); ++i)
+            if (leavings[i].pass != "moving") raise(leavings[i], comparison_.without[i]);
+    }
+    void raise_for_axes(const Scene& scene, std::size_t bytes_per_number) {
+        const Vec3& moved = comparison_.moved;
+        if (std::all_of(moved.axis.begin(), moved.axis.end(), [](double by) { return by == 0; })) {
+            ledger_.flags.push_back(fmt::format(
+                "nothing moves in {} steps: give a body a `velocity` or a force that acts",
+                comparison_.steps));
+            return;
+        }
+        for (int axis = 0; axis < scene.axes; ++axis)
+            if (moved[axis] == 0)
+                ledger_.flags.push_back(
+                    fmt::format("nothing moves along {} in {} steps, at {} bytes per body: fewer "
+                                "`axes` would do, but for the picture",
+                                "xyz"[axis], comparison_.steps, 2 * bytes_per_number));
+    }
+    void raise_for_dampers(const Scene& scene) {
+        for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+            const SceneSpring& spring = scene.springs[i];
+            if (!spring.to && spring.rest_length == 0 && spring.stiffness == 0 &&
+                spring.damping > 0)
+                ledger_.flags.push_back(fmt::format(
+                    "[[spring]] {} (of \"{}\") has `stiffness` 0 and only damps: write {} as "
+                    "`linear_drag` of the body",
+                    i + 1, scene.bodies[spring.body].name, spring.damping));
+        }
+    }
+
+private:
+    void raise(const Leaving& leaving, const Fared& fared) {
+        const bool said = said_.count(leaving.part_of) == 1;
+        if (!said && (fared.diverged || fared.change > 0)) return;
+        said_.insert(leaving.words);
+        if (!said)
+            ledger_.flags.push_back(fmt::format("{} changes nothing in {} steps: leave it out",
+                                                leaving.words, comparison_.steps));
+    }
+
+    Ledger& ledger_;
+    const Comparison& comparison_;
+    std::set<std::string> said_;
+};
+
+/// What of a leaving is known without a clock.
+LedgerPass pass_of(const Leaving& leaving, const Fared& fared) {
+    LedgerPass pass{.name = leaving.pass};
+    if (fared.diverged)
+        pass.diverged = fared.diverged;
+    else if (leaving.pass != "moving")
+        pass.changes_position = fared.change;
+    return pass;
+}
+
+/// Times the whole scene twice, and the scene without each pass.
+void time_passes(Ledger& ledger, const Scene& scene, const std::vector<const Scene*>& without,
+                 const LedgerProgress& progress) {
+    std::vector<const Scene*> scenes{&scene, &scene};
+    std::vector<LedgerPass*> timed;
+    for (std::size_t i = 0; i < without.size(); ++i)
+        if (!ledger.passes[i].diverged) {
+            scenes.push_back(without[i]);
+            timed.push_back(&ledger.passes[i]);
+        }
+    std::vector<double> ns = race(scenes, ledger.timed_steps, progress);
+    const double body_steps = static_cast<double>(ledger.bodies * ledger.timed_steps);
+    for (double& time : ns) time *= 1e9 / body_steps;
+    ledger.ns = std::min(ns[0], ns[1]);
+    ledger.noise_ns = std::abs(ns[0] - ns[1]);
+    for (std::size_t i = 0; i < timed.size(); ++i) {
+        LedgerPass& pass = *timed[i];
+        if (pass.name == "moving") {
+            pass.ns = ns[i + 2];
+            continue;
+        }
+        pass.saves_ns = ledger.ns - ns[i + 2];
+        pass.saves_percent = 100 * pass.saves_ns / ledger.ns;
+        pass.ns = std::max(0.0, pass.saves_ns);
+    }
+}
+
+}  // namespace
+
+Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress) {
+    require(steps >= 2, "a ledger takes two steps at least");
+    Ledger ledger;
+    const World world = make_world(scene, Settings{scene.stepping});
+    const auto forces = enter_columns(ledger, world.bodies());
+    if (ledger.bodies == 0) return ledger;
+    const std::vector<Leaving> all = leavings(scene, forces, ledger.links > 0);
+    const Comparison comparison = compare(scene, all, steps, progress);
+    ledger.steps = comparison.steps;
+    ledger.looks = comparison.looks;
+    ledger.diverged = comparison.diverged;
+    std::vector<const Scene*> without;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].pass.empty()) continue;
+        ledger.passes.push_back(comparison.diverged ? LedgerPass{.name = all[i].pass}
+                                                    : pass_of(all[i], comparison.without[i]));
+        without.push_back(&all[i].scene);
+    }
+    if (ledger.diverged) return ledger;
+    Flags flags(ledger, comparison);
+    flags.raise(all);
+    flags.raise_for_dampers(scene);
+    flags.raise_for_axes(scene, ledger.columns.front().bytes);
+    const double at_once = seconds_at_once * static_cast<double>(all.size() + 1);
+    ledger.timed_steps = std::clamp<std::int64_t>(
+        std::llround(at_once / comparison.seconds_per_step), 1, ledger.steps - 1);
+    time_passes(ledger, scene, without, progress);
+    return ledger;
+}
+
+}  // namespace oiler::lab

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/ledger/parts.hpp"
+#include "oiler/scene/make_world.hpp"
+
+namespace oiler::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Of all worlds together; a step of few bodies takes as long as one of `block`.
+constexpr double most_body_steps = 1.5e9;
+constexpr double block = 16;
+/// So many bodies are held against each other in all.
+constexpr double most_compared_bodies = 4e7;
+constexpr double most_comparing_seconds = 10;
+constexpr double timing_seconds = 2.5;
+constexpr int most_rounds = 1000;
+constexpr int fewest_rounds = 3;
+/// Which part of all that there is to do comes before timing.
+constexpr double comparing_share = 0.6;
+
+/// Steps a world that may diverge.
+class Rival {
+public:
+    explicit Rival(const Scene& scene) : world_(make_world(scene, Settings{scene.stepping})) {
+        world_.require_applicable();
+    }
+
+    void step(std::int64_t count) try {
+        if (!diverged_) world_.step(count);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) throw;
+        diverged_ = error.what();
+    }
+    [[nodiscard]] const Bodies& bodies() const { return world_.bodies(); }
+    [[nodiscard]] const std::optional<std::string>& diverged() const { return diverged_; }
+
+private:
+    World world_;
+    std::optional<std::string> diverged_;
+};
+
+class Comparing {
+public:
+    Comparing(const Scene& scene, const std::vector<Leaving>& leavings)
+        : whole_(scene), start_(whole_.bodies()) {
+        rivals_.reserve(leavings.size());
+        for (const Leaving& leaving : leavings) rivals_.emplace_back(leaving.scene);
+        result_.without.resize(leavings.size());
+    }
+
+    Comparison run(std::int64_t wanted, const LedgerProgress& progress) {
+        const std::int64_t steps = std::min(wanted, most_steps());
+        const std::int64_t stride = (steps + most_looks() - 1) / most_looks();
+        const auto started = Clock::now();
+        const auto goes_on = [&] {
+            return result_.steps < 2 || seconds_since(started) < most_comparing_seconds;
+        };
+        while (result_.steps < steps && !whole_.diverged() && goes_on()) {
+            advance(std::min({stride, steps - result_.steps, affordable(seconds_since(started))}));
+            progress(comparing_share * static_cast<double>(result_.steps) /
+                     static_cast<double>(steps));
+        }
+        result_.seconds_per_step = seconds_since(started) / static_cast<double>(result_.steps);
+        result_.diverged = whole_.diverged();
+        for (std::size_t i = 0; i < rivals_.size(); ++i)
+            result_.without[i].diverged = rivals_[i].diverged();
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] double worlds() const { return static_cast<double>(rivals_.size() + 1); }
+    [[nodiscard]] double bodies() const { return static_cast<double>(start_.size()); }
+
+    [[nodiscard]] std::int64_t most_steps() const {
+        const double most = most_body_steps / worlds() / std::max(bodies(), block);
+        return std::max<std::int64_t>(2, std::llround(most));
+    }
+    [[nodiscard]] std::int64_t most_looks() const {
+        const double most = most_compared_bodies / worlds() / std::max(bodies(), block);
+        return std::max<std::int64_t>(1, std::llround(most));
+    }
+
+    /// Steps that take about a second, where those so far took `seconds`.
+    [[nodiscard]] std::int64_t affordable(double seconds) const {
+        const double steps = static_cast<double>(result_.steps) / std::max(seconds, 1e-9);
+        return std::max<std::int64_t>(1, std::llround(steps));
+    }
+
+    void advance(std::int64_t count) {
+        whole_.step(count);
+        result_.steps += count;
+        if (whole_.diverged()) return;
+        ++result_.looks;
+        const Vec3 along = whole_.bodies().apart_from(start_).along;
+        for (int axis = 0; axis < 3; ++axis)
+            result_.moved[axis] = std::max(result_.moved[axis], along[axis]);
+        for (std::size_t i = 0; i < rivals_.size(); ++i) advance(rivals_[i], i, count);
+    }
+    void advance(Rival& rival, std::size_t i, std::int64_t count) {
+        rival.step(count);
+        if (rival.diverged()) return;
+        double& change = result_.without[i].change;
+        change = std::max(change, whole_.bodies().apart_from(rival.bodies()).distance);
+    }
+
+    Rival whole_;
+    Bodies start_;
+    std::vector<Rival> rivals_;
+    Comparison result_;
+};
+
+}  // namespace
+
+Comparison compare(const Scene& scene, const std::vector<Leaving>& leavings, std::int64_t steps,
+                   const LedgerProgress& progress) {
+    return Comparing(scene, leavings).run(steps, progress);
+}
+
+std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t steps,
+                         const LedgerProgress& progress) {
+    std::vector<World> starts;
+    for (const Scene* scene : scenes) {
+        starts.push_back(make_world(*scene, Settings{scene->stepping}));
+        starts.back().step();
+    }
+    std::vector<double> least(starts.size(), INFINITY);
+    const auto started = Clock::now();
+    for (int round = 0; round < most_rounds; ++round) {
+        const double share = seconds_since(started) / timing_seconds;
+        if (round >= fewest_rounds && share >= 1) break;
+        progress(comparing_share + (1 - comparing_share) * std::min(1.0, share));
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            World world = starts[i];
+            const auto start = Clock::now();
+            world.step(steps);
+            least[i] = std::min(least[i], seconds_since(start));
+        }
+    }
+    return least;
+}
+
+}  // namespace oiler::lab

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/path.hpp"
+
+#include <algorithm>
+
+namespace oiler::lab {
+
+double Path::at(std::size_t i, double s) const {
+    const double rise = x[i] - x[i - 1];
+    if (v.empty()) return x[i - 1] + s * rise;
+    const double dt = t[i] - t[i - 1];
+    const double a = v[i - 1] * dt;
+    const double b = v[i] * dt;
+    return x[i - 1] + s * (a + s * ((3 * rise - 2 * a - b) + s * (a + b - 2 * rise)));
+}
+
+double Path::crossing(std::size_t i, double level) const {
+    double low = 0;
+    double high = 1;
+    const bool up = x[i] > x[i - 1];
+    for (int k = 0; k < 60; ++k) {
+        const double middle = (low + high) / 2;
+        ((at(i, middle) < level) == up ? low : high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+// By golden sections.
+double Path::summit(std::size_t i) const {
+    constexpr double golden = 0.6180339887498949;
+    double low = 0;
+    double high = 1;
+    for (int k = 0; k < 80; ++k) {
+        const double a = high - golden * (high - low);
+        const double b = low + golden * (high - low);
+        (at(i, a) < at(i, b) ? low : high) = at(i, a) < at(i, b) ? a : b;
+    }
+    return (low + high) / 2;
+}
+
+Peak highest(const Path& path, std::size_t from, std::size_t to) {
+    Peak peak{path.t[from], path.x[from]};
+    for (std::size_t i = std::max<std::size_t>(1, from); i < to; ++i) {
+        if (path.x[i] > peak.x) peak = {path.t[i], path.x[i]};
+        if (path.v.empty() || !(path.v[i - 1] > 0 && path.v[i] <= 0)) continue;
+        const double s = path.summit(i);
+        if (path.at(i, s) > peak.x) peak = {path.time(i, s), path.at(i, s)};
+    }
+    return peak;
+}
+
+Path turned(Path path) {
+    for (double& x : path.x) x = -x;
+    for (double& v : path.v) v = -v;
+    return path;
+}
+
+std::vector<double> upward_crossings(const Path& path, double level, double band) {
+    std::vector<double> at;
+    bool was_below = false;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        was_below = was_below || path.x[i - 1] < level - band;
+        if (!was_below || !(path.x[i - 1] < level && path.x[i] >= level)) continue;
+        at.push_back(path.time(i, path.crossing(i, level)));
+        was_below = false;
+    }
+    return at;
+}
+
+Path path_of(const Track& track, const Looks& looks, std::size_t row, int axis) {
+    Path path;
+    for (std::int64_t look = 0; look < looks.count; ++look) {
+        const State<long double, 3>& state = track.at(look, row);
+        path.t.push_back(looks.time(look));
+        path.x.push_back(static_cast<double>(state.x[axis]));
+        path.v.push_back(static_cast<double>(state.v[axis]));
+    }
+    return path;
+}
+
+}  // namespace oiler::lab

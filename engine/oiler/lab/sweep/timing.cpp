@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/tradeoff.hpp"
+
+namespace oiler::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t frames_per_second = 60;
+/// Long enough for a clock of some tens of ns.
+constexpr double shortest = 100e-6;  // s
+/// Of a frame at a high rate no more steps are taken: each costs what the others do.
+constexpr std::int64_t most_steps_at_once = 256;
+
+/// Of a call, in s: what takes longer by far than calling is called with fewer steps.
+constexpr double longest_call = 50e-3;
+
+double seconds_of(World& world, std::int64_t steps) {
+    const Clock::time_point begin = Clock::now();
+    if (world.try_step(steps)) return unknown;
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+    const double at = share * static_cast<double>(sorted.size() - 1);
+    const auto low = static_cast<std::size_t>(at);
+    const double high = sorted[std::min(low + 1, sorted.size() - 1)];
+    return sorted[low] + (high - sorted[low]) * (at - static_cast<double>(low));
+}
+
+}  // namespace
+
+// Runs start over when the scene ends, since what is stable up to then may not be afterwards.
+double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t at_once) try {
+    World start = make_world(scene, Settings{choice});
+    if (start.try_step()) return unknown;
+    if (at_once > 1) {
+        World probe = start;
+        const double first = seconds_of(probe, 1);
+        const double most = longest_call / std::min(first, seconds_of(probe, 1));
+        if (most < static_cast<double>(at_once))
+            at_once = std::max<std::int64_t>(1, std::llround(most));
+    }
+    const auto last = std::max<std::int64_t>(
+        1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
+    double seconds = 0;
+    std::int64_t steps = 0;
+    while (seconds < shortest) {
+        World world = start;
+        while (world.tick() + at_once <= last && seconds < shortest)
+            seconds += seconds_of(world, at_once);
+        steps += world.tick() - start.tick();
+    }
+    return 1e9 * seconds / static_cast<double>(steps);
+} catch (const Error&) {
+    return unknown;
+}
+
+std::int64_t steps_at_once(std::int64_t rate) {
+    return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_at_once);
+}
+
+double time_once(const Scene& scene, const Stepping& choice) {
+    return ns_per_step(scene, choice, steps_at_once(choice.rate.steps)) *
+           static_cast<double>(choice.rate.steps);
+}
+
+void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
+               const SweepWatch& watch) {
+    std::vector<TradeoffRow*> stable;
+    for (TradeoffRow* row : rows)
+        if (row->judgement.stable) stable.push_back(row);
+    std::vector<std::vector<double>> times(stable.size());
+    const auto all = static_cast<double>(stable.size()) * rounds;
+    double done = 0;
+    for (int round = 0; round < rounds; ++round)
+        for (std::size_t i = 0; i < stable.size(); ++i) {
+            if (watch.stopped()) return;
+            times[i].push_back(time_once(scene, stable[i]->stepping));
+            watch.progress(++done / all);
+        }
+    for (std::size_t i = 0; i < stable.size(); ++i) {
+        std::sort(times[i].begin(), times[i].end());
+        stable[i]->ns_per_second = quantile(times[i], 0.5);
+        stable[i]->ns_spread = (quantile(times[i], 0.75) - quantile(times[i], 0.25)) / 2;
+    }
+}
+
+}  // namespace oiler::lab

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/sweep/tradeoff.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/convergence.hpp"
+
+namespace oiler::lab {
+namespace {
+
+class Climb {
+public:
+    Climb(Ladder& ladder, const Scene& scene, const Reference& reference, const SweepPlan& plan,
+          const Work& work, const std::vector<std::int64_t>& rungs)
+        : ladder_(ladder),
+          scene_(scene),
+          reference_(reference),
+          plan_(plan),
+          work_(work),
+          rungs_(rungs) {}
+
+    /// Leaves the ladder as it was where it was stopped.
+    void run(const std::function<bool()>& stopped) {
+        std::vector<TradeoffRow> rows;
+        std::string end = why_not(scene_, Settings{choice(rungs_.front())});
+        const double work_per_hertz =
+            work_.per_step(*ladder_.method) * reference_.meaningful_until();
+        Descent descent;
+        for (const std::int64_t rate : rungs_) {
+            if (!end.empty()) break;
+            if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
+                end = "a run at higher rates is too much work";
+                break;
+            }
+            rows.push_back(
+                {.stepping = choice(rate),
+                 .judgement = judge(scene_, Settings{choice(rate)}, reference_, stopped),
+                 .meets_steps = reference_.looks.meet_steps(rate)});
+            if (stopped()) return;
+            const Judgement& judgement = rows.back().judgement;
+            if (judgement.below_floor()) end = "the reference cannot tell smaller errors";
+            if (!judgement.stable || !rows.back().meets_steps) continue;
+            descent.take(judgement.position_error);
+            if (descent.ended() && end.empty()) end = "round-off keeps errors from falling";
+        }
+        ladder_.rows = std::move(rows);
+        ladder_.end = end.empty() ? "no higher rates were asked for" : end;
+        ladder_.done = true;
+    }
+
+private:
+    [[nodiscard]] Stepping choice(std::int64_t rate) const {
+        return {ladder_.method, {rate}, ladder_.precision};
+    }
+
+    Ladder& ladder_;
+    const Scene& scene_;
+    const Reference& reference_;
+    const SweepPlan& plan_;
+    const Work& work_;
+    const std::vector<std::int64_t>& rungs_;
+};
+
+/// Calls task(i, stopped) for each i below `count`, until one throws: then all stop, and so does
+/// this.
+template <class Task>
+void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop, Task task) {
+    std::atomic<std::size_t> next = 0;
+    std::atomic<bool> failed = false;
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const std::function<bool()> stopped = [&] { return failed || asked_to_stop(); };
+    const auto work = [&] {
+        try {
+            for (std::size_t i = next++; i < count && !stopped(); i = next++) task(i, stopped);
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            failed = true;
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(work);
+        work();
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+std::int64_t max_rate_of(const SweepPlan& plan, const Looks& looks) {
+    constexpr std::int64_t highest = 1'000'000;
+    return plan.max_rate > 0 ? plan.max_rate : std::min(highest, 1024 * looks.per_second);
+}
+
+}  // namespace
+
+bool Tradeoff::complete() const {
+    return std::all_of(ladders.begin(), ladders.end(),
+                       [](const Ladder& ladder) { return ladder.done; });
+}
+
+bool Tradeoff::timed() const {
+    const auto all = rows();
+    return std::all_of(all.begin(), all.end(), [](const TradeoffRow* row) {
+        return !row->judgement.stable || !std::isnan(row->ns_per_second);
+    });
+}
+
+std::vector<const TradeoffRow*> Tradeoff::rows() const {
+    std::vector<const TradeoffRow*> all;
+    for (const Ladder& ladder : ladders)
+        for (const TradeoffRow& row : ladder.rows) all.push_back(&row);
+    return all;
+}
+
+const TradeoffRow* Tradeoff::find(const Stepping& choice) const {
+    for (const TradeoffRow* row : rows())
+        if (row->stepping == choice) return row;
+    return nullptr;
+}
+
+ReferenceSummary summary(const Reference& reference) {
+    const Doubt& own = reference.doubts[static_cast<std::size_t>(reference.meaningful - 1)];
+    return {.words = reference.words,
+            .closed_form = reference.closed_form,
+            .position_error = own.position,
+            .velocity_error = own.velocity,
+            .floor = reference.floor(),
+            .extent = reference.extent,
+            .meaningful_until = reference.meaningful_until(),
+            .why_no_longer = reference.why_no_longer,
+            .period = reference.swing ? reference.swing->period : unknown};
+}
+
+std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
+    std::vector<const TradeoffRow*> rows;
+    for (const TradeoffRow* row : tradeoff.rows())
+        if (row->judgement.stable && std::isfinite(cost(*row))) rows.push_back(row);
+    const auto error = [](const TradeoffRow* row) {
+        return row->judgement.below_floor() ? 0 : row->judgement.position_error;
+    };
+    std::stable_sort(rows.begin(), rows.end(), [&](const TradeoffRow* a, const TradeoffRow* b) {
+        return std::pair(cost(*a), error(a)) < std::pair(cost(*b), error(b));
+    });
+    std::vector<const TradeoffRow*> front;
+    for (const TradeoffRow* row : rows)
+        if (front.empty() || error(row) < error(front.back())) front.push_back(row);
+    return front;
+}
+
+std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks, std::int64_t max_rate) {
+    std::set<std::int64_t> all;
+    for (std::int64_t rate = 1; rate < looks.per_second; ++rate)
+        if (looks.per_second % rate == 0) all.insert(rate);
+    for (std::int64_t rate = looks.per_second; rate <= max_rate; rate *= 2) {
+        all.insert(rate);
+        if (rate > looks.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
+    }
+    all.erase(all.upper_bound(max_rate), all.end());
+    all.insert(scene.stepping.rate.steps);
+    return {all.begin(), all.end()};
+}
+
+Tradeoff start_tradeoff(const Scene& scene, const Looks& looks, const Reference& reference,
+                        const SweepPlan& plan) {
+    Tradeoff tradeoff{.scene = {},
+                      .title = scene.title,
+                      .fingerprint = {},
+                      .duration = scene.duration,
+                      .today = scene.stepping,
+                      .looks = looks,
+                      .reference = summary(reference),
+                      .machines = {this_machine()}};
+    for (const Method* method : plan.methods)
+        for (const Precision precision : plan.precisions)
+            tradeoff.ladders.push_back({.method = method, .precision = precision});
+    return tradeoff;
+}
+
+void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
+           const SweepPlan& plan, const SweepWatch& watch) {
+    const std::vector<std::int64_t> rates =
+        rungs(scene, tradeoff.looks, max_rate_of(plan, tradeoff.looks));
+    std::vector<std::size_t> open;
+    for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
+         i += static_cast<std::size_t>(plan.shards))
+        if (!tradeoff.ladders[i].done) open.push_back(i);
+    const Work work(scene);
+    double all = 0;
+    for (const std::size_t i : open) all += work.per_step(*tradeoff.ladders[i].method);
+    double done = 0;
+    std::mutex mutex;
+    on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
+        Ladder ladder = tradeoff.ladders[open[at]];
+        Climb(ladder, scene, reference, plan, work, rates).run(stopped);
+        if (!ladder.done) return;
+        const std::lock_guard lock(mutex);
+        done += work.per_step(*ladder.method);
+        tradeoff.ladders[open[at]] = std::move(ladder);
+        watch.ladder_done(tradeoff);
+        watch.progress(done / all);
+    });
+}
+
+Tradeoff merge(const std::vector<Tradeoff>& parts) {
+    Tradeoff whole = parts.front();
+    for (const Tradeoff& part : parts) {
+        if (part.fingerprint != whole.fingerprint || part.ladders.size() != whole.ladders.size())
+            fail(Exit::usage,
+                 "the parts are not of one sweep: the scene, the options or the version differ");
+        for (const Machine& machine : part.machines)
+            if (std::find(whole.machines.begin(), whole.machines.end(), machine) ==
+                whole.machines.end())
+                whole.machines.push_back(machine);
+        for (std::size_t i = 0; i < part.ladders.size(); ++i)
+            if (part.ladders[i].done) whole.ladders[i] = part.ladders[i];
+    }
+    const auto missing = std::count_if(whole.ladders.begin(), whole.ladders.end(),
+                                       [](const Ladder& ladder) { return !ladder.done; });
+    if (missing > 0)
+        fail(Exit::usage,
+             "{} of {} methods and precisions are in none of the parts: give all parts", missing,
+             whole.ladders.size());
+    return whole;
+}
+
+}  // namespace oiler::lab

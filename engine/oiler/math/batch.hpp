@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/math/pack.hpp"
+#include "oiler/math/vec.hpp"
+
+namespace oiler {
+
+/// Several bodies' numbers as one Number: a few SIMD registers of one width, so that the additions
+/// of one hide the latency of the others'. No result depends on width or number: lanes never meet.
+template <class PackOfNumbers, std::size_t Packs>
+class Batch {
+public:
+    using Pack = PackOfNumbers;
+    using T = typename Pack::value_type;
+    static constexpr std::size_t packs = Packs;
+    static constexpr std::size_t lanes = packs * Pack::lanes;
+
+    Batch() = default;
+    [[gnu::always_inline]] Batch(T everywhere)
+        : pack_(generate<packs>([&](auto) { return Pack(everywhere); })) {}
+
+    /// `lanes` numbers from any address.
+    [[gnu::always_inline]] static Batch load(const T* from) {
+        return Batch(generate<packs>([&](auto i) { return Pack::load(from + i * Pack::lanes); }));
+    }
+    [[gnu::always_inline]] void store(T* to) const {
+        for_each_index<packs>([&](auto i) { pack_[i].store(to + i * Pack::lanes); });
+    }
+
+    [[gnu::always_inline]] friend Batch operator+(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) { return a.pack_[i] + b.pack_[i]; }));
+    }
+    [[gnu::always_inline]] friend Batch operator-(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) { return a.pack_[i] - b.pack_[i]; }));
+    }
+    [[gnu::always_inline]] friend Batch operator*(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) { return a.pack_[i] * b.pack_[i]; }));
+    }
+    [[gnu::always_inline]] friend Batch operator/(const Batch& a, const Batch& b) {
+        return Batch(generate<packs>([&](auto i) { return a.pack_[i] / b.pack_[i]; }));
+    }
+    [[gnu::always_inline]] friend Batch operator-(const Batch& a) {
+        return Batch(generate<packs>([&](auto i) { return -a.pack_[i]; }));
+    }
+    [[gnu::always_inline]] friend Batch sqrt(const Batch& a) {
+        return Batch(generate<packs>([&](auto i) { return sqrt(a.pack_[i]); }));
+    }
+    /// a/b, and 0 in the lanes where b is 0.
+    [[gnu::always_inline]] friend Batch quotient_or_zero(const Batch& a, const Batch& b) {
+        return quotient_where_not(b, a, b);
+    }
+    /// a/b, and 0 in the lanes where a is 0.
+    [[gnu::always_inline]] friend Batch quotient_unless_nothing(const Batch& a, const Batch& b) {
+        return quotient_where_not(a, a, b);
+    }
+    /// `instead` in the lanes where `v` is less than `limit` in size but not 0, each of `sizes` is
+    /// less too, and `rate` is positive.
+    template <class... Sizes>
+    [[gnu::always_inline]] friend Batch where_creeping(const Batch& value, const Batch& instead,
+                                                       const Batch& rate, T limit, const Batch& v,
+                                                       const Sizes&... sizes) {
+        return Batch(generate<packs>([&](auto i) {
+            const auto less = ((abs(sizes.pack_[i]) < Pack(limit)) & ... &
+                               creeps(v.pack_[i], limit));
+            const auto positive = rate.pack_[i] > Pack(T(0));
+            return Pack::select(less & positive, instead.pack_[i], value.pack_[i]);
+        }));
+    }
+    /// Whether `v` is less than `limit` in size but not 0 in any lane.
+    [[gnu::always_inline]] friend bool any_creeps(const Batch& v, T limit) {
+        auto any = creeps(v.pack_[0], limit);
+        for_each_index<packs - 1>([&](auto i) __attribute__((always_inline)) {
+            any |= creeps(v.pack_[i + 1], limit);
+        });
+        return Pack::any(any);
+    }
+    [[gnu::always_inline]] friend bool any_positive(const Batch& a) {
+        bool any = false;
+        for_each_index<packs>([&](auto i) { any = any || Pack::any(a.pack_[i] > Pack(T(0))); });
+        return any;
+    }
+    /// Whether the sum over the registers is finite in all lanes: where it is, all numbers are.
+    [[gnu::always_inline]] friend bool is_finite(const Batch& a) {
+        Pack total = a.pack_[0];
+        for_each_index<packs - 1>([&](auto i) { total = total + a.pack_[i + 1]; });
+        return !Pack::any(total - total != Pack(T(0)));
+    }
+
+private:
+    [[gnu::always_inline]] static auto creeps(const Pack& v, T limit) {
+        return (abs(v) < Pack(limit)) & (v != Pack(T(0)));
+    }
+    [[gnu::always_inline]] static Batch quotient_where_not(const Batch& zero, const Batch& a,
+                                                           const Batch& b) {
+        return Batch(generate<packs>([&](auto i) {
+            return Pack::select(zero.pack_[i] == Pack(T(0)), Pack(T(0)), a.pack_[i] / b.pack_[i]);
+        }));
+    }
+
+    [[gnu::always_inline]] explicit Batch(const std::array<Pack, packs>& pack) : pack_(pack) {}
+
+    std::array<Pack, packs> pack_;
+};
+
+template <class Pack, std::size_t Packs>
+struct ScalarOf<Batch<Pack, Packs>> {
+    using type = typename Pack::value_type;
+};
+
+}  // namespace oiler

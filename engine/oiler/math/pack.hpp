@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace oiler {
+
+/// The vector type of g++ and clang; of a class of its own, since g++ takes an alias of a dependent
+/// vector type for its element's type.
+template <class T, std::size_t Bytes>
+struct VectorOf {
+    using type [[gnu::vector_size(Bytes)]] = T;
+};
+
+/// One SIMD register of `Bytes` bytes as numbers of type T, through the vector types of g++ and
+/// clang: std::experimental::simd does the same, takes several times as long to compile, and is
+/// missing from libc++.
+template <class T, std::size_t Bytes>
+class Pack {
+public:
+    using value_type = T;
+    using Register = typename VectorOf<T, Bytes>::type;
+    /// All bits of a lane are set where a comparison holds.
+    using Mask = decltype(Register{} < Register{});
+
+    static constexpr std::size_t lanes = Bytes / sizeof(T);
+
+    Pack() = default;
+    [[gnu::always_inline]] Pack(Register lanes_given) : register_(lanes_given) {}
+    [[gnu::always_inline]] explicit Pack(T everywhere) : register_(everywhere - Register{}) {}
+
+    /// From any address; an aligned one costs no more.
+    [[gnu::always_inline]] static Pack load(const T* from) {
+        Register lanes_read;
+        std::memcpy(&lanes_read, from, Bytes);
+        return lanes_read;
+    }
+    [[gnu::always_inline]] void store(T* to) const { std::memcpy(to, &register_, Bytes); }
+
+    [[gnu::always_inline]] friend Pack operator+(Pack a, Pack b) {
+        return a.register_ + b.register_;
+    }
+    [[gnu::always_inline]] friend Pack operator-(Pack a, Pack b) {
+        return a.register_ - b.register_;
+    }
+    [[gnu::always_inline]] friend Pack operator*(Pack a, Pack b) {
+        return a.register_ * b.register_;
+    }
+    [[gnu::always_inline]] friend Pack operator/(Pack a, Pack b) {
+        return a.register_ / b.register_;
+    }
+    [[gnu::always_inline]] friend Pack operator-(Pack a) { return -a.register_; }
+
+    [[gnu::always_inline]] friend Mask operator<(Pack a, Pack b) {
+        return a.register_ < b.register_;
+    }
+    [[gnu::always_inline]] friend Mask operator>(Pack a, Pack b) {
+        return a.register_ > b.register_;
+    }
+    [[gnu::always_inline]] friend Mask operator==(Pack a, Pack b) {
+        return a.register_ == b.register_;
+    }
+    [[gnu::always_inline]] friend Mask operator!=(Pack a, Pack b) {
+        return a.register_ != b.register_;
+    }
+    /// `a` in the lanes where the mask holds, `b` in the others.
+    [[gnu::always_inline]] static Pack select(Mask mask, Pack a, Pack b) {
+        return mask ? a.register_ : b.register_;
+    }
+
+    /// Whether the mask holds in any lane.
+    [[gnu::always_inline]] static bool any(Mask mask) {
+        std::array<std::uint64_t, Bytes / sizeof(std::uint64_t)> words;
+        std::memcpy(words.data(), &mask, Bytes);
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : words) all |= word;
+        return all != 0;
+    }
+
+    [[gnu::always_inline]] friend Pack abs(Pack a) {
+        return select(a < Pack(T(0)), -a, a);
+    }
+    [[gnu::always_inline]] friend Pack sqrt(Pack a) {
+        for (std::size_t i = 0; i < lanes; ++i) a.register_[i] = std::sqrt(a.register_[i]);
+        return a;
+    }
+
+private:
+    Register register_;
+};
+
+}  // namespace oiler

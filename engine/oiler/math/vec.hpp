@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace oiler {
+
+/// What the physics is written over: float and double for a reader, long double for a reference, a
+/// Batch of bodies for the run. One text serves them all.
+template <class V>
+concept Number = requires(V a, V b) {
+    { a + b } -> std::convertible_to<V>;
+    { a - b } -> std::convertible_to<V>;
+    { a* b } -> std::convertible_to<V>;
+    { a / b } -> std::convertible_to<V>;
+    { -a } -> std::convertible_to<V>;
+};
+
+/// What a Number is made of: the type that the time step and a method's coefficients have.
+template <class V>
+struct ScalarOf {
+    using type = V;
+};
+template <class V>
+using Scalar = typename ScalarOf<V>::type;
+
+/// Calls `f` with 0, 1, … N−1 as compile-time constants and gathers what it returns. Unlike a loop
+/// it leaves no indexed array behind, so that optimisers keep the elements in registers.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr auto generate(F f) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        return std::array{f(std::integral_constant<std::size_t, I>{})...};
+    }
+    (std::make_index_sequence<N>{});
+}
+
+/// Calls `f` with 0, 1, … N−1 as compile-time constants.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr void for_each_index(F f) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        (f(std::integral_constant<std::size_t, I>{}), ...);
+    }
+    (std::make_index_sequence<N>{});
+}
+
+/// The same for a number of times that is a compile-time constant, and a loop for one that is not.
+template <std::size_t N, class F>
+[[gnu::always_inline]] constexpr void repeat(std::integral_constant<std::size_t, N>, F f) {
+    for_each_index<N>(f);
+}
+template <class F>
+[[gnu::always_inline]] constexpr void repeat(std::size_t count, F f) {
+    for (std::size_t i = 0; i < count; ++i) f(i);
+}
+
+/// A position, velocity or acceleration with one Number for each axis.
+template <Number V, int Axes>
+struct Vec {
+    std::array<V, Axes> axis;
+
+    constexpr V& operator[](int i) { return axis[static_cast<std::size_t>(i)]; }
+    constexpr const V& operator[](int i) const { return axis[static_cast<std::size_t>(i)]; }
+
+    [[gnu::always_inline]] friend constexpr Vec operator+(const Vec& a, const Vec& b) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] + b.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator-(const Vec& a, const Vec& b) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] - b.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator-(const Vec& a) {
+        return {generate<Axes>([&](auto i) { return V(-a.axis[i]); })};
+    }
+    [[gnu::always_inline]] friend constexpr Vec operator*(const Vec& a, const V& s) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] * s); })};
+    }
+    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+};
+
+inline constexpr std::string_view axis_names = "xyz";
+
+/// What a user hands over and gets back, whatever the axes and the precision of the columns; axes
+/// that a world does not have are zero.
+using Vec3 = Vec<double, 3>;
+
+/// Summed from the first axis to the last.
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr V dot(const Vec<V, Axes>& a, const Vec<V, Axes>& b) {
+    V sum = a[0] * b[0];
+    if constexpr (Axes > 1) sum = sum + a[1] * b[1];
+    if constexpr (Axes > 2) sum = sum + a[2] * b[2];
+    return sum;
+}
+
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr V squared_length(const Vec<V, Axes>& a) {
+    return dot(a, a);
+}
+
+/// to += what·s: all that a kick or a drift does.
+template <Number V, int Axes>
+[[gnu::always_inline]] constexpr void add_scaled(Vec<V, Axes>& to, const Vec<V, Axes>& what,
+                                                 Scalar<V> s) {
+    to = to + what * V(s);
+}
+
+/// The larger one, and NaN where either is.
+template <std::floating_point T>
+[[nodiscard]] constexpr T larger(T a, T b) {
+    return b > a || b != b ? b : a;
+}
+
+template <std::floating_point T, int Axes>
+[[nodiscard]] T largest(const Vec<T, Axes>& a) {
+    T size = 0;
+    for (const T& number : a.axis) size = larger(size, std::abs(number));
+    return size;
+}
+
+/// a/b, and 0 where b is 0.
+template <std::floating_point T>
+[[gnu::always_inline]] constexpr T quotient_or_zero(T a, T b) {
+    return b == 0 ? T(0) : a / b;
+}
+
+/// a/b, and 0 where a is 0, whatever b is.
+template <std::floating_point T>
+[[gnu::always_inline]] constexpr T quotient_unless_nothing(T a, T b) {
+    return a == 0 ? T(0) : a / b;
+}
+
+template <std::floating_point T>
+[[nodiscard]] bool is_finite(T number) {
+    return std::isfinite(number);
+}
+
+template <std::floating_point T>
+[[nodiscard]] bool any_positive(T number) {
+    return number > 0;
+}
+
+template <std::floating_point T>
+[[nodiscard]] bool any_creeps(T v, T limit) {
+    return std::abs(v) < limit && v != 0;
+}
+
+/// `instead` where `v` is less than `limit` in size but not 0, each of `sizes` is less too, and
+/// `rate` is positive.
+template <std::floating_point T, class... Sizes>
+[[nodiscard]] T where_creeping(T value, T instead, T rate, T limit, T v, Sizes... sizes) {
+    return (any_creeps(v, limit) && ... && (std::abs(sizes) < limit)) && rate > 0 ? instead : value;
+}
+
+}  // namespace oiler

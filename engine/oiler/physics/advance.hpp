@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "oiler/physics/plan.hpp"
+#include "oiler/physics/state.hpp"
+
+namespace oiler {
+
+// The methods, each written once: over one body or a batch of them (State and RowPhysics), or over
+// all bodies that links couple (MotionColumns and LinkedRows). A reader or a test hands over any
+// type with `accelerate(state, t)`; the engine's two add what their methods need beyond that.
+
+/// What treats damping apart from the kicks.
+template <class Physics, class State>
+concept Flowing = requires(Physics& physics, State& state, double t) {
+    physics.kick(state, t);
+};
+
+/// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
+/// whatever drag is not linear.
+template <SplitsSteps Plan, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+                                           double t) {
+    constexpr bool flowing = Flowing<Physics, State>;
+    if constexpr (flowing) physics.slow_before(state, plan);
+    repeat(
+        plan.count, [&](auto i) __attribute__((always_inline)) {
+            const auto& stage = plan.stages[i];
+            if (stage.move == Move::kick) {
+                if constexpr (flowing)
+                    add_scaled(state.v, physics.kick(state, t), stage.tau);
+                else
+                    add_scaled(state.v, physics.accelerate(state, t), stage.tau);
+            } else {
+                if constexpr (flowing)
+                    physics.drift(state, stage.flow, stage.tau);
+                else
+                    add_scaled(state.x, state.v, stage.tau);
+                t += static_cast<double>(stage.tau);
+            }
+        });
+    if constexpr (flowing) physics.slow_after(state, plan);
+}
+
+/// The rates of change at some state: the article's Derivative.
+template <class State>
+struct Derivative {
+    decltype(State::v) dx;
+    decltype(State::v) dv;
+};
+
+/// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
+/// any tableau. Each stage is where the rates of change before it lead, each for its own part of
+/// dt.
+template <IsTableau Plan, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+                                           double t) {
+    std::array<Derivative<State>, Tableau::most_stages> k;
+    const State initial = state;
+    repeat(
+        plan.count, [&](auto i) __attribute__((always_inline)) {
+            State at = initial;
+            repeat(
+                i, [&](auto j) __attribute__((always_inline)) {
+                    if (!plan.uses(i, j)) return;
+                    add_scaled(at.x, k[j].dx, plan.a[i][j]);
+                    add_scaled(at.v, k[j].dv, plan.a[i][j]);
+                });
+            k[i] = {at.v, physics.accelerate(at, t + plan.c[i])};
+            if (plan.b[i] == 0) return;
+            add_scaled(state.x, k[i].dx, plan.b[i]);
+            add_scaled(state.v, k[i].dv, plan.b[i]);
+        });
+}
+
+inline constexpr int most_iterations = 64;
+
+/// One step of an implicit method from time `t` (s): Newton's iteration for the velocity w of the
+/// stage, w = v + τ·a(x + τ·w, w). It ends where a change is lost in the roundings of w, or, once
+/// small, no longer halves. Returns whether it did.
+template <std::floating_point T, class State, class Physics>
+[[nodiscard]] bool advance(const ImplicitPlan<T>& plan, State& state, Physics& physics, double t) {
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    const double stage_t = t + static_cast<double>(plan.tau);
+    State at = state;
+    T before = std::numeric_limits<T>::infinity();
+    for (int i = 0; i < most_iterations; ++i) {
+        at.x = state.x;
+        add_scaled(at.x, at.v, plan.tau);
+        auto residual = at.v;
+        add_scaled(residual, state.v, T(-1));
+        add_scaled(residual, physics.accelerate(at, stage_t), -plan.tau);
+        const auto change = physics.solve(at, plan.tau, residual);
+        add_scaled(at.v, change, T(-1));
+        const T size = largest(change);
+        const T scale = largest(at.v) + largest(state.v) + std::numeric_limits<T>::min() / epsilon;
+        if (!std::isfinite(size)) return false;
+        const bool small = size <= std::sqrt(epsilon) * (scale + largest(at.x) / plan.tau);
+        if (size <= epsilon * scale || (small && size > before / 2)) {
+            add_scaled(state.x, at.v, plan.dt);
+            add_scaled(at.v, state.v, T(-1));
+            add_scaled(state.v, at.v, 1 / plan.a);
+            return true;
+        }
+        before = size;
+    }
+    return false;
+}
+
+/// One step along the exact motion under forces that are linear.
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const ExactPlan<T>&, State& state, Physics& physics,
+                                           double t) {
+    physics.respond(state, t);
+}
+
+/// One step of any explicit method over one state: what a reader or a test calls.
+template <std::floating_point T, int Axes, class Physics>
+void advance(const Plan<T>& plan, State<T, Axes>& state, Physics& physics, double t) {
+    if (const auto* splitting = std::get_if<SplittingPlan<T>>(&plan))
+        advance(*splitting, state, physics, t);
+    else
+        advance(std::get<TableauPlan<T>>(plan), state, physics, t);
+}
+
+}  // namespace oiler

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/physics/closed_forms.hpp"
+
+#include <cmath>
+
+namespace oiler {
+namespace {
+
+/// γ < ω0: x = e^(−γt)·(x0·cos ωt + (v0 + γx0)·sin ωt / ω).
+template <class T>
+Motion<T> underdamped(T gamma, T stiffness, T omega, Motion<T> start, T t) {
+    const T decay = std::exp(-gamma * t);
+    const T c = std::cos(omega * t);
+    const T s = std::sin(omega * t) / omega;
+    return {decay * (start.x * c + (start.v + gamma * start.x) * s),
+            decay * (start.v * c - (stiffness * start.x + gamma * start.v) * s)};
+}
+
+/// γ ≥ ω0, with δ = √(γ² − ω0²) and the rates of decay fast = γ + δ and slow = ω0²/fast, which
+/// unlike γ − δ does not cancel: x = x0·e^(−slow·t) + (v0 + slow·x0)·(e^(−slow·t) −
+/// e^(−fast·t))/2δ.
+template <class T>
+Motion<T> overdamped(T gamma, T stiffness, T delta, Motion<T> start, T t) {
+    const T fast = gamma + delta;
+    const T slow = fast > 0 ? stiffness / fast : T(0);
+    const T slow_decay = std::exp(-slow * t);
+    const T fast_decay = std::exp(-fast * t);
+    const T spread = 2 * delta;
+    const T difference = spread > 0 ? -std::expm1(-spread * t) / spread : t;
+    const T w = start.v + slow * start.x;
+    const T x = slow_decay * (start.x + w * difference);
+    return {x, w * fast_decay - slow * x};
+}
+
+/// (1 − e^(−z))/z, 1 at 0.
+template <class T>
+T phi1(T z) {
+    return z == 0 ? T(1) : -std::expm1(-z) / z;
+}
+
+/// (z − 1 + e^(−z))/z², ½ at 0; by its series where the formula would cancel.
+template <class T>
+T phi2(T z) {
+    if (std::abs(z) > T(1)) return (z + std::expm1(-z)) / (z * z);
+    T term = T(0.5);
+    T sum = term;
+    for (int n = 3; n < 30; ++n) {
+        term *= -z / static_cast<T>(n);
+        sum += term;
+    }
+    return sum;
+}
+
+}  // namespace
+
+template <class T>
+Motion<T> constant_acceleration(Motion<T> start, T acceleration, T t) {
+    return {start.x + start.v * t + acceleration * t * t / 2, start.v + acceleration * t};
+}
+
+template <class T>
+Motion<T> damped_oscillator(T m, T k, T b, Motion<T> start, T t) {
+    const T gamma = b / (2 * m);
+    const T stiffness = k / m;
+    const T omega0 = std::sqrt(stiffness);
+    const T discriminant = (omega0 - gamma) * (omega0 + gamma);
+    return discriminant > 0 ? underdamped(gamma, stiffness, std::sqrt(discriminant), start, t)
+                            : overdamped(gamma, stiffness, std::sqrt(-discriminant), start, t);
+}
+
+template <class T>
+Motion<T> linear_drag_motion(Motion<T> start, T acceleration, T c, T t) {
+    const T z = c * t;
+    return {start.x + start.v * t * phi1(z) + acceleration * t * t * phi2(z),
+            start.v * std::exp(-z) + acceleration * t * phi1(z)};
+}
+
+template <class T>
+Motion<T> quadratic_fall(T g, T c, T t) {
+    const T terminal = std::sqrt(g / c);
+    const T z = g * t / terminal;
+    return {-(z + std::log1p(std::exp(-2 * z)) - std::log(T(2))) / c, -terminal * std::tanh(z)};
+}
+
+template <class T>
+State<T, 2> orbit(T gm, T distance, T speed, T t) {
+    const T a = 1 / (2 / distance - speed * speed / gm);
+    const T e = 1 - distance / a;
+    const T n = std::sqrt(gm / a) / a;
+    // Newton's iteration for E − e·sin E = M from above, where it cannot overshoot (Danby, 1988).
+    const T mean = n * t;
+    T eccentric = mean + e;
+    for (int i = 0; i < 64; ++i)
+        eccentric -= (eccentric - e * std::sin(eccentric) - mean) / (1 - e * std::cos(eccentric));
+    const T minor = a * std::sqrt((1 - e) * (1 + e));
+    const T rate = n / (1 - e * std::cos(eccentric));
+    return {{a * (std::cos(eccentric) - e), minor * std::sin(eccentric)},
+            {-a * rate * std::sin(eccentric), minor * rate * std::cos(eccentric)}};
+}
+
+template <class T>
+bool circles(T gm, const State<T, 3>& state) {
+    const T distance = std::sqrt(squared_length(state.x));
+    const T inverse_a = 2 / distance - squared_length(state.v) / gm;
+    const T along = dot(state.x, state.v);
+    const T twice_area = distance * distance * squared_length(state.v) - along * along;
+    const T flatness = twice_area * inverse_a / gm;  // 1 − e²
+    return distance > 0 && inverse_a > 0 && flatness > T(0.002);
+}
+
+template <class T>
+State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
+    const T distance = std::sqrt(squared_length(start.x));
+    const T a = 1 / (2 / distance - squared_length(start.v) / gm);
+    const T n = std::sqrt(gm / a) / a;
+    const T shape = 1 - distance / a;
+    const T slant = dot(start.x, start.v) / std::sqrt(gm * a);
+    // How far the eccentric anomaly went, within 3 of the mean one: Newton's iteration, and
+    // bisection where that leaves what is known.
+    T low = n * t - 3;
+    T high = n * t + 3;
+    T turned = n * t;
+    for (int i = 0; i < 100; ++i) {
+        const T miss = turned - shape * std::sin(turned) + slant * (1 - std::cos(turned)) - n * t;
+        (miss > 0 ? high : low) = turned;
+        const T next = turned - miss / (1 - shape * std::cos(turned) + slant * std::sin(turned));
+        if (next == turned) break;
+        turned = next > low && next < high ? next : (low + high) / 2;
+    }
+    const T versine = 1 - std::cos(turned);
+    const T f = 1 - a / distance * versine;
+    const T g = t - (turned - std::sin(turned)) / n;
+    const Vec<T, 3> x = start.x * f + start.v * g;
+    const T now = std::sqrt(squared_length(x));
+    const T f_rate = -std::sqrt(gm * a) / (now * distance) * std::sin(turned);
+    return {x, start.x * f_rate + start.v * (1 - a / now * versine)};
+}
+
+template bool circles(long double, const State<long double, 3>&);
+template State<long double, 3> kepler(long double, const State<long double, 3>&, long double);
+template Motion<double> constant_acceleration(Motion<double>, double, double);
+template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);
+template Motion<double> linear_drag_motion(Motion<double>, double, double, double);
+template Motion<double> quadratic_fall(double, double, double);
+template State<double, 2> orbit(double, double, double, double);
+template Motion<long double> quadratic_fall(long double, long double, long double);
+template State<long double, 2> orbit(long double, long double, long double, long double);
+template Motion<long double> constant_acceleration(Motion<long double>, long double, long double);
+template Motion<long double> damped_oscillator(long double, long double, long double,
+                                               Motion<long double>, long double);
+template Motion<long double> linear_drag_motion(Motion<long double>, long double, long double,
+                                                long double);
+
+}  // namespace oiler

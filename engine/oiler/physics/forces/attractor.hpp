@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "oiler/physics/forces/direction.hpp"
+#include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/state.hpp"
+
+namespace oiler {
+
+/// A point that attracts like a planet: acceleration −gm·d/|d|³, d = x − centre, whatever the
+/// body's mass. Not a number at the centre. |d|³ must be one: 10⁻¹² < |d| < 10¹² m in float.
+template <Number V, int Axes>
+struct AttractorForce {
+    Vec<V, Axes> centre{};  ///< m
+    V gm{};                 ///< m³/s²
+
+    static constexpr std::string_view name = "attractor";
+    static constexpr bool everywhere = false;
+    static constexpr bool linear = false;
+    static constexpr auto fields() {
+        return std::tuple(&AttractorForce::centre, &AttractorForce::gm);
+    }
+    constexpr AttractorForce per_unit_mass(V) const { return *this; }
+
+    [[gnu::always_inline]] constexpr Vec<V, Axes> field(const Vec<V, Axes>& x, double) const {
+        using std::sqrt;
+        const Vec<V, Axes> d = x - centre;
+        const V squared = squared_length(d);
+        const V cubed = squared * sqrt(squared);
+        // Not a number where the cube is none, instead of no attraction.
+        return d * ((cubed - cubed) - quotient_unless_nothing(gm, cubed));
+    }
+    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
+                                                             double t) const {
+        return field(state.x, t);
+    }
+    constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
+        using M = Matrix<V, Axes>;
+        const Direction<V, Axes> d(state.x - centre);
+        const V pull = quotient_unless_nothing(gm, d.length * d.length * d.length);
+        return {M::outer(d.unit, d.unit * (V(3) * pull)) - M::scalar(pull), {}};
+    }
+    constexpr V potential(const State<V, Axes>& state) const {
+        return -quotient_unless_nothing(gm, Direction<V, Axes>(state.x - centre).length);
+    }
+};
+
+}  // namespace oiler

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "oiler/physics/forces/direction.hpp"
+#include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/state.hpp"
+
+namespace oiler {
+
+/// A spring with a length of its own, from the body to a fixed anchor, that is damped along its
+/// line: force −k·(d − L·d̂) − b·(v·d̂)·d̂, d = x − anchor, and nothing at d = 0. |d| stays below
+/// 1.8·10¹⁹ m in float.
+template <Number V, int Axes>
+struct CoilSpringForce {
+    Vec<V, Axes> anchor{};  ///< m
+    V stiffness{};          ///< k, N/m
+    V damping{};            ///< b, N·s/m
+    V rest_length{};        ///< L, m
+
+    static constexpr std::string_view name = "coil_spring";
+    static constexpr bool everywhere = false;
+    static constexpr bool linear = false;
+    static constexpr auto fields() {
+        return std::tuple(&CoilSpringForce::anchor, &CoilSpringForce::stiffness,
+                          &CoilSpringForce::damping, &CoilSpringForce::rest_length);
+    }
+    constexpr CoilSpringForce per_unit_mass(V mass) const {
+        return {anchor, stiffness / mass, damping / mass, rest_length};
+    }
+
+    [[gnu::always_inline]] constexpr Vec<V, Axes> field(const Vec<V, Axes>& x, double) const {
+        const Direction<V, Axes> d(x - anchor);
+        return d.unit * (stiffness * (rest_length - d.length));
+    }
+    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
+                                                             double) const {
+        const Direction<V, Axes> d(state.x - anchor);
+        return d.unit * (stiffness * (rest_length - d.length) - damping * dot(state.v, d.unit));
+    }
+    /// `loss` is 1 − e^(−b·τ).
+    [[gnu::always_inline]] constexpr void slow(State<V, Axes>& state, const V& loss) const {
+        const Direction<V, Axes> d(state.x - anchor);
+        state.v = state.v - d.unit * (dot(state.v, d.unit) * loss);
+    }
+    constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
+        using M = Matrix<V, Axes>;
+        const Direction<V, Axes> d(state.x - anchor);
+        const M along = M::outer(d.unit, d.unit);
+        const M across = M::scalar(V(1)) - along;
+        const V along_speed = dot(state.v, d.unit);
+        const auto across_velocity = state.v - d.unit * along_speed;
+        const M turning =
+            (across * along_speed + M::outer(d.unit, across_velocity)) * d.inverse_length;
+        const V tension = stiffness * (rest_length * d.inverse_length - V(1));
+        return {across * tension - along * stiffness - turning * damping, along * -damping};
+    }
+    constexpr V potential(const State<V, Axes>& state) const {
+        const V stretch = Direction<V, Axes>(state.x - anchor).length - rest_length;
+        return V(0.5) * stiffness * stretch * stretch;
+    }
+};
+
+}  // namespace oiler

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/state.hpp"
+
+namespace oiler {
+
+/// Drag of fast motion through air: force −c·|v|·v. Where any body has it, |v|² of all must be a
+/// number: speeds stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
+template <Number V, int Axes>
+struct QuadraticDragForce {
+    V coefficient{};  ///< c, N·s²/m²
+
+    static constexpr std::string_view name = "quadratic_drag";
+    static constexpr bool everywhere = false;
+    static constexpr bool linear = false;
+    static constexpr auto fields() { return std::tuple(&QuadraticDragForce::coefficient); }
+    constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
+
+    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
+                                                             double) const {
+        using std::sqrt;
+        return state.v * (-coefficient * sqrt(squared_length(state.v)));
+    }
+    /// v' = −c·|v|·v for `tau` s: v/(1 + c·|v|·τ).
+    [[gnu::always_inline]] constexpr void slow(State<V, Axes>& state, const V& tau) const {
+        using std::sqrt;
+        const V speed = sqrt(squared_length(state.v));
+        // Not a number where the speed is none, instead of rest.
+        const V nothing = speed - speed;
+        state.v = state.v * (V(1) / (V(1) + coefficient * speed * tau) + nothing);
+    }
+    constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
+        using std::sqrt;
+        const V speed = sqrt(squared_length(state.v));
+        const auto direction = state.v * quotient_or_zero(V(1), speed);
+        return {{},
+                Matrix<V, Axes>::scalar(-coefficient * speed) +
+                    Matrix<V, Axes>::outer(direction, state.v * -coefficient)};
+    }
+    constexpr V potential(const State<V, Axes>&) const { return V(0); }
+};
+
+}  // namespace oiler

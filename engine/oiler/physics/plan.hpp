@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <type_traits>
+#include <variant>
+
+#include "oiler/physics/methods/methods.hpp"
+
+namespace oiler {
+
+template <std::floating_point T>
+struct ScaledStage {
+    Move move = Move::kick;
+    T tau = 0;             ///< s
+    std::size_t flow = 0;  ///< of a drift, its place in the plan's `drifts`
+};
+
+/// A splitting's stages times dt, in T.
+template <std::floating_point T>
+struct SplittingPlan {
+    SplittingPlan(const Splitting& rule, T dt, Damping given) : damping(given), half_step(dt / 2) {
+        for (const Stage& stage : rule.stages()) {
+            const T tau = static_cast<T>(stage.coefficient) * dt;
+            stages[count++] = {stage.move, tau, stage.move == Move::drift ? flow_of(tau) : 0};
+        }
+    }
+
+    Damping damping;
+    T half_step;
+    std::array<ScaledStage<T>, Splitting::most_stages> stages;
+    std::size_t count = 0;
+    /// The lengths of the drifts, each once, s.
+    std::array<T, Splitting::most_stages> drifts;
+    std::size_t drift_count = 0;
+
+private:
+    std::size_t flow_of(T tau) {
+        std::size_t flow = 0;
+        while (flow < drift_count && drifts[flow] != tau) ++flow;
+        if (flow == drift_count) drifts[drift_count++] = tau;
+        return flow;
+    }
+};
+
+/// A splitting of which a compiler sees the stages, so that it can keep them all in registers.
+template <std::floating_point T, Damping Treatment, Move... Moves>
+struct FixedSplittingPlan {
+    [[nodiscard]] static bool fits(const SplittingPlan<T>& plan) {
+        std::size_t i = 0;
+        return plan.count == count && plan.damping == Treatment &&
+               ((plan.stages[i++].move == Moves) && ...);
+    }
+    [[gnu::always_inline]] explicit FixedSplittingPlan(const SplittingPlan<T>& plan)
+        : half_step(plan.half_step) {
+        std::size_t i = 0;
+        stages = {ScaledStage<T>{Moves, plan.stages[i].tau, plan.stages[i++].flow}...};
+    }
+
+    static constexpr Damping damping = Treatment;
+    static constexpr std::integral_constant<std::size_t, sizeof...(Moves)> count{};
+    T half_step;
+    std::array<ScaledStage<T>, count> stages;
+};
+
+/// The methods that most runs take: the article's, with damping in the kick, and velocity Verlet.
+template <std::floating_point T>
+using KickDriftPlan = FixedSplittingPlan<T, Damping::in_kick, Move::kick, Move::drift>;
+template <std::floating_point T>
+using KickDriftKickPlan =
+    FixedSplittingPlan<T, Damping::in_drift, Move::kick, Move::drift, Move::kick>;
+
+template <class Plan>
+concept SplitsSteps = requires(const Plan& plan) {
+    plan.stages[0].move;
+    plan.damping;
+};
+
+/// A tableau's coefficients times dt, in T.
+template <std::floating_point T>
+struct TableauPlan {
+    TableauPlan(const Tableau& rule, T dt) : count(rule.count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t j = 0; j < i; ++j) a[i][j] = static_cast<T>(rule.a[i][j]) * dt;
+            b[i] = static_cast<T>(rule.b[i]) * dt;
+            c[i] = static_cast<double>(rule.c[i]) * static_cast<double>(dt);
+        }
+    }
+    /// Whether stage i starts from stage j, too.
+    [[nodiscard]] bool uses(std::size_t i, std::size_t j) const { return a[i][j] != 0; }
+
+    std::array<std::array<T, Tableau::most_stages>, Tableau::most_stages> a;
+    std::array<T, Tableau::most_stages> b;
+    std::array<double, Tableau::most_stages> c;
+    std::size_t count;
+};
+
+/// A tableau of which a compiler sees how many stages it has, and that each needs no more than the
+/// one before it.
+template <std::floating_point T, std::size_t Stages>
+struct ChainTableauPlan : TableauPlan<T> {
+    [[nodiscard]] static bool fits(const TableauPlan<T>& plan) {
+        bool chain = plan.count == Stages;
+        for (std::size_t i = 0; i < plan.count; ++i)
+            for (std::size_t j = 0; j + 1 < i; ++j) chain = chain && !plan.uses(i, j);
+        return chain;
+    }
+    [[gnu::always_inline]] explicit ChainTableauPlan(const TableauPlan<T>& plan)
+        : TableauPlan<T>(plan) {}
+
+    [[nodiscard]] static constexpr bool uses(std::size_t i, std::size_t j) { return i == j + 1; }
+    static constexpr std::integral_constant<std::size_t, Stages> count{};
+};
+
+template <class Plan>
+concept IsTableau = requires(const Plan& plan) {
+    plan.a[0][0] + plan.b[0];
+};
+
+template <std::floating_point T>
+struct ImplicitPlan {
+    T a;    ///< of the stage
+    T tau;  ///< a·dt, s
+    T dt;   ///< s
+};
+
+template <std::floating_point T>
+struct ExactPlan {
+    T dt;  ///< s
+};
+
+/// A method made ready for one dt.
+template <std::floating_point T>
+using Plan = std::variant<SplittingPlan<T>, TableauPlan<T>, ImplicitPlan<T>, ExactPlan<T>>;
+
+template <std::floating_point T>
+[[nodiscard]] Plan<T> make_plan(const Method& method, T dt, Damping damping) {
+    return std::visit(
+        [&]<class Rule>(const Rule& rule) -> Plan<T> {
+            if constexpr (std::is_same_v<Rule, Splitting>)
+                return SplittingPlan<T>(rule, dt, damping);
+            else if constexpr (std::is_same_v<Rule, Tableau>)
+                return TableauPlan<T>(rule, dt);
+            else if constexpr (std::is_same_v<Rule, ImplicitStage>)
+                return ImplicitPlan<T>{static_cast<T>(rule.a), static_cast<T>(rule.a) * dt, dt};
+            else
+                return ExactPlan<T>{dt};
+        },
+        method.rule);
+}
+
+template <std::floating_point T>
+[[nodiscard]] Plan<T> make_plan(const Method& method, T dt) {
+    return make_plan(method, dt, method.damping);
+}
+
+}  // namespace oiler

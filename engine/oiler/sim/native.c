@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdio.h>
+
+/* Prints the widest set of instructions of this machine that kernels can be compiled for. */
+int main(void) {
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        fputs("avx512", stdout);
+    else
+        fputs(__builtin_cpu_supports("avx2") ? "avx2" : "baseline", stdout);
+    return 0;
+}

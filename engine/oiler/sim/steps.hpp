@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "oiler/physics/methods/methods.hpp"
+#include "oiler/physics/rate.hpp"
+
+namespace oiler {
+
+/// Which steps to take: `count` of them from tick `first` on.
+struct Steps {
+    Rate rate;
+    std::int64_t first = 0;
+    std::int64_t count = 1;
+    /// The method's own where there is none.
+    std::optional<Damping> damping{};
+};
+
+/// Where a run stopped being finite, or an implicit step found no solution.
+struct Divergence {
+    enum class Of { position, velocity, solution };
+
+    std::int64_t tick;  ///< the first after which it was not
+    std::size_t row;
+    int axis;
+    Of of;
+};
+
+/// How a body is called that stands in a row.
+using NameOfRow = std::function<std::size_t(std::size_t)>;
+
+/// "diverged at step 41 (t = 0.41 s): velocity x of body 0 is no longer finite"
+[[nodiscard]] std::string describe(const Divergence& at, const Method& method, const Rate& rate,
+                                   bool linked, const NameOfRow& name);
+
+}  // namespace oiler

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/advice/advise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "lab/measured_scenes.hpp"
+#include "oiler/core/error.hpp"
+#include "support/folder.hpp"
+#include "support/reference.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+using Real = long double;
+
+std::vector<const Method*> all_methods() {
+    std::vector<const Method*> all;
+    for (const Method& method : methods()) all.push_back(&method);
+    return all;
+}
+
+std::vector<const Method*> splittings() {
+    std::vector<const Method*> all;
+    for (const Method& method : methods())
+        if (std::holds_alternative<Splitting>(method.rule)) all.push_back(&method);
+    return all;
+}
+
+/// The scene, with a reference as good as the wish needs it.
+MeasuredScene measured_for(const std::string& text, const Wish& wish) {
+    return MeasuredScene(text, {.wanted = wanted_of(wish) / 2});
+}
+
+Advice advice_on(const std::string& text, const Wish& wish) {
+    const MeasuredScene measured = measured_for(text, wish);
+    return advise(measured.scene, measured.reference, wish, {});
+}
+
+// ---- what is right, by the textbook
+
+/// Where a body is at a time.
+using Truth = std::function<Vec<Real, 2>(std::size_t row, Real t)>;
+
+/// x = A·e^(−b·t/2)·(cos ωt + b/(2ω)·sin ωt), ω² = k − b²/4
+Vec<Real, 2> spring_truth(std::size_t, Real t) {
+    constexpr Real b = 0.1L;
+    const Real w = std::sqrt(15 - b * b / 4);
+    return {1000 * std::exp(-b / 2 * t) * (std::cos(w * t) + b / (2 * w) * std::sin(w * t)), 0};
+}
+
+/// Kepler's equation M = E − e·sin E by bisection: gm = a = 1, e = 0.6, from the perihelion.
+Vec<Real, 2> orbit_truth(std::size_t, Real t) {
+    constexpr Real e = 0.6L;
+    Real low = t - 1;
+    Real high = t + 1;
+    for (int i = 0; i < 80; ++i) {
+        const Real middle = (low + high) / 2;
+        (middle - e * std::sin(middle) < t ? low : high) = middle;
+    }
+    return {std::cos(low) - e, std::sqrt(1 - e * e) * std::sin(low)};
+}
+
+/// Two masses of 1 kg, springs of 15, 1.5 and 15 N/m: together they swing with √15, against each
+/// other with √18. The left one starts 1 m off its rest at −2 m.
+Vec<Real, 2> chain_truth(std::size_t row, Real t) {
+    const Real together = std::cos(std::sqrt(Real(15)) * t) / 2;
+    const Real apart = std::cos(std::sqrt(Real(18)) * t) / 2;
+    return row == 0 ? Vec<Real, 2>{-2 + together + apart, 0}
+                    : Vec<Real, 2>{2 + together - apart, 0};
+}
+
+/// The largest distance at any step up to the end of the scene.
+double error_of(const Scene& scene, const Stepping& choice, const Truth& truth) {
+    World world = make_world(scene, Settings{choice});
+    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps));
+    Real most = 0;
+    for (std::int64_t tick = 0; tick <= steps; ++tick) {
+        if (tick > 0) world.step();
+        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate.steps);
+        for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+            const Vec3 at = world.bodies().position(row);
+            const Vec<Real, 2> right = truth(row, t);
+            most = std::max(most, std::hypot(at[0] - right[0], at[1] - right[1]));
+        }
+    }
+    return static_cast<double>(most);
+}
+
+const std::string orbit = text_of(OILER_SOURCE "/assets/scenes/orbit.toml");
+const std::string chain = text_of(OILER_SOURCE "/assets/scenes/chain.toml");
+
+class AdviceOnPosition : public testing::TestWithParam<double> {
+protected:
+    void expect_kept(const std::string& text, const Truth& truth,
+                     const std::vector<const Method*>& among) {
+        const Wish wish{.position_error = GetParam(), .methods = among};
+        const MeasuredScene measured = measured_for(text, wish);
+        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        ASSERT_TRUE(advice.best);
+        ASSERT_TRUE(advice.meets) << advice.obstacles.front();
+        EXPECT_TRUE(advice.obstacles.empty());
+        const std::string words = words_of(advice.best->stepping);
+        EXPECT_LE(error_of(measured.scene, advice.best->stepping, truth), GetParam()) << words;
+        EXPECT_TRUE(std::find(among.begin(), among.end(), advice.best->stepping.method) !=
+                    among.end())
+            << words;
+        if (!advice.runner_up) return;
+        EXPECT_NE(advice.runner_up->stepping.method, advice.best->stepping.method);
+        EXPECT_LE(error_of(measured.scene, advice.runner_up->stepping, truth), GetParam());
+    }
+};
+
+TEST_P(AdviceOnPosition, OfTheArticlesSpringIsKept) {
+    expect_kept(article_spring, spring_truth, all_methods());
+}
+TEST_P(AdviceOnPosition, OfAnOrbitIsKept) { expect_kept(orbit, orbit_truth, all_methods()); }
+TEST_P(AdviceOnPosition, OfAChainIsKept) { expect_kept(chain, chain_truth, all_methods()); }
+
+// Positions at whole seconds, which are steps at any rate, to twenty digits.
+TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
+    for (const nlohmann::json& run : reference("projectile_quadratic_drag")) {
+        if (run.at("name") != "scipython_projectile") continue;
+        const auto word = [&](const char* name) { return run.at(name).get<std::string>(); };
+        const std::string text =
+            "[scene]\naxes = 2\nrate = 60\nduration = 6.0\n[gravity]\nacceleration = [0.0, -" +
+            word("g") + "]\n[[body]]\nvelocity = [" + word("vx0") + ", " + word("vy0") +
+            "]\nquadratic_drag = " + word("k_per_m") + "\n";
+        const Wish wish{.position_error = GetParam(), .methods = all_methods()};
+        const MeasuredScene measured = measured_for(text, wish);
+        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        ASSERT_TRUE(advice.meets);
+        World world = make_world(measured.scene, settings_of(advice.best->stepping));
+        for (const nlohmann::json& state : run.at("states")) {
+            world.step(advice.best->stepping.rate.steps);
+            const Vec3 at = world.bodies().position(0);
+            EXPECT_LE(std::hypot(at[0] - number<Real>(state.at("x")),
+                                 at[1] - number<Real>(state.at("y"))),
+                      GetParam())
+                << words_of(advice.best->stepping) << " after " << state.at("t");
+        }
+        EXPECT_EQ(world.time(), 6);
+        return;
+    }
+    FAIL() << "no such case";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AdviceOnPosition,
+                         testing::Values(1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8));
+
+TEST(Advice, OnTheArticlesSpringIsTheExactMotion) {
+    for (const double tolerance : {1e-3, 1e-6}) {
+        const Advice advice =
+            advice_on(article_spring, {.position_error = tolerance, .methods = all_methods()});
+        ASSERT_TRUE(advice.meets);
+        EXPECT_EQ(advice.best->stepping.method->name, "exact");
+        EXPECT_EQ(advice.best->stepping.precision, Precision::double_);
+        EXPECT_EQ(advice.best->stepping.rate.steps, 50);
+        EXPECT_EQ(advice.today->choice.method->name, "semi_implicit_euler");
+    }
+}
+
+// The sweep knows how often each way to be within the tolerance evaluates forces. Advice goes by
+// time; a step's other costs, and that steps in one call share some, are worth a factor of two.
+TEST(Advice, AmongSplittingsIsOneOfTheSweepsBest) {
+    SweepPlan plan{.methods = splittings(), .max_rate = 12'800};
+    for (const double tolerance : {1.0, 1e-3, 1e-6}) {
+        const Wish wish{
+            .position_error = tolerance, .max_rate = plan.max_rate, .methods = plan.methods};
+        const MeasuredScene measured = measured_for(article_spring, wish);
+        Tradeoff tradeoff =
+            start_tradeoff(measured.scene, measured.looks, measured.reference, plan);
+        sweep(tradeoff, measured.scene, measured.reference, plan, {});
+        double fewest = INFINITY;
+        for (const TradeoffRow* row : tradeoff.rows())
+            if (row->judgement.stable && !(row->judgement.position_error > tolerance))
+                fewest = std::min(fewest, row->judgement.evaluations);
+        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        ASSERT_TRUE(advice.meets);
+        EXPECT_LE(advice.best->judgement.evaluations, 2 * fewest) << words_of(advice.best->stepping);
+        EXPECT_GT(advice.runs, 0);
+        EXPECT_LT(static_cast<std::size_t>(advice.runs), tradeoff.rows().size() / 2);
+    }
+}
+
+// What the method is wrong by falls with dt⁴ where it is aligned: refining between the rungs ends
+// within a step of 1/32 of the coarsest rate that will do, of those that are aligned.
+TEST(Advice, IsTheLowestRateThatWillDo) {
+    for (const double tolerance : {1e-7, 1e-8}) {
+        const Wish wish{.position_error = tolerance, .methods = methods_of({"rk4"})};
+        const MeasuredScene measured = measured_for(article_spring, wish);
+        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        ASSERT_TRUE(advice.meets);
+        Stepping lower = advice.best->stepping;
+        ASSERT_GT(lower.rate, 100);
+        lower.rate -= std::max<std::int64_t>(50, lower.rate / 32 / 50 * 50 + 50);
+        EXPECT_GT(error_of(measured.scene, lower, spring_truth), 0.97 * tolerance)
+            << words_of(advice.best->stepping);
+    }
+}
+
+// ---- energy
+
+// Without a damper ½·v² + ½·15·x² stays what it is, 7.5e6 J.
+TEST(AdviceOnEnergy, IsKept) {
+    const std::string undamped =
+        one_axis +
+        "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
+        "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n";
+    for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
+        const Wish wish{.energy_drift = tolerance, .methods = splittings()};
+        const MeasuredScene measured = measured_for(undamped, wish);
+        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        ASSERT_TRUE(advice.meets);
+        World world = make_world(measured.scene, settings_of(advice.best->stepping));
+        double most = 0;
+        while (world.time() < 10) {
+            world.step();
+            const double x = world.bodies().position(0)[0];
+            const double v = world.bodies().velocity(0)[0];
+            most = std::max(most, std::abs((v * v + 15 * x * x) / 15e6 - 1));
+        }
+        EXPECT_LE(most, tolerance) << words_of(advice.best->stepping);
+        EXPECT_GT(most, 0);
+        EXPECT_DOUBLE_EQ(measured.reference.energy_scale, 7.5e6);
+    }
+}
+
+TEST(AdviceOnEnergy, AndPositionKeepsBoth) {
+    const Wish both{.position_error = 10, .energy_drift = 1e-7, .methods = splittings()};
+    const Advice advice = advice_on(article_spring, both);
+    ASSERT_TRUE(advice.meets);
+    EXPECT_FALSE(advice.best->judgement.position_error > 10);
+    EXPECT_FALSE(advice.best->judgement.energy_drift > 1e-7);
+    const Wish position{.position_error = 10, .methods = splittings()};
+    EXPECT_GT(advice_on(article_spring, position).best->judgement.energy_drift, 1e-7);
+}
+
+// ---- time
+
+TEST(AdviceOnTime, AloneIsTheMostAccurateThatFits) {
+    const Wish wish{.ns_per_second = 1e9,
+                    .max_rate = 800,
+                    .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
+    const Advice advice = advice_on(article_spring, wish);
+    ASSERT_TRUE(advice.meets);
+    EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
+    EXPECT_EQ(advice.best->stepping.rate.steps, 800);
+    ASSERT_TRUE(advice.runner_up);
+    EXPECT_EQ(advice.runner_up->stepping.method->name, "semi_implicit_euler");
+}
+
+// A millionth of a ns is less than any step takes.
+TEST(AdviceOnTime, ThatNothingKeepsNamesTheTime) {
+    for (const std::optional<double>& tolerance : {std::optional<double>(), std::optional(1e-3)}) {
+        const Wish wish{.position_error = tolerance,
+                        .ns_per_second = 1e-6,
+                        .methods = methods_of({"velocity_verlet", "rk4"})};
+        const Advice advice = advice_on(article_spring, wish);
+        EXPECT_FALSE(advice.meets);
+        ASSERT_FALSE(advice.obstacles.empty());
+        EXPECT_TRUE(holds(advice.obstacles.front(), "time")) << advice.obstacles.front();
+    }
+}
+
+// ---- where nothing will do
+
+TEST(Advice, ThatCannotBeGivenNamesWhatIsInTheWay) {
+    const Wish wish{
+        .position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"explicit_euler"})};
+    const MeasuredScene measured = measured_for(article_spring, wish);
+    const Advice advice = advise(measured.scene, measured.reference, wish, {});
+    EXPECT_FALSE(advice.meets);
+    ASSERT_TRUE(advice.best);
+    ASSERT_EQ(advice.obstacles.size(), 2U);
+    // At whole seconds it is farthest after 8 s: 604.35000417 m, where numbers of float are 2⁻¹⁴ m
+    // apart and the nearest one is 2.85839e-5 m off.
+    EXPECT_TRUE(holds(advice.obstacles[0], "in float rounding alone moves bodies by 2.86e-05 m"))
+        << advice.obstacles[0];
+    EXPECT_TRUE(holds(advice.obstacles[1], "double"));
+    const std::vector<std::string> words =
+        words_of(advice, measured.scene, measured.reference, wish);
+    EXPECT_TRUE(holds(words.front(), "Nothing keeps within 1e-06 m")) << words.front();
+}
+
+// Of a method of first order the highest rung is the most accurate.
+TEST(Advice, ThatCannotBeGivenComesAsNearAsItCan) {
+    const Advice advice = advice_on(
+        article_spring,
+        {.position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
+    EXPECT_FALSE(advice.meets);
+    ASSERT_TRUE(advice.best);
+    EXPECT_EQ(advice.best->stepping.rate.steps, 800);
+}
+
+TEST(Advice, OnEnergyThatCannotBeGivenSpeaksOfEnergy) {
+    const Advice advice = advice_on(
+        article_spring,
+        {.energy_drift = 1e-9, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
+    EXPECT_FALSE(advice.meets);
+    ASSERT_FALSE(advice.obstacles.empty());
+    EXPECT_TRUE(holds(advice.obstacles.front(), "energy")) << advice.obstacles.front();
+}
+
+void expect_refused(const MeasuredScene& measured, const Wish& wish, const std::string& named) {
+    try {
+        (void)advise(measured.scene, measured.reference, wish, {});
+        ADD_FAILURE() << "is not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_TRUE(holds(error.what(), "cannot be")) << error.what();
+        EXPECT_TRUE(holds(error.what(), named)) << error.what();
+        EXPECT_FALSE(holds(error.what(), "--duration 0")) << error.what();
+        EXPECT_FALSE(holds(error.what(), "\n"));
+    }
+}
+
+TEST(Advice, BelowWhatCanBeToldIsRefused) {
+    expect_refused(MeasuredScene(article_spring),
+                   {.position_error = 1e-14, .methods = all_methods()}, "1e-14 m");
+    expect_refused(MeasuredScene(article_spring), {.energy_drift = 1e-15, .methods = all_methods()},
+                   "1e-15");
+}
+
+// A reference that was to be as good as that, and is not, blames the wish and not the scene.
+TEST(Advice, BelowWhatCanBeToldByItsOwnReferenceIsRefused) {
+    const Wish wish{.position_error = 1e-14, .methods = all_methods()};
+    expect_refused(measured_for(article_spring, wish), wish, "1e-14");
+}
+
+/// Two masses on rods that are hardly springs, thrown over: chaotic.
+std::string double_pendulum(const std::string& duration) {
+    return "[scene]\naxes = 2\nrate = 100\nduration = " + duration +
+           "\n[gravity]\nacceleration = [0.0, -9.81]\n"
+           "[[body]]\nname = \"a\"\nposition = [0.0, 1.0]\n"
+           "[[body]]\nname = \"b\"\nposition = [0.1, 2.0]\n"
+           "[[spring]]\nbody = \"a\"\nanchor = [0.0, 0.0]\nstiffness = 500.0\nrest_length = 1.0\n"
+           "[[spring]]\nbody = \"b\"\nto = \"a\"\nstiffness = 500.0\nrest_length = 1.0\n";
+}
+
+TEST(Advice, OnWhatIsChaoticIsRefusedAndTheRemedyHelps) {
+    const Wish wish{.position_error = 1e-3, .methods = methods_of({"rk4", "kahan_li8_kdk"})};
+    const ReferenceEffort effort{.wanted = wanted_of(wish) / 2, .most_work = 2e6};
+    const MeasuredScene measured(double_pendulum("60.0"), effort);
+    ASSERT_LT(measured.reference.meaningful, measured.looks.count);
+    std::string line;
+    try {
+        (void)advise(measured.scene, measured.reference, wish, {});
+        FAIL() << "is not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        line = error.what();
+    }
+    const std::string remedy = "give --duration ";
+    ASSERT_TRUE(holds(line, remedy)) << line;
+    const std::string duration = line.substr(line.find(remedy) + remedy.size());
+    EXPECT_GT(std::stod(duration), 1) << line;
+    const MeasuredScene shorter(double_pendulum(holds(duration, ".") ? duration : duration + ".0"),
+                                effort);
+    EXPECT_NO_THROW((void)advise(shorter.scene, shorter.reference, wish, {})) << duration;
+}
+
+// ---- the rates and the methods that are asked for
+
+TEST(Advice, StaysAboveTheLowestRate) {
+    for (const std::int64_t lowest : {30, 99, 130, 250}) {
+        const Wish wish{.position_error = 100, .min_rate = lowest, .methods = splittings()};
+        const Advice advice = advice_on(article_spring, wish);
+        ASSERT_TRUE(advice.meets);
+        EXPECT_GE(advice.best->stepping.rate.steps, lowest);
+        ASSERT_TRUE(advice.runner_up);
+        EXPECT_GE(advice.runner_up->stepping.rate.steps, lowest);
+    }
+}
+
+TEST(Advice, StaysBelowTheHighestRate) {
+    const Wish wish{.position_error = 1, .max_rate = 200, .methods = all_methods()};
+    const Advice advice = advice_on(article_spring, wish);
+    ASSERT_TRUE(advice.best);
+    EXPECT_LE(advice.best->stepping.rate.steps, 200);
+}
+
+TEST(Advice, WithoutARateInBetweenIsRefused) {
+    const Wish wish{
+        .position_error = 1, .min_rate = 300, .max_rate = 200, .methods = all_methods()};
+    try {
+        (void)advice_on(article_spring, wish);
+        ADD_FAILURE() << "is not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_TRUE(holds(error.what(), "--min-rate")) << error.what();
+    }
+}
+
+// At a rate whose only divisors are 1 and itself it must still be looked at often: a step of a
+// second would be drawn 1000 m off.
+TEST(Advice, OnASceneOfAPrimeRateIsNoSlideShow) {
+    std::string text = article_spring;
+    text.replace(text.find("rate = 100"), 10, "rate = 97");
+    const Advice advice = advice_on(text, {.position_error = 1e-3, .methods = all_methods()});
+    ASSERT_TRUE(advice.meets);
+    EXPECT_GE(advice.best->stepping.rate.steps, 20);
+}
+
+TEST(Advice, StoppedIsNone) {
+    const MeasuredScene measured(article_spring);
+    const Advice advice =
+        advise(measured.scene, measured.reference, {.position_error = 1, .methods = splittings()},
+               {.stopped = [] { return true; }});
+    EXPECT_FALSE(advice.best);
+    EXPECT_FALSE(advice.meets);
+}
+
+TEST(Advice, SaysTheConclusionFirst) {
+    const Wish wish{.position_error = 1, .methods = all_methods()};
+    const MeasuredScene measured = measured_for(article_spring, wish);
+    const Advice advice = advise(measured.scene, measured.reference, wish, {});
+    const std::vector<std::string> words =
+        words_of(advice, measured.scene, measured.reference, wish);
+    EXPECT_TRUE(words.front().starts_with(words_of(advice.best->stepping) + ": ")) << words.front();
+    EXPECT_TRUE(holds(words.back(), "10 s")) << words.back();
+    EXPECT_TRUE(holds(words.back(), "50 times a second")) << words.back();
+    EXPECT_EQ(words_of(Stepping{&find_method("rk4"), 60, Precision::double_}),
+              "rk4 at 60 Hz in double");
+}
+
+TEST(Meets, IsWithinAllTolerancesWithSomeToSpare) {
+    const Wish wish{.position_error = 2, .energy_drift = 3};
+    const Judgement both{.position_error = 2, .energy_drift = 3};
+    EXPECT_TRUE(meets(both, wish));
+    EXPECT_FALSE(meets(both, wish, 0.01));
+    EXPECT_FALSE(meets({.position_error = 2.001, .energy_drift = 3}, wish));
+    EXPECT_FALSE(meets({.position_error = 2, .energy_drift = 3.001}, wish));
+    EXPECT_TRUE(meets({.position_error = unknown, .energy_drift = 1}, wish));
+    EXPECT_FALSE(meets({.stable = false}, wish));
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/exact_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support/reference.hpp"
+
+namespace {
+
+using oiler::Attractor;
+using oiler::Bodies;
+using oiler::CoilSpring;
+using oiler::exact_motions;
+using oiler::LinearDrag;
+using oiler::Precision;
+using oiler::QuadraticDrag;
+using oiler::Spring;
+using oiler::State;
+using oiler::Vec;
+using oiler::Vec3;
+using Real = long double;
+using State3 = State<Real, 3>;
+using Complex = std::complex<Real>;
+
+constexpr Real fine = std::numeric_limits<Real>::epsilon() / 2;
+/// A closed form takes forces per mass from numbers of double.
+constexpr Real coarse = std::numeric_limits<double>::epsilon() / 2;
+
+Bodies in_space() { return Bodies(3, Precision::extended); }
+
+Real length(const Vec<Real, 3>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// x'' = a − s·x − c·v along one axis.
+struct Linear {
+    Real a = 0;
+    Real s = 0;
+    Real c = 0;
+    Real x0 = 0;
+    Real v0 = 0;
+
+    /// The textbook's formula with the two roots of r² + c·r + s = 0, which is good while they are
+    /// neither close to each other nor far apart.
+    [[nodiscard]] std::pair<Real, Real> at(Real t) const {
+        const Complex root = std::sqrt(Complex(c * c / 4 - s));
+        const Complex r1 = -c / 2 + root;
+        const Complex r2 = -c / 2 - root;
+        const Real y0 = x0 - a / s;
+        const Complex first = (v0 - r2 * y0) / (r1 - r2);
+        const Complex second = (r1 * y0 - v0) / (r1 - r2);
+        const Complex e1 = first * std::exp(r1 * t);
+        const Complex e2 = second * std::exp(r2 * t);
+        return {a / s + (e1 + e2).real(), (r1 * e1 + r2 * e2).real()};
+    }
+    /// Both roots are −c/2.
+    [[nodiscard]] std::pair<Real, Real> critical(Real t) const {
+        const Real y0 = x0 - a / s;
+        const Real w = v0 + c / 2 * y0;
+        const Real decay = std::exp(-c / 2 * t);
+        return {a / s + (y0 + w * t) * decay, (w - c / 2 * (y0 + w * t)) * decay};
+    }
+};
+
+/// The sizes of what is summed on the way, by which roundings are told.
+struct Sizes {
+    Real x;
+    Real v;
+};
+
+/// `roundings` of the motion's size, and as many for each radian turned or time constant passed.
+void expect_near(Real found, Real expected, Real size, Real radians, Real unit) {
+    EXPECT_LE(std::abs(found - expected), 16 * (1 + radians) * unit * size) << expected;
+}
+
+void expect_axis(const State3& found, int axis, std::pair<Real, Real> expected, const Sizes& sizes,
+                 Real radians, Real unit) {
+    SCOPED_TRACE("axis " + std::to_string(axis));
+    expect_near(found.x[axis], expected.first, sizes.x, radians, unit);
+    expect_near(found.v[axis], expected.second, sizes.v, radians, unit);
+}
+
+constexpr Vec3 gravity{0.5, -9.75, 1.25};
+constexpr Vec3 from{7, -3, 2};
+constexpr Vec3 with{-2, 5, 0.25};
+const Spring first{.anchor = {1, 2, -4}, .stiffness = 12, .damping = 0.5};
+const Spring second{.anchor = {-8, 0, 3}, .stiffness = 3, .damping = 0.25};
+
+Bodies tied(double mass, double drag) {
+    Bodies bodies = in_space();
+    bodies.set_gravity(gravity);
+    bodies.add({.mass = mass, .position = from, .velocity = with}, first, LinearDrag{drag});
+    bodies.attach_nth(1, 0, second);
+    return bodies;
+}
+
+Linear axis_of(double mass, double drag, int axis) {
+    const Real m = mass;
+    return {.a = gravity[axis] + (Real(first.stiffness) * first.anchor[axis] +
+                                  Real(second.stiffness) * second.anchor[axis]) /
+                                     m,
+            .s = (Real(first.stiffness) + second.stiffness) / m,
+            .c = (Real(first.damping) + second.damping + drag) / m,
+            .x0 = from[axis],
+            .v0 = with[axis]};
+}
+
+/// How far the body above gets on each axis, roughly, and ω times that.
+constexpr Real reach = 32;
+
+void expect_tied(double mass, double drag, Real unit) {
+    SCOPED_TRACE(testing::Message() << mass << " kg, drag " << drag);
+    const auto motions = exact_motions(tied(mass, drag));
+    ASSERT_TRUE(motions);
+    ASSERT_EQ(motions->size(), 1U);
+    for (const Real t : {0.0L, 0.125L, 1.0L, 3.3L, 20.0L}) {
+        const State3 found = (*motions)[0](t);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Linear linear = axis_of(mass, drag, axis);
+            const Real rate = std::max(std::sqrt(linear.s), linear.c);
+            expect_axis(found, axis, linear.at(t), {reach, reach * rate}, rate * t, unit);
+        }
+    }
+}
+
+TEST(ExactMotion, OfSeveralSpringsDragAndGravity) {
+    expect_tied(1, 0.25, fine);
+    expect_tied(4, 0.25, fine);
+    expect_tied(0.125, 0, fine);
+}
+
+TEST(ExactMotion, OfMassesThatDivideToNoNumberOfDouble) {
+    expect_tied(3, 0.25, coarse);
+    expect_tied(0.7, 0.25, coarse);
+}
+
+// c²/4 is 16 and 24.5 times the stiffness per mass.
+TEST(ExactMotion, OverdampedMeetsItsTwoExponentials) {
+    expect_tied(1, 30.25, fine);
+    expect_tied(4, 76.25, fine);
+}
+
+// c²/4 = s where k = 16 and b = 8 on 1 kg, or k = 1 and b = 4 on 4 kg.
+TEST(ExactMotion, CriticallyDampedMeetsItsDoubleRoot) {
+    for (const auto& [mass, k, b] : {std::array{1.0, 16.0, 8.0}, std::array{4.0, 1.0, 4.0}}) {
+        Bodies bodies(1, Precision::extended);
+        bodies.set_gravity({-9.75, 0, 0});
+        bodies.add({.mass = mass, .position = {3}, .velocity = {40}},
+                   Spring{.anchor = {2}, .stiffness = k, .damping = b});
+        const Linear linear{-9.75L + k / mass * 2, k / mass, b / mass, 3, 40};
+        const auto motions = exact_motions(bodies);
+        ASSERT_TRUE(motions);
+        for (const Real t : {0.0L, 0.01L, 0.5L, 4.0L}) {
+            const Real rate = b / mass;
+            expect_axis((*motions)[0](t), 0, linear.critical(t), {200, 200 * rate}, rate * t, fine);
+        }
+    }
+}
+
+// x = x0 + v0·t + g·t²/2, whatever the mass.
+TEST(ExactMotion, OfGravityAloneIsAParabola) {
+    Bodies bodies = in_space();
+    bodies.set_gravity(gravity);
+    bodies.add({.mass = 0.7, .position = from, .velocity = with});
+    const auto motions = exact_motions(bodies);
+    ASSERT_TRUE(motions);
+    for (const Real t : {0.0L, 0.5L, 3.0L, 100.0L})
+        for (int axis = 0; axis < 3; ++axis)
+            expect_axis((*motions)[0](t), axis,
+                        {from[axis] + with[axis] * t + gravity[axis] * t * t / 2,
+                         with[axis] + gravity[axis] * t},
+                        {8 + 5 * t + 5 * t * t, 5 + 10 * t}, 0, fine);
+}
+
+// v = v0·e^(−ct), x = x0 + v0·(1 − e^(−ct))/c, and with gravity v → g/c.
+TEST(ExactMotion, OfDragTendsToItsTerminalSpeed) {
+    for (const bool falls : {false, true}) {
+        Bodies bodies = in_space();
+        if (falls) bodies.set_gravity(gravity);
+        bodies.add({.mass = 4, .position = from, .velocity = with}, LinearDrag{2});
+        const auto motions = exact_motions(bodies);
+        ASSERT_TRUE(motions);
+        const Real c = 0.5;
+        for (const Real t : {0.0L, 0.25L, 3.0L, 60.0L})
+            for (int axis = 0; axis < 3; ++axis) {
+                const Real terminal = falls ? gravity[axis] / c : 0;
+                const Real decay = std::exp(-c * t);
+                expect_axis((*motions)[0](t), axis,
+                            {from[axis] + terminal * t + (with[axis] - terminal) * (1 - decay) / c,
+                             terminal + (with[axis] - terminal) * decay},
+                            {64 + 20 * t, 32}, 0, fine);
+            }
+    }
+}
+
+// The file's numbers are decimal; those of double are off by a rounding, in a speed, g and c each.
+TEST(ExactMotion, OfLinearDragMeetsTheReference) {
+    const auto runs = reference("linear_drag");
+    ASSERT_EQ(runs.size(), 2U);
+    for (const auto& run : runs) {
+        const double angle = number(run.at("deg")) * std::numbers::pi / 180;
+        const double speed = number(run.at("v0"));
+        Bodies bodies(2, Precision::extended);
+        bodies.set_gravity({0, -number(run.at("g")), 0});
+        bodies.add({.velocity = {speed * std::cos(angle), speed * std::sin(angle)}},
+                   LinearDrag{number(run.at("beta"))});
+        const auto motions = exact_motions(bodies);
+        ASSERT_TRUE(motions);
+        ASSERT_EQ(run.at("states").size(), 4U);
+        for (const auto& state : run.at("states")) {
+            const Real t = number<Real>(state.at("t"));
+            const State3 found = (*motions)[0](t);
+            const Sizes sizes{speed * t + 5 * t * t, speed + 10 * t};
+            for (int axis = 0; axis < 2; ++axis)
+                expect_axis(found, axis,
+                            {number<Real>(state.at(axis == 0 ? "x" : "y")),
+                             number<Real>(state.at(axis == 0 ? "vx" : "vy"))},
+                            sizes, 0, coarse / 2);
+        }
+    }
+}
+
+// b = 0.1 is not a number of double: a rounding of γt, and the amplitude's size.
+TEST(ExactMotion, OfTheArticlesSpringMeetsTheReference) {
+    for (const char* which : {"exact_damped", "exact_undamped"}) {
+        Bodies bodies(1, Precision::extended);
+        bodies.add(
+            {.position = {1000}},
+            Spring{.stiffness = 15, .damping = which == std::string("exact_damped") ? 0.1 : 0});
+        const auto motions = exact_motions(bodies);
+        ASSERT_TRUE(motions);
+        const auto table = reference("article").at(which).at("table");
+        ASSERT_EQ(table.size(), 9U);
+        for (const auto& [t, state] : table.items())
+            expect_axis((*motions)[0](std::stold(t)), 0,
+                        {number<Real>(state[0]), number<Real>(state[1])}, {1000, 3873},
+                        0.05L * std::stold(t), coarse / 16);
+    }
+}
+
+// Each body has its own forces, though columns hold zeros for those that others have.
+TEST(ExactMotion, OfEachBodyIsItsOwn) {
+    Bodies bodies = in_space();
+    bodies.add({.position = from, .velocity = with});
+    bodies.add({.position = from, .velocity = with}, first);
+    bodies.add({.position = from, .velocity = with}, LinearDrag{0.5});
+    const auto motions = exact_motions(bodies);
+    ASSERT_TRUE(motions);
+    ASSERT_EQ(motions->size(), 3U);
+    constexpr Real t = 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real x = from[axis];
+        const Real v = with[axis];
+        expect_axis((*motions)[0](t), axis, {x + 2 * v, v}, {32, 8}, 0, fine);
+        const Linear spring{12.0L * first.anchor[axis], 12, 0.5L, x, v};
+        expect_axis((*motions)[1](t), axis, spring.at(t), {32, 128}, 7, fine);
+        expect_axis((*motions)[2](t), axis,
+                    {x + v * 2 * (1 - std::exp(-1.0L)), v * std::exp(-1.0L)}, {32, 8}, 1, fine);
+    }
+}
+
+TEST(ExactMotion, OfASpringThatPullsNothingIsFree) {
+    Bodies bodies = in_space();
+    bodies.add({.position = from, .velocity = with}, Spring{.anchor = {9, 9, 9}});
+    const auto motions = exact_motions(bodies);
+    ASSERT_TRUE(motions);
+    for (int axis = 0; axis < 3; ++axis)
+        expect_axis((*motions)[0](4), axis, {from[axis] + 4 * with[axis], with[axis]}, {32, 8}, 0,
+                    fine);
+}
+
+const Vec3 sun{3, -2, 1};
+
+/// gm = 2 m³/s², and a planet that crosses the plane of x and y there, `at` m from the sun.
+Bodies planet(double speed, double at = 0.5) {
+    Bodies bodies = in_space();
+    bodies.add({.mass = 0.7, .position = {3, -2 + at, 1}, .velocity = {0, 0, speed}},
+               Attractor{.centre = sun, .gm = 2});
+    return bodies;
+}
+
+/// E − e·sin E = M by bisection.
+Real anomaly(Real e, Real mean) {
+    Real low = mean - 1;
+    Real high = mean + 1;
+    for (int i = 0; i < 80; ++i) {
+        const Real middle = (low + high) / 2;
+        (middle - e * std::sin(middle) < mean ? low : high) = middle;
+    }
+    return low;
+}
+
+// r·v²/gm = 1 + e. Roundings of the angle are magnified where the planet is fast: 3 times by the
+// energy's, and (1 + e)/(1 − e)² = 8 times at the perihelion.
+TEST(ExactMotion, AroundAnAttractorMeetsKeplersEquation) {
+    constexpr Real e = 0.5625;
+    constexpr Real a = 0.5L / (1 - e);
+    const Real n = std::sqrt(2 / a) / a;
+    const auto motions = exact_motions(planet(2.5));
+    ASSERT_TRUE(motions);
+    for (const Real t : {0.0L, 0.25L, 1.0L, 5.0L, 17.0L}) {
+        const Real anomaly_now = anomaly(e, n * t);
+        const Real rate = n / (1 - e * std::cos(anomaly_now));
+        const Real minor = a * std::sqrt(1 - e * e);
+        const State3 found = (*motions)[0](t);
+        const Vec<Real, 3> x{3, -2 + a * (std::cos(anomaly_now) - e),
+                             1 + minor * std::sin(anomaly_now)};
+        const Vec<Real, 3> v{0, -a * rate * std::sin(anomaly_now),
+                             minor * rate * std::cos(anomaly_now)};
+        EXPECT_LE(length(found.x - x), 16 * fine * (length(x) + 3 * 8 * n * t * a)) << t;
+        EXPECT_LE(length(found.v - v), 16 * fine * (1 + 3 * 8 * n * t) * 2.5L) << t;
+    }
+}
+
+void expect_none(const Bodies& bodies) { EXPECT_FALSE(exact_motions(bodies)); }
+
+TEST(NoExactMotion, OfLinkedBodies) {
+    Bodies bodies = tied(1, 0);
+    bodies.add({.position = {1, 1, 1}});
+    EXPECT_TRUE(exact_motions(bodies));
+    bodies.link(0, 1, {.stiffness = 1});
+    expect_none(bodies);
+}
+
+TEST(NoExactMotion, OfWhatIsNotLinear) {
+    Bodies coil = in_space();
+    coil.add({.position = from}, CoilSpring{.stiffness = 1, .rest_length = 2});
+    expect_none(coil);
+    Bodies damper = in_space();
+    damper.add({.position = from, .velocity = with}, CoilSpring{.damping = 1, .rest_length = 2});
+    expect_none(damper);
+    Bodies drag = in_space();
+    drag.add({.velocity = with}, QuadraticDrag{0.25});
+    expect_none(drag);
+}
+
+// Where one body has none, the scene has none.
+TEST(NoExactMotion, OfOneAmongOthers) {
+    Bodies bodies = tied(1, 0);
+    bodies.add({.velocity = with}, QuadraticDrag{0.25});
+    bodies.add({.position = from});
+    expect_none(bodies);
+    Bodies nth = tied(1, 0);
+    nth.attach(0, CoilSpring{});
+    nth.attach_nth(1, 0, CoilSpring{.stiffness = 1, .rest_length = 2});
+    expect_none(nth);
+    Bodies before = tied(1, 0);
+    before.attach(0, CoilSpring{.stiffness = 1, .rest_length = 2}, QuadraticDrag{0.25});
+    before.attach_nth(1, 0, CoilSpring{}, QuadraticDrag{});
+    expect_none(before);
+    Bodies coil = tied(1, 0);
+    coil.attach(0, CoilSpring{.stiffness = 1, .rest_length = 2});
+    coil.attach_nth(1, 0, CoilSpring{});
+    expect_none(coil);
+    Bodies drag = tied(1, 0);
+    drag.attach(0, QuadraticDrag{0.25}, CoilSpring{});
+    drag.attach_nth(1, 0, QuadraticDrag{});
+    expect_none(drag);
+}
+
+TEST(NoExactMotion, AroundAnAttractorThatIsNotAlone) {
+    EXPECT_TRUE(exact_motions(planet(2.5)));
+    Bodies two = planet(2.5);
+    two.attach_nth(1, 0, Attractor{.centre = {9, 9, 9}, .gm = 0.01});
+    expect_none(two);
+    Bodies heavy = planet(2.5);
+    heavy.set_gravity({0, 0, -1e-9});
+    expect_none(heavy);
+    Bodies slow = planet(2.5);
+    slow.attach(0, LinearDrag{1e-9});
+    expect_none(slow);
+    Bodies held = planet(2.5);
+    held.attach(0, Spring{.stiffness = 1e-9});
+    expect_none(held);
+}
+
+// From 0.5 m, 2·gm/r = 8 m²/s².
+TEST(NoExactMotion, OfWhatDoesNotCircle) {
+    expect_none(planet(std::sqrt(8.0)));
+    expect_none(planet(3));
+    expect_none(planet(0));
+}
+
+}  // namespace

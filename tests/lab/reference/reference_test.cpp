@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lab/motions.hpp"
+#include "oiler/scene/read.hpp"
+#include "support/reference.hpp"
+#include "support/text.hpp"
+
+namespace {
+
+using oiler::Bodies;
+using oiler::ClosedForm;
+using oiler::ExactMotion;
+using oiler::Looks;
+using oiler::looks_of;
+using oiler::make_reference;
+using oiler::Reference;
+using oiler::ReferenceEffort;
+using oiler::Scene;
+using oiler::Vec;
+using oiler::test::along_x;
+using oiler::test::article_motion;
+using oiler::test::holds;
+using oiler::test::Motions;
+using oiler::test::Real;
+using oiler::test::State3;
+
+constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
+
+ClosedForm claimed(const Motions& motions) {
+    return [motions](const Bodies&) { return std::optional(motions); };
+}
+std::optional<Motions> none(const Bodies&) { return std::nullopt; }
+
+/// Enough for all scenes here, and a second's work.
+ReferenceEffort effort() {
+    ReferenceEffort effort;
+    effort.most_work = 2e7;
+    return effort;
+}
+
+double length(const Vec<Real, 3>& a) { return static_cast<double>(std::hypot(a[0], a[1], a[2])); }
+
+Scene article_scene(double damping, double duration) {
+    Scene scene;
+    scene.duration = duration;
+    scene.bodies = {{.position = {1000, 0, 0}}};
+    scene.springs = {{.stiffness = 15, .damping = damping}};
+    return scene;
+}
+
+/// That the reference is never further off than it says, beside what the numbers of double that
+/// it starts with are (m, m/s).
+void expect_within_doubts(const Reference& reference, const Motions& motions, double given = 0) {
+    ASSERT_EQ(reference.doubts.size(), static_cast<std::size_t>(reference.looks.count));
+    for (std::int64_t look = 0; look < reference.looks.count; ++look)
+        for (std::size_t row = 0; row < motions.size(); ++row) {
+            const State3 exact = motions[row](static_cast<Real>(look) /
+                                              static_cast<Real>(reference.looks.per_second));
+            const State3& found = reference.track.at(look, row);
+            const oiler::Doubt& doubt = reference.doubts[static_cast<std::size_t>(look)];
+            ASSERT_LE(length(found.x - exact.x), doubt.position + given) << look << " " << row;
+            ASSERT_LE(length(found.v - exact.v), doubt.velocity + given) << look << " " << row;
+        }
+}
+
+/// Its doubt is what was wanted, a millionth of a millionth of what moves, or as little as that.
+void expect_fine_steps(const Scene& scene, const Motions& motions, double given = 0) {
+    const Reference reference = make_reference(scene, looks_of(scene), effort(), none);
+    EXPECT_FALSE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "in long double by")) << reference.words;
+    EXPECT_EQ(reference.meaningful, reference.looks.count);
+    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent) << reference.words;
+    EXPECT_GT(reference.doubts.back().position, 0);
+    expect_within_doubts(reference, motions, given);
+}
+
+TEST(FineSteps, OfTheArticlesSpring) {
+    expect_fine_steps(article_scene(0, 20), {article_motion(0)});
+    expect_fine_steps(article_scene(0.125, 90), {article_motion(0.125)});
+    // Stiff enough for more than the fewest runs.
+    Scene stiff = article_scene(0, 20);
+    stiff.springs[0].stiffness = 6000;
+    expect_fine_steps(stiff, {article_motion(0, 6000)});
+}
+
+/// gm = 1, half an axis of 1, from the perihelion, by bisection of Kepler's equation.
+State3 planet(Real e, Real t) {
+    Real low = t - 1;
+    Real high = t + 1;
+    for (int i = 0; i < 80; ++i) {
+        const Real middle = (low + high) / 2;
+        (middle - e * std::sin(middle) < t ? low : high) = middle;
+    }
+    const Real minor = std::sqrt(1 - e * e);
+    const Real rate = 1 / (1 - e * std::cos(low));
+    return {{std::cos(low) - e, minor * std::sin(low), 0},
+            {-rate * std::sin(low), rate * minor * std::cos(low), 0}};
+}
+
+// 0.4 is no number of double, which changes the frequency by 3·2·u·0.4/0.4² and so on, and moves
+// the planet with a speed of up to 2 (and an acceleration of up to 1/0.4²).
+TEST(FineSteps, OfAnOrbit) {
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 12.566;
+    scene.bodies = {{.position = {0.4, 0, 0}, .velocity = {0, 2, 0}}};
+    scene.attractors = {{.gm = 1}};
+    expect_fine_steps(scene, {[](Real t) { return planet(0.6L, t); }},
+                      12.566 * 15 * 0.4 * double_round_off * 6.25);
+}
+
+// u1 and u2 = (cos ω1·t ± cos ω2·t)/2 are how far the masses are from their rest at −2 and 2 m,
+// ω1 = √15 where they swing together, ω2 = √18 where against each other. Neither reaches a wall or
+// the other, where its spring would turn over.
+TEST(FineSteps, OfTheChainMeetItsNormalModes) {
+    const Scene scene = oiler::read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
+    const auto mass = [](Real sign) {
+        return [sign](Real t) {
+            const Real together = std::sqrt(15.0L);
+            const Real against = std::sqrt(18.0L);
+            const Real u = (std::cos(together * t) + sign * std::cos(against * t)) / 2;
+            const Real v =
+                -(together * std::sin(together * t) + sign * against * std::sin(against * t)) / 2;
+            return along_x(u - sign * 2, v);
+        };
+    };
+    expect_fine_steps(scene, {mass(1), mass(-1)});
+}
+
+// The file's numbers are rounded to double: the start's speed, g and the drag's coefficient, which
+// move the projectile by u·(speed·t + g·t²) or so.
+TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
+    const auto runs = reference("projectile_quadratic_drag");
+    const auto& run = runs.at(0);
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 8;
+    scene.gravity = {0, -number(run.at("g")), 0};
+    scene.bodies = {{.matter = {.quadratic_drag = number(run.at("k_per_m"))},
+                     .velocity = {number(run.at("vx0")), number(run.at("vy0")), 0}}};
+    const Looks looks = looks_of(scene);
+    ReferenceEffort little;
+    little.most_work = 1e5;
+    const Reference fine = make_reference(scene, looks, little);
+    EXPECT_FALSE(fine.closed_form);
+    EXPECT_LE(fine.doubts.back().position, 1e-11 * fine.extent) << fine.words;
+    ASSERT_EQ(run.at("states").size(), 9U);
+    for (const auto& state : run.at("states")) {
+        const double t = number(state.at("t"));
+        const auto look = std::lround(t * static_cast<double>(looks.per_second));
+        const State3& found = fine.track.at(look, 0);
+        const oiler::Doubt& doubt = fine.doubts[static_cast<std::size_t>(look)];
+        const double given = double_round_off * (30 * t + 10 * t * t);
+        EXPECT_LE(length(found.x -
+                         Vec<Real, 3>{number<Real>(state.at("x")), number<Real>(state.at("y")), 0}),
+                  doubt.position + given)
+            << t;
+        EXPECT_LE(length(found.v - Vec<Real, 3>{number<Real>(state.at("vx")),
+                                                number<Real>(state.at("vy")), 0}),
+                  doubt.velocity + double_round_off * (30 + 10 * t))
+            << t;
+    }
+}
+
+// A doubt that always was the same would pass the tests above. Here ω·dt is 1.6 to 0.2. With three
+// runs two powers of dt, the 8th and the 10th, are out of the coarser ones' error, and each further
+// run takes out one more: as long as none is good enough, a halving divides it by 2¹⁰ and more.
+TEST(FineSteps, DoubtThemselvesMoreWhereTheyAreCoarser) {
+    Scene scene = article_scene(0, 20);
+    scene.springs[0].stiffness = 6000;
+    double before = 0;
+    for (const double work : {1e5, 2e5, 4e5}) {
+        ReferenceEffort less;
+        less.wanted = 1e-18;
+        less.most_work = work;
+        const Reference reference = make_reference(scene, looks_of(scene), less, none);
+        const double doubt = reference.doubts.back().position;
+        if (before > 0) {
+            EXPECT_LT(doubt, before / 1024) << reference.words;
+        }
+        before = doubt;
+        expect_within_doubts(reference, {article_motion(0, 6000)});
+        EXPECT_LT(reference.doubts.front().position, doubt);
+    }
+}
+
+TEST(ClosedFormReference, SaysHowGoodItIs) {
+    const Scene scene = article_scene(0, 20);
+    const Reference reference = make_reference(scene, looks_of(scene), effort());
+    EXPECT_TRUE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "which fine steps confirm to")) << reference.words;
+    EXPECT_EQ(reference.meaningful, reference.looks.count);
+    EXPECT_EQ(reference.meaningful_until(), 20);
+    expect_within_doubts(reference, {article_motion(0)});
+    EXPECT_NEAR(reference.extent, 2000, 2);
+    EXPECT_DOUBLE_EQ(reference.energy_scale, 7.5e6);
+    EXPECT_LE(reference.doubts.back().position, 1e-12 * 2000);
+    EXPECT_EQ(reference.floor().position, 100 * reference.doubts.back().position);
+    EXPECT_EQ(reference.floor().velocity, 100 * reference.doubts.back().velocity);
+    EXPECT_EQ(reference.floor().energy, 100 * reference.doubts.back().energy);
+    ASSERT_TRUE(reference.swing);
+    EXPECT_EQ(reference.swing->crossings.size(), 12U);
+}
+
+TEST(ClosedFormReference, SaysWhereItWasTooLongToCheck) {
+    const Scene scene = article_scene(0, 20);
+    ReferenceEffort none_at_all;
+    none_at_all.most_work = 1;
+    const Reference reference = make_reference(scene, looks_of(scene), none_at_all);
+    EXPECT_TRUE(reference.closed_form);
+    EXPECT_TRUE(holds(reference.words, "too long to check")) << reference.words;
+}
+
+double largest_difference(const ExactMotion& a, const ExactMotion& b, const Looks& looks) {
+    double most = 0;
+    for (std::int64_t look = 0; look < looks.count; ++look) {
+        const Real t = static_cast<Real>(look) / static_cast<Real>(looks.per_second);
+        most = std::max(most, length(a(t).x - b(t).x));
+    }
+    return most;
+}
+
+/// That a wrong closed form is found out, and what it is wrong by is told, to three digits.
+void expect_found_out(const Scene& scene, const ExactMotion& wrong, const ExactMotion& right) {
+    const Looks looks = looks_of(scene);
+    const Reference reference = make_reference(scene, looks, effort(), claimed({wrong}));
+    EXPECT_FALSE(reference.closed_form);
+    const std::string says = "the closed form is not believed: it differs by ";
+    const std::size_t at = reference.words.find(says);
+    ASSERT_NE(at, std::string::npos) << reference.words;
+    const double told = std::stod(reference.words.substr(at + says.size()));
+    const double difference = largest_difference(wrong, right, looks);
+    EXPECT_NEAR(told, difference, 0.005 * difference) << reference.words;
+    expect_within_doubts(reference, {right});
+    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent);
+}
+
+// x0·e^(−γt)·cos ω0·t, off by up to 12.78 m.
+TEST(WrongClosedForm, AsTheArticlePublishedItIsNotBelieved) {
+    const ExactMotion wrong = [](Real t) {
+        const Real omega = std::sqrt(15.0L);
+        const Real decay = 1000 * std::exp(-0.0625L * t);
+        return along_x(decay * std::cos(omega * t),
+                       -decay * (0.0625L * std::cos(omega * t) + omega * std::sin(omega * t)));
+    };
+    expect_found_out(article_scene(0.125, 30), wrong, article_motion(0.125));
+}
+
+// A millionth of the stiffness is half a millionth of the frequency: 1.9 cm after 10 s.
+TEST(WrongClosedForm, ByAMillionthIsNotBelieved) {
+    expect_found_out(article_scene(0, 10), article_motion(0, 15 * (1 + 2e-6L)), article_motion(0));
+    expect_found_out(article_scene(0.125, 10), article_motion(0.125, 15 * (1 - 1e-6L)),
+                     article_motion(0.125));
+}
+
+// The faster it swings, the finer the steps that tell: two parts in 10⁸ of the stiffness are 1.2 cm
+// of 1000 m after 195 periods.
+TEST(WrongClosedForm, OfAFastSpringIsNotBelieved) {
+    Scene scene = article_scene(0, 10);
+    scene.springs[0].stiffness = 15000;
+    expect_found_out(scene, article_motion(0, 15000 * (1 + 2e-8L)), article_motion(0, 15000));
+}
+
+// Only one of two bodies', and only after a while.
+TEST(WrongClosedForm, OfOneBodyIsNotBelieved) {
+    Scene scene = article_scene(0, 10);
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.springs.push_back(scene.springs[0]);
+    scene.springs[1].body = 1;
+    const ExactMotion right = article_motion(0);
+    const ExactMotion wrong = [=](Real t) {
+        State3 state = right(t);
+        if (t > 9) state.x[0] += 0.001L;
+        return state;
+    };
+    const Reference reference =
+        make_reference(scene, looks_of(scene), effort(), claimed({right, wrong}));
+    EXPECT_TRUE(holds(reference.words, "differs by 0.001 m")) << reference.words;
+    EXPECT_FALSE(reference.closed_form);
+    expect_within_doubts(reference, {right, right});
+}
+
+/// Two masses on springs as stiff as rods, thrown high: a double pendulum, whose neighbours part
+/// e-fold within less than a second.
+constexpr const char* double_pendulum = R"(
+[scene]
+axes = 2
+rate = 120
+duration = 40.0
+[gravity]
+acceleration = [0.0, -9.81]
+[[body]]
+name = "upper"
+position = [1.0, 0.5]
+[[body]]
+name = "lower"
+position = [1.5, 1.5]
+[[spring]]
+body = "upper"
+anchor = [0.0, 0.0]
+stiffness = 400.0
+rest_length = 1.118
+[[spring]]
+body = "upper"
+to = "lower"
+stiffness = 400.0
+rest_length = 1.118
+)";
+
+TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
+    const Scene scene = oiler::parse_scene(double_pendulum, "double_pendulum");
+    const Looks looks = looks_of(scene);
+    const auto with = [&](double work) {
+        ReferenceEffort limited;
+        limited.most_work = work;
+        return make_reference(scene, looks, limited);
+    };
+    const Reference poor = with(1e6);
+    const Reference better = with(1e7);
+    EXPECT_FALSE(better.closed_form);
+    EXPECT_LT(better.meaningful, looks.count);
+    EXPECT_LT(poor.meaningful, better.meaningful);
+    EXPECT_GT(poor.meaningful_until(), 1) << poor.words;
+    for (std::int64_t look = 0; look < poor.meaningful; ++look) {
+        const oiler::Doubt& doubt = poor.doubts[static_cast<std::size_t>(look)];
+        for (std::size_t row = 0; row < 2; ++row) {
+            const State3& a = poor.track.at(look, row);
+            const State3& b = better.track.at(look, row);
+            ASSERT_LE(length(a.x - b.x), 100 * doubt.position) << looks.time(look);
+            ASSERT_LE(length(a.v - b.v), 100 * doubt.velocity) << looks.time(look);
+        }
+    }
+    EXPECT_TRUE(holds(poor.why_no_longer, "chaotic")) << poor.why_no_longer;
+    EXPECT_LE(poor.floor().position, 1e-3 * poor.extent);
+}
+
+}  // namespace

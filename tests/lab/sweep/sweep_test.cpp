@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/sweep/tradeoff.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/tradeoffs.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+Tradeoff swept(const MeasuredScene& measured, const SweepPlan& plan) {
+    Tradeoff tradeoff = started(measured, plan);
+    sweep(tradeoff, measured.scene, measured.reference, plan, {});
+    return tradeoff;
+}
+
+const Tradeoff& whole_sweep() {
+    static const Tradeoff tradeoff = swept(spring(), small_plan());
+    return tradeoff;
+}
+
+// ---- rungs
+
+std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t looks, std::int64_t most) {
+    Scene scene;
+    scene.stepping.rate.steps = rate;
+    return rungs(scene, {.per_second = looks, .count = 2}, most);
+}
+
+class Rungs : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t>> {};
+
+TEST_P(Rungs, AreDivisorsAndMultiplesOfTheLooksAndTheRate) {
+    const auto [rate, looks] = GetParam();
+    const std::int64_t most = 64 * looks;
+    const std::vector<std::int64_t> all = rungs_at(rate, looks, most);
+    EXPECT_EQ(all.front(), 1);
+    EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), std::less_equal{}));
+    EXPECT_EQ(std::count(all.begin(), all.end(), rate), 1);
+    EXPECT_EQ(std::count(all.begin(), all.end(), looks), 1);
+    EXPECT_EQ(std::count(all.begin(), all.end(), most), 1);
+    for (std::int64_t divisor = 1; divisor <= looks; ++divisor)
+        EXPECT_EQ(std::count(all.begin(), all.end(), divisor),
+                  looks % divisor == 0 || divisor == rate)
+            << divisor;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const std::int64_t rung = all[i];
+        EXPECT_TRUE(rung == rate || looks % rung == 0 || rung % looks == 0) << rung;
+        EXPECT_TRUE(rung <= most || rung == rate) << rung;
+        EXPECT_TRUE(rung <= looks || rung <= 2 * all[i - 1]) << rung;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Rungs,
+                         testing::Values(std::pair{100, 50}, std::pair{60, 60}, std::pair{240, 60},
+                                         std::pair{1000, 50}, std::pair{1, 1}, std::pair{144, 48},
+                                         std::pair{3000, 60}, std::pair{177, 59}));
+
+// Up to twice the one before, where the looks have the divisors for it, and not beyond the limit.
+TEST(RungsAt, SixtyLooks) {
+    EXPECT_EQ(rungs_at(60, 60, 500), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20,
+                                                                30, 60, 120, 180, 240, 360, 480}));
+    EXPECT_EQ(rungs_at(600, 60, 250), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20,
+                                                                 30, 60, 120, 180, 240, 600}));
+}
+
+TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
+    EXPECT_EQ(rungs_at(100, 50, 10), (std::vector<std::int64_t>{1, 2, 5, 10, 100}));
+    EXPECT_EQ(rungs_at(60, 60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
+}
+
+// ---- sweeping
+
+TEST(Sweep, ClimbsEachLadderByTheRungs) {
+    const std::vector<std::int64_t> rates = rungs(spring().scene, spring().looks, 800);
+    EXPECT_TRUE(whole_sweep().complete());
+    EXPECT_EQ(whole_sweep().ladders.size(), 12U);
+    EXPECT_EQ(whole_sweep().today,
+              (Stepping{&find_method("semi_implicit_euler"), 100, Precision::double_}));
+    for (const Ladder& ladder : whole_sweep().ladders) {
+        EXPECT_FALSE(ladder.rows.empty());
+        for (std::size_t i = 0; i < ladder.rows.size(); ++i) {
+            EXPECT_EQ(ladder.rows[i].choice,
+                      (Stepping{ladder.method, rates[i], ladder.precision}));
+            EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().looks.per_second == 0);
+        }
+    }
+}
+
+// As many threads as there are cores climbed the ladders of the sweep; one judges here.
+TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
+    std::size_t count = 0;
+    for (const TradeoffRow* row : whole_sweep().rows()) {
+        const Judgement alone = judge(spring().scene, settings_of(row->stepping), spring().reference);
+        EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->stepping);
+        ++count;
+    }
+    EXPECT_GT(count, 80U);
+}
+
+// The spring is left to itself: x" = -15 x - 0.1 x', so that the closed form is a damped cosine.
+// What the sweep says of semi-implicit Euler is what its two lines say: at 100 Hz it is looked at
+// every other step.
+TEST(Sweep, HasTheErrorsOfTheArticlesLines) {
+    const double w = std::sqrt(15 - 0.05 * 0.05);
+    double x = 1000;
+    double v = 0;
+    double most = 0;
+    for (int tick = 0; tick <= 1000; ++tick) {
+        const double t = tick / 100.0;
+        const double exact =
+            1000 * std::exp(-0.05 * t) * (std::cos(w * t) + 0.05 / w * std::sin(w * t));
+        if (tick % 2 == 0) most = std::max(most, std::abs(x - exact));
+        v += (-15 * x - 0.1 * v) * 0.01;
+        x += v * 0.01;
+    }
+    const TradeoffRow* row = whole_sweep().find(whole_sweep().today);
+    ASSERT_NE(row, nullptr);
+    EXPECT_NEAR(row->judgement.position_error, most, 1e-9 * most);
+}
+
+// At 25 Hz every other of 50 looks a second falls between two steps, at 10 Hz four of five: there
+// it is on the straight line.
+TEST(Sweep, HasTheErrorsOfWhatIsDrawnBetweenSteps) {
+    const double w = std::sqrt(15 - 0.05 * 0.05);
+    for (const int rate : {10, 25}) {
+        std::vector<double> x{1000};
+        double v = 0;
+        for (int tick = 0; tick <= 10 * rate; ++tick) {
+            v += (-15 * x.back() - 0.1 * v) / rate;
+            x.push_back(x.back() + v / rate);
+        }
+        double most = 0;
+        for (int look = 0; look <= 500; ++look) {
+            const double t = look / 50.0;
+            const auto tick = static_cast<std::size_t>(look * rate / 50);
+            const double share = look * rate % 50 / 50.0;
+            const double drawn = x[tick] + share * (x[tick + 1] - x[tick]);
+            const double exact =
+                1000 * std::exp(-0.05 * t) * (std::cos(w * t) + 0.05 / w * std::sin(w * t));
+            most = std::max(most, std::abs(drawn - exact));
+        }
+        const TradeoffRow* row =
+            whole_sweep().find({&find_method("semi_implicit_euler"), rate, Precision::double_});
+        ASSERT_NE(row, nullptr);
+        EXPECT_NEAR(row->judgement.position_error, most, 1e-9 * most) << rate;
+        EXPECT_FALSE(row->meets_steps);
+    }
+}
+
+TEST(Sweep, StoppedAndGoneOnWithIsThatOfOneGo) {
+    for (const int ladders : {1, 4, 7}) {
+        Tradeoff tradeoff = started(spring(), small_plan());
+        int done = 0;
+        bool stopped = false;
+        SweepWatch watch;
+        watch.ladder_done = [&](const Tradeoff&) { stopped = ++done >= ladders; };
+        watch.stopped = [&] { return stopped; };
+        sweep(tradeoff, spring().scene, spring().reference, small_plan(), watch);
+        EXPECT_FALSE(tradeoff.complete());
+        Tradeoff read = parse_tradeoff(to_json(tradeoff), "tradeoff.json");
+        expect_same_errors(read, tradeoff);
+        sweep(read, spring().scene, spring().reference, small_plan(), {});
+        EXPECT_TRUE(read.complete());
+        expect_same_errors(read, whole_sweep());
+    }
+}
+
+TEST(Sweep, LeavesWhatIsDoneAlone) {
+    Tradeoff tradeoff = whole_sweep();
+    tradeoff.ladders[2].rows[0].judgement.position_error = 42;
+    int climbed = 0;
+    SweepWatch watch;
+    watch.ladder_done = [&](const Tradeoff&) { ++climbed; };
+    sweep(tradeoff, spring().scene, spring().reference, small_plan(), watch);
+    EXPECT_EQ(climbed, 0);
+    EXPECT_EQ(tradeoff.ladders[2].rows[0].judgement.position_error, 42);
+}
+
+TEST(Sweep, TellsHowFarItIs) {
+    SweepPlan plan = small_plan();
+    plan.max_rate = 50;
+    Tradeoff tradeoff = started(spring(), plan);
+    std::vector<double> shares;
+    SweepWatch watch;
+    watch.progress = [&](double share) { shares.push_back(share); };
+    sweep(tradeoff, spring().scene, spring().reference, plan, watch);
+    EXPECT_EQ(shares.size(), tradeoff.ladders.size());
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GT(shares.front(), 0);
+    EXPECT_NEAR(shares.back(), 1, 1e-12);
+}
+
+TEST(TimeRows, TimesWhatIsStableAndChangesNoError) {
+    Tradeoff tradeoff = whole_sweep();
+    EXPECT_FALSE(tradeoff.timed());
+    std::vector<TradeoffRow*> rows;
+    for (Ladder& ladder : tradeoff.ladders)
+        for (TradeoffRow& row : ladder.rows) rows.push_back(&row);
+    time_rows(spring().scene, rows, 1, {});
+    EXPECT_TRUE(tradeoff.timed());
+    expect_same_errors(tradeoff, whole_sweep());
+    for (const TradeoffRow* row : rows) {
+        EXPECT_EQ(std::isnan(row->ns_per_second), !row->judgement.stable) << named(row->stepping);
+        EXPECT_FALSE(row->ns_per_second <= 0);
+    }
+}
+
+// ---- where ladders end
+
+const Ladder& ladder_of(const Tradeoff& tradeoff, const char* name, Precision precision) {
+    for (const Ladder& ladder : tradeoff.ladders)
+        if (ladder.method->name == name && ladder.precision == precision) return ladder;
+    throw std::invalid_argument("no such ladder");
+}
+
+TEST(Ladder, EndsWhereTheReferenceCannotTell) {
+    SweepPlan plan = small_plan();
+    plan.methods = methods_of({"kahan_li8_kdk"});
+    plan.max_rate = 100'000;
+    const MeasuredScene rough(
+        "[scene]\naxes = 1\nrate = 100\nduration = 3.0\n[[body]]\nname = \"a\"\n"
+        "position = [1.0]\n[[body]]\nname = \"b\"\nposition = [2.0]\n[[spring]]\nbody = \"a\"\n"
+        "to = \"b\"\nstiffness = 15.0\nrest_length = 0.5\n",
+        {.wanted = 1e-9});
+    const Tradeoff tradeoff = swept(rough, plan);
+    const Ladder& ladder = ladder_of(tradeoff, "kahan_li8_kdk", Precision::double_);
+    EXPECT_EQ(ladder.end, "the reference cannot tell smaller errors");
+    ASSERT_GT(ladder.rows.size(), 1U);
+    for (std::size_t i = 0; i < ladder.rows.size(); ++i)
+        EXPECT_EQ(ladder.rows[i].judgement.below_floor(), i + 1 == ladder.rows.size()) << i;
+}
+
+// Of the last three aligned rows none was better by a tenth than the best before.
+TEST(Ladder, EndsAtRoundOff) {
+    SweepPlan plan = small_plan();
+    plan.methods = methods_of({"rk4"});
+    plan.max_rate = 1'000'000;
+    const Tradeoff tradeoff = swept(spring(), plan);
+    const Ladder& ladder = ladder_of(tradeoff, "rk4", Precision::single);
+    EXPECT_EQ(ladder.end, "round-off keeps errors from falling");
+    std::vector<double> errors;
+    for (const TradeoffRow& row : ladder.rows)
+        if (row.judgement.stable && row.meets_steps) errors.push_back(row.judgement.position_error);
+    ASSERT_GT(errors.size(), 4U);
+    const double best = *std::min_element(errors.begin(), errors.end() - 3);
+    EXPECT_GE(*std::min_element(errors.end() - 3, errors.end()), 0.9 * best);
+    EXPECT_LT(*(errors.end() - 4), 0.9 * *std::min_element(errors.begin(), errors.end() - 4));
+    // 24 bits of 1000 m are 6e-5 m; thousands of roundings leave some hundred times that.
+    EXPECT_LT(best, 0.1);
+}
+
+// Semi-implicit Euler evaluates once a step: 10 s at 400 Hz are 4000 evaluations, one body.
+TEST(Ladder, EndsWhereARunIsTooMuchWork) {
+    SweepPlan plan = small_plan();
+    plan.methods = methods_of({"semi_implicit_euler"});
+    plan.precisions = {Precision::double_};
+    plan.most_work = 4000;
+    const Tradeoff tradeoff = swept(spring(), plan);
+    const Ladder& ladder = tradeoff.ladders.front();
+    EXPECT_EQ(ladder.end, "a run at higher rates is too much work");
+    ASSERT_FALSE(ladder.rows.empty());
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 400);
+    EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
+}
+
+TEST(Ladder, EndsWhereNoMoreIsAskedFor) {
+    const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
+    EXPECT_EQ(ladder.end, "no higher rates were asked for");
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 800);
+}
+
+TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {
+    const MeasuredScene orbit(
+        "[scene]\naxes = 2\nrate = 100\nduration = 3.0\n[[attractor]]\nposition = [0.0, 0.0]\ngm = "
+        "1.0\n"
+        "[[body]]\nposition = [1.0, 0.0]\nvelocity = [0.0, 1.0]\n");
+    SweepPlan plan{.methods = methods_of({"exact", "velocity_verlet"}), .max_rate = 100};
+    const Tradeoff tradeoff = swept(orbit, plan);
+    EXPECT_TRUE(tradeoff.complete());
+    for (const Precision precision : plan.precisions) {
+        const Ladder& ladder = ladder_of(tradeoff, "exact", precision);
+        EXPECT_TRUE(ladder.rows.empty());
+        EXPECT_TRUE(holds(ladder.end, "exact")) << ladder.end;
+        EXPECT_TRUE(holds(ladder.end, "attractor")) << ladder.end;
+        EXPECT_FALSE(ladder_of(tradeoff, "velocity_verlet", precision).rows.empty());
+    }
+}
+
+TEST(Ladder, GoesOnPastWhatIsUnstable) {
+    const Ladder& ladder = ladder_of(whole_sweep(), "velocity_verlet", Precision::double_);
+    // Below ω·dt = 2 at 1.94 Hz it blows up.
+    EXPECT_FALSE(ladder.rows.front().judgement.stable);
+    EXPECT_TRUE(std::isnan(ladder.rows.front().judgement.position_error));
+    EXPECT_TRUE(ladder.rows.back().judgement.stable);
+}
+
+// ---- shards
+
+std::vector<Tradeoff> shards_of(int shards) {
+    std::vector<Tradeoff> parts;
+    for (int shard = 1; shard <= shards; ++shard) {
+        SweepPlan plan = small_plan();
+        plan.shard = shard;
+        plan.shards = shards;
+        parts.push_back(swept(spring(), plan));
+    }
+    return parts;
+}
+
+TEST(Merge, OfFourShardsIsOneRun) {
+    const std::vector<Tradeoff> parts = shards_of(4);
+    std::size_t rows = 0;
+    for (const Tradeoff& part : parts) {
+        EXPECT_FALSE(part.complete());
+        EXPECT_EQ(part.ladders.size(), whole_sweep().ladders.size());
+        EXPECT_EQ(std::count_if(part.ladders.begin(), part.ladders.end(),
+                                [](const Ladder& ladder) { return ladder.done; }),
+                  3);
+        rows += part.rows().size();
+    }
+    EXPECT_EQ(rows, whole_sweep().rows().size());
+    const Tradeoff merged = merge(parts);
+    expect_same_errors(merged, whole_sweep());
+    EXPECT_EQ(to_json(merged), to_json(whole_sweep()));
+    EXPECT_EQ(to_json(merge({parts[2], parts[0], parts[3], parts[1]})), to_json(whole_sweep()));
+}
+
+TEST(Merge, NamesEachMachineOnce) {
+    std::vector<Tradeoff> parts = shards_of(3);
+    parts[1].machines = {{"another", 7, "cc"}};
+    const Tradeoff merged = merge(parts);
+    EXPECT_EQ(merged.machines.size(), 2U);
+    EXPECT_EQ(merged.machines.at(0), this_machine());
+    EXPECT_EQ(merged.machines.at(1), (Machine{"another", 7, "cc"}));
+}
+
+TEST(Merge, RefusesPartsOfOtherSweeps) {
+    std::vector<Tradeoff> parts = shards_of(2);
+    parts[1].fingerprint = "another";
+    expect_usage([&] { (void)merge(parts); }, "not of one sweep");
+    parts = shards_of(2);
+    parts[1].ladders.pop_back();
+    expect_usage([&] { (void)merge(parts); }, "not of one sweep");
+}
+
+TEST(Merge, RefusesWhereAPartIsMissing) {
+    std::vector<Tradeoff> parts = shards_of(4);
+    parts.erase(parts.begin() + 1);
+    expect_usage([&] { (void)merge(parts); }, "3 of 12");
+}
+
+}  // namespace
+}  // namespace oiler::test

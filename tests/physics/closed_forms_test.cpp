@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/physics/closed_forms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "support/reference.hpp"
+
+namespace {
+
+using oiler::constant_acceleration;
+using oiler::damped_oscillator;
+using oiler::linear_drag_motion;
+using oiler::Motion;
+
+template <class T>
+constexpr T round_off = std::numeric_limits<T>::epsilon() / 2;
+
+template <class T>
+struct Oscillator {
+    T m, k, b;
+    Motion<T> start;
+    T t;
+
+    Motion<T> exact() const { return damped_oscillator(m, k, b, start, t); }
+    T rate() const { return std::max(std::sqrt(k / m), b / (2 * m)); }
+};
+
+/// Sums, products and quotients take a handful of round-offs, the argument of an exponential or a
+/// sine one for each radian or time constant of it: 16 and 4 leave some slack for what cancels.
+template <class T>
+T relative_tolerance(T radians) {
+    return (16 + 4 * radians) * round_off<T>;
+}
+
+template <class T>
+void expect_near(Motion<T> motion, Motion<T> expected, T relative, T x_scale, T v_scale) {
+    EXPECT_LE(std::abs(motion.x - expected.x), relative * x_scale) << motion.x << " " << expected.x;
+    EXPECT_LE(std::abs(motion.v - expected.v), relative * v_scale) << motion.v << " " << expected.v;
+}
+
+/// Against the size of each number itself.
+template <class T>
+void expect_digits(const Oscillator<T>& oscillator, Motion<T> expected) {
+    expect_near(oscillator.exact(), expected, relative_tolerance(oscillator.rate() * oscillator.t),
+                std::abs(expected.x), std::abs(expected.v));
+}
+
+TEST(DampedOscillator, TheArticlesSpring) {
+    const auto table = reference("article").at("exact_damped").at("table");
+    ASSERT_EQ(table.size(), 9U);
+    for (const auto& [t, state] : table.items()) {
+        const Oscillator<double> spring{1, 15, 0.1, {1000, 0}, std::stod(t)};
+        // x and v swing through zero, their errors do not: both stand for the decayed amplitude. b
+        // is not a number of double: its round-off is another of γt, small beside ωt.
+        const double amplitude = 1000 * std::exp(-0.05 * spring.t);
+        expect_near(spring.exact(), {number(state[0]), number(state[1])},
+                    relative_tolerance(spring.rate() * spring.t), amplitude,
+                    amplitude * spring.rate());
+    }
+}
+
+TEST(DampedOscillator, TheUndampedSpring) {
+    const auto table = reference("article").at("exact_undamped").at("table");
+    ASSERT_EQ(table.size(), 9U);
+    for (const auto& [t, state] : table.items()) {
+        const Oscillator<double> spring{1, 15, 0, {1000, 0}, std::stod(t)};
+        expect_near(spring.exact(), {number(state[0]), number(state[1])},
+                    relative_tolerance(spring.rate() * spring.t), 1000.0, 1000 * spring.rate());
+    }
+}
+
+// The literals below are to 28 digits, x and v of
+//   e^(−γt)·(x0·cosh δt + (v0 + γx0)·sinh(δt)/δ), e^(−γt)·(v0·cosh δt − (k/m·x0 + γv0)·sinh(δt)/δ),
+// δ² = γ² − k/m, in Python:
+//   from mpmath import *; mp.dps = 120  # 1500 for b = 1e8
+//   m, k, b, x, v, t = map(mpf, ('2.5', '15', '0.75', '3', '-2', '2.5'))
+//   g = b/(2*m); d = sqrt(mpc(g*g - k/m)); s = (sinh(d*t)/d).real if d else t; c = cosh(d*t).real
+//   e = exp(-g*t); print(nstr(e*(x*c + (v+g*x)*s), 28), nstr(e*(v*c - (k/m*x + g*v)*s), 28))
+template <class T>
+class DampedOscillatorDigits : public testing::Test {};
+using Types = testing::Types<double, long double>;
+TYPED_TEST_SUITE(DampedOscillatorDigits, Types, );
+
+template <class T>
+Motion<T> digits(long double x, long double v) {
+    return {static_cast<T>(x), static_cast<T>(v)};
+}
+
+// v is near a zero, where its error is that of the amplitude, ω·x0·e^(−γt) = 5.1.
+TYPED_TEST(DampedOscillatorDigits, Underdamped) {
+    using T = TypeParam;
+    const Oscillator<T> spring{2.5, 15, 0.75, {3, -2}, 2.5};
+    expect_near<T>(spring.exact(),
+                   digits<T>(2.105938262320290759003787626L, -0.5080662711496898249256963237L),
+                   relative_tolerance(spring.rate() * spring.t), 2.1, 5.1);
+}
+
+TYPED_TEST(DampedOscillatorDigits, CriticallyDamped) {
+    expect_digits<TypeParam>(
+        {1, 4, 4, {1, -3}, 0.75},
+        digits<TypeParam>(0.05578254003710745723332011769L, -0.3346952402226447433999207061L));
+}
+
+TYPED_TEST(DampedOscillatorDigits, Overdamped) {
+    expect_digits<TypeParam>(
+        {2.5, 1.5, 8, {-2, 5}, 1.25},
+        digits<TypeParam>(-0.316779433574659559332666328L, 0.1715375176525738097528287171L));
+}
+
+TYPED_TEST(DampedOscillatorDigits, OnEitherSideOfCritical) {
+    const TypeParam little = std::ldexp(TypeParam(1), -20);
+    expect_digits<TypeParam>(
+        {1, 4, 4 + little, {1, -3}, 0.75},
+        digits<TypeParam>(0.05578268965751620974479296287L, -0.3346951803744937990370082621L));
+    expect_digits<TypeParam>(
+        {1, 4, 4 - little, {1, -3}, 0.75},
+        digits<TypeParam>(0.05578239041665268746678615427L, -0.3346953000708392079575421163L));
+}
+
+TYPED_TEST(DampedOscillatorDigits, OnEitherSideOfCriticalFor32TimeConstants) {
+    const TypeParam little = std::ldexp(TypeParam(1), -20);
+    expect_digits<TypeParam>(
+        {1, 4, 4 + little, {1, -3}, 16},
+        digits<TypeParam>(-1.899743354539245758906844657e-13L, 3.672819931736279904827157406e-13L));
+    expect_digits<TypeParam>(
+        {1, 4, 4 - little, {1, -3}, 16},
+        digits<TypeParam>(-1.899506313680156244340022368e-13L, 3.672396092374110597815056856e-13L));
+}
+
+// The textbook's γ − √(γ² − ω²) is 29 % wrong here; the time constants that pass are the slow
+// one's, t/1e8, once the fast one has died away.
+template <class T>
+void expect_stiff_digits(T t, T radians, Motion<T> expected) {
+    const Oscillator<T> oscillator{1, 1, T(1e8L), {1000, 7}, t};
+    expect_near(oscillator.exact(), expected, relative_tolerance(radians), std::abs(expected.x),
+                std::abs(expected.v));
+}
+
+TYPED_TEST(DampedOscillatorDigits, FarOverdamped) {
+    using T = TypeParam;
+    expect_stiff_digits<T>(
+        std::ldexp(T(1), -27), 1,
+        digits<T>(1000.000000036770506376636402L, 3.322941911755762757622198828L));
+    expect_stiff_digits<T>(
+        1, 0, digits<T>(999.9999900700001492999978508L, -0.000009999999900700002492999968578L));
+    expect_stiff_digits<T>(
+        T(1e8L), 1,
+        digits<T>(367.8794411971938824775247352L, -0.00000367879441197193919265468855L));
+}
+
+// At the critical point x and v change by at most t²·x-scale·δb.
+TEST(DampedOscillator, IsContinuousAcrossTheCriticalPoint) {
+    const Motion<double> critical = Oscillator<double>{1, 4, 4, {1, -3}, 0.75}.exact();
+    for (const double change : {1e-15, 1e-12, 1e-9, 1e-6})
+        for (const double b : {4 - 4 * change, 4 + 4 * change}) {
+            const Motion<double> near = Oscillator<double>{1, 4, b, {1, -3}, 0.75}.exact();
+            EXPECT_NEAR(near.x, critical.x, 4 * change + 16 * round_off<double>) << b;
+            EXPECT_NEAR(near.v, critical.v, 12 * change + 48 * round_off<double>) << b;
+        }
+}
+
+TEST(DampedOscillator, WithoutSpringAndDamperIsFree) {
+    const Motion<double> free = damped_oscillator(2.5, 0.0, 0.0, {3.0, -2.0}, 4.0);
+    EXPECT_EQ(free.x, -5);
+    EXPECT_EQ(free.v, -2);
+}
+
+// x = x0 + v0·(1 − e^(−ct))/c with c = b/m = ½ and t = 2 ln 2: e^(−ct) = ½.
+TEST(DampedOscillator, WithoutSpringIsDrag) {
+    const Motion<double> drag =
+        damped_oscillator(2.0, 0.0, 1.0, {3.0, -2.0}, 2 * std::numbers::ln2);
+    EXPECT_NEAR(drag.x, 3 - 2 * 0.5 / 0.5, 16 * round_off<double>);
+    EXPECT_NEAR(drag.v, -1, 16 * round_off<double>);
+}
+
+TEST(DampedOscillator, StartsAtItsStart) {
+    for (const double b : {0.0, 0.1, 4.0, 100.0, 1e8}) {
+        const Motion<double> start = damped_oscillator(1.0, 4.0, b, {3.0, -2.0}, 0.0);
+        EXPECT_EQ(start.x, 3) << b;
+        // An overdamped velocity is a difference of terms as large as slow·x0 < 2·x0.
+        EXPECT_NEAR(start.v, -2, 8 * round_off<double>) << b;
+    }
+}
+
+/// Going on for t2 from where t1 led must lead where t1 + t2 leads.
+template <class F>
+void expect_semigroup(F exact, double radians, double x_scale, double v_scale) {
+    const Motion<double> start{3, -2};
+    const Motion<double> halfway = exact(start, 0.75);
+    expect_near(exact(halfway, 1.5), exact(start, 2.25), 2 * relative_tolerance(radians), x_scale,
+                v_scale);
+}
+
+TEST(DampedOscillator, IsASemigroup) {
+    for (const double b : {0.0, 0.1, 3.9, 4.0, 4.1, 100.0})
+        expect_semigroup([b](Motion<double> start,
+                             double t) { return damped_oscillator(1.0, 4.0, b, start, t); },
+                         2 * 2.25, 4, 8);
+}
+
+TEST(LinearDragMotion, IsASemigroup) {
+    for (const double c : {0.0, 1e-9, 0.4, 1.2, 50.0})
+        expect_semigroup(
+            [c](Motion<double> start, double t) { return linear_drag_motion(start, -9.81, c, t); },
+            c * 2.25, 3 + 2 * 2.25 + 10 * 2.25 * 2.25, 2 + 10 * 2.25);
+}
+
+Motion<double> launch(double speed, double along) { return {0, speed * along}; }
+
+TEST(LinearDragMotion, MatchesTheReferences) {
+    const auto runs = reference("linear_drag");
+    ASSERT_EQ(runs.size(), 2U);
+    for (const auto& run : runs) {
+        const double angle = number(run.at("deg")) * std::numbers::pi / 180;
+        const double speed = number(run.at("v0"));
+        const double c = number(run.at("beta"));
+        const double g = number(run.at("g"));
+        for (const auto& state : run.at("states")) {
+            const double t = number(state.at("t"));
+            const double fallen = g * t * t;
+            const double tolerance = relative_tolerance(c * t);
+            expect_near(linear_drag_motion(launch(speed, std::cos(angle)), 0.0, c, t),
+                        {number(state.at("x")), number(state.at("vx"))}, tolerance, speed * t,
+                        speed);
+            expect_near(linear_drag_motion(launch(speed, std::sin(angle)), -g, c, t),
+                        {number(state.at("y")), number(state.at("vy"))}, tolerance,
+                        speed * t + fallen, speed + g * t);
+        }
+    }
+}
+
+// Drag changes x by at most c·t·(|v0|t + |a|t²), v likewise.
+TEST(LinearDragMotion, TendsToFreeFallAsDragVanishes) {
+    const Motion<double> start{3, 20};
+    const Motion<double> free = constant_acceleration(start, -9.81, 2.0);
+    EXPECT_EQ(free.v, 20 - 2 * 9.81);
+    EXPECT_DOUBLE_EQ(free.x, 3 + 40 - 2 * 9.81);
+    for (const double c : {0.0, 1e-300, 1e-12, 1e-8, 1e-4}) {
+        const Motion<double> slowed = linear_drag_motion(start, -9.81, c, 2.0);
+        expect_near(slowed, free, 2 * c + 16 * round_off<double>, 3 + 40.0 + 40.0, 20.0 + 20.0);
+    }
+}
+
+// Where phi2 changes from its series to its formula, at c·t = 1, nothing jumps.
+TEST(LinearDragMotion, IsContinuousWhereItsFormulaChanges) {
+    const double above = std::nextafter(1.0, 2.0);
+    const Motion<double> series = linear_drag_motion({3.0, 20.0}, -9.81, 0.5, 2.0);
+    const Motion<double> formula = linear_drag_motion({3.0, 20.0}, -9.81, 0.5 * above, 2.0);
+    expect_near(formula, series, 16 * round_off<double>, 3 + 40.0 + 20.0, 40.0);
+}
+
+}  // namespace

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/physics/methods/methods.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+
+#include "oiler/core/error.hpp"
+#include "oiler/physics/advance.hpp"
+#include "oiler/physics/closed_forms.hpp"
+#include "oiler/stability/stability.hpp"
+#include "support/reference.hpp"
+#include "support/spring.hpp"
+
+namespace {
+
+using oiler::advance;
+using oiler::Bodies;
+using oiler::Damping;
+using oiler::find_method;
+using oiler::make_plan;
+using oiler::Method;
+using oiler::methods;
+using oiler::Move;
+using oiler::Precision;
+using oiler::Splitting;
+using oiler::State;
+using oiler::Vec;
+
+TEST(Methods, HaveNamesOfTheirOwn) {
+    std::set<std::string_view> names;
+    for (const Method& method : methods()) names.insert(method.name);
+    EXPECT_EQ(names.size(), methods().size());
+    EXPECT_EQ(names.count("explicit_euler"), 1U);
+    EXPECT_EQ(names.count("semi_implicit_euler"), 1U);
+}
+
+TEST(Methods, SayWhereTheyComeFrom) {
+    for (const Method& method : methods()) {
+        EXPECT_FALSE(method.source.empty()) << method.name;
+        EXPECT_GE(method.order, 1) << method.name;
+        EXPECT_GE(method.evaluations, 0) << method.name;
+    }
+}
+
+TEST(Methods, AreFoundByName) {
+    for (const Method& method : methods()) EXPECT_EQ(&find_method(method.name), &method);
+}
+
+TEST(Methods, AnUnknownNameIsAUsageErrorThatNamesTheChoices) {
+    try {
+        static_cast<void>(find_method("semi_implicit_oiler"));
+        FAIL() << "found";
+    } catch (const oiler::Error& error) {
+        const std::string line = error.what();
+        EXPECT_EQ(error.exit(), oiler::Exit::usage);
+        EXPECT_NE(line.find("semi_implicit_oiler"), std::string::npos) << line;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        for (const Method& method : methods())
+            EXPECT_NE(line.find(method.name), std::string::npos) << line;
+    }
+}
+
+constexpr double k = 15;
+
+/// After 1 s, the larger of the errors from two independent starts, so that neither position nor
+/// velocity can be right by the luck of a phase. In long double, so that round-off leaves high
+/// orders to be seen.
+struct Errors {
+    long double x = 0;
+    long double v = 0;
+};
+
+Errors errors_at(const Method& method, Damping damping, double b, int steps) {
+    Bodies bodies(1, Precision::extended);
+    const std::array<oiler::Motion<long double>, 2> starts{{{1, 0}, {0, 4}}};
+    for (const auto& start : starts)
+        bodies.add({.position = {static_cast<double>(start.x)},
+                    .velocity = {static_cast<double>(start.v)}},
+                   oiler::Spring{.stiffness = k, .damping = b});
+    bodies.step(method, {.rate = {steps}, .count = steps, .damping = damping});
+    Errors largest;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const auto exact = oiler::damped_oscillator<long double>(1, k, b, starts[i], 1);
+        largest.x = std::max(largest.x, std::abs(bodies.state(i).x[0] - exact.x));
+        largest.v = std::max(largest.v, std::abs(bodies.state(i).v[0] - exact.v));
+    }
+    return largest;
+}
+
+// With an error of 1e-15 to 1e-8 the step is so small that the next term of the error moves the
+// slope, log2 of a ratio of errors, by less than 0.1; round-off is some 1e-18.
+void expect_order(const Method& method, Damping damping, double b, int order) {
+    int steps = 1024;
+    while (errors_at(method, damping, b, 2 * steps).x < 1e-15) steps = steps * 3 / 4;
+    const Errors coarse = errors_at(method, damping, b, steps);
+    const Errors fine = errors_at(method, damping, b, 2 * steps);
+    EXPECT_NEAR(std::log2(coarse.x / fine.x), order, 0.1) << method.name << ", b = " << b;
+    EXPECT_NEAR(std::log2(coarse.v / fine.v), order, 0.1) << method.name << ", b = " << b;
+}
+
+bool kicks_at_both_ends(const Method& method) {
+    const auto stages = std::get<Splitting>(method.rule).stages();
+    return stages.front().move == Move::kick && stages.back().move == Move::kick;
+}
+bool is_exact(const Method& method) { return method.order == oiler::exact_order; }
+bool is_splitting(const Method& method) { return std::holds_alternative<Splitting>(method.rule); }
+
+TEST(Methods, HaveTheirOrderOnTheSpring) {
+    for (const Method& method : methods())
+        if (!is_exact(method)) expect_order(method, method.damping, 0, method.order);
+}
+
+TEST(Methods, HaveTheirOrderOnTheDampedSpring) {
+    for (const Method& method : methods())
+        if (!is_exact(method)) expect_order(method, Damping::in_drift, 0.5, method.order);
+}
+
+// A velocity-dependent force that kicks explicitly leaves the first order, and no more.
+TEST(Methods, LoseTheirOrderToDampingInTheKicks) {
+    for (const Method& method : methods()) {
+        if (!is_splitting(method)) continue;
+        EXPECT_EQ(damped_order(method, Damping::in_kick), 1) << method.name;
+        EXPECT_EQ(damped_order(method, Damping::in_drift), method.order) << method.name;
+        expect_order(method, Damping::in_kick, 0.5, 1);
+    }
+}
+
+TEST(Methods, EvaluateAsOftenAsTheySay) {
+    constexpr int steps = 10;
+    for (const Method& method : methods()) {
+        if (method.evaluations == 0) continue;
+        Bodies bodies = article_spring(damping);
+        bodies.step(method, {.rate = {100}, .count = steps, .damping = Damping::in_drift});
+        const bool first_is_extra = is_splitting(method) && kicks_at_both_ends(method);
+        EXPECT_EQ(bodies.evaluations(), steps * method.evaluations + (first_is_extra ? 1 : 0))
+            << method.name;
+    }
+}
+
+// With damping in the kicks the velocity has its say, and nothing can be reused.
+TEST(Methods, EvaluateAtEveryKickWhereVelocityDecides) {
+    Bodies bodies = article_spring(damping);
+    bodies.step(find_method("velocity_verlet"),
+                {.rate = {100}, .count = 10, .damping = Damping::in_kick});
+    EXPECT_EQ(bodies.evaluations(), 20);
+}
+
+// A step has only round-off, some 1e-18, where it conserves area; of order p it else misses by
+// about h^(p+1) or h^(p+2)/72, at h = 0.8 far more than 1e-9.
+TEST(Methods, ConserveAreaWhenTheySaySo) {
+    const oiler::Oscillation swing{0.64, 0};
+    for (const Method& method : methods()) {
+        const auto matrix = oiler::step_matrices(method, method.damping, std::span(&swing, 1))[0];
+        if (method.symplectic)
+            EXPECT_LT(std::abs(matrix.determinant() - 1), 1e-17L) << method.name;
+        else
+            EXPECT_GT(std::abs(matrix.determinant() - 1), 1e-9L) << method.name;
+    }
+}
+
+// To the last digit of long double, but for one whose 14 published digits leave the kicks' sum
+// 6e-15 too long; here its order conditions hold to 1e-25.
+TEST(Splittings, AreThePublishedOnes) {
+    const auto published = reference("splittings");
+    ASSERT_GE(published.size(), 27U);
+    for (const auto& [name, entry] : published.items()) {
+        const Method& method = find_method(method_named(name));
+        const auto stages = std::get<Splitting>(method.rule).stages();
+        ASSERT_EQ(stages.size(), entry.at("stages").size()) << name;
+        const long double tolerance = name == "calvo_sanz_serna4" ? 2e-12L : 2e-19L;
+        for (std::size_t i = 0; i < stages.size(); ++i) {
+            const auto& stage = entry.at("stages")[i];
+            EXPECT_EQ(stages[i].move == Move::kick, stage[0] == "K") << name;
+            const long double off = stages[i].coefficient - number<long double>(stage[1]);
+            EXPECT_LE(std::abs(off), tolerance) << name;
+        }
+        EXPECT_EQ(method.order, entry.at("order")) << name;
+        EXPECT_EQ(method.evaluations, entry.at("force_evaluations_per_step")) << name;
+        EXPECT_EQ(method.symmetric, entry.at("symmetric")) << name;
+    }
+}
+
+/// `operations` roundings a step at most, each no larger than the amplitude.
+void expect_reference(const Method& method, double b, oiler::Rate rate, int steps, const char* run,
+                      const char* name, int operations) {
+    const auto state = reference("spring_states").at(run).at("state").at(name);
+    Bodies bodies = article_spring(b);
+    bodies.step(method, {rate, 0, steps});
+    const double tolerance = drift_of_rounding(steps, operations, start_x);
+    EXPECT_NEAR(bodies.position(0)[0], number(state[0]), tolerance) << method.name;
+    EXPECT_NEAR(bodies.velocity(0)[0], number(state[1]), tolerance * omega) << method.name;
+}
+
+// The final sum of RK4 makes four roundings in x and in v, what comes before is smaller by h.
+TEST(Reference, StatesOfTheArticlesSpringComeOut) {
+    constexpr const char* damped = "damped_dt0.01_n1000";
+    const auto expect = [&](const char* method, const char* name, int operations) {
+        expect_reference(find_method(method), damping, {100}, 1000, damped, name, operations);
+    };
+    expect("explicit_euler", "explicit_euler", 10);
+    expect("semi_implicit_euler", "semi_implicit_euler_kd/E", 8);
+    expect("implicit_euler", "implicit_euler", 12);
+    expect("implicit_midpoint", "implicit_midpoint", 12);
+    expect("rk4", "rk4_classic", 12);
+}
+
+TEST(Reference, StatesOfTheUndampedSpringComeOut) {
+    constexpr const char* undamped = "undamped_dt0.1_n900";
+    const auto expect = [&](const char* method, const char* name, int operations) {
+        expect_reference(find_method(method), 0, {10}, 900, undamped, name, operations);
+    };
+    expect("semi_implicit_euler", "semi_implicit_euler_kd", 8);
+    expect("velocity_verlet", "verlet_velocity_kdk", 12);
+    expect("rk4", "rk4_classic", 16);
+    expect("implicit_euler", "implicit_euler", 12);
+    expect("implicit_midpoint", "implicit_midpoint", 12);
+}
+
+// Explicit Euler grows by 1 + h², h² = 0.15, in the square of each of 900 steps: to 1.8e30.
+TEST(Reference, ExplicitEulersUndampedGrowthComesOut) {
+    const auto state =
+        reference("spring_states").at("undamped_dt0.1_n900").at("state").at("explicit_euler");
+    Bodies bodies = article_spring(0);
+    bodies.step(find_method("explicit_euler"), {{10}, 0, 900});
+    const double size = std::hypot(number(state[0]) * omega, number(state[1]));
+    EXPECT_NEAR(bodies.position(0)[0], number(state[0]), drift_of_rounding(900, 10, size / omega));
+    EXPECT_NEAR(bodies.velocity(0)[0], number(state[1]), drift_of_rounding(900, 10, size));
+}
+
+// Leapfrog as users know it starts its velocities half a step early; from there it takes the steps
+// of semi-implicit Euler, through the positions of velocity Verlet.
+TEST(Leapfrog, IsSemiImplicitEulerWithAStaggeredStartAndVelocityVerletsPositions) {
+    Bodies verlet = article_spring(0);
+    Bodies leapfrog = article_spring(0);
+    leapfrog.set_velocity(0, {stiffness * start_x * 0.01 / 2, 0, 0});
+    for (int i = 0; i < 1000; ++i) {
+        verlet.step(find_method("velocity_verlet"), {{100}, i, 1});
+        leapfrog.step(find_method("semi_implicit_euler"), {{100}, i, 1});
+        ASSERT_NEAR(verlet.position(0)[0], leapfrog.position(0)[0],
+                    drift_of_rounding(i + 1, 20, start_x));
+    }
+}
+
+/// a = t, of which every stage must be told its own time.
+struct Clock {
+    Vec<double, 1> accelerate(const State<double, 1>&, double t) const { return {t}; }
+};
+
+// From rest at t = 2 with dt = 1: v = ∫t = 2.5 for both, exactly; RK4's x = 2/2 + 1/6.
+TEST(Stages, KnowTheirTime) {
+    const Clock clock;
+    State<double, 1> state{{0}, {0}};
+    advance(make_plan<double>(find_method("rk4"), 1), state, clock, 2);
+    EXPECT_DOUBLE_EQ(state.v[0], 2.5);
+    EXPECT_DOUBLE_EQ(state.x[0], 1 + 1 / 6.0);
+    state = {{0}, {0}};
+    advance(make_plan<double>(find_method("velocity_verlet"), 1), state, clock, 2);
+    EXPECT_EQ(state.v[0], 2.5);
+    EXPECT_EQ(state.x[0], 1);
+}
+
+}  // namespace

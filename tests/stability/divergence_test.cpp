@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// When a run stops being finite, it says so, where and when theory has it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "oiler/stability/preflight.hpp"
+#include "support/oscillator.hpp"
+#include "support/text.hpp"
+
+namespace {
+
+using namespace oiler::test;
+using oiler::Attractor;
+using oiler::Bodies;
+using oiler::Exit;
+using oiler::find_method;
+using oiler::LinearDrag;
+using oiler::Method;
+using oiler::methods;
+using oiler::Precision;
+using oiler::Rate;
+using oiler::Spring;
+using oiler::Vec3;
+
+constexpr Rate rate{60};
+
+/// Bodies of which the third is on a spring along z, from 1 m, with ω·dt = h.
+Bodies one_on_a_spring(Precision precision, double h) {
+    const double omega = h * 60;
+    Bodies bodies(3, precision);
+    bodies.set_gravity({0, -1, 0});
+    bodies.add({.position = {1, 2, 3}, .velocity = {4, 5, 6}});
+    bodies.add({.velocity = {7, 8, 9}}, LinearDrag{1});
+    bodies.add({.position = {0, 0, 1}}, Spring{.stiffness = omega * omega});
+    bodies.add({.position = {3, 2, 1}}, LinearDrag{2});
+    return bodies;
+}
+
+/// What stepping says in the end, `at_once` steps at a time.
+std::string end_of(Bodies bodies, const char* method, std::int64_t at_once) {
+    return line_of_error(Exit::diverged, [&] {
+        for (std::int64_t tick = 0; tick < 100'000; tick += at_once)
+            bodies.step(find_method(method), {rate, tick, at_once});
+    });
+}
+
+/// n of "diverged at step n …".
+long step_in(const std::string& line) {
+    const std::string start = "diverged at step ";
+    EXPECT_TRUE(line.starts_with(start)) << line;
+    return std::stol(line.substr(start.size()));
+}
+
+/// The first step whose force, k·|z| before it, is beyond what numbers hold. `ln_z` is ln|z| after
+/// n steps.
+template <class F>
+long predicted_step(Precision precision, double h, F ln_z) {
+    const double most = std::log(largest_of(precision)) - 2 * std::log(h * 60);
+    long n = 0;
+    while (ln_z(n) <= most) ++n;
+    return n + 1;
+}
+
+// z = (1 + h²)^(n/2)·cos(n·atan h). The force is infinite before anything else is, and the velocity
+// takes it in; the position has been given the velocity before.
+TEST(Diverging, ExplicitEulerDoesAtItsStep) {
+    for (const Precision precision : precisions)
+        for (const double h : {0.5, 1.25, 10.0, 1000.0}) {
+            SCOPED_TRACE(testing::Message() << name_of(precision) << ", h = " << h);
+            const long step = predicted_step(precision, h, [&](long n) {
+                return n * std::log1p(h * h) / 2 + std::log(std::abs(std::cos(n * std::atan(h))));
+            });
+            const Bodies bodies = one_on_a_spring(precision, h);
+            const std::string line = end_of(bodies, "explicit_euler", 100'000);
+            EXPECT_NEAR(step_in(line), step, 1) << line;
+            EXPECT_TRUE(holds(line, ": velocity z of body 2 is no longer finite; ")) << line;
+            EXPECT_TRUE(holds(line, "; spring of body 2: ω·dt = ")) << line;
+            EXPECT_TRUE(holds(line, "explicit_euler gains energy at any rate")) << line;
+        }
+}
+
+// The eigenvalues of a step are λ and 1/λ, λ + 1/λ = 2 − h² < −2, and from (1, 0) to (1 − h², …) z
+// = A·λⁿ + B·λ⁻ⁿ, A = (1 − h² − 1/λ)/(λ − 1/λ). The position takes in the new velocity in the same
+// step, and is what is looked at first.
+TEST(Diverging, SemiImplicitEulerDoesAtItsStep) {
+    for (const Precision precision : precisions)
+        for (const double h : {2.1, 2.4, 10.0, 1000.0}) {
+            SCOPED_TRACE(testing::Message() << name_of(precision) << ", h = " << h);
+            const double half = (2 - h * h) / 2;
+            const double lambda = half - std::sqrt(half * half - 1);
+            const double a = (1 - h * h - 1 / lambda) / (lambda - 1 / lambda);
+            const long step = predicted_step(precision, h, [&](long n) {
+                return std::log(std::abs(a)) + n * std::log(-lambda);
+            });
+            const Bodies bodies = one_on_a_spring(precision, h);
+            const std::string line = end_of(bodies, "semi_implicit_euler", 100'000);
+            EXPECT_NEAR(step_in(line), step, 1) << line;
+            EXPECT_TRUE(holds(line, ": position z of body 2 is no longer finite; ")) << line;
+            EXPECT_TRUE(holds(line, "semi_implicit_euler needs < 2: rate ≥ ")) << line;
+        }
+}
+
+// In whole, as the user reads it: 144/s at 60 Hz is 2.4, and 72 Hz only just the limit. ln(max)/ln
+// λ less what ω² takes of the range, 709.8 − 9.9 e-folds at 1.2447 a step, is step 563.
+TEST(Diverging, SaysAllThatAUserNeeds) {
+    EXPECT_EQ(end_of(one_on_a_spring(Precision::double_, 2.4), "semi_implicit_euler", 1),
+              "diverged at step 563 (t = 9.383333333333333 s): position z of body 2 is no longer "
+              "finite; spring of body 2: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, "
+              "or implicit_euler");
+}
+
+TEST(Diverging, SaysTheSameHoweverManyStepsAreTakenAtOnce) {
+    for (const char* name : {"explicit_euler", "semi_implicit_euler", "rk4"}) {
+        const Bodies bodies = one_on_a_spring(Precision::single, 3);
+        EXPECT_EQ(end_of(bodies, name, 100'000), end_of(bodies, name, 7)) << name;
+    }
+}
+
+// What lasts is not at fault: the bodies around it are where they would be alone.
+TEST(Diverging, IsOfNoBodyThatIsStable) {
+    const Bodies bodies = one_on_a_spring(Precision::double_, 1.9);
+    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "implicit_euler"}) {
+        Bodies stable = bodies;
+        EXPECT_FALSE(stable.try_step(find_method(name), {rate, 0, 10'000})) << name;
+    }
+}
+
+// A stiffness below 0 pushes, and the motion grows as cosh(ω·t) in any method; yet its run ends as
+// others do.
+TEST(Diverging, ASpringThatPushesDivergesLikeAnyOther) {
+    for (const char* name : {"semi_implicit_euler", "rk4"}) {
+        Bodies bodies = oscillator(Precision::single, -15, 0, 1);
+        const std::string line = line_of_error(Exit::diverged, [&] {
+            bodies.step(find_method(name), {rate, 0, 100'000});
+        });
+        EXPECT_TRUE(line.starts_with("diverged at step ")) << line;
+    }
+}
+
+/// 1 kg each in rows 1 and 2, on a damper that makes their relative velocity w' = w − 2·1.5·w = −2w
+/// in a step of 1 s: after n steps each has 2^n m/s exactly.
+Bodies doubling_pair(Precision precision) {
+    Bodies bodies(1, precision);
+    bodies.add({.position = {5}});
+    bodies.add({.position = {1}, .velocity = {1}});
+    bodies.add({.position = {-1}, .velocity = {-1}});
+    bodies.link(1, 2, {.damping = 1.5});
+    return bodies;
+}
+
+// After 127 (1023) steps each has 2^127 (2^1023) m/s, which float (double) holds, and the
+// difference of the two is twice that, which it does not hold: the force of step 128 (1024) is
+// infinite.
+TEST(DivergingNet, NamesTheStepOfTheFirstInfiniteVelocity) {
+    for (const auto& [precision, last] :
+         {std::pair(Precision::single, 128), {Precision::double_, 1024}})
+        for (const std::int64_t first : {0, 1000})
+            for (const std::int64_t at_once : {1, 7, 2000}) {
+                SCOPED_TRACE(testing::Message() << name_of(precision) << " from " << first << ", "
+                                                << at_once << " per call");
+                Bodies bodies = doubling_pair(precision);
+                std::optional<oiler::Divergence> at;
+                for (std::int64_t tick = first; !at; tick += at_once)
+                    at = bodies.try_step(find_method("explicit_euler"), {{1}, tick, at_once});
+                EXPECT_EQ(at->tick, first + last);
+                EXPECT_EQ(at->row, 1U);
+                EXPECT_EQ(at->axis, 0);
+                EXPECT_EQ(at->of, oiler::Divergence::Of::velocity);
+            }
+}
+
+/// A spring of ω·dt = 5 whose body rests on its anchor, and a link from row 2 to row 1 of
+/// ω² = 15552·(1 + 1/3) = 144² s⁻², ω·dt = 2.4, that is stretched.
+Bodies resting_spring_and_stretched_link() {
+    Bodies bodies(1, Precision::double_);
+    bodies.add({}, Spring{.stiffness = 300.0 * 300});
+    bodies.add({.mass = 3});
+    bodies.add({.position = {1}});
+    bodies.link(2, 1, {.stiffness = 15552});
+    return bodies;
+}
+
+const std::string link_of_2_and_1 =
+    "link of bodies 2 and 1: ω·dt up to 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
+    "implicit_euler";
+
+// Row 1 diverges first and is the second end of its link. The spring has the larger ω·dt, but its
+// body does not move.
+TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
+    const oiler::Steps steps{rate, 0, 100'000};
+    const Method& method = find_method("semi_implicit_euler");
+    Bodies bodies = resting_spring_and_stretched_link();
+    const auto at = bodies.try_step(method, steps);
+    ASSERT_TRUE(at);
+    const std::string line = line_of_error(Exit::diverged, [&] {
+        fail_diverged(bodies, *at, method, steps, [](std::size_t row) { return row; });
+    });
+    EXPECT_TRUE(holds(line, ": position x of body 1 is no longer finite; ")) << line;
+    EXPECT_TRUE(line.ends_with("; " + link_of_2_and_1)) << line;
+}
+
+TEST(DivergingNet, IsWarnedOfByBothEndsOfTheLink) {
+    const oiler::Steps steps{.rate = rate};
+    const Method& method = find_method("semi_implicit_euler");
+    const auto risks = preflight(resting_spring_and_stretched_link(), method, steps);
+    ASSERT_EQ(risks.size(), 2U);
+    EXPECT_EQ(risks[0].row, 0U);
+    EXPECT_FALSE(risks[0].linked);
+    EXPECT_EQ(describe(risks[1], method, steps, [](std::size_t row) { return row; }),
+              link_of_2_and_1);
+}
+
+/// From 25 cm straight at the centre with 25 cm a step.
+Bodies falling_in(Precision precision) {
+    Bodies bodies(1, precision);
+    bodies.add({.position = {0.25}, .velocity = {-1}}, Attractor{.gm = 1});
+    return bodies;
+}
+
+// Explicit Euler is there after one step, in which it looks only at where it was; the others look
+// there within the first. 0/0 is no force.
+TEST(Attractor, HitHeadOnIsReported) {
+    const std::map<std::string_view, int> ticks{
+        {"explicit_euler", 2}, {"semi_implicit_euler_drift_kick", 1}, {"rk2_heun", 1}};
+    for (const Precision precision : precisions)
+        for (const auto& at : ticks) {
+            Bodies bodies = falling_in(precision);
+            const std::string line = line_of_error(Exit::diverged, [&] {
+                bodies.step(find_method(at.first), {{4}, 0, 10});
+            });
+            EXPECT_EQ(step_in(line), at.second) << line;
+            EXPECT_TRUE(holds(line, ": velocity x of body 0 is no longer finite; ")) << line;
+            EXPECT_TRUE(holds(line, "take a higher rate, or another method")) << line;
+        }
+}
+
+// Newton's iteration cannot go on from there, which is another thing to say.
+TEST(Attractor, HitByAnImplicitStepHasNoSolution) {
+    for (const char* name : {"implicit_euler", "implicit_midpoint"}) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add({}, Attractor{.gm = 1});
+        const std::string line =
+            line_of_error(Exit::diverged, [&] { bodies.step(find_method(name), {{4}}); });
+        EXPECT_EQ(step_in(line), 1);
+        EXPECT_TRUE(holds(line, "found no solution")) << line;
+        EXPECT_TRUE(holds(line, "body 0; take a higher rate")) << line;
+    }
+}
+
+TEST(Attractor, NoMethodStartsFromItsCentre) {
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            if (is_exact(method)) continue;
+            Bodies bodies(2, precision);
+            bodies.add({.position = {1, 2}});
+            bodies.add({.position = {3, 4}}, Attractor{.centre = {3, 4}, .gm = 1});
+            const auto where = bodies.try_step(method, {rate, 0, 5});
+            ASSERT_TRUE(where) << method.name;
+            EXPECT_EQ(where->tick, 1) << method.name;
+            EXPECT_EQ(where->row, 1U) << method.name;
+        }
+}
+
+}  // namespace

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/stability/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/reference.hpp"
+
+namespace {
+
+using oiler::Damping;
+using oiler::find_method;
+using oiler::Method;
+using oiler::spectral_radius;
+using oiler::stability_limit;
+using oiler::StepMatrix;
+
+// Ten digits, also of instabilities 3·10⁻⁴ wide and no faster than 4·10⁻⁴ a step, as
+// blanes_moan_srkn11b has one from 3.14143 on.
+TEST(StabilityLimit, IsWhereTheTraceLeavesItsInterval) {
+    const auto limits = reference("stability_limits");
+    EXPECT_GE(limits.size(), 30U);
+    for (const auto& [name, limit] : limits.items()) {
+        const Method& method = find_method(method_named(name));
+        // The one published table that was not used as published.
+        const double tolerance = name == "calvo_sanz_serna4" ? 1e-9 : 1e-10;
+        EXPECT_NEAR(stability_limit(method, method.damping, {1, 0}), number(limit),
+                    tolerance * number(limit))
+            << name;
+    }
+}
+
+TEST(StabilityLimit, ScalesWithTheSpring) {
+    const Method& method = find_method("rk4");
+    EXPECT_NEAR(stability_limit(method, method.damping, {1e6, 0}), std::sqrt(8.0) / 1000, 1e-13);
+    EXPECT_NEAR(stability_limit(method, method.damping, {1e-6, 0}), std::sqrt(8.0) * 1000, 1e-7);
+}
+
+// Damping alone: explicit methods of order p are stable while their truncated exponential is within
+// ±1: z < 2 for p = 1 and 2, and 2.7853 for p = 4 (Hairer & Wanner II, IV.2).
+TEST(StabilityLimit, OfDampingAlone) {
+    const auto limit = [](const char* name) {
+        return stability_limit(find_method(name), Damping::in_kick, {0, 1});
+    };
+    EXPECT_NEAR(limit("explicit_euler"), 2, 1e-12);
+    EXPECT_NEAR(limit("semi_implicit_euler"), 2, 1e-12);
+    EXPECT_NEAR(limit("rk2_heun"), 2, 1e-12);
+    EXPECT_NEAR(limit("rk4"), 2.785293563405281625, 1e-12);
+    EXPECT_TRUE(std::isinf(limit("implicit_euler")));
+}
+
+// Explicit Euler on the article's spring: every dt up to b/k = 1/150 s is stable, and none beyond.
+TEST(StabilityLimit, OfExplicitEulerOnTheArticlesSpring) {
+    EXPECT_NEAR(stability_limit(find_method("explicit_euler"), Damping::in_kick, {15, 0.1}),
+                0.1 / 15, 1e-12);
+}
+
+TEST(SpectralRadius, IsThatOfTheLargerEigenvalue) {
+    EXPECT_NEAR(static_cast<double>(spectral_radius(StepMatrix{0, 1, -1, 0})), 1, 1e-18);
+    EXPECT_NEAR(static_cast<double>(spectral_radius(StepMatrix{3, 0, 0, -5})), 5, 1e-18);
+    EXPECT_NEAR(static_cast<double>(spectral_radius(StepMatrix{0, 2, -2, 0})), 2, 1e-18);
+}
+
+// Unlike the radius, which where both eigenvalues meet is off by the root of round-off.
+TEST(Stable, IncludesTheEdge) {
+    EXPECT_TRUE(oiler::is_stable({1, 0, 0, 1}));
+    EXPECT_TRUE(oiler::is_stable({-1, 1, 0, -1}));
+    EXPECT_FALSE(oiler::is_stable({1 + 1e-12L, 0, 0, 1}));
+    EXPECT_FALSE(oiler::is_stable({0, 1, -1 - 1e-12L, 0}));
+}
+
+}  // namespace
