@@ -28,6 +28,9 @@ TEST(Options, AreTheGamesOwnUnlessGiven) {
     EXPECT_EQ(options.settings.stepping.method->name, "semi_implicit_euler");
     EXPECT_EQ(options.settings.stepping.precision, Precision::double_);
     EXPECT_EQ(options.size, (Size{1280, 720}));
+    EXPECT_EQ(options.settings.seed, 0U);
+    EXPECT_EQ(options.settings.threads, 1);
+    EXPECT_FALSE(options.settings.stepping.damping);
     EXPECT_EQ(options.out, "frames/demo");
     EXPECT_FALSE(options.headless);
     EXPECT_FALSE(options.frames || options.fps || options.steps);
@@ -38,7 +41,7 @@ TEST(Options, AreReadAsGiven) {
         parse(
             "--headless --surface egl --frames 7 --fps 30 --size 641x3 --out o --method "
             "explicit_euler --rate 1000000 --precision float --seed 18446744073709551615 "
-            "--trace t.csv --energy e.csv --json - --quiet")
+            "--threads 3 --damping drift --trace t.csv --energy e.csv --json - --quiet")
             .options;
     EXPECT_TRUE(options.headless);
     EXPECT_EQ(options.offscreen, Offscreen::egl);
@@ -50,10 +53,29 @@ TEST(Options, AreReadAsGiven) {
     EXPECT_EQ(options.settings.stepping.rate, Rate{1'000'000});
     EXPECT_EQ(options.settings.stepping.precision, Precision::single);
     EXPECT_EQ(options.settings.seed, ~std::uint64_t{0});
+    EXPECT_EQ(options.settings.threads, 3);
+    EXPECT_EQ(options.settings.stepping.damping, Damping::in_drift);
     EXPECT_EQ(options.trace, "t.csv");
     EXPECT_EQ(options.energy, "e.csv");
     EXPECT_EQ(options.json, "-");
     EXPECT_TRUE(options.quiet);
+}
+
+// The other values of the words above, and the largest numbers that are taken.
+TEST(Options, AreReadUpToTheirLimits) {
+    const Options options =
+        parse(
+            "--headless --surface osmesa --frames 1000000 --fps 1000 --size 16384x1 "
+            "--precision double --threads 256 --damping kick")
+            .options;
+    EXPECT_EQ(options.offscreen, Offscreen::osmesa);
+    EXPECT_EQ(options.frames, 1'000'000);
+    EXPECT_EQ(options.fps, 1000);
+    EXPECT_EQ(options.size, (Size{16384, 1}));
+    EXPECT_EQ(options.settings.stepping.precision, Precision::double_);
+    EXPECT_EQ(options.settings.threads, 256);
+    EXPECT_EQ(options.settings.stepping.damping, Damping::in_kick);
+    EXPECT_EQ(parse("--steps 1000000000000").options.steps, 1'000'000'000'000);
 }
 
 TEST(Options, ALeadingZeroIsNoOctal) {
@@ -75,8 +97,8 @@ CommandLine parse_file(std::vector<std::string> words) {
                                   EXPECT_EQ(path, "some scene.toml");
                                   return About{.name = "scene",
                                                .title = "A scene",
-                                               .method = "rk4",
                                                .rate = 7,
+                                               .method = "rk4",
                                                .precision = Precision::single,
                                                .duration = 12};
                               });
@@ -93,9 +115,9 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     const Settings given = parse_file({"demo", "--rate", "8", "--method", "exact",
                                        "some scene.toml", "--precision", "double"})
                                .options.settings;
-    EXPECT_EQ(given.rate, Rate{8});
-    EXPECT_EQ(given.method->name, "exact");
-    EXPECT_EQ(given.precision, Precision::double_);
+    EXPECT_EQ(given.stepping.rate, Rate{8});
+    EXPECT_EQ(given.stepping.method->name, "exact");
+    EXPECT_EQ(given.stepping.precision, Precision::double_);
     EXPECT_NE(parse_file({"demo", "--help"}).text.find("SCENE"), std::string::npos);
 }
 
@@ -147,7 +169,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--steps 5 --headless --out o", "--out"}, Wrong{"--steps 5 --frames 2", "--frames"},
         Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
-        Wrong{"--threads 0", "--threads"}));
+        Wrong{"--threads 0", "--threads"}, Wrong{"--threads 257", "--threads"},
+        Wrong{"--frames 1000001", "--frames"}, Wrong{"--steps 1000000000001", "--steps"},
+        Wrong{"--size 16385x1", "16385x1"}, Wrong{"--size 1x16385", "1x16385"},
+        Wrong{"--damping none", "--damping"}));
 
 }  // namespace
 }  // namespace oiler

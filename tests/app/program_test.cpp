@@ -190,6 +190,27 @@ TEST(Program, TraceReadsBackAndJsonTellsTheRun) {
     EXPECT_NEAR(x, 303.79268459741713, 1e-9) << row;
 }
 
+// No option has the value that the demo has without it. 7 steps at 50 Hz are 0.14 s.
+TEST(Program, JsonTellsTheSettingsThatWereGiven) {
+    const Outcome run = shell(
+        "spring_damper --quiet --steps 7 --rate 50 --method velocity_verlet --precision float "
+        "--damping kick --threads 3 --seed 9 --json -");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    const Json report = Json::parse(run.out);
+    EXPECT_EQ(report["scene"], "spring_damper");
+    EXPECT_EQ(report["method"], "velocity_verlet");
+    EXPECT_EQ(report["damping"], "kick");
+    EXPECT_EQ(report["rate"], 50);
+    EXPECT_EQ(report["precision"], "float");
+    EXPECT_EQ(report["threads"], 3);
+    EXPECT_EQ(report["seed"], 9);
+    EXPECT_EQ(report["steps"], 7);
+    EXPECT_EQ(report["time"], 0.14);
+    EXPECT_EQ(report["bodies"], 1);
+    EXPECT_LT(report["energy"]["last"]["potential"], report["energy"]["first"]["potential"]);
+    EXPECT_GT(report["energy"]["last"]["kinetic"], 0);
+}
+
 TEST(Program, DivergedRunNamesStepBodyAndFieldAndKeepsItsTrace) {
     const Folder folder;
     const Outcome run = shell(

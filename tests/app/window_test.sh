@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# A demo in a real window: pause holds the picture, a single step changes it, Q ends it well.
+# A demo in a real window: pause holds the picture, a single step changes it, Q ends it well, and
+# --frames N ends it after N frames.
 # Usage: window_test.sh PROGRAM TITLE. Exit 77: Xvfb or xdotool is not installed.
 set -u
 program=$1
@@ -56,4 +57,16 @@ xdotool key q
 wait $game
 status=$?
 [ $status -eq 0 ] || fail "Q leaves with exit code $status"
+
+# steps_in_frames N: the steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame starts
+# the clock and takes none; a late frame takes 250 at most.
+steps_in_frames() {
+    "$program" --size 640x360 --quiet --frames "$1" --fps 10 --rate 1000 --json "$folder/report" ||
+        fail "--frames $1 leaves with exit code $?"
+    sed -n 's/^ *"steps": \([0-9]*\),$/\1/p' "$folder/report"
+}
+steps=$(steps_in_frames 1)
+[ "$steps" = 0 ] || fail "--frames 1 takes '$steps' steps"
+steps=$(steps_in_frames 2)
+[ "$steps" -gt 0 ] && [ "$steps" -le 250 ] || fail "--frames 2 takes '$steps' steps"
 echo "window_test: passed"

@@ -312,11 +312,11 @@ bool run(const Case& one, const std::vector<double>& tolerances, bool sweeps) {
             all_meet = false;
             continue;
         }
-        const double error = independent_error(one, advice.best->choice);
+        const double error = independent_error(one, advice.best->stepping);
         const bool met = error <= tolerance;
         all_meet = all_meet && met;
         fmt::print("  {:<7g} {:<42} independent error {:<9.3g} {}  {}\n", tolerance,
-                   words_of(advice.best->choice), error, met ? "met" : "MISSED",
+                   words_of(advice.best->stepping), error, met ? "met" : "MISSED",
                    sweeps ? beside(one, swept, wish, *advice.best, seconds)
                           : fmt::format("{:.1f} s", seconds));
         std::fflush(stdout);

@@ -83,12 +83,40 @@ TEST(File, OnceCommittedLeavesTheNextOneAlone) {
     EXPECT_EQ(names_in(folder.path()), (Names{"a", "b"}));
 }
 
+unsigned permissions_of(const fs::path& path) {
+    return static_cast<unsigned>(fs::status(path).permissions());
+}
+
 TEST(File, HasThePermissionsOfAnyNewFile) {
     const Folder folder;
     const mode_t before = umask(027);
     write_file(folder / "a", bytes_of("a"));
     umask(before);
-    EXPECT_EQ(static_cast<unsigned>(fs::status(folder / "a").permissions()), 0640U);
+    EXPECT_EQ(permissions_of(folder / "a"), 0640U);
+}
+
+// The file that takes the name is a new one, which the umask would make 0640.
+TEST(File, KeepsThePermissionsOfTheFileThatItReplaces) {
+    const Folder folder;
+    const mode_t before = umask(027);
+    for (const unsigned kept : {0600U, 0755U, 0666U, 0444U}) {
+        put(folder / "a", "old");
+        fs::permissions(folder / "a", fs::perms{kept});
+        write_file(folder / "a", bytes_of("new"));
+        EXPECT_EQ(text_of(folder / "a"), "new");
+        EXPECT_EQ(permissions_of(folder / "a"), kept);
+    }
+    umask(before);
+}
+
+TEST(File, KeepsThePermissionsOfTheFileThatASymbolicLinkNames) {
+    const Folder folder;
+    put(folder / "real", "old");
+    fs::permissions(folder / "real", fs::perms{0600});
+    fs::create_symlink("real", folder / "link");
+    write_file(folder / "link", bytes_of("new"));
+    EXPECT_EQ(text_of(folder / "real"), "new");
+    EXPECT_EQ(permissions_of(folder / "real"), 0600U);
 }
 
 TEST(File, KeepsASymbolicLinkAndWritesWhatItNames) {

@@ -8,8 +8,8 @@
 
 namespace {
 
-using oiler::Certificate;
-using oiler::certify;
+using oiler::certify::Certificate;
+using oiler::certify::certify;
 using oiler::Damping;
 using oiler::find_method;
 using oiler::Method;

@@ -17,6 +17,7 @@
 #include "support/spring.hpp"
 
 namespace oiler {
+using namespace oiler::certify;
 namespace {
 
 /// What the figures must show, in their order.

@@ -11,9 +11,9 @@ namespace {
 
 using oiler::Damping;
 using oiler::find_method;
-using oiler::measure_region;
-using oiler::StabilityGrid;
-using oiler::StabilityRegion;
+using oiler::certify::measure_region;
+using oiler::certify::StabilityGrid;
+using oiler::certify::StabilityRegion;
 
 constexpr StabilityGrid grid{.columns = 30, .rows = 12};
 
@@ -85,7 +85,7 @@ TEST(Atlas, NamesEveryMethodAndStaysOnTheCanvas) {
     std::vector<StabilityRegion> regions;
     for (const oiler::Method& method : oiler::methods())
         regions.push_back(measure_region(method, method.damping, small));
-    const oiler::Picture picture = oiler::atlas(regions, small);
+    const oiler::Picture picture = oiler::certify::atlas(regions, small);
     for (const oiler::Method& method : oiler::methods())
         EXPECT_EQ(std::count_if(picture.labels.begin(), picture.labels.end(),
                                 [&](const auto& label) { return label.text == method.name; }),

@@ -129,6 +129,28 @@ TEST(StepClock, ASingleStepIsOneStepAndKeepsAlpha) {
     EXPECT_GT(alpha, 0);
 }
 
+TEST(StepClock, ASingleStepThatIsNotYetTakenEndsWithThePause) {
+    StepClock clock(100);
+    clock.advance(0s);
+    clock.pause();
+    clock.single_step();
+    clock.resume();
+    EXPECT_EQ(clock.advance(1s).steps, 0);
+    clock.pause();
+    EXPECT_EQ(clock.advance(2s).steps, 0);
+    EXPECT_EQ(clock.ticks(), 0);
+}
+
+TEST(StepClock, TwoPressesWithinAFrameAreOneSingleStep) {
+    StepClock clock(100);
+    clock.advance(0s);
+    clock.pause();
+    clock.single_step();
+    clock.single_step();
+    EXPECT_EQ(clock.advance(1s).steps, 1);
+    EXPECT_EQ(clock.advance(2s).steps, 0);
+}
+
 TEST(StepClock, TimeScalesAreExactOverAnHour) {
     const auto steps_at_scale = [](int numerator, int denominator) {
         StepClock clock(60);

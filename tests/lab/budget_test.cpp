@@ -13,6 +13,7 @@
 #include "support/text.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,

@@ -7,6 +7,7 @@
 #include "oiler/lab/reference/exact_motion.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 
 using Real = long double;
 using State3 = State<Real, 3>;

@@ -12,6 +12,7 @@
 #include "oiler/core/error.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 using Rate = std::int64_t;

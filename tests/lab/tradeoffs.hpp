@@ -16,6 +16,7 @@
 #include "support/text.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 
 inline const MeasuredScene& spring() {
     static const MeasuredScene measured(article_spring);
@@ -62,10 +63,10 @@ inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
         EXPECT_EQ(one.done, other.done);
         ASSERT_EQ(one.rows.size(), other.rows.size()) << one.method->name;
         for (std::size_t row = 0; row < one.rows.size(); ++row) {
-            EXPECT_EQ(one.rows[row].choice, other.rows[row].choice);
+            EXPECT_EQ(one.rows[row].stepping, other.rows[row].stepping);
             EXPECT_EQ(one.rows[row].meets_steps, other.rows[row].meets_steps);
             EXPECT_TRUE(same_errors(one.rows[row].judgement, other.rows[row].judgement))
-                << named(one.rows[row].choice);
+                << named(one.rows[row].stepping);
         }
     }
 }

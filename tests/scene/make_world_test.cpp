@@ -27,14 +27,6 @@ std::optional<Force> force_on(const World& world, std::size_t row, std::size_t n
     return std::get<std::optional<Force>>(world.bodies().forces_per_mass(row, nth));
 }
 
-TEST(MakeWorld, StepsAsTheSceneSays) {
-    const Settings settings = settings_of(
-        parsed("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n[[body]]\n"));
-    EXPECT_EQ(settings.stepping.rate, Rate{240});
-    EXPECT_EQ(settings.stepping.method->name, "rk4");
-    EXPECT_EQ(settings.stepping.precision, Precision::single);
-}
-
 TEST(MakeWorld, BodiesAreInTheRowsInTheOrderOfTheScene) {
     const World world = world_of(everything);
     const Bodies& bodies = world.bodies();
@@ -214,6 +206,19 @@ TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
     const std::uint64_t third = make_world(other, settings).state_hash();
     EXPECT_NE(third, first);
     EXPECT_NE(third, second);
+}
+
+// The seed 0 of a run leaves the scene's own.
+TEST(MakeWorld, ASceneWithTheSeedOfARunScattersAsTheRunDoes) {
+    const Scene scene = parsed(altered(scatter, "scatter", "seed", "5"));
+    static_assert(Random::mixed(0) == 0);
+    EXPECT_EQ(with_seed(scene, 0).scatters[0].seed, 5);
+    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}}) {
+        Settings settings = Settings{scene.stepping};
+        const std::uint64_t of_scene = make_world(with_seed(scene, seed), settings).state_hash();
+        settings.seed = seed;
+        EXPECT_EQ(of_scene, make_world(scene, settings).state_hash()) << seed;
+    }
 }
 
 TEST(MakeWorld, PrecisionIsThatOfTheRun) {

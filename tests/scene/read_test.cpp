@@ -88,6 +88,17 @@ bool cannot_change_alone(const SceneKey& key) {
     return is(key, "body", "name") || is(key, "scene", "axes");
 }
 
+TEST(Read, SaysHowTheSceneIsStepped) {
+    const Stepping given =
+        parse_scene("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n"
+                    "damping = 'kick'\n[[body]]\n",
+                    "test.toml")
+            .stepping;
+    EXPECT_EQ(given, (Stepping{&find_method("rk4"), {240}, Precision::single, Damping::in_kick}));
+    const Stepping own = parse_scene("[scene]\naxes = 1\n[[body]]\n", "test.toml").stepping;
+    EXPECT_EQ(own, (Stepping{&find_method("semi_implicit_euler"), {100}, Precision::double_, {}}));
+}
+
 TEST(Read, EveryKeyHasAnEffect) {
     const Scene scene = parsed(everything);
     const Shown before = shown(scene);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "oiler/core/error.hpp"
@@ -20,7 +22,7 @@ Bodies assorted(int count, bool linear) {
     bodies.set_gravity({0, -9.81, 0});
     for (int i = 0; i < count; ++i) {
         const std::size_t row =
-            bodies.add({.mass = 1 + i % 3, .position = {i / 8.0, 1}, .velocity = {i % 7 / 4.0, 3}});
+            bodies.add({.mass = 1.0 + i % 3, .position = {i / 8.0, 1}, .velocity = {i % 7 / 4.0, 3}});
         if (i % 2 == 0) bodies.attach(row, Spring{.stiffness = 4.0 + i % 5, .damping = 0.25});
         if (!linear && i % 5 == 0) bodies.attach(row, QuadraticDrag{0.125});
     }
@@ -55,17 +57,38 @@ TEST(Threads, GiveTheSameBits) {
     }
 }
 
-TEST(Threads, NameTheSameBodyThatDiverges) {
+/// The bodies of many, of which these are on springs of ω² in s⁻².
+std::optional<Divergence> divergence(const std::vector<std::pair<std::size_t, double>>& springs,
+                                     int threads) {
+    Bodies bodies = assorted(many, true);
+    for (const auto& [row, omega_squared] : springs)
+        bodies.attach(row, Spring{.stiffness = omega_squared * bodies.mass(row)});
+    bodies.set_threads(threads);
+    return bodies.try_step(find_method("semi_implicit_euler"), {Rate{64}, 0, 100});
+}
+
+// A step at 64 Hz multiplies x by 1e8/64² − 2 = 2.44e4 (1e12/64² − 2 = 2.44e8) in size. A row
+// starts at row/8 m, and the force of step n + 1 is infinite once ω²·|x| is beyond 3.4e38 after n
+// steps: from 500 m, 750 m and 1000 m n = 7, since ω²·|x| is at most 2.1e37 after 6 and at
+// least 2.6e41 after 7; for 1e12 it is 3, since it is 6e31 after 2 and 1.5e40 after 3.
+TEST(Threads, NameTheFirstRowOfThoseThatDivergeInTheSameStep) {
     for (const int threads : {1, 2, 3, 8}) {
-        Bodies bodies = assorted(many, true);
-        for (const std::size_t row : {8000, 4000, 6000})
-            bodies.attach(row, Spring{.stiffness = 1e8});
-        bodies.set_threads(threads);
-        const auto at = bodies.try_step(find_method("semi_implicit_euler"), {Rate{64}, 0, 100});
+        const auto at = divergence({{8000, 1e8}, {4000, 1e8}, {6000, 1e8}}, threads);
         ASSERT_TRUE(at);
-        EXPECT_GT(at->tick, 5) << threads;
-        EXPECT_EQ(at->row, 8000U) << threads;  // the one that starts farthest from its anchor
+        EXPECT_EQ(at->tick, 8) << threads;
+        EXPECT_EQ(at->row, 4000U) << threads;
     }
+}
+
+TEST(Threads, NameTheRowThatDivergesFirstWhicheverThreadStepsIt) {
+    for (const int threads : {1, 2, 3, 8})
+        for (const std::size_t first : {4000, 6000, 8000}) {
+            const auto at =
+                divergence({{8000, 1e8}, {4000, 1e8}, {6000, 1e8}, {first, 1e12}}, threads);
+            ASSERT_TRUE(at);
+            EXPECT_EQ(at->tick, 4) << threads;
+            EXPECT_EQ(at->row, first) << threads;
+        }
 }
 
 TEST(Threads, OfACopyStepItToo) {

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "oiler/stability/preflight.hpp"
 #include "support/oscillator.hpp"
 #include "support/text.hpp"
 
@@ -138,6 +140,79 @@ TEST(Diverging, ASpringThatPushesDivergesLikeAnyOther) {
         });
         EXPECT_TRUE(line.starts_with("diverged at step ")) << line;
     }
+}
+
+/// 1 kg each in rows 1 and 2, on a damper that makes their relative velocity w' = w − 2·1.5·w = −2w
+/// in a step of 1 s: after n steps each has 2^n m/s exactly.
+Bodies doubling_pair(Precision precision) {
+    Bodies bodies(1, precision);
+    bodies.add({.position = {5}});
+    bodies.add({.position = {1}, .velocity = {1}});
+    bodies.add({.position = {-1}, .velocity = {-1}});
+    bodies.link(1, 2, {.damping = 1.5});
+    return bodies;
+}
+
+// After 127 (1023) steps each has 2^127 (2^1023) m/s, which float (double) holds, and the
+// difference of the two is twice that, which it does not hold: the force of step 128 (1024) is
+// infinite.
+TEST(DivergingNet, NamesTheStepOfTheFirstInfiniteVelocity) {
+    for (const auto& [precision, last] :
+         {std::pair(Precision::single, 128), {Precision::double_, 1024}})
+        for (const std::int64_t first : {0, 1000})
+            for (const std::int64_t at_once : {1, 7, 2000}) {
+                SCOPED_TRACE(testing::Message() << name_of(precision) << " from " << first << ", "
+                                                << at_once << " per call");
+                Bodies bodies = doubling_pair(precision);
+                std::optional<oiler::Divergence> at;
+                for (std::int64_t tick = first; !at; tick += at_once)
+                    at = bodies.try_step(find_method("explicit_euler"), {{1}, tick, at_once});
+                EXPECT_EQ(at->tick, first + last);
+                EXPECT_EQ(at->row, 1U);
+                EXPECT_EQ(at->axis, 0);
+                EXPECT_EQ(at->of, oiler::Divergence::Of::velocity);
+            }
+}
+
+/// A spring of ω·dt = 5 whose body rests on its anchor, and a link from row 2 to row 1 of
+/// ω² = 15552·(1 + 1/3) = 144² s⁻², ω·dt = 2.4, that is stretched.
+Bodies resting_spring_and_stretched_link() {
+    Bodies bodies(1, Precision::double_);
+    bodies.add({}, Spring{.stiffness = 300.0 * 300});
+    bodies.add({.mass = 3});
+    bodies.add({.position = {1}});
+    bodies.link(2, 1, {.stiffness = 15552});
+    return bodies;
+}
+
+const std::string link_of_2_and_1 =
+    "link of bodies 2 and 1: ω·dt up to 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
+    "implicit_euler";
+
+// Row 1 diverges first and is the second end of its link. The spring has the larger ω·dt, but its
+// body does not move.
+TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
+    const oiler::Steps steps{rate, 0, 100'000};
+    const Method& method = find_method("semi_implicit_euler");
+    Bodies bodies = resting_spring_and_stretched_link();
+    const auto at = bodies.try_step(method, steps);
+    ASSERT_TRUE(at);
+    const std::string line = line_of_error(Exit::diverged, [&] {
+        fail_diverged(bodies, *at, method, steps, [](std::size_t row) { return row; });
+    });
+    EXPECT_TRUE(holds(line, ": position x of body 1 is no longer finite; ")) << line;
+    EXPECT_TRUE(line.ends_with("; " + link_of_2_and_1)) << line;
+}
+
+TEST(DivergingNet, IsWarnedOfByBothEndsOfTheLink) {
+    const oiler::Steps steps{.rate = rate};
+    const Method& method = find_method("semi_implicit_euler");
+    const auto risks = preflight(resting_spring_and_stretched_link(), method, steps);
+    ASSERT_EQ(risks.size(), 2U);
+    EXPECT_EQ(risks[0].row, 0U);
+    EXPECT_FALSE(risks[0].linked);
+    EXPECT_EQ(describe(risks[1], method, steps, [](std::size_t row) { return row; }),
+              link_of_2_and_1);
 }
 
 /// From 25 cm straight at the centre with 25 cm a step.

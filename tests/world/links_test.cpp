@@ -97,6 +97,24 @@ TEST(Preflight, CountsWhatItDoesNotName) {
     EXPECT_EQ(lines[2], "and 7 more");
 }
 
+// The last row takes the place of each that goes: entities 3 and 2 stay, in rows 0 and 1.
+// ω² = 10368·(1 + 1) = 144² s⁻².
+TEST(Preflight, NamesBothEndsOfALinkByTheirEntities) {
+    World world(1, {.rate = Rate{60}});
+    const Entity gone = world.spawn(Body{});
+    const Entity gone_too = world.spawn(Body{});
+    const Entity second_end = world.spawn(Body{});
+    const Entity first_end = world.spawn(Body{.position = {1}});
+    world.link(first_end, second_end, {.stiffness = 10368});
+    world.destroy(gone);
+    world.destroy(gone_too);
+    ASSERT_EQ(world.row(first_end), 0U);
+    ASSERT_EQ(world.row(second_end), 1U);
+    const auto lines = world.preflight();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].starts_with("link of bodies 3 and 2: ω·dt up to 2.4, ")) << lines[0];
+}
+
 TEST(Preflight, CountsNoneWhereAllAreNamed) {
     World world(1, {.rate = Rate{10}});
     for (int i = 0; i < 5; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});

@@ -121,7 +121,7 @@ private:
 Scene with_seed(Scene scene, std::uint64_t seed) {
     for (SceneScatter& scatter : scene.scatters)
         scatter.seed = static_cast<std::int64_t>(static_cast<std::uint64_t>(scatter.seed) ^
-                                                 Random::mixed(seed) ^ Random::mixed(0));
+                                                 Random::mixed(seed));
     return scene;
 }
 

@@ -14,6 +14,7 @@
 #include "support/text.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 using Real = long double;
@@ -134,7 +135,7 @@ TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
         const MeasuredScene measured = measured_for(text, wish);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, settings_of(advice.best->stepping));
+        World world = make_world(measured.scene, Settings{advice.best->stepping});
         for (const nlohmann::json& state : run.at("states")) {
             world.step(advice.best->stepping.rate.steps);
             const Vec3 at = world.bodies().position(0);
@@ -160,7 +161,7 @@ TEST(Advice, OnTheArticlesSpringIsTheExactMotion) {
         EXPECT_EQ(advice.best->stepping.method->name, "exact");
         EXPECT_EQ(advice.best->stepping.precision, Precision::double_);
         EXPECT_EQ(advice.best->stepping.rate.steps, 50);
-        EXPECT_EQ(advice.today->choice.method->name, "semi_implicit_euler");
+        EXPECT_EQ(advice.today->stepping.method->name, "semi_implicit_euler");
     }
 }
 
@@ -196,8 +197,8 @@ TEST(Advice, IsTheLowestRateThatWillDo) {
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
         Stepping lower = advice.best->stepping;
-        ASSERT_GT(lower.rate, 100);
-        lower.rate -= std::max<std::int64_t>(50, lower.rate / 32 / 50 * 50 + 50);
+        ASSERT_GT(lower.rate.steps, 100);
+        lower.rate.steps -= std::max<std::int64_t>(50, lower.rate.steps / 32 / 50 * 50 + 50);
         EXPECT_GT(error_of(measured.scene, lower, spring_truth), 0.97 * tolerance)
             << words_of(advice.best->stepping);
     }
@@ -216,7 +217,7 @@ TEST(AdviceOnEnergy, IsKept) {
         const MeasuredScene measured = measured_for(undamped, wish);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, settings_of(advice.best->stepping));
+        World world = make_world(measured.scene, Settings{advice.best->stepping});
         double most = 0;
         while (world.time() < 10) {
             world.step();
@@ -424,7 +425,7 @@ TEST(Advice, SaysTheConclusionFirst) {
     EXPECT_TRUE(words.front().starts_with(words_of(advice.best->stepping) + ": ")) << words.front();
     EXPECT_TRUE(holds(words.back(), "10 s")) << words.back();
     EXPECT_TRUE(holds(words.back(), "50 times a second")) << words.back();
-    EXPECT_EQ(words_of(Stepping{&find_method("rk4"), 60, Precision::double_}),
+    EXPECT_EQ(words_of(Stepping{&find_method("rk4"), {60}, Precision::double_}),
               "rk4 at 60 Hz in double");
 }
 

@@ -154,7 +154,7 @@ TEST(AdviceByTime, TriesTheHighestRateToo) {
 
 /// 36 µs for a second of the scene are 0.6 µs for each of 60 frames.
 TradeoffRow costing(const char* method, double us_per_second) {
-    TradeoffRow row{.stepping = {&find_method(method), 240, Precision::double_}};
+    TradeoffRow row{.stepping = {&find_method(method), {240}, Precision::double_}};
     row.judgement.position_error = 0.25;
     row.ns_per_second = 1e3 * us_per_second;
     row.ns_spread = 0;

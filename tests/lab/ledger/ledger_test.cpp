@@ -12,6 +12,7 @@
 #include "scene/everything.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 Ledger ledger_of(const std::string& text, std::int64_t steps = 20) {

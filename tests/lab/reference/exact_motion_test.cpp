@@ -17,7 +17,7 @@ namespace {
 using oiler::Attractor;
 using oiler::Bodies;
 using oiler::CoilSpring;
-using oiler::exact_motions;
+using oiler::lab::exact_motions;
 using oiler::LinearDrag;
 using oiler::Precision;
 using oiler::QuadraticDrag;

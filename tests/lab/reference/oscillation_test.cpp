@@ -10,10 +10,10 @@
 
 namespace {
 
-using oiler::ExactMotion;
-using oiler::find_swing;
-using oiler::Looks;
-using oiler::Track;
+using oiler::lab::ExactMotion;
+using oiler::lab::find_swing;
+using oiler::lab::Looks;
+using oiler::lab::Track;
 using oiler::test::along_x;
 using oiler::test::article_motion;
 using oiler::test::Motions;

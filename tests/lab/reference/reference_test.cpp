@@ -17,13 +17,13 @@
 namespace {
 
 using oiler::Bodies;
-using oiler::ClosedForm;
-using oiler::ExactMotion;
-using oiler::Looks;
-using oiler::looks_of;
-using oiler::make_reference;
-using oiler::Reference;
-using oiler::ReferenceEffort;
+using oiler::lab::ClosedForm;
+using oiler::lab::ExactMotion;
+using oiler::lab::Looks;
+using oiler::lab::looks_of;
+using oiler::lab::make_reference;
+using oiler::lab::Reference;
+using oiler::lab::ReferenceEffort;
 using oiler::Scene;
 using oiler::Vec;
 using oiler::test::along_x;
@@ -66,7 +66,7 @@ void expect_within_doubts(const Reference& reference, const Motions& motions, do
             const State3 exact = motions[row](static_cast<Real>(look) /
                                               static_cast<Real>(reference.looks.per_second));
             const State3& found = reference.track.at(look, row);
-            const oiler::Doubt& doubt = reference.doubts[static_cast<std::size_t>(look)];
+            const oiler::lab::Doubt& doubt = reference.doubts[static_cast<std::size_t>(look)];
             ASSERT_LE(length(found.x - exact.x), doubt.position + given) << look << " " << row;
             ASSERT_LE(length(found.v - exact.v), doubt.velocity + given) << look << " " << row;
         }
@@ -158,7 +158,7 @@ TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
         const double t = number(state.at("t"));
         const auto look = std::lround(t * static_cast<double>(looks.per_second));
         const State3& found = fine.track.at(look, 0);
-        const oiler::Doubt& doubt = fine.doubts[static_cast<std::size_t>(look)];
+        const oiler::lab::Doubt& doubt = fine.doubts[static_cast<std::size_t>(look)];
         const double given = double_round_off * (30 * t + 10 * t * t);
         EXPECT_LE(length(found.x -
                          Vec<Real, 3>{number<Real>(state.at("x")), number<Real>(state.at("y")), 0}),
@@ -376,7 +376,7 @@ TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
     EXPECT_LT(poor.meaningful, better.meaningful);
     EXPECT_GT(poor.meaningful_until(), 1) << poor.words;
     for (std::int64_t look = 0; look < poor.meaningful; ++look) {
-        const oiler::Doubt& doubt = poor.doubts[static_cast<std::size_t>(look)];
+        const oiler::lab::Doubt& doubt = poor.doubts[static_cast<std::size_t>(look)];
         for (std::size_t row = 0; row < 2; ++row) {
             const State3& a = poor.track.at(look, row);
             const State3& b = better.track.at(look, row);

@@ -12,8 +12,8 @@
 namespace {
 
 using oiler::Exit;
-using oiler::Looks;
-using oiler::looks_of;
+using oiler::lab::Looks;
+using oiler::lab::looks_of;
 using oiler::Scene;
 using oiler::test::holds;
 using oiler::test::line_of_error;

@@ -16,21 +16,21 @@ namespace {
 
 using oiler::Bodies;
 using oiler::Damping;
-using oiler::evaluations_per_step;
+using oiler::lab::evaluations_per_step;
 using oiler::Exit;
 using oiler::find_method;
-using oiler::judge;
-using oiler::Judgement;
-using oiler::looks_of;
+using oiler::lab::judge;
+using oiler::lab::Judgement;
+using oiler::lab::looks_of;
 using oiler::Method;
 using oiler::Move;
 using oiler::Precision;
-using oiler::Reference;
+using oiler::lab::Reference;
 using oiler::Scene;
 using oiler::Settings;
 using oiler::Splitting;
 using oiler::Tableau;
-using oiler::why_not;
+using oiler::lab::why_not;
 using oiler::test::line_of_error;
 using Real = long double;
 
@@ -48,13 +48,13 @@ Scene spring(std::int64_t rate, double duration, double damping = 0, double stif
 }
 
 Reference reference_of(const Scene& scene) {
-    oiler::ReferenceEffort effort;
+    oiler::lab::ReferenceEffort effort;
     effort.most_work = 1e6;
     return make_reference(scene, looks_of(scene), effort);
 }
 
 Settings with(const Method& method, std::int64_t rate) {
-    return {.method = &method, .rate = {rate}};
+    return {.stepping = {.method = &method, .rate = {rate}}};
 }
 Settings with(const char* method, std::int64_t rate) { return with(find_method(method), rate); }
 
@@ -91,7 +91,7 @@ struct Errors {
 };
 
 /// Of a method stepped here, where each look meets a step.
-Errors stepped_errors(const Method& method, std::int64_t rate, const oiler::Looks& looks,
+Errors stepped_errors(const Method& method, std::int64_t rate, const oiler::lab::Looks& looks,
                       double damping) {
     Bodies bodies = oiler::test::oscillator(Precision::double_, 15, damping, start_x);
     Errors errors;
@@ -158,7 +158,7 @@ TEST(Judge, TellsTheWorstOfAllBodies) {
 }
 
 /// Chords of the exact motion between its steps, and of its energy.
-Errors chord_errors(std::int64_t rate, const oiler::Looks& looks, double damping) {
+Errors chord_errors(std::int64_t rate, const oiler::lab::Looks& looks, double damping) {
     Errors errors;
     for (std::int64_t look = 0; look < looks.count; ++look) {
         const std::int64_t tick = look * rate / looks.per_second;
@@ -244,7 +244,7 @@ TEST(Judge, StopsWhereTheReferenceMeansNothing) {
     Reference reference = reference_of(scene);
     reference.meaningful = 121;
     const Judgement judgement = judge(scene, with("semi_implicit_euler", 60), reference);
-    const oiler::Looks first{.per_second = 60, .count = 121};
+    const oiler::lab::Looks first{.per_second = 60, .count = 121};
     expect_errors(judgement, stepped_errors(find_method("semi_implicit_euler"), 60, first, 0));
     EXPECT_EQ(judgement.evaluations, 120);
 }
@@ -283,7 +283,7 @@ TEST(Judge, TellsARunTenTimesAsFarOffAsTheBodiesMove) {
 // to 10¹³⁵ m: infinite in float, and finite in double.
 TEST(Judge, TellsARunThatLeavesAllNumbers) {
     const Scene scene = spring(61, 5, 0, 1e8);
-    const Reference reference = make_reference(scene, {.per_second = 1, .count = 6}, {});
+    const Reference reference = oiler::lab::make_reference(scene, {.per_second = 1, .count = 6}, {});
     Settings settings = with("explicit_euler", 61);
     expect_unstable(judge(scene, settings, reference));
     settings.stepping.precision = Precision::single;

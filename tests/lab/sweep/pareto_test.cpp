@@ -8,10 +8,11 @@
 #include <set>
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 TradeoffRow made_up(double error, double cost, bool stable = true) {
-    TradeoffRow row{.stepping = {&find_method("rk4"), 1, Precision::double_}};
+    TradeoffRow row{.stepping = {&find_method("rk4"), {1}, Precision::double_}};
     row.judgement.stable = stable;
     row.judgement.position_error = error;
     row.ns_per_second = cost;

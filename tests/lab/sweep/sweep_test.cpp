@@ -11,6 +11,7 @@
 #include "support/text.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 Tradeoff swept(const MeasuredScene& measured, const SweepPlan& plan) {
@@ -92,12 +93,12 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
     EXPECT_TRUE(whole_sweep().complete());
     EXPECT_EQ(whole_sweep().ladders.size(), 12U);
     EXPECT_EQ(whole_sweep().today,
-              (Stepping{&find_method("semi_implicit_euler"), 100, Precision::double_}));
+              (Stepping{&find_method("semi_implicit_euler"), {100}, Precision::double_}));
     for (const Ladder& ladder : whole_sweep().ladders) {
         EXPECT_FALSE(ladder.rows.empty());
         for (std::size_t i = 0; i < ladder.rows.size(); ++i) {
-            EXPECT_EQ(ladder.rows[i].choice,
-                      (Stepping{ladder.method, rates[i], ladder.precision}));
+            EXPECT_EQ(ladder.rows[i].stepping,
+                      (Stepping{ladder.method, {rates[i]}, ladder.precision}));
             EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().looks.per_second == 0);
         }
     }
@@ -107,7 +108,7 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
 TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
     std::size_t count = 0;
     for (const TradeoffRow* row : whole_sweep().rows()) {
-        const Judgement alone = judge(spring().scene, settings_of(row->stepping), spring().reference);
+        const Judgement alone = judge(spring().scene, Settings{row->stepping}, spring().reference);
         EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->stepping);
         ++count;
     }
@@ -157,7 +158,7 @@ TEST(Sweep, HasTheErrorsOfWhatIsDrawnBetweenSteps) {
             most = std::max(most, std::abs(drawn - exact));
         }
         const TradeoffRow* row =
-            whole_sweep().find({&find_method("semi_implicit_euler"), rate, Precision::double_});
+            whole_sweep().find({&find_method("semi_implicit_euler"), {rate}, Precision::double_});
         ASSERT_NE(row, nullptr);
         EXPECT_NEAR(row->judgement.position_error, most, 1e-9 * most) << rate;
         EXPECT_FALSE(row->meets_steps);
@@ -276,7 +277,7 @@ TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     const Ladder& ladder = tradeoff.ladders.front();
     EXPECT_EQ(ladder.end, "a run at higher rates is too much work");
     ASSERT_FALSE(ladder.rows.empty());
-    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 400);
+    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 400);
     EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
 }
 
@@ -289,13 +290,13 @@ TEST(Ladder, GoesUpTo1024TimesTheSamplesWhereNoLimitIsGiven) {
     const Tradeoff tradeoff = swept(brief, plan);
     const Ladder& ladder = tradeoff.ladders.front();
     EXPECT_EQ(ladder.end, "no higher rates were asked for");
-    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 1024 * brief.looks.per_second);
+    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 1024 * brief.looks.per_second);
 }
 
 TEST(Ladder, EndsWhereNoMoreIsAskedFor) {
     const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
     EXPECT_EQ(ladder.end, "no higher rates were asked for");
-    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 800);
+    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 800);
 }
 
 TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {

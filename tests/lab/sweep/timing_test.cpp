@@ -14,7 +14,7 @@ namespace {
 using namespace lab;
 
 TradeoffRow row_at(std::int64_t rate, bool stable = true) {
-    TradeoffRow row{.stepping = {&find_method("rk4"), rate, Precision::double_}};
+    TradeoffRow row{.stepping = {&find_method("rk4"), {rate}, Precision::double_}};
     row.judgement.stable = stable;
     return row;
 }
@@ -87,7 +87,7 @@ TEST(TimeRow, IsTimedWithTheStepsOfAFrameInACall) {
 
 // The clock is given the row's own choice: method, rate and precision.
 TEST(TimeRow, IsTimedWithItsOwnChoice) {
-    const Stepping choice{&find_method("velocity_verlet"), 75, Precision::single};
+    const Stepping choice{&find_method("velocity_verlet"), {75}, Precision::single};
     Stepping timed;
     SweepWatch watch;
     watch.ns_per_step = [&](const auto&, const Stepping& given, std::int64_t) {

@@ -13,6 +13,7 @@
 #include "support/text.hpp"
 
 namespace oiler::test {
+using namespace oiler::lab;
 namespace {
 
 bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
@@ -38,7 +39,7 @@ Tradeoff hard_numbers() {
         ladder.done = i != 1;
         ladder.end = ladder.done ? "so" : "";
         for (int rate = 1; rate < 20 && ladder.done; ++rate) {
-            TradeoffRow row{.stepping = {ladder.method, rate, ladder.precision},
+            TradeoffRow row{.stepping = {ladder.method, {rate}, ladder.precision},
                             .meets_steps = rate % 2 == 0,
                             .ns_per_second = std::exp(rate),
                             .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate};

@@ -16,7 +16,7 @@ namespace {
 using namespace lab;
 
 TradeoffRow row_of(const char* method, std::int64_t rate, double us, double error) {
-    TradeoffRow row{.stepping = {&find_method(method), rate, Precision::double_}};
+    TradeoffRow row{.stepping = {&find_method(method), {rate}, Precision::double_}};
     row.judgement.position_error = error;
     row.judgement.evaluations = 100 * us;
     row.ns_per_second = 1e3 * us;
@@ -31,7 +31,7 @@ Ladder ladder_of(const char* method, const std::vector<TradeoffRow>& rows) {
 Tradeoff made_up(const std::vector<Ladder>& ladders) {
     Tradeoff tradeoff;
     tradeoff.title = "Made up";
-    tradeoff.today = {&find_method("rk4"), 40, Precision::double_};
+    tradeoff.today = {&find_method("rk4"), {40}, Precision::double_};
     tradeoff.reference.extent = 1;
     tradeoff.reference.floor.position = 1e-9;
     tradeoff.ladders = ladders;

@@ -92,7 +92,7 @@ std::int64_t evaluations_to_meet(const Method& method, double target, std::int64
 std::vector<std::int64_t> lab_rungs() {
     oiler::Scene scene;
     scene.stepping.rate.steps = 1;
-    return oiler::rungs(scene, {.per_second = 1, .count = duration + 1}, 1 << 22);
+    return oiler::lab::rungs(scene, {.per_second = 1, .count = duration + 1}, 1 << 22);
 }
 
 /// What the reference calls a method in the way that it is run here.

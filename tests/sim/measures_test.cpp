@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Measures of bodies count every axis, the third alone too.
+#include <gtest/gtest.h>
+
+#include "oiler/sim/bodies.hpp"
+#include "support/oscillator.hpp"
+
+namespace oiler::test {
+namespace {
+
+TEST(Apart, CountsEachAxisAlone) {
+    for (const Precision precision : precisions)
+        for (int axis = 0; axis < 3; ++axis) {
+            Bodies bodies(3, precision);
+            bodies.add({.position = {1, 2, 3}});
+            Bodies moved = bodies;
+            Vec3 by{};
+            by[axis] = -0.25;
+            moved.set_position(0, Vec3{1, 2, 3} + by);
+            EXPECT_EQ(bodies.apart_from(moved).distance, 0.25) << axis;
+            for (int i = 0; i < 3; ++i)
+                EXPECT_EQ(bodies.apart_from(moved).along[i], i == axis ? 0.25 : 0) << axis;
+        }
+}
+
+// √(3² + 4² + 12²) = 13 in row 0; row 1 is farther along z and 12.5 m away in all.
+TEST(Apart, IsTheLargestOfAllRowsInDistanceAndAlongEachAxis) {
+    Bodies bodies(3, Precision::double_);
+    for (int i = 0; i < 3; ++i) bodies.add({.position = {1, 1, 1}});
+    Bodies moved = bodies;
+    moved.set_position(0, {4, 5, 13});
+    moved.set_position(1, {1, 1, -11.5});
+    const Apart apart = bodies.apart_from(moved);
+    EXPECT_EQ(apart.distance, 13);
+    EXPECT_EQ(apart.along, (Vec3{3, 4, 12.5}));
+}
+
+TEST(Apart, IsNotZeroWhereTheSquareOfADifferenceIs) {
+    Bodies bodies(3, Precision::double_);
+    bodies.add({});
+    Bodies moved = bodies;
+    moved.set_position(0, {0, 0, 1e-200});
+    EXPECT_EQ(bodies.apart_from(moved).distance, 1e-200);
+}
+
+// ½·2·3² = 9 J along one axis; 2·10·5 = 100 J in gravity, ½·6·5² = 75 J on a spring.
+TEST(Energy, CountsEachAxisAlone) {
+    for (const Precision precision : precisions)
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 unit{};
+            unit[axis] = 1;
+            Bodies bodies(3, precision);
+            bodies.set_gravity(unit * -10.0);
+            bodies.add({.mass = 2, .position = unit * 5.0, .velocity = unit * -3.0},
+                       Spring{.stiffness = 6});
+            EXPECT_EQ(bodies.energy().kinetic, 9) << axis;
+            EXPECT_EQ(bodies.energy().potential, 175) << axis;
+        }
+}
+
+}  // namespace
+}  // namespace oiler::test
