@@ -24,7 +24,7 @@ Json report_of(const RunReport& report, const World& world) {
 
 // After 3 steps at 4 Hz a free body of 2 kg at 3 m/s has ½·2·3² = 9 J.
 TEST(Report, HasEachNumberUnderItsName) {
-    World world(1, {.rate = {4}, .seed = 5, .damping = Damping::in_drift});
+    World world(1, {.stepping = {.rate = {4}, .damping = Damping::in_drift}, .seed = 5});
     world.spawn(Body{.mass = 2, .velocity = {3}});
     world.spawn(Body{});
     world.step(3);
