@@ -3,21 +3,25 @@
 
 #include <cmath>
 
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
-#include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/markup.hpp"
-#include "oiler/cli/measuring.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
 struct Checked {
     std::string file;
     std::vector<BudgetLine> lines{};
-    std::string error{};  ///< why it could not be checked
+    std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
         for (const BudgetLine& line : lines)
@@ -26,49 +30,61 @@ struct Checked {
     }
 };
 
-/// XML has no place for control characters, and none for bytes that are no text.
+/// Replaces all but printable ASCII characters: XML allows no control characters and no bytes
+/// outside its encoding.
 std::string for_xml(std::string text) {
     for (char& c : text)
         if (c < ' ' || c > '~') c = '?';
     return escaped(text);
 }
 
-/// A test case for each number of a budget; a scene without one was skipped.
-std::string to_junit(const std::vector<Checked>& all) {
-    std::string cases;
-    int tests = 0;
-    int failures = 0;
-    int skipped = 0;
-    int errors = 0;
-    for (const Checked& checked : all) {
-        const std::string file = for_xml(checked.file);
-        for (const BudgetLine& line : checked.lines) {
-            ++tests;
-            failures += line.kept ? 0 : 1;
-            cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", file, line.name);
-            const std::string words = for_xml(words_of(line));
-            cases += line.kept ? fmt::format("><system-out>{}</system-out></testcase>\n", words)
-                               : fmt::format("><failure message=\"{}\"/></testcase>\n", words);
-        }
-        if (!checked.lines.empty()) continue;
-        ++tests;
-        if (!checked.error.empty()) {
-            ++errors;
-            cases += fmt::format(
-                "  <testcase classname=\"{}\" name=\"budget\"><error message=\"{}\"/></testcase>\n",
-                file, for_xml(checked.error));
-            continue;
-        }
-        ++skipped;
-        cases += fmt::format(
-            "  <testcase classname=\"{}\" name=\"budget\"><skipped message=\"no [budget]\"/>"
-            "</testcase>\n",
-            file);
+/// A JUnit test suite: one test case for each number of a budget. A scene without a budget is a
+/// skipped case.
+class TestSuite {
+public:
+    void add(const Checked& checked) {
+        for (const BudgetLine& line : checked.lines) add_line(checked.file, line);
+        if (!checked.lines.empty()) return;
+        if (!checked.error.empty())
+            add_case(checked.file, "budget", "error", checked.error, errors_);
+        else
+            add_case(checked.file, "budget", "skipped", "no [budget]", skipped_);
     }
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" tests=\"{}\" "
-        "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
-        tests, failures, errors, skipped, cases);
+    [[nodiscard]] std::string xml() const {
+        return fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" "
+            "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
+            tests_, failures_, errors_, skipped_, cases_);
+    }
+
+private:
+    void add_line(const std::string& file, const BudgetLine& line) {
+        if (!line.kept) return add_case(file, line.name, "failure", words_of(line), failures_);
+        ++tests_;
+        cases_ += fmt::format(
+            "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
+            for_xml(file), line.name, for_xml(words_of(line)));
+    }
+    void add_case(const std::string& file, const std::string& name, const std::string& outcome,
+                  const std::string& message, int& count) {
+        ++tests_;
+        ++count;
+        cases_ += fmt::format(
+            "  <testcase classname=\"{}\" name=\"{}\"><{} message=\"{}\"/></testcase>\n",
+            for_xml(file), name, outcome, for_xml(message));
+    }
+
+    std::string cases_;
+    int tests_ = 0;
+    int failures_ = 0;
+    int errors_ = 0;
+    int skipped_ = 0;
+};
+
+std::string to_junit(const std::vector<Checked>& all) {
+    TestSuite suite;
+    for (const Checked& checked : all) suite.add(checked);
+    return suite.xml();
 }
 
 Json to_json(const std::vector<Checked>& all) {
@@ -84,7 +100,7 @@ Json to_json(const std::vector<Checked>& all) {
     return json;
 }
 
-/// One that cannot be checked keeps no other from it.
+/// Turns an error of usage into a result, so that the other scenes are still checked.
 Checked check(const std::filesystem::path& path) {
     Checked checked{.file = path.string()};
     try {
@@ -110,28 +126,51 @@ std::string text_of(const std::vector<Checked>& all) {
     return text;
 }
 
-}  // namespace
-
-Exit CheckCommand::run() const {
-    const Interrupt interrupt;
-    std::vector<Checked> all;
-    for (const std::filesystem::path& path : scenes) {
-        all.push_back(check(path));
-        if (Interrupt::requested()) return Exit::interrupted;
-    }
-    if (!junit.empty()) {
-        const std::string xml = to_junit(all);
-        write_file(junit, std::as_bytes(std::span(xml)));
-    }
-    if (!json.empty()) write_json(json, to_json(all));
-    if (json != "-" && junit != "-") print(text_of(all));
+/// An error outweighs an exceeded budget.
+Exit exit_of(const std::vector<Checked>& all) {
     Exit exit = Exit::done;
     for (const Checked& checked : all) {
-        if (!checked.error.empty()) say("oiler: " + checked.error);
         if (!checked.error.empty()) exit = Exit::usage;
         if (!checked.kept() && exit == Exit::done) exit = Exit::comparison_failed;
     }
     return exit;
 }
+
+}  // namespace
+
+struct CheckCommand {
+    static constexpr CommandTexts texts{
+        .name = "check",
+        .summary = "Check scenes against their [budget]; exit 1 if one is exceeded",
+        .example = "assets/scenes/*.toml --junit budgets.xml"};
+
+    std::vector<std::filesystem::path> scenes;
+    std::filesystem::path junit;
+    std::filesystem::path json;
+
+    void declare(Arguments& arguments) {
+        arguments.add_required("SCENE", scenes, "scene files");
+        arguments.add_option("--junit", junit, "FILE",
+                             "write the result as JUnit XML for CI, - for stdout");
+        add_json(arguments, json);
+    }
+
+    [[nodiscard]] Exit run() const {
+        const Interrupt interrupt;
+        std::vector<Checked> all;
+        for (const std::filesystem::path& path : scenes) {
+            all.push_back(check(path));
+            if (Interrupt::requested()) return Exit::interrupted;
+        }
+        if (!junit.empty()) write_text(junit, to_junit(all));
+        if (!json.empty()) write_json(json, to_json(all));
+        if (json != "-" && junit != "-") print(text_of(all));
+        for (const Checked& checked : all)
+            if (!checked.error.empty()) say("oiler: " + checked.error);
+        return exit_of(all);
+    }
+};
+
+template Command make_command<CheckCommand>();
 
 }  // namespace oiler::cli
