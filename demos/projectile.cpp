@@ -176,8 +176,8 @@ struct Projectile {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.method->name,
-                                 settings.rate.steps, name_of(settings.precision), world.time()),
+             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
+                                 settings.stepping.rate.steps, name_of(settings.stepping.precision), world.time()),
              .size = 13,
              .colour = palette::ink});
         float y = 296;

@@ -140,8 +140,8 @@ struct SpringDamper {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}", settings.method->name, settings.rate.steps,
-                                 name_of(settings.precision)),
+             .text = fmt::format("{} at {} Hz, {}", settings.stepping.method->name, settings.stepping.rate.steps,
+                                 name_of(settings.stepping.precision)),
              .size = 13,
              .colour = palette::ink});
         picture.labels.push_back({.at = {624, 340},

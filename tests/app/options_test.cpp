@@ -24,9 +24,9 @@ CommandLine parse(const std::string& words) {
 
 TEST(Options, AreTheGamesOwnUnlessGiven) {
     const Options options = parse("").options;
-    EXPECT_EQ(options.settings.rate, Rate{50});
-    EXPECT_EQ(options.settings.method->name, "semi_implicit_euler");
-    EXPECT_EQ(options.settings.precision, Precision::double_);
+    EXPECT_EQ(options.settings.stepping.rate, Rate{50});
+    EXPECT_EQ(options.settings.stepping.method->name, "semi_implicit_euler");
+    EXPECT_EQ(options.settings.stepping.precision, Precision::double_);
     EXPECT_EQ(options.size, (Size{1280, 720}));
     EXPECT_EQ(options.out, "frames/demo");
     EXPECT_FALSE(options.headless);
@@ -46,9 +46,9 @@ TEST(Options, AreReadAsGiven) {
     EXPECT_EQ(options.fps, 30);
     EXPECT_EQ(options.size, (Size{641, 3}));
     EXPECT_EQ(options.out, "o");
-    EXPECT_EQ(options.settings.method->name, "explicit_euler");
-    EXPECT_EQ(options.settings.rate, Rate{1'000'000});
-    EXPECT_EQ(options.settings.precision, Precision::single);
+    EXPECT_EQ(options.settings.stepping.method->name, "explicit_euler");
+    EXPECT_EQ(options.settings.stepping.rate, Rate{1'000'000});
+    EXPECT_EQ(options.settings.stepping.precision, Precision::single);
     EXPECT_EQ(options.settings.seed, ~std::uint64_t{0});
     EXPECT_EQ(options.trace, "t.csv");
     EXPECT_EQ(options.energy, "e.csv");
@@ -57,7 +57,7 @@ TEST(Options, AreReadAsGiven) {
 }
 
 TEST(Options, ALeadingZeroIsNoOctal) {
-    EXPECT_EQ(parse("--rate 010").options.settings.rate, Rate{10});
+    EXPECT_EQ(parse("--rate 010").options.settings.stepping.rate, Rate{10});
 }
 
 // Neither opens a window.
@@ -75,8 +75,8 @@ CommandLine parse_file(std::vector<std::string> words) {
                                   EXPECT_EQ(path, "some scene.toml");
                                   return About{.name = "scene",
                                                .title = "A scene",
-                                               .rate = 7,
                                                .method = "rk4",
+                                               .rate = 7,
                                                .precision = Precision::single,
                                                .duration = 12};
                               });
@@ -86,9 +86,9 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     const CommandLine own = parse_file({"demo", "some scene.toml"});
     EXPECT_EQ(own.about.name, "scene");
     EXPECT_EQ(own.about.duration, 12);
-    EXPECT_EQ(own.options.settings.rate, Rate{7});
-    EXPECT_EQ(own.options.settings.method->name, "rk4");
-    EXPECT_EQ(own.options.settings.precision, Precision::single);
+    EXPECT_EQ(own.options.settings.stepping.rate, Rate{7});
+    EXPECT_EQ(own.options.settings.stepping.method->name, "rk4");
+    EXPECT_EQ(own.options.settings.stepping.precision, Precision::single);
     EXPECT_EQ(own.options.out, "frames/scene");
     const Settings given = parse_file({"demo", "--rate", "8", "--method", "exact",
                                        "some scene.toml", "--precision", "double"})

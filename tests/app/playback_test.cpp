@@ -50,7 +50,7 @@ struct Drifter {
 };
 
 struct Shown {
-    AnyGameOf<Walker> game{Settings{.rate = {1}}};
+    AnyGameOf<Walker> game{Settings{.stepping = {.rate = {1}}};
     Recorder recorder{{}, {}, game.world()};
     Playback playback{game, recorder, true};
     Input input;
@@ -89,7 +89,7 @@ TEST(Playback, AtAnyRateAndFrameRateShowsTheTimeOfTheFrame) {
 
 TEST(Playback, HashIsOfTheTickThatIsShown) {
     Shown shown;
-    Walker alone(Settings{.rate = {1}});
+    Walker alone(Settings{.stepping = {.rate = {1}});
     (void)shown.at(0, 0.5);
     EXPECT_EQ(shown.playback.state_hash(), alone.world.state_hash());
     (void)shown.at(3, 0.5);
@@ -112,7 +112,7 @@ struct Jumper : Walker {
 };
 
 TEST(Playback, ATeleportIsNotDrawnInBetween) {
-    AnyGameOf<Jumper> game{Settings{.rate = {1}}};
+    AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}};
     Recorder none{{}, {}, game.world()};
     Playback playback{game, none, false};
     Input input;
@@ -126,8 +126,8 @@ TEST(Playback, ATeleportIsNotDrawnInBetween) {
 }
 
 TEST(Playback, ManyStepsAtOnceGiveTheBitsOfOneAtATime) {
-    AnyGameOf<Drifter> together{Settings{.rate = {10}}};
-    AnyGameOf<Drifter> single{Settings{.rate = {10}}};
+    AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}};
+    AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}};
     Recorder none{{}, {}, together.world()};
     Input input;
     Playback(together, none, false).step_to(10'000, input);

@@ -24,7 +24,7 @@ bool is_one_line(const std::string& text) {
 }
 
 TEST(Program, CapturesTheSameFolderTwice) {
-    for (const std::string demo : {"hello", "spring_damper", "projectile"}) {
+    for (const std::string demo : {"hello", "jump", "spring_damper", "projectile"}) {
         const Folder folder;
         for (const char* name : {"a", "b"})
             EXPECT_EQ(shell(demo + small + "--frames 12 --out " + quoted(folder / name)).exit, 0);

@@ -216,8 +216,8 @@ std::vector<Case> cases(bool full) {
 }
 
 /// The largest distance from the truth, m.
-double independent_error(const Case& one, const SceneChoice& choice) {
-    World world = make_world(one.scene, settings_of(choice));
+double independent_error(const Case& one, const Stepping& choice) {
+    World world = make_world(one.scene, Settings{choice});
     const auto steps = static_cast<std::int64_t>(
         std::floor(one.scene.duration * static_cast<double>(choice.rate) * (1 + 1e-12)));
     const std::int64_t stride =

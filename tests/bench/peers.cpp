@@ -61,7 +61,7 @@ const std::vector<Peer>& peers() {
 /// Those that fall share gravity; oscillators are not damped.
 World our_world(const Peer& peer, std::size_t bodies) {
     World world(peer.axes,
-                {.rate = rate, .method = &find_method(peer.method), .precision = peer.precision});
+                {.method = &find_method(peer.method), .rate = rate, .precision = peer.precision});
     reserve(world, bodies);
     if (peer.task == Task::fall) world.set_gravity({0, -9.81, 0});
     for (std::size_t i = 0; i < bodies; ++i) {

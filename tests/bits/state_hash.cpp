@@ -55,7 +55,7 @@ enum class Scene { linear, forces, links };
 
 std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision precision, int axes,
                              Scene scene) {
-    World world(axes, {.rate = {256}, .method = &method, .precision = precision});
+    World world(axes, {.method = &method, .rate = {256}, .precision = precision});
     world.set_gravity(assorted(5, axes));
     oiler::Entity last;
     for (int i = 0; i < bodies; ++i) {

@@ -38,6 +38,27 @@ TEST(Advise, SaysWhatTheContractPromises) {
     EXPECT_TRUE(holds(json.at("words").at(0), "exact at 50 Hz in double"));
 }
 
+// A second of computing for a frame is always enough.
+TEST(Advise, GoesByEveryOptionThatIsGiven) {
+    const Desk desk;
+    const Outcome run = desk.run(
+        "oiler advise scene.toml --duration 5 --energy-drift 0.5 --budget-us 1000000 --min-rate "
+        "130 --methods velocity_verlet,rk2_heun --json - --quiet");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    const Json json = Json::parse(run.out);
+    EXPECT_EQ(json.at("wish").at("position_error"), nullptr);
+    EXPECT_EQ(json.at("wish").at("energy_drift"), 0.5);
+    EXPECT_EQ(json.at("wish").at("us_per_frame"), 1'000'000);
+    EXPECT_EQ(json.at("reference").at("meaningful_until"), 5);
+    for (const char* role : {"advice", "runner_up"}) {
+        EXPECT_GE(json.at(role).at("rate").get<int>(), 130) << role;
+        EXPECT_TRUE(json.at(role).at("method") == "velocity_verlet" ||
+                    json.at(role).at("method") == "rk2_heun")
+            << role;
+    }
+    EXPECT_EQ(json.at("today").at("rate"), 100);
+}
+
 TEST(Advise, ForPeopleSaysTheConclusionFirst) {
     const Outcome run =
         shell("oiler advise " + article + " --duration 10 --position-error 1e-3 --quiet");

@@ -93,6 +93,66 @@ TEST(Check, OfSeveralScenesTellsEachForACi) {
     EXPECT_EQ(json.at(2).at("kept"), true);
 }
 
+/// A desk with a budget that is kept, one that is exceeded, and a file that is not a scene.
+class CheckOfThree : public testing::Test {
+protected:
+    CheckOfThree() {
+        desk_.put("exceeded.toml", spring_scene("[budget]\nposition_error = 19.0\n"));
+        desk_.put("bad.toml", "[scene]\naxes = 7\n");
+    }
+
+    Desk desk_{spring_scene("[budget]\nposition_error = 25.0\n")};
+};
+
+// A bad file says more than an exceeded budget, and both are told, in whatever order they are.
+TEST_F(CheckOfThree, WithABadAndAnExceededOneEndsAsOfABadOne) {
+    for (const char* files : {"bad.toml exceeded.toml", "exceeded.toml bad.toml",
+                              "scene.toml bad.toml exceeded.toml scene.toml"}) {
+        const Outcome run = desk_.run(std::string("oiler check ") + files);
+        EXPECT_EQ(run.exit, 2) << files;
+        EXPECT_TRUE(holds(run.out, "exceeded.toml: position_error 19.8 m of 19 m: exceeded\n"))
+            << run.out;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_TRUE(holds(run.err, "bad.toml")) << run.err;
+    }
+    EXPECT_EQ(desk_.run("oiler check scene.toml bad.toml").exit, 2);
+    EXPECT_EQ(desk_.run("oiler check bad.toml scene.toml").exit, 2);
+    EXPECT_EQ(desk_.run("oiler check scene.toml exceeded.toml").exit, 1);
+    EXPECT_EQ(desk_.run("oiler check exceeded.toml scene.toml").exit, 1);
+}
+
+// JUnit tells tests that failed from those that could not be run.
+TEST_F(CheckOfThree, HasAnErrorForTheBadOneAndAFailureForTheExceededOne) {
+    const Outcome run =
+        desk_.run("oiler check bad.toml exceeded.toml scene.toml --junit a.xml --json a.json");
+    EXPECT_EQ(run.exit, 2) << run.err;
+    const std::string xml = desk_.text("a.xml");
+    EXPECT_TRUE(is_well_formed(xml)) << xml;
+    EXPECT_TRUE(holds(xml, "tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\"")) << xml;
+    EXPECT_TRUE(holds(xml, "classname=\"bad.toml\" name=\"budget\"><error message=\"")) << xml;
+    EXPECT_EQ(count_of(xml, "<error "), 1U);
+    EXPECT_EQ(count_of(xml, "<failure "), 1U);
+    EXPECT_EQ(count_of(xml, "<skipped "), 0U);
+    const Json json = desk_.json("a.json");
+    ASSERT_EQ(json.size(), 3U);
+    EXPECT_TRUE(holds(json.at(0).at("error"), "axes")) << json;
+    EXPECT_FALSE(json.at(0).contains("kept")) << json;
+    EXPECT_EQ(json.at(1).at("kept"), false);
+    EXPECT_EQ(json.at(2).at("kept"), true);
+}
+
+TEST_F(CheckOfThree, WithJsonOnStandardOutputPrintsNothingElse) {
+    const Outcome run = desk_.run("oiler check scene.toml exceeded.toml --json -");
+    EXPECT_EQ(run.exit, 1) << run.err;
+    EXPECT_EQ(Json::parse(run.out).size(), 2U);
+}
+
+TEST_F(CheckOfThree, WithJUnitOnStandardOutputPrintsNothingElse) {
+    const Outcome run = desk_.run("oiler check scene.toml --junit -");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_TRUE(is_well_formed(run.out)) << run.out;
+}
+
 TEST(Check, OfTheHousesScenesIsDone) {
     const Outcome run = shell("cd '" OILER_SOURCE
                               "/assets/scenes'; oiler check article_spring.toml jump.toml "

@@ -32,12 +32,69 @@ TEST(RatesCommand, HasTheContractsJson) {
     EXPECT_EQ(apex.at("methods").at(1).at("method"), "exact");
 }
 
+// As above; 2.025 m is the true apex, and from 1.936 to 1.95 m are 0.69 % of it.
+TEST(RatesCommand, PrintsEachQuantityInItsUnit) {
+    const Outcome run =
+        shell("oiler rates '" OILER_SOURCE
+              "/assets/scenes/jump.toml' --rates 50,60 --methods semi_implicit_euler --quiet");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_TRUE(holds(run.out, ", m: 2.025\n")) << run.out;
+    EXPECT_TRUE(holds(run.out, " 50       60  spread\n")) << run.out;
+    EXPECT_TRUE(holds(run.out, " 1.936     1.95   0.69%\n")) << run.out;
+}
+
+/// A body at rest before one on a spring of ω = 2π rad/s, and a third that swings less.
+const std::string still_and_swinging =
+    "[scene]\naxes = 1\nrate = 100\nduration = 7.0\nmethod = \"velocity_verlet\"\n"
+    "[[body]]\nname = \"still\"\nposition = [7.0]\n"
+    "[[body]]\nname = \"mass\"\nposition = [1.0]\n"
+    "[[spring]]\nbody = \"mass\"\nanchor = [0.0]\nstiffness = 39.47841760435743\n"
+    "[[body]]\nname = \"slow\"\nposition = [0.5]\n"
+    "[[spring]]\nbody = \"slow\"\nanchor = [0.0]\nstiffness = 9.869604401089358\n";
+
+/// What `oiler rates` measures of that scene, with these options.
+Json rates_with(const std::string& options) {
+    const Desk desk(still_and_swinging);
+    const Outcome run = desk.run(
+        "oiler rates scene.toml --rates 50,100 --methods exact --json - --quiet " + options);
+    EXPECT_EQ(run.exit, 0) << run.err;
+    return Json::parse(run.out);
+}
+
+// The period of ω = 2π rad/s is 1 s, that of π rad/s 2 s; cubics between samples 50 times a second
+// are right to (ωh)⁴/384 of a radian.
+TEST(RatesCommand, MeasuresTheBodyThatSwingsMostUnlessAnotherIsAsked) {
+    for (const char* options : {"", "--body mass", "--body 1"}) {
+        const Json period = rates_with(options).at("quantities").at(0);
+        EXPECT_EQ(period.at("name"), "period");
+        EXPECT_EQ(period.at("unit"), "s");
+        EXPECT_EQ(period.at("body"), "mass") << options;
+        EXPECT_NEAR(period.at("truth").get<double>(), 1, 1e-5);
+        EXPECT_NEAR(period.at("methods").at(0).at("values").at(1).get<double>(), 1, 1e-3);
+    }
+    for (const char* options : {"--body slow", "--body 2"}) {
+        const Json period = rates_with(options).at("quantities").at(0);
+        EXPECT_EQ(period.at("body"), "slow") << options;
+        EXPECT_NEAR(period.at("truth").get<double>(), 2, 1e-5);
+    }
+    EXPECT_EQ(rates_with("--body still").at("quantities"), Json::array());
+}
+
+// Two seconds have two crossings upwards, at 0.75 and 1.75 s, and three are needed for a swing.
+TEST(RatesCommand, MeasuresTheSecondsThatAreAsked) {
+    EXPECT_EQ(rates_with("--body mass --duration 2").at("quantities"), Json::array());
+    EXPECT_EQ(rates_with("--body mass --duration 3").at("quantities").at(0).at("name"), "period");
+}
+
 // ---- report
 
 TEST(Report, IsOneFileThatNeedsNoOther) {
     std::string scene = spring_scene("[budget]\nposition_error = 25.0\n");
     scene.replace(scene.find("100 "), 4, "20 ");
-    scene.replace(scene.find("10.0"), 4, "1.0");
+    scene.replace(scene.find("10.0"), 4, "1.5");
+    // √144 = 12 rad/s: three times upwards through its rest in 1.5 s.
+    scene.replace(scene.find("15.0"), 4, "144.0");
+    scene.replace(scene.find("[[body]]"), 0, "[[body]]\nname = \"still\"\n\n");
     const Desk desk(scene);
     const Outcome run = desk.run("oiler report scene.toml --out page.html --quiet --json a.json");
     if (run.exit == 3) GTEST_SKIP() << run.err;
@@ -62,6 +119,17 @@ TEST(Report, IsOneFileThatNeedsNoOther) {
          {"advice", "tradeoff", "stability", "rates", "ledger", "obvious_methods"})
         EXPECT_TRUE(data.contains(part)) << part;
     EXPECT_TRUE(data["tradeoff"].contains("today"));
+    // The scene's budget is what the page advises on.
+    EXPECT_EQ(data["advice"]["wish"]["position_error"], 25);
+    EXPECT_EQ(data["advice"]["wish"]["energy_drift"], nullptr);
+    // Its springs and what a player notices are of the second body.
+    const Json& spring = data["stability"]["springs"][0];
+    EXPECT_EQ(spring["name"], "springs of mass");
+    EXPECT_DOUBLE_EQ(spring["omega"].get<double>(), 12);
+    EXPECT_EQ(data["stability"]["rate"], 20);
+    ASSERT_FALSE(data["rates"].is_null());
+    EXPECT_EQ(data["rates"]["quantities"][0]["name"], "period");
+    EXPECT_EQ(data["rates"]["quantities"][0]["body"], "mass");
 }
 
 TEST(Report, OfABadSceneLeavesNothing) {

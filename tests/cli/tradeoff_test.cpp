@@ -2,11 +2,16 @@
 // `oiler tradeoff` and `oiler merge` as their users run them.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "cli/desk.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
+
+using namespace lab;
 
 const std::string few = "--methods semi_implicit_euler,velocity_verlet,rk4,exact --max-rate 400 ";
 
@@ -77,6 +82,59 @@ TEST(TradeoffCommand, InterruptedGoesOnWhereItWas) {
     EXPECT_EQ(desk.names("a").size(), 5U);
 }
 
+/// The velocity errors of a part's rows, and whether any bears the mark.
+bool has_mark(const Json& part) {
+    for (const Json& row : part.at("rows"))
+        if (row.at("velocity_error") == 4242) return true;
+    return false;
+}
+
+/// Half of a sweep of the desk's scene, in whose file a row is marked.
+class UnfinishedSweep : public testing::Test {
+protected:
+    UnfinishedSweep() {
+        Json part = measure();
+        part.at("rows").at(0).at("velocity_error") = 4242;
+        desk_.put("a/part-1-of-2.json", part.dump());
+    }
+    /// Returns the rows of the file that the command leaves.
+    [[nodiscard]] Json measure(const std::string& options = "--max-rate 60 --duration 1",
+                               const std::string& folder = "a") const {
+        const Outcome run =
+            desk_.run("oiler tradeoff scene.toml --methods rk4,exact --shard 1/2 --quiet --out " +
+                      folder + " " + options);
+        EXPECT_EQ(run.exit, 0) << run.err;
+        return desk_.json(folder + "/part-1-of-2.json");
+    }
+    static std::string changed(const std::string& what, const std::string& with) {
+        std::string scene = spring_scene("");
+        return scene.replace(scene.find(what), what.size(), with);
+    }
+
+    Desk desk_;
+};
+
+TEST_F(UnfinishedSweep, IsResumedWithItsRows) { EXPECT_TRUE(has_mark(measure())); }
+
+// Rows of a softer spring say nothing of the one in the file, however alike the two scenes are.
+TEST_F(UnfinishedSweep, OfAnotherSceneIsMeasuredAnew) {
+    desk_.put("scene.toml", changed("15.0", "14.0"));
+    const Json anew = measure();
+    EXPECT_FALSE(has_mark(anew));
+    EXPECT_EQ(accuracy_of(anew), accuracy_of(measure("--max-rate 60 --duration 1", "b")));
+}
+
+TEST_F(UnfinishedSweep, OfOtherOptionsIsMeasuredAnew) {
+    const Json lower = measure("--max-rate 30 --duration 1");
+    EXPECT_FALSE(has_mark(lower));
+    // Up to 30 Hz, beside the scene's own 100 Hz.
+    for (const Json& row : lower.at("rows"))
+        EXPECT_TRUE(row.at("rate") <= 30 || row.at("rate") == 100) << row;
+    const Json shorter = measure("--max-rate 30 --duration 0.5");
+    EXPECT_EQ(shorter.at("duration"), 0.5);
+    EXPECT_EQ(shorter.at("reference").at("meaningful_until"), 0.5);
+}
+
 TEST(TradeoffCommand, InShardsAndMergedIsOneRun) {
     const Desk desk;
     const std::string command = "oiler tradeoff scene.toml " + few + "--size 64x36 --quiet --out ";
@@ -115,6 +173,66 @@ TEST(TradeoffCommand, MeasuresAMethodThatIsNamedTwiceOnce) {
     EXPECT_EQ(desk.run(command + "once --methods rk4").exit, twice.exit);
     EXPECT_EQ(desk.json("twice/tradeoff.json").at("rows").size(),
               desk.json("once/tradeoff.json").at("rows").size());
+}
+
+/// Words with one space between them.
+std::string squeezed(const std::string& line) {
+    std::istringstream stream(line);
+    std::string all;
+    for (std::string word; stream >> word;) all += (all.empty() ? "" : " ") + word;
+    return all;
+}
+
+/// The line of a text that has these words in it.
+std::string line_with(const std::string& text, const std::string& words) {
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        if (holds(line, words)) return squeezed(line);
+    return "";
+}
+
+/// A sweep of one method whose numbers are all different.
+Tradeoff made_up() {
+    const Method* const rk4 = &find_method("rk4");
+    const Stepping today{rk4, {240}, Precision::double_};
+    TradeoffRow told{.stepping = today, .ns_per_second = 36'000, .ns_spread = 1800};
+    told.judgement = {.position_error = 0.125,
+                      .velocity_error = 2.5,
+                      .phase_error = -3.5,
+                      .energy_drift = 0.05,
+                      .evaluations = 4800};
+    TradeoffRow too_small{.stepping = {rk4, {250}, Precision::double_},
+                          .meets_steps = false,
+                          .ns_per_second = 45'000,
+                          .ns_spread = 11'250};
+    too_small.judgement.evaluations = 5000;
+    TradeoffRow unstable{.stepping = {rk4, {10}, Precision::double_}, .meets_steps = false};
+    unstable.judgement.stable = false;
+    Tradeoff tradeoff{.scene = "made_up", .title = "", .fingerprint = "1", .duration = 5};
+    tradeoff.today = today;
+    tradeoff.looks = {.per_second = 60, .count = 301};
+    tradeoff.reference.floor.position = 1e-9;
+    tradeoff.reference.extent = 1;
+    tradeoff.reference.meaningful_until = 5;
+    tradeoff.machines = {{"cpu", 1, "cc"}};
+    tradeoff.ladders = {{.method = rk4, .rows = {unstable, told, too_small}, .done = true}};
+    return tradeoff;
+}
+
+// 36,000 ns for a second of the scene are 36 µs, and half of what lies between the quartiles is
+// 1800 of them: 5 %; 11,250 of 45,000 are 25 %. A mark, the rate and a tilde where samples miss
+// steps come first.
+TEST(TradeoffTable, HasCellsInTheUnitsOfTheirHeadings) {
+    const Desk desk;
+    desk.put("part.json", to_json(made_up()));
+    const Outcome run = desk.run("oiler merge part.json --all --out t --size 64x36 --quiet");
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(line_with(run.out, "method "),
+              "method Hz error m m/s phase ° energy forces µs per s ±");
+    EXPECT_EQ(line_with(run.out, " 240 "), "> rk4 240 double 0.125 2.5 -3.5 0.05 4800 36 5%");
+    EXPECT_EQ(line_with(run.out, " 250~"), "* rk4 250~ double <1.0e-09 - - - 5000 45 25%");
+    EXPECT_EQ(line_with(run.out, " 10~"), "rk4 10~ double unstable - - - - - -");
 }
 
 // What else there is is done by threads; an error of writing is one line from any of them.

@@ -8,7 +8,7 @@ cmake --preset fuzz
 cmake --build --preset fuzz --target scene_fuzz
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-awk -F'`' '/^\| `\[/ { print "\"" $4 " = \""; print "\"\\x0a" $2 "\\x0a\"" }' README.md | sort -u >"$work/dictionary"
+awk -F'`' '/^\| `\[/ { print "\"" $4 " = \""; print "\"\\x0a" $2 "\\x0a\"" }' assets/scenes/README.md | sort -u >"$work/dictionary"
 mkdir "$work/found"
 build-fuzz/bin/scene_fuzz -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=1024 \
     -print_final_stats=1 -verbosity=0 -dict="$work/dictionary" -artifact_prefix=build-fuzz/ \

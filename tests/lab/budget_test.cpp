@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/lab/advice/advise.hpp"
 #include "support/text.hpp"
 
 namespace oiler::test {
@@ -16,9 +18,9 @@ namespace {
 std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,
                                 const char* method = "semi_implicit_euler") {
     const Scene scene = parse_scene(text, "test.toml");
-    Settings settings = settings_of(scene);
-    if (rate > 0) settings.rate = {rate};
-    settings.method = &find_method(method);
+    Settings settings = Settings{scene.stepping};
+    if (rate > 0) settings.stepping.rate.steps = {rate};
+    settings.stepping.method = &find_method(method);
     return check_budget(scene, settings);
 }
 
@@ -162,6 +164,58 @@ TEST(Budget, ThatIsTooTightIsRefused) {
     }
 }
 
+/// 3 kg are no power of two, so that forces per kg are rounded to double.
+const std::string heavy_spring =
+    one_axis +
+    "duration = 10.0\n[[body]]\nname = \"mass\"\nmass = 3.0\nposition = [1000.0]\n[[spring]]\n"
+    "body = \"mass\"\nanchor = [0.0]\nstiffness = 45.0\n";
+
+// The closed form's energies are right to 8 roundings of double, its positions to some of 1000 m:
+// what cannot be told of one is no limit to the other.
+TEST(Budget, OfEnergyIsComparedWithWhatCanBeToldOfEnergy) {
+    const double told_from = 100 * 8 * std::numeric_limits<double>::epsilon();
+    const std::vector<BudgetLine> energy =
+        checked(heavy_spring + "[budget]\nenergy_drift = 1e-11\n", 0, "exact");
+    ASSERT_EQ(energy.size(), 1U);
+    EXPECT_DOUBLE_EQ(energy[0].told_from, told_from);
+    const std::vector<BudgetLine> both = checked(
+        heavy_spring + "[budget]\nposition_error = 1e-6\nenergy_drift = 1e-11\n", 0, "exact");
+    ASSERT_EQ(both.size(), 2U);
+    EXPECT_DOUBLE_EQ(both[1].told_from, told_from);
+    // At 1000 m alone 100 × 8 roundings are 1.8e-10 m.
+    EXPECT_GE(both[0].told_from, 1000 * told_from);
+    EXPECT_THROW((void)checked(heavy_spring + "[budget]\nposition_error = 1e-11\n"), Error);
+}
+
+/// A reference of one sample whose own errors are given.
+Reference doubtful(double position, double energy) {
+    Reference reference;
+    reference.looks = {.per_second = 60, .count = 1};
+    reference.meaningful = 1;
+    reference.doubts = {{.position = position, .energy = energy}};
+    return reference;
+}
+
+bool is_judgeable(const Wish& wish, const Reference& reference) try {
+    require_judgeable(Scene{}, reference, wish);
+    return true;
+} catch (const Error&) {
+    return false;
+}
+
+// Advice is asked for as budgets are: from 100 × the reference's own error on, 1 m or 1e-3 of the
+// energy.
+TEST(RequireJudgeable, ComparesEachToleranceWithItsOwnFloor) {
+    const Reference reference = doubtful(0.01, 1e-5);
+    EXPECT_TRUE(is_judgeable({.position_error = 1.01}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 0.99}, reference));
+    EXPECT_TRUE(is_judgeable({.energy_drift = 1.01e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.energy_drift = 0.99e-3}, reference));
+    EXPECT_TRUE(is_judgeable({.position_error = 1.01, .energy_drift = 1.01e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 1.01, .energy_drift = 0.99e-3}, reference));
+    EXPECT_FALSE(is_judgeable({.position_error = 0.99, .energy_drift = 1.01e-3}, reference));
+}
+
 // A scatter's bodies are those of the seed that is run, and the exact motion is that of these.
 TEST(Budget, OfAScatterHoldsForEverySeed) {
     const Scene scene = parse_scene(
@@ -169,8 +223,8 @@ TEST(Budget, OfAScatterHoldsForEverySeed) {
         "[[scatter]]\ncount = 10\nposition_from = [0.0, 0.0]\nposition_to = [100.0, 0.0]\n"
         "velocity_from = [1.0, 2.0]\n[budget]\nposition_error = 0.01\n",
         "test.toml");
-    Settings settings = settings_of(scene);
-    settings.method = &find_method("velocity_verlet");
+    Settings settings = Settings{scene.stepping};
+    settings.stepping.method = &find_method("velocity_verlet");
     for (const std::uint64_t seed : {0U, 1U, 2U}) {
         settings.seed = seed;
         const std::vector<BudgetLine> lines = check_budget(scene, settings);
@@ -181,7 +235,7 @@ TEST(Budget, OfAScatterHoldsForEverySeed) {
 
 TEST(Budget, StoppedIsNone) {
     const Scene scene = parse_scene(with_position("25.0"), "test.toml");
-    EXPECT_TRUE(check_budget(scene, settings_of(scene), [] { return true; }).empty());
+    EXPECT_TRUE(check_budget(scene, Settings{scene.stepping}, [] { return true; }).empty());
 }
 
 }  // namespace

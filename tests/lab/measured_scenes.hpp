@@ -9,6 +9,8 @@
 
 namespace oiler::test {
 
+using namespace lab;
+
 inline const std::string one_axis = "[scene]\naxes = 1\nrate = 100\n";
 
 /// The article's spring and damper, as long as a test can wait.

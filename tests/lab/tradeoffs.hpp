@@ -47,8 +47,8 @@ inline bool same_errors(const Judgement& a, const Judgement& b) {
            same(a.energy_drift, b.energy_drift) && same(a.evaluations, b.evaluations);
 }
 
-inline std::string named(const SceneChoice& choice) {
-    return std::string(choice.method->name) + " at " + std::to_string(choice.rate);
+inline std::string named(const Stepping& choice) {
+    return std::string(choice.method->name) + " at " + std::to_string(choice.rate.steps);
 }
 
 inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {

@@ -16,7 +16,7 @@
 namespace oiler::test {
 namespace {
 
-const SceneChoice choice{
+const Stepping choice{
     .method = &find_method("rk4"), .rate = 120, .precision = Precision::single};
 constexpr std::string_view body = "\n[[body]]\nvelocity = [1.0]\n";
 
@@ -81,7 +81,7 @@ TEST(Apply, AddsLinesWhereTheLastLineDoesNotEnd) {
 TEST(Apply, WritesDottedKeys) {
     expect_applied("scene.axes = 1\nscene.rate = 100 # rate\ncamera.height = 5.0\n",
                    "scene.axes = 1\nscene.rate = 120 # rate\nscene.method = \"rk4\"\n"
-                   "scene.precision = \"float\"\ncamera.height = 5.0\n");
+                   "scene.stepping.precision = \"float\"\ncamera.height = 5.0\n");
     expect_applied("'scene' . \"method\" = 'exact'\n\"scene\" . 'axes' = 1\n",
                    "'scene' . \"method\" = 'rk4'\n\"scene\" . 'axes' = 1\n\"scene\" . rate = 120\n"
                    "\"scene\" . precision = \"float\"\n");
@@ -163,9 +163,9 @@ TEST(Apply, ChangesNothingElseOfTheScenesThatComeWithIt) {
         }
         EXPECT_EQ(lines_of(applied(text)), expected) << file.path();
         const Scene scene = parse_scene(applied(text), file.path().string());
-        EXPECT_EQ(scene.method, choice.method);
-        EXPECT_EQ(scene.rate, 120);
-        EXPECT_EQ(scene.precision, Precision::single);
+        EXPECT_EQ(scene.stepping.method, choice.method);
+        EXPECT_EQ(scene.stepping.rate.steps, 120);
+        EXPECT_EQ(scene.stepping.precision, Precision::single);
         ++count;
     }
     EXPECT_GE(count, 10U);
@@ -183,7 +183,7 @@ TEST(Apply, RefusesWhatIsNoScene) {
 TEST(Apply, RefusesAChoiceThatTheSceneCannotTake) {
     const std::string text = with_body("[scene]\naxes = 1\n");
     EXPECT_THROW((void)apply(text, "test.toml", {.method = &find_method("rk4"), .rate = 0}), Error);
-    const SceneChoice exact{.method = &find_method("exact"), .rate = 100};
+    const Stepping exact{.method = &find_method("exact"), .rate = 100};
     const std::string_view attractor = "[[attractor]]\nposition = [5.0]\ngm = 1.0\n";
     EXPECT_NO_THROW((void)apply(text, "test.toml", exact));
     EXPECT_THROW((void)apply(text + std::string(attractor), "test.toml", exact), Error);

@@ -15,7 +15,7 @@ namespace {
 Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
 
 Picture drawn(const Scene& scene) {
-    const World world = make_world(scene, settings_of(scene));
+    const World world = make_world(scene, Settings{scene.stepping});
     return draw_scene(scene, world, camera_of(scene, world));
 }
 
@@ -70,7 +70,7 @@ TEST(DrawScene, EverythingThatMovesHasAKeyOfItsOwn) {
 
 TEST(DrawScene, MovesBetweenTwoSteps) {
     const Scene scene = parsed(everything);
-    World world = make_world(scene, settings_of(scene));
+    World world = make_world(scene, Settings{scene.stepping});
     const Camera camera = camera_of(scene, world);
     const Picture before = draw_scene(scene, world, camera);
     world.step();
@@ -87,7 +87,7 @@ TEST(Camera, FitsWhatTheSceneStartsWith) {
         "[scene]\naxes = 2\n[[body]]\nname = 'a'\nposition = [-8, 1]\n[[body]]\nposition = [8, 3]\n"
         "[[spring]]\nbody = 'a'\nanchor = [0, -1]\nstiffness = 1\n"
         "[[attractor]]\nposition = [0, 5]\ngm = 1\n");
-    const Camera camera = camera_of(scene, make_world(scene, settings_of(scene)));
+    const Camera camera = camera_of(scene, make_world(scene, Settings{scene.stepping}));
     EXPECT_EQ(camera.centre, (Point{0, 2}));
     // 16 m wide and 6 m high, in 16:9 with a quarter more.
     EXPECT_FLOAT_EQ(camera.height, 9 * 1.25F);
@@ -95,14 +95,14 @@ TEST(Camera, FitsWhatTheSceneStartsWith) {
 
 TEST(Camera, ShowsOnePointWithSomethingAroundIt) {
     const Scene scene = parsed("[scene]\naxes = 1\n[[body]]\nposition = [3]\n");
-    const Camera camera = camera_of(scene, make_world(scene, settings_of(scene)));
+    const Camera camera = camera_of(scene, make_world(scene, Settings{scene.stepping}));
     EXPECT_EQ(camera.centre, (Point{3, 0}));
     EXPECT_EQ(camera.height, 10);
 }
 
 TEST(Camera, IsAsTheSceneSays) {
     const Scene scene = parsed(everything);
-    const Camera camera = camera_of(scene, make_world(scene, settings_of(scene)));
+    const Camera camera = camera_of(scene, make_world(scene, Settings{scene.stepping}));
     EXPECT_EQ(camera.centre, (Point{1, 1}));
     EXPECT_EQ(camera.height, 12);
 }

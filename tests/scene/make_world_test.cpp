@@ -19,7 +19,7 @@ Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
 
 World world_of(const std::string& text) {
     const Scene scene = parsed(text);
-    return make_world(scene, settings_of(scene));
+    return make_world(scene, Settings{scene.stepping});
 }
 
 template <class Force>
@@ -30,9 +30,9 @@ std::optional<Force> force_on(const World& world, std::size_t row, std::size_t n
 TEST(MakeWorld, StepsAsTheSceneSays) {
     const Settings settings = settings_of(
         parsed("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n[[body]]\n"));
-    EXPECT_EQ(settings.rate, Rate{240});
-    EXPECT_EQ(settings.method->name, "rk4");
-    EXPECT_EQ(settings.precision, Precision::single);
+    EXPECT_EQ(settings.stepping.rate, Rate{240});
+    EXPECT_EQ(settings.stepping.method->name, "rk4");
+    EXPECT_EQ(settings.stepping.precision, Precision::single);
 }
 
 TEST(MakeWorld, BodiesAreInTheRowsInTheOrderOfTheScene) {
@@ -203,7 +203,7 @@ TEST(MakeWorld, ScattersByTheSeedAlone) {
 
 TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
     const Scene scene = parsed(scatter);
-    Settings settings = settings_of(scene);
+    Settings settings = Settings{scene.stepping};
     const std::uint64_t first = make_world(scene, settings).state_hash();
     EXPECT_EQ(make_world(scene, settings).state_hash(), first);
     settings.seed = 1;
@@ -218,8 +218,8 @@ TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
 
 TEST(MakeWorld, PrecisionIsThatOfTheRun) {
     const Scene scene = parsed(scatter);
-    Settings settings = settings_of(scene);
-    settings.precision = Precision::single;
+    Settings settings = Settings{scene.stepping};
+    settings.stepping.precision = Precision::single;
     EXPECT_EQ(make_world(scene, settings).bodies().precision(), Precision::single);
     const Scene far = parsed(altered(scatter, "scatter", "position_from", "[-1e39, 2]"));
     EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)make_world(far, settings); }),

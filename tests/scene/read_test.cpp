@@ -22,14 +22,14 @@ constexpr double none = 0;
 
 Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
 
-std::string name_of(const Key& key) { return std::string(key.table) + "." + std::string(key.name); }
+std::string name_of(const SceneKey& key) { return std::string(key.table) + "." + std::string(key.name); }
 
-bool is(const Key& key, std::string_view table, std::string_view name) {
+bool is(const SceneKey& key, std::string_view table, std::string_view name) {
     return key.table == table && key.name == name;
 }
 
 /// A value that `everything` does not have.
-std::string other_value(const Key& key) {
+std::string other_value(const SceneKey& key) {
     if (is(key, "spring", "body")) return "\"c\"";
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
@@ -62,7 +62,7 @@ struct Shown {
 };
 
 Shown shown(const Scene& scene) {
-    World world = make_world(scene, settings_of(scene));
+    World world = make_world(scene, Settings{scene.stepping});
     const Camera camera = camera_of(scene, world);
     world.step(3);
     return {world.state_hash(), draw_scene(scene, world, camera)};
@@ -83,15 +83,15 @@ bool look_the_same(const Picture& a, const Picture& b) {
 }
 
 /// Keys that say what a run is measured by; that springs refer to; or that vectors depend on.
-bool shows_nothing(const Key& key) { return key.table == "budget" || key.name == "duration"; }
-bool cannot_change_alone(const Key& key) {
+bool shows_nothing(const SceneKey& key) { return key.table == "budget" || key.name == "duration"; }
+bool cannot_change_alone(const SceneKey& key) {
     return is(key, "body", "name") || is(key, "scene", "axes");
 }
 
 TEST(Read, EveryKeyHasAnEffect) {
     const Scene scene = parsed(everything);
     const Shown before = shown(scene);
-    for (const Key& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys()) {
         if (cannot_change_alone(key)) continue;
         const Scene other = parsed(altered(everything, key.table, key.name, other_value(key)));
         EXPECT_FALSE(scene == other) << name_of(key);
@@ -104,7 +104,7 @@ TEST(Read, EveryKeyHasAnEffect) {
 }
 
 TEST(Read, EveryDefaultIsAsTheListSays) {
-    for (const Key& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys()) {
         if (key.required() || is(key, "body", "name") || is(key, "spring", "anchor") ||
             is(key, "spring", "to"))
             continue;
@@ -116,7 +116,7 @@ TEST(Read, EveryDefaultIsAsTheListSays) {
 
 TEST(Read, EveryKeyThatIsRequiredIsMissed) {
     int count = 0;
-    for (const Key& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys()) {
         if (!key.required()) continue;
         const std::string line = line_of_error(
             Exit::usage, [&] { (void)parsed(altered(everything, key.table, key.name, "")); });
@@ -127,7 +127,7 @@ TEST(Read, EveryKeyThatIsRequiredIsMissed) {
 }
 
 TEST(Read, EveryRangeEndsWhereTheListSays) {
-    for (const Key& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys()) {
         const bool bounded = key.range.low > -1e300;
         if (!bounded || (key.kind != KeyKind::number && key.kind != KeyKind::whole)) continue;
         if (is(key, "scene", "axes")) continue;
@@ -151,9 +151,9 @@ TEST(Read, ASceneIsWhatItsFileSays) {
     const Scene scene = parsed(everything);
     EXPECT_EQ(scene.title, "Everything");
     EXPECT_EQ(scene.axes, 2);
-    EXPECT_EQ(scene.rate, 100);
-    EXPECT_EQ(scene.method->name, "velocity_verlet");
-    EXPECT_EQ(scene.precision, Precision::double_);
+    EXPECT_EQ(scene.stepping.rate.steps, 100);
+    EXPECT_EQ(scene.stepping.method->name, "velocity_verlet");
+    EXPECT_EQ(scene.stepping.precision, Precision::double_);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
     ASSERT_EQ(scene.bodies.size(), 3U);
@@ -205,7 +205,7 @@ TEST(Read, TakesWhatTomlTakesForTheSame) {
         "body = [{ name = 'a', mass = 2 }, { name = \"\\u00e9\", colour = \"#0072B2\" }]\n"
         "# brackets [[[ and dots .................................... in a comment\n"
         "spring = [{ body = 'a', to = \"\\u00e9\", stiffness = 1e1 }]\r\n");
-    EXPECT_EQ(scene.rate, 1000);
+    EXPECT_EQ(scene.stepping.rate.steps, 1000);
     EXPECT_EQ(scene.bodies[0].matter.mass, 2);
     EXPECT_EQ(scene.bodies[1].name, "é");
     EXPECT_EQ(scene.bodies[1].matter.colour, palette::blue);

@@ -3,15 +3,21 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include "oiler/scene/keys.hpp"
+#include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
 
 namespace oiler::test {
 namespace {
 
-std::string range_text(const Range& range) {
+std::string range_text(const ValueRange& range) {
     if (range.high < 1e300)
         return fmt::format(" {}{:.16g} to {:.16g}", range.without_low ? "above " : "", range.low,
                            range.high);
@@ -19,7 +25,7 @@ std::string range_text(const Range& range) {
     return fmt::format(" {} {:g}", range.without_low ? ">" : "≥", range.low);
 }
 
-std::string type_text(const Key& key) {
+std::string type_text(const SceneKey& key) {
     switch (key.kind) {
         case KeyKind::text:
             return "text";
@@ -41,12 +47,12 @@ std::string type_text(const Key& key) {
     return key.name == "method" ? "method" : fmt::format("{}", fmt::join(key.words(), ", "));
 }
 
-std::string default_text(const Key& key) {
+std::string default_text(const SceneKey& key) {
     if (!key.absent.empty()) return std::string(key.absent);
     return key.kind == KeyKind::vector ? "zeros" : fmt::format("`{}`", key.value);
 }
 
-std::string row(const Key& key) {
+std::string row(const SceneKey& key) {
     const std::string table =
         is_repeated(key.table) ? fmt::format("[[{}]]", key.table) : fmt::format("[{}]", key.table);
     const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
@@ -57,16 +63,77 @@ std::string row(const Key& key) {
         std::regex("  +"), " ");
 }
 
+const std::string root = OILER_SOURCE;
+const std::vector<std::string> pages{"/README.md", "/demos/README.md", "/assets/scenes/README.md",
+                                     "/engine/README.md", "/tests/README.md"};
+
+/// What the first group of the expression matches in a text.
+std::vector<std::string> found(const std::string& text, const char* expression) {
+    const std::regex regex(expression);
+    std::vector<std::string> words;
+    for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at)
+        words.push_back((*at)[1]);
+    return words;
+}
+
+bool mentions_all_files(const std::string& page, const std::string& folder,
+                        const std::string& extension, bool with_extension) {
+    const std::string text = text_of(root + page);
+    bool all = true;
+    for (const auto& entry : std::filesystem::directory_iterator(root + folder)) {
+        if (entry.path().extension() != extension) continue;
+        const auto name = with_extension ? entry.path().filename() : entry.path().stem();
+        all = all && text.find(name.string()) != std::string::npos;
+        EXPECT_TRUE(all) << page << " does not mention " << name;
+    }
+    return all;
+}
+
 TEST(Readme, ListsEveryKeyOfASceneAndNoOther) {
-    const std::string readme = text_of(OILER_SOURCE "/README.md");
-    const std::size_t from = readme.find("\n## Scene files\n");
-    ASSERT_NE(from, std::string::npos);
-    const std::string section = readme.substr(from, readme.find("\n## ", from + 1) - from);
+    const std::string section = text_of(root + "/assets/scenes/README.md");
     std::string table = "| table | key | value | default | |\n|---|---|---|---|---|\n";
-    for (const Key& key : scene_keys()) table += row(key) + "\n";
+    for (const SceneKey& key : scene_keys()) table += row(key) + "\n";
     EXPECT_NE(section.find("\n" + table + "\n"), std::string::npos)
-        << "the table of README.md should be:\n"
+        << "the table of assets/scenes/README.md should be:\n"
         << table;
+}
+
+TEST(Readme, ListsEverySceneAndEveryDemo) {
+    EXPECT_TRUE(mentions_all_files("/assets/scenes/README.md", "/assets/scenes", ".toml", true));
+    EXPECT_TRUE(mentions_all_files("/demos/README.md", "/demos", ".cpp", false));
+}
+
+TEST(Readme, ScenesInItAreRead) {
+    const Folder folder;
+    int scenes = 0;
+    for (const std::string& page : pages)
+        for (const std::string& block : found(text_of(root + page), "\n```toml\n([^`]*)\n```")) {
+            const auto file = folder / "scene.toml";
+            std::ofstream(file) << block;
+            EXPECT_NO_THROW((void)read_scene(file.string())) << page;
+            ++scenes;
+        }
+    EXPECT_GE(scenes, 2);
+}
+
+TEST(Readme, ShowsHelloAsItIs) {
+    std::string hello = text_of(root + "/demos/hello.cpp");
+    hello.erase(0, hello.find('\n') + 1);  // the licence
+    EXPECT_NE(text_of(root + "/README.md").find("\n```cpp\n" + hello + "```\n"), std::string::npos)
+        << "README.md should show demos/hello.cpp";
+}
+
+TEST(Readme, LinksLeadToFiles) {
+    for (const std::string& page : pages)
+        for (const std::string& link : found(text_of(root + page), R"(\]\(([^)#:]+)[)#])")) {
+            const auto folder = std::filesystem::path(root + page).parent_path();
+            EXPECT_TRUE(std::filesystem::exists(folder / link)) << page << ": " << link;
+        }
+}
+
+TEST(Readme, TheFirstPageIsShort) {
+    const std::string text = text_of(root + "/README.md");
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 200);
 }
 
 }  // namespace

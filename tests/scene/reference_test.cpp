@@ -19,8 +19,8 @@ Scene scene_named(const std::string& name) {
 }
 
 World world_at(const Scene& scene, std::int64_t rate) {
-    Settings settings = settings_of(scene);
-    settings.rate = {rate};
+    Settings settings = Settings{scene.stepping};
+    settings.stepping.rate = {rate};
     return make_world(scene, settings);
 }
 
@@ -48,8 +48,8 @@ void expect_order_four(const Scene& scene, std::int64_t coarse, const nlohmann::
     const double before = largest_error(scene, coarse, states, state_of);
     const double halved = largest_error(scene, 2 * coarse, states, state_of);
     EXPECT_NEAR(std::log2(before / halved), 4, 0.15);
-    const double ratio = static_cast<double>(coarse) / static_cast<double>(scene.rate);
-    const double own = largest_error(scene, scene.rate, states, state_of);
+    const double ratio = static_cast<double>(coarse) / static_cast<double>(scene.stepping.rate.steps);
+    const double own = largest_error(scene, scene.stepping.rate.steps, states, state_of);
     EXPECT_LT(own, 1.2 * before * std::pow(ratio, 4) + most);
     EXPECT_LT(own, 1e-7);
 }
@@ -91,7 +91,7 @@ Vec3 momentum(const Bodies& bodies) {
 // them: what the springs give to one body and take from another is the same number.
 TEST(Scenes, FreeClothKeepsItsMomentumToRoundOff) {
     const Scene scene = scene_named("free_cloth");
-    World world = make_world(scene, settings_of(scene));
+    World world = make_world(scene, Settings{scene.stepping});
     const Vec3 before = momentum(world.bodies());
     EXPECT_NEAR(before[0], 96 * 0.05 * 0.5, 1e-14);
     constexpr std::int64_t steps = 2000;
@@ -127,16 +127,16 @@ double energy_drift(const Scene& scene, std::int64_t rate) {
 // The energy of a symplectic method of order 2 swings by O(dt²).
 TEST(Scenes, FreeClothKeepsItsEnergyAsTheMethodCan) {
     const Scene scene = scene_named("free_cloth");
-    const double drift = energy_drift(scene, scene.rate);
+    const double drift = energy_drift(scene, scene.stepping.rate.steps);
     EXPECT_GT(drift, 1e-6);
     EXPECT_LT(drift, 0.02);
-    EXPECT_NEAR(drift / energy_drift(scene, 2 * scene.rate), 4, 0.3);
+    EXPECT_NEAR(drift / energy_drift(scene, 2 * scene.stepping.rate.steps), 4, 0.3);
 }
 
 // As the scene's comment says, within the budget that it sets itself.
 TEST(Scenes, TheUndampedSpringKeepsItsBudget) {
     const Scene scene = scene_named("article_spring_undamped");
-    World world = make_world(scene, settings_of(scene));
+    World world = make_world(scene, Settings{scene.stepping});
     const double first = world.bodies().energy().total();
     double largest = 0;
     for (int i = 0; i < 2000; ++i) {

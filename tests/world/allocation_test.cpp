@@ -11,7 +11,7 @@ using oiler::Precision;
 using oiler::World;
 
 World busy_world(const Method& method, Precision precision) {
-    World world(2, {.rate = {100}, .method = &method, .precision = precision});
+    World world(2, {.method = &method, .rate = {100}, .precision = precision});
     world.set_gravity({0, -9.81, 0});
     for (int i = 0; i < 100; ++i) {
         const double place = i;

@@ -20,7 +20,7 @@ using oiler::World;
 constexpr Link stiff{.stiffness = 300, .damping = 0.5, .rest_length = 1};
 
 struct Chain {
-    World world{2, {.rate = Rate{100}, .method = &find_method("velocity_verlet")}};
+    World world{2, {.method = &find_method("velocity_verlet"), .rate = Rate{100}}};
     Entity first = world.spawn(Body{.position = {0, 0, 0}});
     Entity second = world.spawn(Body{.position = {1.5, 0, 0}});
     Entity third = world.spawn(Body{.position = {3, 0.5, 0}});
@@ -95,6 +95,17 @@ TEST(Preflight, CountsWhatItDoesNotName) {
     ASSERT_EQ(lines.size(), 3U);
     EXPECT_TRUE(lines[0].starts_with("spring of body 8:")) << lines[0];
     EXPECT_EQ(lines[2], "and 7 more");
+}
+
+TEST(Preflight, CountsNoneWhereAllAreNamed) {
+    World world(1, {.rate = Rate{10}});
+    for (int i = 0; i < 5; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});
+    EXPECT_EQ(world.preflight(5).size(), 5U);
+    EXPECT_EQ(world.preflight(6).size(), 5U);
+    EXPECT_EQ(world.preflight().size(), 5U);
+    for (const std::string& line : world.preflight(5))
+        EXPECT_TRUE(line.starts_with("spring of body ")) << line;
+    EXPECT_EQ(world.preflight(4).back(), "and 1 more");
 }
 
 TEST(Preflight, KnowsWhereDampingIsPut) {

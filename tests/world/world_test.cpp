@@ -373,8 +373,8 @@ TEST(World, StepsAtOnceAreSingleSteps) {
 }
 
 TEST(World, SettingsSayHowItSteps) {
-    World world(1, {.rate = {1},
-                    .method = &oiler::find_method("explicit_euler"),
+    World world(1, {.method = &oiler::find_method("explicit_euler"),
+                    .rate = {1},
                     .precision = Precision::single});
     const Entity entity =
         world.spawn({.position = {1, 0, 0}, .velocity = {2, 0, 0}}, Spring{.stiffness = 4});
@@ -503,7 +503,7 @@ TEST(WorldDeathTest, MistakesEndTheProgramAndSayWhich) {
 }
 
 TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
-    World world(1, {.rate = {1}, .method = &oiler::find_method("explicit_euler")});
+    World world(1, {.method = &oiler::find_method("explicit_euler"), .rate = {1}});
     const Entity first = world.spawn({});
     (void)world.spawn({});
     const Entity last = world.spawn({.position = {1e300}}, Spring{.stiffness = 1e9});

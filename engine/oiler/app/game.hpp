@@ -19,7 +19,8 @@ struct About {
     int rate = 100;          ///< steps per second
     std::string_view method = "semi_implicit_euler";
     Precision precision = Precision::double_;
-    double duration = 4;  ///< s that are filmed without a window
+    double duration = 4;            ///< s that are filmed without a window
+    std::string_view damping = "";  ///< "kick" or "drift"; empty: the method's own
 };
 
 /// The key of what is to be seen of an entity: parts of it are told apart by `part`, and what

@@ -39,9 +39,9 @@ Manifest describe(const Options& options, const About& about, int fps, const Sur
             .gl_version = renderer.gl_version(),
             .size = options.size,
             .fps = fps,
-            .rate = static_cast<int>(options.settings.rate.steps),
-            .method = std::string(options.settings.method->name),
-            .precision = std::string(name_of(options.settings.precision)),
+            .rate = static_cast<int>(options.settings.stepping.rate.steps),
+            .method = std::string(options.settings.stepping.method->name),
+            .precision = std::string(name_of(options.settings.stepping.precision)),
             .scene = std::string(about.name),
             .seed = options.settings.seed,
             .frames = {}};

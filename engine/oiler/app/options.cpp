@@ -142,20 +142,22 @@ void fill_in(const CLI::App& app, Words& words, const About& about) {
     if (app.count("--method") == 0) words.method = about.method;
     if (app.count("--precision") == 0) words.precision = name_of(about.precision);
     if (app.count("--rate") == 0) words.rate = about.rate;
+    if (app.count("--damping") == 0) words.damping = about.damping;
 }
 
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
     check_together(app, options, words);
     check_paths(app, options);
     options.settings = {
-        .rate = {words.rate},
-        .method = &find_method(words.method),
-        .precision = words.precision == "float" ? Precision::single : Precision::double_,
+        .stepping = {.method = &find_method(words.method),
+                     .rate = {words.rate},
+                     .precision =
+                         words.precision == "float" ? Precision::single : Precision::double_},
         .seed = words.seed,
-        .damping = {},
         .threads = words.threads};
     if (!words.damping.empty())
-        options.settings.damping = words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
+        options.settings.stepping.damping =
+            words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
     options.size = parse_size(words.size);
     if (words.surface == "osmesa") options.offscreen = Offscreen::osmesa;
     if (words.surface == "egl") options.offscreen = Offscreen::egl;

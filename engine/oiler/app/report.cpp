@@ -28,10 +28,10 @@ void write_report(const std::filesystem::path& path, const RunReport& report, co
     const Settings& settings = world.settings();
     Json json{
         {"scene", report.scene},
-        {"method", settings.method->name},
-        {"damping", name_of(settings.damping.value_or(settings.method->damping))},
-        {"rate", settings.rate.steps},
-        {"precision", name_of(settings.precision)},
+        {"method", settings.stepping.method->name},
+        {"damping", name_of(settings.stepping.damping.value_or(settings.stepping.method->damping))},
+        {"rate", settings.stepping.rate.steps},
+        {"precision", name_of(settings.stepping.precision)},
         {"threads", settings.threads},
         {"seed", settings.seed},
         {"steps", world.tick()},

@@ -81,7 +81,7 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
     remark(options.quiet, "drawing with {} ({}): P pause, . step, - and = pace, Q quit",
            window->provider(), renderer.gl_renderer());
 
-    StepClock clock(static_cast<int>(options.settings.rate.steps));
+    StepClock clock(static_cast<int>(options.settings.stepping.rate.steps));
     Pace pace;
     Input keys;      // since the last frame
     Input for_step;  // since the last step

@@ -79,10 +79,10 @@ struct AdviseCommand {
         print(text);
     }
 
-    void apply_to_scene(const SceneChoice& choice) const {
+    void apply_to_scene(const Stepping& stepping) const {
         const std::string file = scene_options.file.string();
-        write_text(file, apply(read_text(file), file, choice));
-        remark(scene_options.quiet, "{} now has the setting {}", file, words_of(choice));
+        write_text(file, apply(read_text(file), file, stepping));
+        remark(scene_options.quiet, "{} now has the setting {}", file, words_of(stepping));
     }
 
     [[nodiscard]] Exit run() const {
@@ -96,7 +96,7 @@ struct AdviseCommand {
         if (Interrupt::requested()) return Exit::interrupted;
         show(advice, scene, reference, wish);
         if (!advice.meets) return Exit::comparison_failed;
-        if (writes_scene) apply_to_scene(advice.best->choice);
+        if (writes_scene) apply_to_scene(advice.best->stepping);
         return Exit::done;
     }
 };

@@ -98,8 +98,8 @@ void Arguments::add_damping(std::string& target) { oiler::add_damping(command_, 
 Exit run_command(const std::vector<Command>& commands, int argc, char** argv) {
     const std::string_view first = argc > 1 ? argv[1] : "";
     for (const Command& command : commands)
-        if (command.run_words && command.texts.name == first)
-            return command.run_words(argc - 1, argv + 1);
+        if (command.parse_and_run && command.texts.name == first)
+            return command.parse_and_run(argc - 1, argv + 1);
     CLI::App app("Plays scenes at a fixed timestep and measures its error and cost", "oiler");
     app.set_version_flag("--version", "oiler " + std::string(version()));
     app.require_subcommand(0, 1);

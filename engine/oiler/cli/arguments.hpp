@@ -56,12 +56,12 @@ private:
 };
 
 /// A class declares a command with `static constexpr CommandTexts texts`, and either
-/// `void declare(Arguments&)` and `Exit run() const`, or `static Exit run_words(int, char**)`.
+/// `void declare(Arguments&)` and `Exit run() const`, or `static Exit parse_and_run(int, char**)`.
 /// Its file ends with `template Command make_command<ItsClass>();`.
 template <class Declared>
 Command make_command() {
-    if constexpr (requires(char** argv) { Declared::run_words(0, argv); }) {
-        return {Declared::texts, {}, Declared::run_words};
+    if constexpr (requires(char** argv) { Declared::parse_and_run(0, argv); }) {
+        return {Declared::texts, {}, Declared::parse_and_run};
     } else {
         return {Declared::texts, [](Arguments& arguments) -> Command::Run {
                     const auto command = std::make_shared<Declared>();

@@ -29,8 +29,7 @@ template <class... Cells>
 std::string row(const Cells&... cells) {
     return fmt::format(
         "{:<31} {:>5}  {:>9} {:>9} {:>9} {:>9}  {:>7} {:>7}  {:>8} {:>8}  {:>12}  {:>5} {:>8} "
-        "{:>8} "
-        "{:>8}  {}\n",
+        "{:>8} {:>8}  {}\n",
         cells...);
 }
 
@@ -59,8 +58,8 @@ spring, orbit, damped, dragged: measured convergence orders of positions/velocit
 forces: evaluations per step in a run; alone: evaluations of a step without reuse. MᵀJM−J:
 symplectic defect, 0 for a symplectic method; reversal: defect of a step forward and back, 0 for a
 symmetric method. stable ω·dt: stability limit of the step matrix, confirmed by runs at (1 ± 10⁻⁶)
-times the limit. lowest, highest: extremes of the relative change of the energy in a run of up to
-{} steps at the ω·dt to their left; trend: relative growth per step of the quantity that the method should conserve.
+times the limit. lowest, highest: extremes of the energy's relative change in a run of up to {}
+steps at the ω·dt to their left; trend: relative growth per step of the quantity to conserve.
 )",
                        steps);
 }

@@ -18,7 +18,7 @@ using namespace lab;
 
 namespace {
 
-struct Checked {
+struct CheckResult {
     std::string file;
     std::vector<BudgetLine> lines{};
     std::string error{};  ///< the reason why the check is impossible
@@ -42,13 +42,13 @@ std::string for_xml(std::string text) {
 /// skipped case.
 class TestSuite {
 public:
-    void add(const Checked& checked) {
-        for (const BudgetLine& line : checked.lines) add_line(checked.file, line);
-        if (!checked.lines.empty()) return;
-        if (!checked.error.empty())
-            add_case(checked.file, "budget", "error", checked.error, errors_);
+    void add(const CheckResult& result) {
+        for (const BudgetLine& line : result.lines) add_line(result.file, line);
+        if (!result.lines.empty()) return;
+        if (!result.error.empty())
+            add_case(result.file, "budget", "error", result.error, errors_);
         else
-            add_case(checked.file, "budget", "skipped", "no [budget]", skipped_);
+            add_case(result.file, "budget", "skipped", "no [budget]", skipped_);
     }
     [[nodiscard]] std::string xml() const {
         return fmt::format(
@@ -81,57 +81,58 @@ private:
     int skipped_ = 0;
 };
 
-std::string to_junit(const std::vector<Checked>& all) {
+std::string to_junit(const std::vector<CheckResult>& all) {
     TestSuite suite;
-    for (const Checked& checked : all) suite.add(checked);
+    for (const CheckResult& result : all) suite.add(result);
     return suite.xml();
 }
 
-Json to_json(const std::vector<Checked>& all) {
+Json to_json(const std::vector<CheckResult>& all) {
     Json json = Json::array();
-    for (const Checked& checked : all) {
-        Json one{{"scene", checked.file}, {"kept", checked.kept()}};
-        if (!checked.error.empty()) one = {{"scene", checked.file}, {"error", checked.error}};
-        for (const BudgetLine& line : checked.lines)
-            one[line.name] = {
+    for (const CheckResult& result : all) {
+        Json entry{{"scene", result.file}, {"kept", result.kept()}};
+        if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
+        for (const BudgetLine& line : result.lines)
+            entry[line.name] = {
                 {"measured", number(line.measured)}, {"budget", line.most}, {"kept", line.kept}};
-        json.push_back(std::move(one));
+        json.push_back(std::move(entry));
     }
     return json;
 }
 
 /// Turns an error of usage into a result, so that the other scenes are still checked.
-Checked check(const std::filesystem::path& path) {
-    Checked checked{.file = path.string()};
+CheckResult check(const std::filesystem::path& path) {
+    CheckResult result{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
-        checked.lines = check_budget(scene, settings_of(scene), Interrupt::requested);
+        result.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
-        const std::string what = error.what();
-        checked.error =
-            what.starts_with(checked.file) ? what : fmt::format("{}: {}", checked.file, what);
+        const std::string message = error.what();
+        result.error = message.starts_with(result.file)
+                           ? message
+                           : fmt::format("{}: {}", result.file, message);
     }
-    return checked;
+    return result;
 }
 
-std::string text_of(const std::vector<Checked>& all) {
+std::string text_of(const std::vector<CheckResult>& all) {
     std::string text;
-    for (const Checked& checked : all) {
-        if (checked.lines.empty() && checked.error.empty())
-            text += fmt::format("{}: no [budget]\n", checked.file);
-        for (const BudgetLine& line : checked.lines)
-            text += fmt::format("{}: {}\n", checked.file, words_of(line));
+    for (const CheckResult& result : all) {
+        if (result.lines.empty() && result.error.empty())
+            text += fmt::format("{}: no [budget]\n", result.file);
+        for (const BudgetLine& line : result.lines)
+            text += fmt::format("{}: {}\n", result.file, words_of(line));
     }
     return text;
 }
 
 /// An error outweighs an exceeded budget.
-Exit exit_of(const std::vector<Checked>& all) {
+Exit exit_of(const std::vector<CheckResult>& all) {
     Exit exit = Exit::done;
-    for (const Checked& checked : all) {
-        if (!checked.error.empty()) exit = Exit::usage;
-        if (!checked.kept() && exit == Exit::done) exit = Exit::comparison_failed;
+    for (const CheckResult& result : all) {
+        if (!result.error.empty()) exit = Exit::usage;
+        if (!result.kept() && exit == Exit::done) exit = Exit::comparison_failed;
     }
     return exit;
 }
@@ -157,7 +158,7 @@ struct CheckCommand {
 
     [[nodiscard]] Exit run() const {
         const Interrupt interrupt;
-        std::vector<Checked> all;
+        std::vector<CheckResult> all;
         for (const std::filesystem::path& path : scenes) {
             all.push_back(check(path));
             if (Interrupt::requested()) return Exit::interrupted;
@@ -165,8 +166,8 @@ struct CheckCommand {
         if (!junit.empty()) write_text(junit, to_junit(all));
         if (!json.empty()) write_json(json, to_json(all));
         if (json != "-" && junit != "-") print(text_of(all));
-        for (const Checked& checked : all)
-            if (!checked.error.empty()) say("oiler: " + checked.error);
+        for (const CheckResult& result : all)
+            if (!result.error.empty()) say("oiler: " + result.error);
         return exit_of(all);
     }
 };

@@ -26,8 +26,8 @@ struct Command {
     CommandTexts texts;
     /// Declares the arguments and returns the function that runs the command with them.
     std::function<Run(Arguments&)> declare;
-    /// Replaces `declare` in a command that parses its own words; `argv[0]` is the command's name.
-    std::function<Exit(int argc, char** argv)> run_words{};
+    /// Replaces `declare` in a command that parses its own arguments; `argv[0]` is its name.
+    std::function<Exit(int argc, char** argv)> parse_and_run{};
 };
 
 /// Returns the command of a class that declares one: see arguments.hpp. Each command's file

@@ -19,8 +19,8 @@ namespace {
 
 /// Returns the steps of the scene's duration, two at least.
 std::int64_t steps_of(const Scene& scene) {
-    return std::max<std::int64_t>(2,
-                                  std::llround(scene.duration * static_cast<double>(scene.rate)));
+    return std::max<std::int64_t>(
+        2, std::llround(scene.duration * static_cast<double>(scene.stepping.rate.steps)));
 }
 
 Json to_json(const LedgerColumn& column) {
@@ -48,9 +48,9 @@ Json list_of(const std::vector<Item>& items) {
 Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) {
     return {{"scene", name},
             {"title", scene.title},
-            {"method", scene.method->name},
-            {"rate", scene.rate},
-            {"precision", name_of(scene.precision)},
+            {"method", scene.stepping.method->name},
+            {"rate", scene.stepping.rate.steps},
+            {"precision", name_of(scene.stepping.precision)},
             {"axes", scene.axes},
             {"bodies", ledger.bodies},
             {"links", ledger.links},

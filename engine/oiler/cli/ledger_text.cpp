@@ -12,14 +12,14 @@ using namespace lab;
 
 namespace {
 
-std::string head(const Scene& scene, const std::string& name, const Ledger& ledger,
-                 std::int64_t wanted) {
-    std::string text =
-        fmt::format("{}\n  {} at {} Hz in {}, {} {}, {} {}, {} {}, {} steps",
-                    scene.title.empty() ? name : scene.title, scene.method->name, scene.rate,
-                    name_of(scene.precision), scene.axes, scene.axes == 1 ? "axis" : "axes",
-                    ledger.bodies, ledger.bodies == 1 ? "body" : "bodies", ledger.links,
-                    ledger.links == 1 ? "link" : "links", ledger.steps);
+std::string heading(const Scene& scene, const std::string& name, const Ledger& ledger,
+                    std::int64_t wanted) {
+    std::string text = fmt::format(
+        "{}\n  {} at {} Hz in {}, {} {}, {} {}, {} {}, {} steps",
+        scene.title.empty() ? name : scene.title, scene.stepping.method->name,
+        scene.stepping.rate.steps, name_of(scene.stepping.precision), scene.axes,
+        scene.axes == 1 ? "axis" : "axes", ledger.bodies, ledger.bodies == 1 ? "body" : "bodies",
+        ledger.links, ledger.links == 1 ? "link" : "links", ledger.steps);
     if (ledger.steps < wanted && !ledger.diverged)
         text += fmt::format(" of {}: more steps would take too long", wanted);
     return text + "\n";
@@ -93,14 +93,18 @@ std::string saving_text(const Ledger& ledger, const LedgerPass& pass) {
     return fmt::format("{:>9.3g} ns {:>4.0f} %", pass.saves_ns, pass.saves_percent);
 }
 
+constexpr auto passes_head = R"(
+A step takes {:.3g} ± {:.2g} ns per body. Ablation: a step without one part. -: within the noise.
+Savings overlap and need not add up; a negative saving is a slower step.
+)";
+constexpr auto passes_foot = R"( Timed: the first {} steps in one call.
+Compared: the positions at {} sample times in {} steps.
+)";
+
 std::string passes_text(const Ledger& ledger) {
     if (ledger.passes.empty() || ledger.diverged) return "";
-    std::string text = fmt::format(
-        "\nA step takes {:.3g} ± {:.2g} ns per body. Ablation: a step without one part. -: within "
-        "the "
-        "noise.\nSavings overlap and need not add up; a negative saving is a slower step.\n"
-        "  {:<15} {:>19}  {}\n",
-        ledger.ns, ledger.noise_ns, "without", "saves", "moves a body by up to");
+    std::string text = fmt::format(passes_head, ledger.ns, ledger.noise_ns);
+    text += fmt::format("  {:<15} {:>19}  {}\n", "without", "saves", "moves a body by up to");
     for (const LedgerPass& pass : ledger.passes)
         if (pass.name != "moving")
             text += fmt::format("  {:<15} {}  {}\n", pass.name, saving_text(ledger, pass),
@@ -108,10 +112,7 @@ std::string passes_text(const Ledger& ledger) {
     const LedgerPass& moving = ledger.passes.back();
     text += moving.diverged ? "The run without all of them diverges."
                             : fmt::format("A step without all of them takes {:.3g} ns.", moving.ns);
-    return text + fmt::format(
-                      " Timed: the first {} steps in one call.\nCompared: the "
-                      "positions at {} sample times in {} steps.\n",
-                      ledger.timed_steps, ledger.looks, ledger.steps);
+    return text + fmt::format(passes_foot, ledger.timed_steps, ledger.looks, ledger.steps);
 }
 
 std::string flags_text(const Ledger& ledger) {
@@ -126,7 +127,7 @@ std::string flags_text(const Ledger& ledger) {
 std::string ledger_text(const Scene& scene, const std::string& name, const Ledger& ledger,
                         std::int64_t wanted) {
     std::string text =
-        head(scene, name, ledger, wanted) + columns_text(ledger) + passes_text(ledger);
+        heading(scene, name, ledger, wanted) + columns_text(ledger) + passes_text(ledger);
     for (const LedgerPass& pass : ledger.passes)
         if (pass.diverged) text += fmt::format("Without {}: {}\n", pass.name, *pass.diverged);
     return text + flags_text(ledger);

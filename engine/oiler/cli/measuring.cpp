@@ -10,7 +10,7 @@ namespace oiler::cli {
 using namespace lab;
 
 Reference measure_reference(const Scene& scene, const Looks& looks, double wanted, bool quiet) {
-    Percent percent(quiet, "of the most work for the reference");
+    Percent percent(quiet, "of the work limit of the reference");
     ReferenceEffort effort{.wanted = wanted};
     effort.progress = [&](double fraction) { percent(fraction); };
     effort.stopped = Interrupt::requested;

@@ -35,10 +35,11 @@ private:
 About describe(const Scene& scene, const std::string& name) {
     return {.name = name,
             .title = scene.title.empty() ? name : scene.title,
-            .rate = static_cast<int>(scene.rate),
-            .method = scene.method->name,
-            .precision = scene.precision,
-            .duration = scene.duration};
+            .rate = static_cast<int>(scene.stepping.rate.steps),
+            .method = scene.stepping.method->name,
+            .precision = scene.stepping.precision,
+            .duration = scene.duration,
+            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : ""};
 }
 
 std::vector<BudgetEntry> check(const Scene& scene, const Settings& settings) {
@@ -58,10 +59,10 @@ struct PlayCommand {
         .summary = "Play a scene file in a window, as frames or as numbers",
         .example = "assets/scenes/cloth.toml"};
 
-    static Exit run_words(int argc, char** argv);
+    static Exit parse_and_run(int argc, char** argv);
 };
 
-Exit PlayCommand::run_words(int argc, char** argv) {
+Exit PlayCommand::parse_and_run(int argc, char** argv) {
     constexpr About program{.name = "oiler play", .title = "Play a scene file"};
     Scene scene;
     std::string name;

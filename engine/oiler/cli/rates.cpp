@@ -20,11 +20,10 @@ using namespace lab;
 
 namespace {
 
-constexpr const char* legend =
-    "\nThe exact value is beside each name. spread: from the smallest to the largest value, "
-    "relative "
-    "to it.\n-: missing or unstable. All values are those of the drawn motion, straight lines "
-    "between steps.\n";
+constexpr const char* legend = R"(
+The exact value is beside each name. spread: from the smallest to the largest value, relative to it.
+-: missing or unstable. All values are those of the drawn motion: straight lines between steps.
+)";
 
 std::string line_of(const RatesLine& line) {
     std::string text = fmt::format("  {:<30}", line.method->name);
@@ -35,7 +34,7 @@ std::string line_of(const RatesLine& line) {
 
 std::string text_of(const Scene& scene, const std::string& name, const Rates& rates) {
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
-                                   rates.body, name_of(scene.precision));
+                                   rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
         text += "The body neither jumps nor oscillates: no quantity to compare.\n";
     for (const RatesQuantity& quantity : rates.quantities) {
@@ -48,16 +47,17 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
     return text + legend;
 }
 
-/// Throws Error{usage}.
+/// Parses rates in Hz with commas between them. Throws Error{usage}.
 std::vector<std::int64_t> parse_rates(const std::string& words) {
     std::vector<std::int64_t> rates;
-    // getline finds no last, empty word unless a comma follows it.
+    // getline returns an empty last word only before a comma.
     std::istringstream stream(words + ",");
     for (std::string word; std::getline(stream, word, ',');) {
         const int rate = parse_integer(word);
         if (rate < 1 || rate > 1'000'000)
             fail(Exit::usage,
-                 "--rates {}: give whole numbers from 1 to 1000000 with commas between them", words);
+                 "--rates {}: give whole numbers from 1 to 1000000 with commas between them",
+                 words);
         rates.push_back(rate);
     }
     return rates;
@@ -88,8 +88,8 @@ struct RatesCommand {
                                 const std::vector<std::int64_t>& wanted) const {
         const std::vector<const Method*> chosen =
             methods.empty() ? usual_methods(scene) : parse_methods(methods);
-        const std::size_t swinging = reference.swing ? reference.swing->row : 0;
-        const std::size_t row = body.empty() ? swinging : find_body(scene, body);
+        const std::size_t row =
+            body.empty() ? most_oscillating_row(reference) : find_body(scene, body);
         return measure_rates(scene, reference, row, wanted, chosen, Interrupt::requested);
     }
 

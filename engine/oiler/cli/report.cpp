@@ -32,7 +32,7 @@ constexpr double usual_tolerance = 1e-3;  ///< relative to the extent of the mot
 
 std::string frame_of(const Scene& scene) {
     Stills stills(frame_size);
-    const World world = make_world(scene, settings_of(scene));
+    const World world = make_world(scene, Settings{scene.stepping});
     return data_url_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
 }
 
@@ -94,18 +94,19 @@ Reference ReportCommand::measure_meaningful(Scene& scene) const {
 ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
                                      const Wish& wish) const {
     const Looks& looks = reference.looks;
-    const SweepPlan plan{.methods = parse_methods("all"),
-                         .max_rate = std::min<std::int64_t>(
-                             1'000'000, std::max(scene.rate, highest_multiple * looks.per_second)),
-                         .most_work = most_work};
+    const SweepPlan plan{
+        .methods = parse_methods("all"),
+        .max_rate = std::min<std::int64_t>(
+            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
+        .most_work = most_work};
     ReportResults results{start_tradeoff(scene, looks, reference, plan), {}, {}};
     results.tradeoff.scene = scene_options.name();
     measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
     results.advice = advise(scene, reference, wish, watch);
-    results.rates = measure_rates(scene, reference, reference.swing ? reference.swing->row : 0,
-                                  usual_rates(), usual_methods(scene), Interrupt::requested);
+    results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
+                                  usual_methods(scene), Interrupt::requested);
     return results;
 }
 

@@ -61,17 +61,20 @@ Json limit_curve(const Method& method) {
 }
 
 Json stability_json(const Scene& scene, const std::vector<const Method*>& methods) {
-    const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
+    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     Json springs = springs_json(scene, bodies);
     if (springs.empty()) return nullptr;
     Json curves = Json::array();
     for (const Method* method : methods)
         curves.push_back({{"method", method->name}, {"points", limit_curve(*method)}});
-    return {{"methods", std::move(curves)}, {"springs", std::move(springs)}, {"rate", scene.rate}};
+    return {{"methods", std::move(curves)},
+            {"springs", std::move(springs)},
+            {"rate", scene.stepping.rate.steps}};
 }
 
 Json ledger_json(const Scene& scene) {
-    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.rate));
+    const auto steps =
+        static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
     const Ledger measured = ledger(scene, std::max<std::int64_t>(2, steps));
     Json passes = Json::array();
     for (const LedgerPass& pass : measured.passes)

@@ -12,7 +12,7 @@
 namespace oiler::cli {
 namespace {
 
-bool is_in(const Method& method, const std::string& group) {
+bool is_in_group(const Method& method, const std::string& group) {
     const bool splits = std::holds_alternative<Splitting>(method.rule);
     if (group == "splitting") return splits;
     if (group == "explicit") return splits || std::holds_alternative<Tableau>(method.rule);
@@ -37,7 +37,7 @@ void add_method_list(Arguments& arguments, std::string& target) {
 std::vector<const Method*> parse_methods(const std::string& words) {
     std::vector<const Method*> chosen;
     for (const Method& method : methods())
-        if (is_in(method, words)) chosen.push_back(&method);
+        if (is_in_group(method, words)) chosen.push_back(&method);
     if (!chosen.empty()) return chosen;
     std::istringstream stream(words);
     for (std::string name; std::getline(stream, name, ',');) {

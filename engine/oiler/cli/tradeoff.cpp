@@ -43,10 +43,11 @@ std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
 /// so `oiler merge` has no such picture.
 void draw_energies(const Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
                    const std::filesystem::path& path, Stills& stills) {
-    std::vector<SceneChoice> choices;
+    std::vector<Stepping> settings;
     for (const Method* method : notable_methods(tradeoff))
-        choices.push_back({method, tradeoff.today.rate, Precision::double_});
-    if (!choices.empty()) stills.write(energy_over_time(scene, tradeoff, reference, choices), path);
+        settings.push_back({method, tradeoff.today.rate, Precision::double_});
+    if (!settings.empty())
+        stills.write(energy_over_time(scene, tradeoff, reference, settings), path);
 }
 
 /// One part of a sweep that several machines share.
@@ -125,14 +126,14 @@ public:
           part_(options.pictures.out / shard.file_name()) {}
 
     [[nodiscard]] Exit run() {
-        const std::string mark =
+        const std::string inputs =
             fingerprint(read_text(options_.scene_options.file), scene_, looks_, plan_);
-        const std::optional<Tradeoff> unfinished = find_unfinished(part_, mark, quiet());
+        const std::optional<Tradeoff> unfinished = find_unfinished(part_, inputs, quiet());
         const Reference reference = measure_reference(scene_, looks_, 0, quiet());
         if (Interrupt::requested()) return Exit::interrupted;
         Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, looks_, reference, plan_));
         tradeoff.scene = options_.scene_options.name();
-        tradeoff.fingerprint = mark;
+        tradeoff.fingerprint = inputs;
         tradeoff.machines = {this_machine()};
         return complete(tradeoff, reference);
     }

@@ -26,7 +26,7 @@ second, in frames of 1/60 s; ±: half the interquartile range of repeated times.
 {} of {} rows are shown{}
 )";
 
-std::string head(const Tradeoff& tradeoff) {
+std::string heading(const Tradeoff& tradeoff) {
     const ReferenceSummary& reference = tradeoff.reference;
     std::string text =
         fmt::format("{}\n  {:.4g} s, {} samples per second; reference: {}\n",
@@ -54,8 +54,8 @@ std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark)
                                   : fmt::format("{:.3g}", judgement.position_error);
     return fmt::format(
         "{} {:<30} {:>7}{} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", mark,
-        row.choice.method->name, row.choice.rate, row.meets_steps ? ' ' : '~',
-        name_of(row.choice.precision), error, cell(judgement.velocity_error, "{:.3g}"),
+        row.stepping.method->name, row.stepping.rate.steps, row.meets_steps ? ' ' : '~',
+        name_of(row.stepping.precision), error, cell(judgement.velocity_error, "{:.3g}"),
         cell(judgement.phase_error, "{:.2g}"), cell(judgement.energy_drift, "{:.2g}"),
         cell(judgement.evaluations, "{:.4g}"), cell(row.ns_per_second / 1e3, "{:.4g}"),
         cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"));
@@ -65,7 +65,7 @@ std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark)
 std::vector<const TradeoffRow*> cheapest_of(const Tradeoff& tradeoff, const Method* method) {
     std::vector<const TradeoffRow*> rows;
     for (const TradeoffRow* row : tradeoff.rows())
-        if (row->choice.method == method && row->judgement.stable) rows.push_back(row);
+        if (row->stepping.method == method && row->judgement.stable) rows.push_back(row);
     std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
         return a->ns_per_second < b->ns_per_second;
     });
@@ -98,7 +98,7 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
 }
 
 std::string table_of(const Tradeoff& tradeoff, bool all) {
-    std::string text = head(tradeoff);
+    std::string text = heading(tradeoff);
     text +=
         fmt::format("\n  {:<30} {:>8} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", "method",
                     "Hz", "", "error m", "m/s", "phase °", "energy", "forces", "µs per s", "±");
@@ -106,14 +106,14 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {
         const bool best = std::find(front.begin(), front.end(), row) != front.end();
-        const char mark = row->choice == tradeoff.today ? '>' : best ? '*' : ' ';
+        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
     text += fmt::format(legend, shown.size(), tradeoff.rows().size(),
                         all ? "." : "; --all and tradeoff.csv have all of them.");
     for (const Ladder& ladder : tradeoff.ladders)
         if (ladder.done && ladder.rows.empty() && ladder.precision == Precision::double_)
-            text += fmt::format("Left out: {}\n", ladder.end);
+            text += fmt::format("Omitted: {}\n", ladder.end);
     return text;
 }
 

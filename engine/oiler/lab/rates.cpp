@@ -108,14 +108,14 @@ Paths paths_of(const Reference& reference, std::size_t row) {
 }
 
 /// Nothing where the run diverges or is lost.
-std::optional<Paths> run(const Scene& scene, const SceneChoice& choice, const Reference& reference,
+std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Reference& reference,
                          std::size_t row, const std::function<bool()>& stopped) try {
-    World world = make_world(scene, settings_of(choice));
+    World world = make_world(scene, Settings{choice});
     world.require_applicable();
     const Vec3 start = world.bodies().position(row);
     Paths paths;
     const auto steps = static_cast<std::int64_t>(
-        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate)));
+        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate.steps)));
     for (std::int64_t tick = 0; tick <= steps && !stopped(); ++tick) {
         if (tick > 0 && world.try_step()) return std::nullopt;
         const Vec3 at = world.bodies().position(row);
@@ -193,7 +193,7 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
     for (std::size_t i = 0; i < methods.size(); ++i)
         for (const std::int64_t rate : rates) {
             const auto paths =
-                run(scene, {methods[i], rate, scene.precision}, reference, row, stopped);
+                run(scene, {methods[i], {rate}, scene.stepping.precision, scene.stepping.damping}, reference, row, stopped);
             noticed[i].push_back(paths ? notice(watch, *paths) : Noticed{});
         }
     Rates result{.body = scene.name_of_body(row), .rates = rates};
@@ -209,6 +209,10 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
         result.quantities.push_back(std::move(quantity));
     }
     return result;
+}
+
+std::size_t most_oscillating_row(const Reference& reference) {
+    return reference.swing ? reference.swing->row : 0;
 }
 
 std::size_t find_body(const Scene& scene, const std::string& name) {

@@ -42,6 +42,9 @@ struct Rates {
                                   const std::vector<const Method*>& methods,
                                   const std::function<bool()>& stopped);
 
+/// The row of the body that oscillates most; 0 where none does.
+[[nodiscard]] std::size_t most_oscillating_row(const Reference& reference);
+
 /// The row of the body that is called so, or has that number from 0 on. Throws Error{usage}.
 [[nodiscard]] std::size_t find_body(const Scene& scene, const std::string& name);
 

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
@@ -14,13 +14,16 @@
 namespace oiler {
 namespace {
 
-std::array<Value, 3> values_of(const SceneChoice& choice) {
-    return {
-        Value{.key = "rate", .kind = ValueKind::whole, .whole = choice.rate},
-        Value{.key = "method", .kind = ValueKind::text, .text = std::string(choice.method->name)},
-        Value{.key = "precision",
-              .kind = ValueKind::text,
-              .text = std::string(name_of(choice.precision))}};
+Value word(std::string_view key, std::string_view text) {
+    return {.key = std::string(key), .kind = ValueKind::text, .text = std::string(text)};
+}
+
+std::vector<Value> values_of(const Stepping& stepping) {
+    std::vector<Value> values{
+        {.key = "rate", .kind = ValueKind::whole, .whole = stepping.rate.steps},
+        word("method", stepping.method->name), word("precision", name_of(stepping.precision))};
+    if (stepping.damping) values.push_back(word("damping", name_of(*stepping.damping)));
+    return values;
 }
 
 std::string written(const Value& value, char quote = '"') {
@@ -68,19 +71,19 @@ std::string with(std::string text, std::string_view file, const Value& value) {
 
 }  // namespace
 
-std::string apply(std::string_view text, std::string_view file, const SceneChoice& choice) {
-    require(choice.method, "a choice for a scene has no method");
+std::string apply(std::string_view text, std::string_view file, const Stepping& stepping) {
+    require(stepping.method, "a scene is stepped by a method");
     Scene scene = parse_scene(text, file);
-    scene.method = choice.method;
-    scene.rate = choice.rate;
-    scene.precision = choice.precision;
+    Stepping chosen = stepping;
+    if (scene.stepping.damping && !chosen.damping) chosen.damping = chosen.method->damping;
+    scene.stepping = chosen;
     std::string applied(text);
-    for (const Value& value : values_of(choice)) applied = with(std::move(applied), file, value);
+    for (const Value& value : values_of(chosen)) applied = with(std::move(applied), file, value);
     if (parse_scene(applied, file) != scene)
         fail(Exit::usage,
              "{}: cannot be edited without changing more; write rate = {}, method = \"{}\" and "
              "precision = \"{}\" into its [scene] by hand",
-             file, choice.rate, choice.method->name, name_of(choice.precision));
+             file, chosen.rate.steps, chosen.method->name, name_of(chosen.precision));
     return applied;
 }
 

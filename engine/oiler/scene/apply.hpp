@@ -12,6 +12,6 @@ namespace oiler {
 /// spacing too, stays as it was, and so does what says the same already. Throws Error{usage} where
 /// the text is no scene, or would be none with that choice: not every method takes every force.
 [[nodiscard]] std::string apply(std::string_view text, std::string_view file,
-                                const SceneChoice& choice);
+                                const Stepping& stepping);
 
 }  // namespace oiler

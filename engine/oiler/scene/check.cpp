@@ -25,7 +25,7 @@ template <class... Checked>
 void check_at(const Scene& scene, const Section& section, std::string_view key,
               const Checked&... checked) {
     at(section.place(key), fmt::format("{}.{}", section.name(), key),
-       [&] { Limits(scene.precision, scene.axes).check(checked...); });
+       [&] { Limits(scene.stepping.precision, scene.axes).check(checked...); });
 }
 
 template <class Force>
@@ -124,7 +124,7 @@ void check_method(const Scene& scene, const Place& place) {
     for (SceneGrid& grid : small.grids)
         for (std::int64_t& count : grid.count) count = std::min<std::int64_t>(count, 2);
     for (SceneScatter& scatter : small.scatters) scatter.count = 1;
-    at(place, "scene.method", [&] { make_world(small, settings_of(small)).require_applicable(); });
+    at(place, "scene.stepping.method", [&] { make_world(small, Settings{small.stepping}).require_applicable(); });
 }
 
 }  // namespace oiler

@@ -133,8 +133,8 @@ private:
     void draw_words() {
         const Settings& settings = world_.settings();
         const std::string how =
-            fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.method->name,
-                        settings.rate.steps, name_of(settings.precision), world_.time());
+            fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
+                        settings.stepping.rate.steps, name_of(settings.stepping.precision), world_.time());
         picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = palette::ink},
                            {.at = {12, 326}, .text = how, .size = 9, .colour = palette::grey}};
     }

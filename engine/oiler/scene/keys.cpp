@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/keys.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-constexpr Range any{};
-constexpr Range positive{.low = 0, .without_low = true};
-constexpr Range not_negative{.low = 0};
+constexpr ValueRange any{};
+constexpr ValueRange positive{.low = 0, .without_low = true};
+constexpr ValueRange not_negative{.low = 0};
 
-constexpr Range from_to(double low, double high) { return {.low = low, .high = high}; }
+constexpr ValueRange from_to(double low, double high) { return {.low = low, .high = high}; }
 
 Words method_words() {
     Words words;
@@ -27,6 +27,7 @@ Words method_words() {
     return words;
 }
 Words precision_words() { return {name_of(Precision::single), name_of(Precision::double_)}; }
+Words damping_words() { return {name_of(Damping::in_kick), name_of(Damping::in_drift)}; }
 Words hang_words() { return {"none", "corners", "top"}; }
 
 constexpr std::string_view required = "required";
@@ -38,77 +39,81 @@ constexpr double most = double{most_bodies};
 constexpr double largest_whole = 9007199254740992.0;
 
 constexpr std::array keys{
-    Key{"scene", "title", text, "", any, "\"\"", "", "of the window, at most 200 bytes"},
-    Key{"scene", "axes", whole, "", from_to(1, 3), "2", required,
-        "vectors have that many numbers; pictures show x and y"},
-    Key{"scene", "rate", whole, "1/s", from_to(1, 1e6), "100", "", "steps: dt = 1/rate"},
-    Key{"scene", "method", word, "", any, "\"semi_implicit_euler\"", "", "see `oiler methods`",
+    SceneKey{"scene", "title", text, "", any, "\"\"", "", "of the window, at most 200 bytes long"},
+    SceneKey{"scene", "axes", whole, "", from_to(1, 3), "2", required,
+        "numbers in a vector; pictures show x and y"},
+    SceneKey{"scene", "rate", whole, "1/s", from_to(1, 1e6), "100", "", "steps per second: dt = 1/rate"},
+    SceneKey{"scene", "method", word, "", any, "\"semi_implicit_euler\"", "", "see `oiler methods`",
         method_words},
-    Key{"scene", "precision", word, "", any, "\"double\"", "", "of positions and velocities",
+    SceneKey{"scene", "precision", word, "", any, "\"double\"", "", "of positions and velocities",
         precision_words},
-    Key{"scene", "duration", number, "s", {0, 1e9, true}, "10.0", "", "of the run and its film"},
-    Key{"gravity", "acceleration", vector, "m/s²", any, "[0.0, -9.81]", required, "of every body"},
-    Key{"body", "name", text, "", any, "\"mass\"", "no name", "for springs to refer to"},
-    Key{"body", "mass", number, "kg", positive, "1.0", "", ""},
-    Key{"body", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
-    Key{"body", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", ""},
-    Key{"body", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "b of the force −b·v"},
-    Key{"body", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "",
+    SceneKey{"scene", "damping", word, "", any, "\"drift\"", "the method's own",
+        "where a splitting puts linear damping: into its kicks or its drifts", damping_words},
+    SceneKey{"scene", "duration", number, "s", {0, 1e9, true}, "10.0", "", "of a run and of its film"},
+    SceneKey{"gravity", "acceleration", vector, "m/s²", any, "[0.0, -9.81]", required, "of every body"},
+    SceneKey{"body", "name", text, "", any, "\"mass\"", "no name", "springs refer to it"},
+    SceneKey{"body", "mass", number, "kg", positive, "1.0", "", ""},
+    SceneKey{"body", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
+    SceneKey{"body", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", ""},
+    SceneKey{"body", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "b of the force −b·v"},
+    SceneKey{"body", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "",
         "c of the force −c·|v|·v"},
-    Key{"body", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
-    Key{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
-    Key{"spring", "body", text, "", any, "\"mass\"", required, "that it acts on"},
-    Key{"spring", "anchor", vector, "m", any, "[0.0, 0.0]", "`to` is given", "its fixed end"},
-    Key{"spring", "to", text, "", any, "\"other\"", "`anchor` is given",
-        "the body at its other end"},
-    Key{"spring", "stiffness", number, "N/m", not_negative, "15.0", required, ""},
-    Key{"spring", "damping", number, "N·s/m", not_negative, "0.0", "",
-        "in all directions; along the spring where it has a rest length"},
-    Key{"spring", "rest_length", number, "m", not_negative, "0.0", "", ""},
-    Key{"spring", "colour", colour, "", any, "\"grey\"", "", "", colour_words},
-    Key{"attractor", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
-    Key{"attractor", "gm", number, "m³/s²", positive, "1.0", required,
+    SceneKey{"body", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
+    SceneKey{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
+    SceneKey{"spring", "body", text, "", any, "\"mass\"", required,
+        "name of the body that the spring pulls"},
+    SceneKey{"spring", "anchor", vector, "m", any, "[0.0, 0.0]", "`to` is given",
+        "position of the fixed end"},
+    SceneKey{"spring", "to", text, "", any, "\"other\"", "`anchor` is given",
+        "name of the body at the other end"},
+    SceneKey{"spring", "stiffness", number, "N/m", not_negative, "15.0", required, ""},
+    SceneKey{"spring", "damping", number, "N·s/m", not_negative, "0.0", "",
+        "in all directions; with a rest length only along the spring"},
+    SceneKey{"spring", "rest_length", number, "m", not_negative, "0.0", "", ""},
+    SceneKey{"spring", "colour", colour, "", any, "\"grey\"", "", "", colour_words},
+    SceneKey{"attractor", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
+    SceneKey{"attractor", "gm", number, "m³/s²", positive, "1.0", required,
         "attracts every body by gm/d²"},
-    Key{"attractor", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
-    Key{"attractor", "colour", colour, "", any, "\"orange\"", "", "", colour_words},
-    Key{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
-        "bodies in a row, and rows"},
-    Key{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "", "of the lower left body"},
-    Key{"grid", "spacing", number, "m", positive, "1.0", required, "of neighbours"},
-    Key{"grid", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", "of each body"},
-    Key{"grid", "mass", number, "kg", positive, "1.0", "", "of each body"},
-    Key{"grid", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "of each body"},
-    Key{"grid", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "of each body"},
-    Key{"grid", "stiffness", number, "N/m", not_negative, "100.0", required, "of each spring"},
-    Key{"grid", "damping", number, "N·s/m", not_negative, "0.0", "", "of each spring"},
-    Key{"grid", "rest_length", number, "m", not_negative, "0.5", "the spacing",
-        "of each spring; of diagonal ones √2 times that"},
-    Key{"grid", "diagonals", flag, "", any, "false", "", "springs across each mesh, too"},
-    Key{"grid", "hang", word, "", any, "\"none\"", "",
-        "an anchored spring for both ends of the uppermost row, or for all of it", hang_words},
-    Key{"grid", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
-    Key{"grid", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
-    Key{"scatter", "count", whole, "", from_to(1, most), "3", required, "of bodies"},
-    Key{"scatter", "seed", whole, "", from_to(0, largest_whole), "0", "",
-        "another one, or another `--seed`, gives other bodies"},
-    Key{"scatter", "position_from", vector, "m", any, "[-1.0, 0.0]", required, ""},
-    Key{"scatter", "position_to", vector, "m", any, "[1.0, 2.0]", required, ""},
-    Key{"scatter", "velocity_from", vector, "m/s", any, "[0.0, 0.0]", "", ""},
-    Key{"scatter", "velocity_to", vector, "m/s", any, "[3.0, 4.0]", "`velocity_from`", ""},
-    Key{"scatter", "mass", number, "kg", positive, "1.0", "", "of each body"},
-    Key{"scatter", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "of each body"},
-    Key{"scatter", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "of each body"},
-    Key{"scatter", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
-    Key{"scatter", "colour", colour, "", any, "\"sky_blue\"", "", "", colour_words},
-    Key{"camera", "centre", vector, "m", any, "[0.0, 0.0]", fits, "of the picture"},
-    Key{"camera", "height", number, "m", {1e-30, 1e30}, "10.0", fits, "of the picture"},
-    Key{"budget", "position_error", number, "m", positive, "1.0", "no limit",
-        "the largest of the run"},
-    Key{"budget", "energy_drift", number, "", positive, "0.01", "no limit",
-        "the largest change of the energy, relative"},
+    SceneKey{"attractor", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
+    SceneKey{"attractor", "colour", colour, "", any, "\"orange\"", "", "", colour_words},
+    SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
+        "bodies in a row, number of rows"},
+    SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "", "position of the lower left body"},
+    SceneKey{"grid", "spacing", number, "m", positive, "1.0", required, "distance between neighbours"},
+    SceneKey{"grid", "velocity", vector, "m/s", any, "[0.0, 0.0]", "", "of each body"},
+    SceneKey{"grid", "mass", number, "kg", positive, "1.0", "", "of each body"},
+    SceneKey{"grid", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "of each body"},
+    SceneKey{"grid", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "of each body"},
+    SceneKey{"grid", "stiffness", number, "N/m", not_negative, "100.0", required, "of each spring"},
+    SceneKey{"grid", "damping", number, "N·s/m", not_negative, "0.0", "", "of each spring"},
+    SceneKey{"grid", "rest_length", number, "m", not_negative, "0.5", "the spacing",
+        "of each spring; diagonal springs have √2 times that"},
+    SceneKey{"grid", "diagonals", flag, "", any, "false", "", "adds two diagonal springs to each cell"},
+    SceneKey{"grid", "hang", word, "", any, "\"none\"", "",
+        "anchored springs: none, at both ends of the top row, at the whole top row", hang_words},
+    SceneKey{"grid", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
+    SceneKey{"grid", "colour", colour, "", any, "\"blue\"", "", "", colour_words},
+    SceneKey{"scatter", "count", whole, "", from_to(1, most), "3", required, "number of bodies"},
+    SceneKey{"scatter", "seed", whole, "", from_to(0, largest_whole), "0", "",
+        "a different seed, here or with `--seed`, gives different bodies"},
+    SceneKey{"scatter", "position_from", vector, "m", any, "[-1.0, 0.0]", required, ""},
+    SceneKey{"scatter", "position_to", vector, "m", any, "[1.0, 2.0]", required, ""},
+    SceneKey{"scatter", "velocity_from", vector, "m/s", any, "[0.0, 0.0]", "", ""},
+    SceneKey{"scatter", "velocity_to", vector, "m/s", any, "[3.0, 4.0]", "`velocity_from`", ""},
+    SceneKey{"scatter", "mass", number, "kg", positive, "1.0", "", "of each body"},
+    SceneKey{"scatter", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "of each body"},
+    SceneKey{"scatter", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "of each body"},
+    SceneKey{"scatter", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
+    SceneKey{"scatter", "colour", colour, "", any, "\"sky_blue\"", "", "", colour_words},
+    SceneKey{"camera", "centre", vector, "m", any, "[0.0, 0.0]", fits, "of the picture"},
+    SceneKey{"camera", "height", number, "m", {1e-30, 1e30}, "10.0", fits, "metres from bottom to top"},
+    SceneKey{"budget", "position_error", number, "m", positive, "1.0", "no limit",
+        "largest error of the run"},
+    SceneKey{"budget", "energy_drift", number, "", positive, "0.01", "no limit",
+        "largest relative change of the energy"},
 };
 
-std::string in_range(const Range& range) {
+std::string in_range(const ValueRange& range) {
     const bool below = range.low > any.low;
     const bool above = range.high < any.high;
     if (below && above)
@@ -119,7 +124,7 @@ std::string in_range(const Range& range) {
     return "";
 }
 
-std::string kind_text(const Key& key, int axes) {
+std::string kind_text(const SceneKey& key, int axes) {
     switch (key.kind) {
         case text:
             return "a text in quotes";
@@ -145,17 +150,17 @@ std::string kind_text(const Key& key, int axes) {
 
 }  // namespace
 
-std::span<const Key> scene_keys() { return keys; }
+std::span<const SceneKey> scene_keys() { return keys; }
 
-const Key* find_scene_key(std::string_view table, std::string_view name) {
+const SceneKey* find_scene_key(std::string_view table, std::string_view name) {
     const auto found = std::ranges::find_if(
-        keys, [&](const Key& key) { return key.table == table && key.name == name; });
+        keys, [&](const SceneKey& key) { return key.table == table && key.name == name; });
     return found == keys.end() ? nullptr : &*found;
 }
 
 std::vector<std::string_view> scene_tables() {
     std::vector<std::string_view> tables;
-    for (const Key& key : keys)
+    for (const SceneKey& key : keys)
         if (tables.empty() || tables.back() != key.table) tables.push_back(key.table);
     return tables;
 }
@@ -166,7 +171,7 @@ bool is_repeated(std::string_view table) {
     return std::ranges::find(repeated, table) != repeated.end();
 }
 
-std::string expectation(const Key& key, int axes) {
+std::string expectation(const SceneKey& key, int axes) {
     return kind_text(key, axes) + (key.unit.empty() ? "" : fmt::format(", in {}", key.unit));
 }
 

@@ -21,7 +21,7 @@ enum class KeyKind {
     colour,  ///< one of a few words, or "#rrggbb"
 };
 
-struct Range {
+struct ValueRange {
     double low = -std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::max();
     bool without_low = false;  ///< `low` itself is outside
@@ -31,12 +31,12 @@ struct Range {
 };
 
 /// One key of a scene file, and all that the reader checks of it by itself.
-struct Key {
+struct SceneKey {
     std::string_view table;  ///< "spring"
     std::string_view name;   ///< "stiffness"
     KeyKind kind;
     std::string_view unit;  ///< "N/m"
-    Range range{};
+    ValueRange range{};
     std::string_view value;   ///< as TOML, with two axes: the default, or an example where
                               ///< `absent` is not empty
     std::string_view absent;  ///< "required", or in words what holds without it; empty: `value`
@@ -47,16 +47,16 @@ struct Key {
 };
 
 /// The one list: the reader knows no other key, and the README's table is this.
-[[nodiscard]] std::span<const Key> scene_keys();
+[[nodiscard]] std::span<const SceneKey> scene_keys();
 
 /// Null where the table has no such key.
-[[nodiscard]] const Key* find_scene_key(std::string_view table, std::string_view name);
+[[nodiscard]] const SceneKey* find_scene_key(std::string_view table, std::string_view name);
 
 [[nodiscard]] std::vector<std::string_view> scene_tables();
 /// Whether a scene may have several of the table, written [[table]].
 [[nodiscard]] bool is_repeated(std::string_view table);
 
 /// "a number above 0, in kg": what the reader expects.
-[[nodiscard]] std::string expectation(const Key& key, int axes);
+[[nodiscard]] std::string expectation(const SceneKey& key, int axes);
 
 }  // namespace oiler

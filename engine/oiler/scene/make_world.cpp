@@ -118,14 +118,6 @@ private:
 
 }  // namespace
 
-Settings settings_of(const Scene& scene) {
-    return {.rate = {scene.rate}, .method = scene.method, .precision = scene.precision};
-}
-
-Settings settings_of(const SceneChoice& choice) {
-    return {.rate = {choice.rate}, .method = choice.method, .precision = choice.precision};
-}
-
 Scene with_seed(Scene scene, std::uint64_t seed) {
     for (SceneScatter& scatter : scene.scatters)
         scatter.seed = static_cast<std::int64_t>(static_cast<std::uint64_t>(scatter.seed) ^

@@ -6,10 +6,6 @@
 
 namespace oiler {
 
-/// How the scene itself says that it is stepped.
-[[nodiscard]] Settings settings_of(const Scene& scene);
-[[nodiscard]] Settings settings_of(const SceneChoice& choice);
-
 /// The scene whose scatters have the bodies that `seed` of Settings gives those of this one.
 [[nodiscard]] Scene with_seed(Scene scene, std::uint64_t seed);
 

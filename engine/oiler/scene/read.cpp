@@ -64,7 +64,7 @@ private:
     static std::string remedy_for(const std::string& key,
                                   const std::vector<std::string_view>& tables) {
         std::string owners;
-        for (const Key& known : scene_keys())
+        for (const SceneKey& known : scene_keys())
             if (known.name == key) owners += fmt::format(" [{}]", known.table);
         if (!owners.empty()) return "; it is a key of" + owners + ", below which it belongs";
         const std::string near = did_you_mean(key, tables);
@@ -99,10 +99,13 @@ private:
         section.read("title", scene_.title);
         section.read("axes", axes);
         scene_.axes = static_cast<int>(axes);
-        section.read("rate", scene_.rate);
+        section.read("rate", scene_.stepping.rate.steps);
         section.read("duration", scene_.duration);
-        if (section.has("method")) scene_.method = &find_method(section.word("method"));
-        if (section.word("precision") == "float") scene_.precision = Precision::single;
+        if (section.has("method")) scene_.stepping.method = &find_method(section.word("method"));
+        if (section.word("precision") == "float") scene_.stepping.precision = Precision::single;
+        if (section.has("damping"))
+            scene_.stepping.damping =
+                section.word("damping") == "kick" ? Damping::in_kick : Damping::in_drift;
         method_place_ = section.place("method");
     }
 

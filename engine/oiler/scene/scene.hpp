@@ -9,7 +9,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/physics/methods/methods.hpp"
+#include "oiler/physics/stepping.hpp"
 
 namespace oiler {
 
@@ -106,21 +106,11 @@ struct SceneBudget {
     friend bool operator==(const SceneBudget&, const SceneBudget&) = default;
 };
 
-/// How a scene is stepped.
-struct SceneChoice {
-    const Method* method = nullptr;
-    std::int64_t rate = 0;  ///< steps per second
-    Precision precision = Precision::double_;
-    friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
-};
-
 /// A scene as its file describes it, all of whose numbers are within the limits of the table of
 /// keys. Grids and scatters stay what they are until a world is made.
 struct Scene {
     std::string title{};
-    std::int64_t rate = 100;  ///< steps per second
-    const Method* method = &find_method("semi_implicit_euler");
-    Precision precision = Precision::double_;
+    Stepping stepping{};  ///< the rate in whole steps per second
     int axes = 1;
     double duration = 10;           ///< s
     std::optional<Vec3> gravity{};  ///< m/s²
@@ -140,8 +130,6 @@ struct Scene {
         for (const SceneScatter& scatter : scatters) count += scatter.count;
         return count;
     }
-    /// Its own.
-    [[nodiscard]] SceneChoice choice() const { return {method, rate, precision}; }
     /// How a body is called, "body 3" where it has no name.
     [[nodiscard]] std::string name_of_body(std::size_t row) const {
         return row < bodies.size() && !bodies[row].name.empty() ? bodies[row].name

@@ -24,7 +24,7 @@ Section::Section(std::string_view file, std::string_view name, const Value& valu
 void Section::refuse_unknown(const Value& member) const {
     std::vector<std::string_view> names;
     std::string tables;
-    for (const Key& key : scene_keys()) {
+    for (const SceneKey& key : scene_keys()) {
         if (key.table == name_) names.push_back(key.name);
         if (key.name == member.key) tables += fmt::format(" [{}]", key.table);
     }
@@ -35,20 +35,20 @@ void Section::refuse_unknown(const Value& member) const {
            name_, remedy);
 }
 
-std::string Section::example(const Key& key) const {
+std::string Section::example(const SceneKey& key) const {
     constexpr std::array<std::string_view, 3> vectors{"[1.0]", "[1.0, 2.0]", "[1.0, 2.0, 3.0]"};
     const bool is_vector = key.kind == KeyKind::vector;
     return fmt::format("{} = {}", key.name,
                        is_vector ? vectors[static_cast<std::size_t>(axes_ - 1)] : key.value);
 }
 
-void Section::refuse_value(const Key& key, const Value& value, std::string_view hint) const {
+void Section::refuse_value(const SceneKey& key, const Value& value, std::string_view hint) const {
     refuse({file_, value.line}, "{}.{}: expected {}, got {}{}; for example {}", key.table, key.name,
            expectation(key, axes_), value.shown(), hint, example(key));
 }
 
-const Key& Section::entry(std::string_view key) const {
-    const Key* const found = find_scene_key(name_, key);
+const SceneKey& Section::entry(std::string_view key) const {
+    const SceneKey* const found = find_scene_key(name_, key);
     require(found, "the list of keys lacks a key that is read");
     return *found;
 }
@@ -60,7 +60,7 @@ Place Section::place(std::string_view key) const {
     return {file_, found ? found->line : value_.line};
 }
 
-const Value* Section::find(const Key& key) const {
+const Value* Section::find(const SceneKey& key) const {
     const Value* const found = value_.find(key.name);
     if (!found && key.required())
         refuse(place(), "{}.{}: missing; [{}] needs {}, for example {}", key.table, key.name,
@@ -68,19 +68,19 @@ const Value* Section::find(const Key& key) const {
     return found;
 }
 
-double Section::number(const Key& key, const Value& value) const {
+double Section::number(const SceneKey& key, const Value& value) const {
     const bool is_number = value.kind == ValueKind::number || value.kind == ValueKind::whole;
     if (!is_number || !std::isfinite(value.number) || !key.range.holds(value.number))
         refuse_value(key, value);
     return value.number;
 }
 
-std::int64_t Section::whole(const Key& key, const Value& value) const {
+std::int64_t Section::whole(const SceneKey& key, const Value& value) const {
     if (value.kind != ValueKind::whole || !key.range.holds(value.number)) refuse_value(key, value);
     return value.whole;
 }
 
-const std::string& Section::text(const Key& key, const Value& value) const {
+const std::string& Section::text(const SceneKey& key, const Value& value) const {
     if (value.kind != ValueKind::text) refuse_value(key, value);
     return value.text;
 }
@@ -141,7 +141,7 @@ void Section::read(std::string_view key, Colour& target) const {
 }
 
 std::string Section::word(std::string_view key) const {
-    const Key& known = entry(key);
+    const SceneKey& known = entry(key);
     const Value* const value = find(known);
     if (!value) return {};
     const std::vector<std::string_view> words = known.words();

@@ -50,15 +50,15 @@ public:
 
 private:
     /// Null where the key is absent and need not be there.
-    [[nodiscard]] const Value* find(const Key& key) const;
-    [[nodiscard]] const Key& entry(std::string_view key) const;
+    [[nodiscard]] const Value* find(const SceneKey& key) const;
+    [[nodiscard]] const SceneKey& entry(std::string_view key) const;
     void refuse_unknown(const Value& member) const;
-    [[noreturn]] void refuse_value(const Key& key, const Value& value,
+    [[noreturn]] void refuse_value(const SceneKey& key, const Value& value,
                                    std::string_view hint = {}) const;
-    [[nodiscard]] std::string example(const Key& key) const;
-    [[nodiscard]] double number(const Key& key, const Value& value) const;
-    [[nodiscard]] std::int64_t whole(const Key& key, const Value& value) const;
-    [[nodiscard]] const std::string& text(const Key& key, const Value& value) const;
+    [[nodiscard]] std::string example(const SceneKey& key) const;
+    [[nodiscard]] double number(const SceneKey& key, const Value& value) const;
+    [[nodiscard]] std::int64_t whole(const SceneKey& key, const Value& value) const;
+    [[nodiscard]] const std::string& text(const SceneKey& key, const Value& value) const;
 
     std::string_view file_;
     std::string_view name_;

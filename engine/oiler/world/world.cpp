@@ -17,7 +17,7 @@ struct Jumps {
 }  // namespace
 
 World::World(int axes, const Settings& settings)
-    : settings_(settings), bodies_(axes, settings.precision) {
+    : settings_(settings), bodies_(axes, settings.stepping.precision) {
     bodies_.set_threads(settings.threads);
 }
 
@@ -106,26 +106,26 @@ std::uint32_t World::jumps(Entity entity) const {
 void World::step(std::int64_t count) {
     const Steps steps = next_steps(count);
     if (const auto at = try_step(count))
-        fail_diverged(bodies_, *at, *settings_.method, steps, name_of_row());
+        fail_diverged(bodies_, *at, *settings_.stepping.method, steps, name_of_row());
 }
 
 std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "steps only go forward");
-    const auto divergence = bodies_.try_step(*settings_.method, next_steps(count));
+    const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
     if (!divergence) tick_ += count;
     return divergence;
 }
 
 void World::require_applicable() const {
-    bodies_.require_applicable(*settings_.method, next_steps(1));
+    bodies_.require_applicable(*settings_.stepping.method, next_steps(1));
 }
 
 std::vector<std::string> World::preflight(std::size_t most) const {
     const Steps steps = next_steps(1);
-    const std::vector<Risk> risks = oiler::preflight(bodies_, *settings_.method, steps);
+    const std::vector<Risk> risks = oiler::preflight(bodies_, *settings_.stepping.method, steps);
     std::vector<std::string> lines;
     for (const Risk& risk : std::span(risks).first(std::min(most, risks.size())))
-        lines.push_back(describe(risk, *settings_.method, steps, name_of_row()));
+        lines.push_back(describe(risk, *settings_.stepping.method, steps, name_of_row()));
     if (risks.size() > most) lines.push_back(fmt::format("and {} more", risks.size() - most));
     return lines;
 }
@@ -133,7 +133,7 @@ std::vector<std::string> World::preflight(std::size_t most) const {
 void World::link(Entity a, Entity b, const Link& link) { bodies_.link(row(a), row(b), link); }
 
 Steps World::next_steps(std::int64_t count) const {
-    return {settings_.rate, tick_, count, settings_.damping};
+    return {settings_.stepping.rate, tick_, count, settings_.stepping.damping};
 }
 
 NameOfRow World::name_of_row() const {

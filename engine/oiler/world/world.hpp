@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oiler/core/require.hpp"
+#include "oiler/physics/stepping.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 #include "oiler/world/entity.hpp"
@@ -17,14 +18,11 @@
 
 namespace oiler {
 
-/// How a world steps. `seed` is for the game's own random numbers.
+/// What a world is made with.
 struct Settings {
-    Rate rate{100};
-    const Method* method = &find_method("semi_implicit_euler");
-    Precision precision = Precision::double_;
-    std::uint64_t seed = 0;
-    std::optional<Damping> damping{};  ///< the method's own where there is none
-    int threads = 1;                   ///< that step; no bit depends on how many
+    Stepping stepping{};
+    std::uint64_t seed = 0;  ///< of the game's own random numbers
+    int threads = 1;         ///< number of threads that step; no bit depends on it
 };
 
 /// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
@@ -35,6 +33,7 @@ struct Settings {
 class World {
 public:
     explicit World(int axes, const Settings& settings = {});
+    World(int axes, const Stepping& stepping) : World(axes, Settings{.stepping = stepping}) {}
     World(const World& other);
     World& operator=(const World& other);
     World(World&&) noexcept = default;
@@ -172,7 +171,7 @@ public:
     [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
     [[nodiscard]] std::int64_t tick() const { return tick_; }
     /// In s, from the tick.
-    [[nodiscard]] double time() const { return settings_.rate.time(tick_); }
+    [[nodiscard]] double time() const { return settings_.stepping.rate.time(tick_); }
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
     /// Of the tick and of all bodies, see Bodies::hash_into.

@@ -75,13 +75,13 @@ Vec<Real, 2> chain_truth(std::size_t row, Real t) {
 }
 
 /// The largest distance at any step up to the end of the scene.
-double error_of(const Scene& scene, const SceneChoice& choice, const Truth& truth) {
-    World world = make_world(scene, settings_of(choice));
-    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate));
+double error_of(const Scene& scene, const Stepping& choice, const Truth& truth) {
+    World world = make_world(scene, Settings{choice});
+    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps));
     Real most = 0;
     for (std::int64_t tick = 0; tick <= steps; ++tick) {
         if (tick > 0) world.step();
-        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate);
+        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate.steps);
         for (std::size_t row = 0; row < world.bodies().size(); ++row) {
             const Vec3 at = world.bodies().position(row);
             const Vec<Real, 2> right = truth(row, t);
@@ -104,14 +104,14 @@ protected:
         ASSERT_TRUE(advice.best);
         ASSERT_TRUE(advice.meets) << advice.obstacles.front();
         EXPECT_TRUE(advice.obstacles.empty());
-        const std::string words = words_of(advice.best->choice);
-        EXPECT_LE(error_of(measured.scene, advice.best->choice, truth), GetParam()) << words;
-        EXPECT_TRUE(std::find(among.begin(), among.end(), advice.best->choice.method) !=
+        const std::string words = words_of(advice.best->stepping);
+        EXPECT_LE(error_of(measured.scene, advice.best->stepping, truth), GetParam()) << words;
+        EXPECT_TRUE(std::find(among.begin(), among.end(), advice.best->stepping.method) !=
                     among.end())
             << words;
         if (!advice.runner_up) return;
-        EXPECT_NE(advice.runner_up->choice.method, advice.best->choice.method);
-        EXPECT_LE(error_of(measured.scene, advice.runner_up->choice, truth), GetParam());
+        EXPECT_NE(advice.runner_up->stepping.method, advice.best->stepping.method);
+        EXPECT_LE(error_of(measured.scene, advice.runner_up->stepping, truth), GetParam());
     }
 };
 
@@ -134,14 +134,14 @@ TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
         const MeasuredScene measured = measured_for(text, wish);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, settings_of(advice.best->choice));
+        World world = make_world(measured.scene, settings_of(advice.best->stepping));
         for (const nlohmann::json& state : run.at("states")) {
-            world.step(advice.best->choice.rate);
+            world.step(advice.best->stepping.rate.steps);
             const Vec3 at = world.bodies().position(0);
             EXPECT_LE(std::hypot(at[0] - number<Real>(state.at("x")),
                                  at[1] - number<Real>(state.at("y"))),
                       GetParam())
-                << words_of(advice.best->choice) << " after " << state.at("t");
+                << words_of(advice.best->stepping) << " after " << state.at("t");
         }
         EXPECT_EQ(world.time(), 6);
         return;
@@ -157,9 +157,9 @@ TEST(Advice, OnTheArticlesSpringIsTheExactMotion) {
         const Advice advice =
             advice_on(article_spring, {.position_error = tolerance, .methods = all_methods()});
         ASSERT_TRUE(advice.meets);
-        EXPECT_EQ(advice.best->choice.method->name, "exact");
-        EXPECT_EQ(advice.best->choice.precision, Precision::double_);
-        EXPECT_EQ(advice.best->choice.rate, 50);
+        EXPECT_EQ(advice.best->stepping.method->name, "exact");
+        EXPECT_EQ(advice.best->stepping.precision, Precision::double_);
+        EXPECT_EQ(advice.best->stepping.rate.steps, 50);
         EXPECT_EQ(advice.today->choice.method->name, "semi_implicit_euler");
     }
 }
@@ -181,7 +181,7 @@ TEST(Advice, AmongSplittingsIsOneOfTheSweepsBest) {
                 fewest = std::min(fewest, row->judgement.evaluations);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        EXPECT_LE(advice.best->judgement.evaluations, 2 * fewest) << words_of(advice.best->choice);
+        EXPECT_LE(advice.best->judgement.evaluations, 2 * fewest) << words_of(advice.best->stepping);
         EXPECT_GT(advice.runs, 0);
         EXPECT_LT(static_cast<std::size_t>(advice.runs), tradeoff.rows().size() / 2);
     }
@@ -195,11 +195,11 @@ TEST(Advice, IsTheLowestRateThatWillDo) {
         const MeasuredScene measured = measured_for(article_spring, wish);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        SceneChoice lower = advice.best->choice;
+        Stepping lower = advice.best->stepping;
         ASSERT_GT(lower.rate, 100);
         lower.rate -= std::max<std::int64_t>(50, lower.rate / 32 / 50 * 50 + 50);
         EXPECT_GT(error_of(measured.scene, lower, spring_truth), 0.97 * tolerance)
-            << words_of(advice.best->choice);
+            << words_of(advice.best->stepping);
     }
 }
 
@@ -216,7 +216,7 @@ TEST(AdviceOnEnergy, IsKept) {
         const MeasuredScene measured = measured_for(undamped, wish);
         const Advice advice = advise(measured.scene, measured.reference, wish, {});
         ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, settings_of(advice.best->choice));
+        World world = make_world(measured.scene, settings_of(advice.best->stepping));
         double most = 0;
         while (world.time() < 10) {
             world.step();
@@ -224,7 +224,7 @@ TEST(AdviceOnEnergy, IsKept) {
             const double v = world.bodies().velocity(0)[0];
             most = std::max(most, std::abs((v * v + 15 * x * x) / 15e6 - 1));
         }
-        EXPECT_LE(most, tolerance) << words_of(advice.best->choice);
+        EXPECT_LE(most, tolerance) << words_of(advice.best->stepping);
         EXPECT_GT(most, 0);
         EXPECT_DOUBLE_EQ(measured.reference.energy_scale, 7.5e6);
     }
@@ -248,10 +248,10 @@ TEST(AdviceOnTime, AloneIsTheMostAccurateThatFits) {
                     .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
     const Advice advice = advice_on(article_spring, wish);
     ASSERT_TRUE(advice.meets);
-    EXPECT_EQ(advice.best->choice.method->name, "velocity_verlet");
-    EXPECT_EQ(advice.best->choice.rate, 800);
+    EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
+    EXPECT_EQ(advice.best->stepping.rate.steps, 800);
     ASSERT_TRUE(advice.runner_up);
-    EXPECT_EQ(advice.runner_up->choice.method->name, "semi_implicit_euler");
+    EXPECT_EQ(advice.runner_up->stepping.method->name, "semi_implicit_euler");
 }
 
 // A millionth of a ns is less than any step takes.
@@ -294,7 +294,7 @@ TEST(Advice, ThatCannotBeGivenComesAsNearAsItCan) {
         {.position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
     EXPECT_FALSE(advice.meets);
     ASSERT_TRUE(advice.best);
-    EXPECT_EQ(advice.best->choice.rate, 800);
+    EXPECT_EQ(advice.best->stepping.rate.steps, 800);
 }
 
 TEST(Advice, OnEnergyThatCannotBeGivenSpeaksOfEnergy) {
@@ -371,9 +371,9 @@ TEST(Advice, StaysAboveTheLowestRate) {
         const Wish wish{.position_error = 100, .min_rate = lowest, .methods = splittings()};
         const Advice advice = advice_on(article_spring, wish);
         ASSERT_TRUE(advice.meets);
-        EXPECT_GE(advice.best->choice.rate, lowest);
+        EXPECT_GE(advice.best->stepping.rate.steps, lowest);
         ASSERT_TRUE(advice.runner_up);
-        EXPECT_GE(advice.runner_up->choice.rate, lowest);
+        EXPECT_GE(advice.runner_up->stepping.rate.steps, lowest);
     }
 }
 
@@ -381,7 +381,7 @@ TEST(Advice, StaysBelowTheHighestRate) {
     const Wish wish{.position_error = 1, .max_rate = 200, .methods = all_methods()};
     const Advice advice = advice_on(article_spring, wish);
     ASSERT_TRUE(advice.best);
-    EXPECT_LE(advice.best->choice.rate, 200);
+    EXPECT_LE(advice.best->stepping.rate.steps, 200);
 }
 
 TEST(Advice, WithoutARateInBetweenIsRefused) {
@@ -403,7 +403,7 @@ TEST(Advice, OnASceneOfAPrimeRateIsNoSlideShow) {
     text.replace(text.find("rate = 100"), 10, "rate = 97");
     const Advice advice = advice_on(text, {.position_error = 1e-3, .methods = all_methods()});
     ASSERT_TRUE(advice.meets);
-    EXPECT_GE(advice.best->choice.rate, 20);
+    EXPECT_GE(advice.best->stepping.rate.steps, 20);
 }
 
 TEST(Advice, StoppedIsNone) {
@@ -421,10 +421,10 @@ TEST(Advice, SaysTheConclusionFirst) {
     const Advice advice = advise(measured.scene, measured.reference, wish, {});
     const std::vector<std::string> words =
         words_of(advice, measured.scene, measured.reference, wish);
-    EXPECT_TRUE(words.front().starts_with(words_of(advice.best->choice) + ": ")) << words.front();
+    EXPECT_TRUE(words.front().starts_with(words_of(advice.best->stepping) + ": ")) << words.front();
     EXPECT_TRUE(holds(words.back(), "10 s")) << words.back();
     EXPECT_TRUE(holds(words.back(), "50 times a second")) << words.back();
-    EXPECT_EQ(words_of(SceneChoice{&find_method("rk4"), 60, Precision::double_}),
+    EXPECT_EQ(words_of(Stepping{&find_method("rk4"), 60, Precision::double_}),
               "rk4 at 60 Hz in double");
 }
 

@@ -289,6 +289,51 @@ TEST(WrongClosedForm, OfOneBodyIsNotBelieved) {
     expect_within_doubts(reference, {right, right});
 }
 
+/// 2 kg that start at 0 m with that speed and fall for 2 s by 10 m/s².
+Scene falling(double speed) {
+    Scene scene;
+    scene.stepping.rate.steps = 60;
+    scene.duration = 2;
+    scene.gravity = {{-10, 0, 0}};
+    scene.bodies = {{.matter = {.mass = 2}, .velocity = {-speed, 0, 0}}};
+    return scene;
+}
+
+double energy_scale_of(const Scene& scene) {
+    return make_reference(scene, looks_of(scene), effort()).energy_scale;
+}
+
+// At 0 m and at rest there is no energy at all; at 20 m/s the kinetic energy is ½·2·20² = 400 J.
+TEST(EnergyScale, IsTheLargestKineticEnergyWhereTheStartHasNone) {
+    EXPECT_NEAR(energy_scale_of(falling(0)), 400, 1e-9);
+}
+
+// ½·2·2² = 4 J are less than a hundredth of ½·2·22² = 484 J, and ½·2·2.5² = 6.25 J are more than
+// that of ½·2·22.5² = 506.25 J.
+TEST(EnergyScale, IsTheEnergyAtTheStartFromAHundredthOfTheKineticEnergyOn) {
+    EXPECT_NEAR(energy_scale_of(falling(2)), 484, 1e-9);
+    EXPECT_NEAR(energy_scale_of(falling(2.5)), 6.25, 1e-12);
+}
+
+// Energies below zero count by their size: a planet's is −gm/2a = −0.5 J a kg.
+TEST(EnergyScale, IsPositive) {
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 2;
+    scene.bodies = {{.position = {1, 0, 0}, .velocity = {0, 1, 0}}};
+    scene.attractors = {{.gm = 1}};
+    EXPECT_NEAR(energy_scale_of(scene), 0.5, 1e-12);
+}
+
+TEST(EnergyScale, IsNoneWhereNothingMovesAndDriftsAreInJoules) {
+    Scene scene;
+    scene.duration = 1;
+    scene.bodies = {{.position = {0, 0, 0}}};
+    const Reference reference = make_reference(scene, looks_of(scene), effort());
+    EXPECT_EQ(reference.energy_scale, 0);
+    EXPECT_EQ(reference.share_of_energy(3), 3);
+}
+
 /// Two masses on springs as stiff as rods, thrown high: a double pendulum, whose neighbours part
 /// e-fold within less than a second.
 constexpr const char* double_pendulum = R"(

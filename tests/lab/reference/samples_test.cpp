@@ -20,7 +20,7 @@ using oiler::test::line_of_error;
 
 Scene falling(std::int64_t rate, double duration, std::int64_t bodies = 1) {
     Scene scene;
-    scene.rate = rate;
+    scene.stepping.rate.steps = rate;
     scene.duration = duration;
     scene.gravity = {-9.81, 0, 0};
     scene.scatters = {{.count = bodies}};

@@ -40,7 +40,7 @@ const double omega = std::sqrt(15.0);
 /// The article's spring, looked at `rate` times a second where that is at most 60.
 Scene spring(std::int64_t rate, double duration, double damping = 0, double stiffness = 15) {
     Scene scene;
-    scene.rate = rate;
+    scene.stepping.rate.steps = rate;
     scene.duration = duration;
     scene.bodies = {{.position = {start_x, 0, 0}}};
     scene.springs = {{.stiffness = stiffness, .damping = damping}};
@@ -54,7 +54,7 @@ Reference reference_of(const Scene& scene) {
 }
 
 Settings with(const Method& method, std::int64_t rate) {
-    return {.rate = {rate}, .method = &method};
+    return {.method = &method, .rate = {rate}};
 }
 Settings with(const char* method, std::int64_t rate) { return with(find_method(method), rate); }
 
@@ -198,6 +198,21 @@ TEST(Judge, TellsNoEnergyThatIsRight) {
     EXPECT_TRUE(std::isnan(judgement.energy_drift)) << judgement.energy_drift;
 }
 
+// From rest at 0 m there is no energy to tell drifts by: 2 kg that fall for 2 s get to 400 J. After
+// n steps semi-implicit Euler is at −g·dt²·n(n + 1)/2, which is g·dt·t/2 too low: m·g²·dt·t/2 =
+// 10/3 J are missing in the end, and 1/120 of these 400 J.
+TEST(Judge, TellsEnergiesByTheMotionWhereTheStartHasNone) {
+    Scene scene;
+    scene.stepping.rate.steps = 60;
+    scene.duration = 2;
+    scene.gravity = {{-10, 0, 0}};
+    scene.bodies = {{.matter = {.mass = 2}}};
+    const Reference reference = reference_of(scene);
+    ASSERT_EQ(reference.looks.per_second, 60);
+    const Judgement judgement = judge(scene, with("semi_implicit_euler", 60), reference);
+    EXPECT_NEAR(judgement.energy_drift, 1 / 120.0, 1e-12);
+}
+
 TEST(Judge, DoesNotTellWhatItsReferenceCannot) {
     const Scene scene = spring(60, 10);
     const Reference reference = reference_of(scene);
@@ -271,7 +286,7 @@ TEST(Judge, TellsARunThatLeavesAllNumbers) {
     const Reference reference = make_reference(scene, {.per_second = 1, .count = 6}, {});
     Settings settings = with("explicit_euler", 61);
     expect_unstable(judge(scene, settings, reference));
-    settings.precision = Precision::single;
+    settings.stepping.precision = Precision::single;
     expect_unstable(judge(scene, settings, reference));
 }
 
@@ -329,7 +344,7 @@ TEST(Judge, CountsWholeCyclesAndLags) {
 
 TEST(Judge, TellsNoPhaseOfWhatDoesNotSwing) {
     Scene scene;
-    scene.rate = 60;
+    scene.stepping.rate.steps = 60;
     scene.duration = 2;
     scene.gravity = {-10, 0, 0};
     scene.bodies = {{.velocity = {10, 0, 0}}};
@@ -367,7 +382,7 @@ TEST(Judge, CountsEvaluations) {
     const Scene damped = spring(60, 10, 0.1);
     Settings settings = with("velocity_verlet", 60);
     EXPECT_EQ(evaluations_per_step(damped, settings), 1);
-    settings.damping = Damping::in_kick;
+    settings.stepping.damping = Damping::in_kick;
     EXPECT_EQ(evaluations_per_step(damped, settings), 2);
 }
 

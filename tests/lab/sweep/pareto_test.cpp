@@ -11,7 +11,7 @@ namespace oiler::test {
 namespace {
 
 TradeoffRow made_up(double error, double cost, bool stable = true) {
-    TradeoffRow row{.choice = {&find_method("rk4"), 1, Precision::double_}};
+    TradeoffRow row{.stepping = {&find_method("rk4"), 1, Precision::double_}};
     row.judgement.stable = stable;
     row.judgement.position_error = error;
     row.ns_per_second = cost;

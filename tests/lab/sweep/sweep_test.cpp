@@ -28,7 +28,7 @@ const Tradeoff& whole_sweep() {
 
 std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t looks, std::int64_t most) {
     Scene scene;
-    scene.rate = rate;
+    scene.stepping.rate.steps = rate;
     return rungs(scene, {.per_second = looks, .count = 2}, most);
 }
 
@@ -73,6 +73,18 @@ TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
     EXPECT_EQ(rungs_at(60, 60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
 }
 
+// A limit is a rung where it is a divisor of the samples, a power of two times them, or three
+// halves of one; the scene's own 1 Hz is one anyway.
+TEST(RungsAt, TheLimitItselfIsOne) {
+    for (const std::int64_t most : {2, 10, 30, 60, 120, 180, 240, 360, 480, 720, 960}) {
+        const std::vector<std::int64_t> all = rungs_at(1, 60, most);
+        EXPECT_EQ(all.back(), most);
+        EXPECT_LT(rungs_at(1, 60, most - 1).back(), most);
+        // The ladder below is the same.
+        EXPECT_EQ(std::vector(all.begin(), all.end() - 1), rungs_at(1, 60, most - 1));
+    }
+}
+
 // ---- sweeping
 
 TEST(Sweep, ClimbsEachLadderByTheRungs) {
@@ -80,12 +92,12 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
     EXPECT_TRUE(whole_sweep().complete());
     EXPECT_EQ(whole_sweep().ladders.size(), 12U);
     EXPECT_EQ(whole_sweep().today,
-              (SceneChoice{&find_method("semi_implicit_euler"), 100, Precision::double_}));
+              (Stepping{&find_method("semi_implicit_euler"), 100, Precision::double_}));
     for (const Ladder& ladder : whole_sweep().ladders) {
         EXPECT_FALSE(ladder.rows.empty());
         for (std::size_t i = 0; i < ladder.rows.size(); ++i) {
             EXPECT_EQ(ladder.rows[i].choice,
-                      (SceneChoice{ladder.method, rates[i], ladder.precision}));
+                      (Stepping{ladder.method, rates[i], ladder.precision}));
             EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().looks.per_second == 0);
         }
     }
@@ -95,8 +107,8 @@ TEST(Sweep, ClimbsEachLadderByTheRungs) {
 TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
     std::size_t count = 0;
     for (const TradeoffRow* row : whole_sweep().rows()) {
-        const Judgement alone = judge(spring().scene, settings_of(row->choice), spring().reference);
-        EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->choice);
+        const Judgement alone = judge(spring().scene, settings_of(row->stepping), spring().reference);
+        EXPECT_TRUE(same_errors(row->judgement, alone)) << named(row->stepping);
         ++count;
     }
     EXPECT_GT(count, 80U);
@@ -205,7 +217,7 @@ TEST(TimeRows, TimesWhatIsStableAndChangesNoError) {
     EXPECT_TRUE(tradeoff.timed());
     expect_same_errors(tradeoff, whole_sweep());
     for (const TradeoffRow* row : rows) {
-        EXPECT_EQ(std::isnan(row->ns_per_second), !row->judgement.stable) << named(row->choice);
+        EXPECT_EQ(std::isnan(row->ns_per_second), !row->judgement.stable) << named(row->stepping);
         EXPECT_FALSE(row->ns_per_second <= 0);
     }
 }
@@ -264,14 +276,26 @@ TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     const Ladder& ladder = tradeoff.ladders.front();
     EXPECT_EQ(ladder.end, "a run at higher rates is too much work");
     ASSERT_FALSE(ladder.rows.empty());
-    EXPECT_EQ(ladder.rows.back().choice.rate, 400);
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 400);
     EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
+}
+
+// Sampled 50 times a second: up to 1024 times as often, which is below 1,000,000 Hz.
+TEST(Ladder, GoesUpTo1024TimesTheSamplesWhereNoLimitIsGiven) {
+    SweepPlan plan{.methods = methods_of({"explicit_euler"}), .precisions = {Precision::double_}};
+    const MeasuredScene brief(one_axis + "duration = 2.0\n[[body]]\nposition = [1.0]\n" +
+                              "name = \"a\"\n[[spring]]\nbody = \"a\"\nanchor = [0.0]\n" +
+                              "stiffness = 15.0\n");
+    const Tradeoff tradeoff = swept(brief, plan);
+    const Ladder& ladder = tradeoff.ladders.front();
+    EXPECT_EQ(ladder.end, "no higher rates were asked for");
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 1024 * brief.looks.per_second);
 }
 
 TEST(Ladder, EndsWhereNoMoreIsAskedFor) {
     const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
     EXPECT_EQ(ladder.end, "no higher rates were asked for");
-    EXPECT_EQ(ladder.rows.back().choice.rate, 800);
+    EXPECT_EQ(ladder.rows.back().choice.rate.steps, 800);
 }
 
 TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {

@@ -38,7 +38,7 @@ Tradeoff hard_numbers() {
         ladder.done = i != 1;
         ladder.end = ladder.done ? "so" : "";
         for (int rate = 1; rate < 20 && ladder.done; ++rate) {
-            TradeoffRow row{.choice = {ladder.method, rate, ladder.precision},
+            TradeoffRow row{.stepping = {ladder.method, rate, ladder.precision},
                             .meets_steps = rate % 2 == 0,
                             .ns_per_second = std::exp(rate),
                             .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate};
@@ -113,9 +113,9 @@ TEST(TradeoffFile, IsATableToo) {
         const auto number = [&](const std::string& name) {
             return cell(name).empty() ? unknown : std::strtod(cell(name).c_str(), nullptr);
         };
-        EXPECT_EQ(cell("method"), row.choice.method->name);
-        EXPECT_EQ(cell("rate"), std::to_string(row.choice.rate));
-        EXPECT_EQ(cell("precision"), name_of(row.choice.precision));
+        EXPECT_EQ(cell("method"), row.stepping.method->name);
+        EXPECT_EQ(cell("rate"), std::to_string(row.stepping.rate.steps));
+        EXPECT_EQ(cell("precision"), name_of(row.stepping.precision));
         EXPECT_EQ(cell("stable"), row.judgement.stable ? "1" : "0");
         EXPECT_EQ(cell("meets_steps"), row.meets_steps ? "1" : "0");
         EXPECT_EQ(cell("below_floor"), row.judgement.below_floor() ? "1" : "0");

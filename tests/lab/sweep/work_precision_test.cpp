@@ -91,7 +91,7 @@ std::int64_t evaluations_to_meet(const Method& method, double target, std::int64
 /// Looked at once a second, so that rungs are 4/3 and 3/2 apart from 2 Hz on.
 std::vector<std::int64_t> lab_rungs() {
     oiler::Scene scene;
-    scene.rate = 1;
+    scene.stepping.rate.steps = 1;
     return oiler::rungs(scene, {.per_second = 1, .count = duration + 1}, 1 << 22);
 }
 

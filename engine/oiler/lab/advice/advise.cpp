@@ -20,8 +20,8 @@ std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) 
     std::vector<TradeoffRow> kept;
     for (const TradeoffRow& row : rows) {
         const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TradeoffRow& one) {
-            return one.choice.method == row.choice.method &&
-                   one.choice.precision == row.choice.precision;
+            return one.stepping.method == row.stepping.method &&
+                   one.stepping.precision == row.stepping.precision;
         });
         if (is_new && kept.size() < most_contenders) kept.push_back(row);
     }
@@ -34,13 +34,13 @@ public:
     Conclusion(const Scene& scene, const Reference& reference, const Wish& wish, Search& search)
         : scene_(scene), reference_(reference), wish_(wish), search_(search) {}
 
-    Advice run(const std::function<bool()>& stopped) {
+    Advice run(const SweepWatch& watch) {
         const bool found = wish_.has_tolerance() && !search_.good_rows().empty();
         front_ = contenders_among(found ? search_.good_rows() : search_.nearest_rows());
-        if (why_not(scene_, settings_of(scene_)).empty())
-            advice_.today = search_.try_choice(scene_.choice());
+        if (why_not(scene_, Settings{scene_.stepping}).empty())
+            advice_.today = search_.try_choice(scene_.stepping);
         for (const Method* method : obvious_methods()) consider(*method);
-        time(stopped);
+        time(watch);
         const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
             return a.ns_per_second < b.ns_per_second;
         };
@@ -57,13 +57,13 @@ private:
         const auto& asked = wish_.methods;
         if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
         Alternative alternative{.method = &method};
-        SceneChoice choice{&method, search_.rates().front(), Precision::double_};
-        alternative.why = why_not(scene_, settings_of(choice));
+        Stepping choice{&method, {search_.rates().front()}, Precision::double_};
+        alternative.why = why_not(scene_, Settings{choice});
         if (alternative.why.empty()) {
-            const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().choice);
+            const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
             for (const std::int64_t rate : search_.rates())
-                if (search_.cost_of({&method, rate, Precision::double_}) <= cost)
-                    choice.rate = rate;
+                if (search_.cost_of({&method, {rate}, Precision::double_}) <= cost)
+                    choice.rate.steps = rate;
             alternative.row = search_.try_choice(choice);
         }
         advice_.alternatives.push_back(std::move(alternative));
@@ -71,7 +71,7 @@ private:
     [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
         const Judgement& judgement = row.judgement;
         const double times = row.ns_per_second / advice_.best->ns_per_second;
-        const std::int64_t rate = row.choice.rate;
+        const std::int64_t rate = row.stepping.rate.steps;
         std::string text =
             times > 1.1 ? fmt::format("already at {} Hz it costs {:.3g} times as much", rate, times)
                         : fmt::format("for the same time it could run at {} Hz", rate);
@@ -84,32 +84,33 @@ private:
         const double off = excess(judgement, wish_);
         text += fmt::format(", and is {:.3g} times too far off", off);
         const bool falls = judgement.position_error < wild * reference_.extent;
-        if (falls && row.meets_steps && row.choice.method->order != exact_order)
+        if (falls && row.meets_steps && row.stepping.method->order != exact_order)
             text += fmt::format(
                 "; it would need some {:.2g} Hz",
-                static_cast<double>(rate) * std::pow(off, 1.0 / row.choice.method->order));
+                static_cast<double>(rate) * std::pow(off, 1.0 / row.stepping.method->order));
         return text;
     }
     /// Leaves out what is the advice itself, or the runner-up.
     void explain() {
         const auto named = [&](const Alternative& alternative) {
-            const bool is_best = alternative.method == advice_.best->choice.method;
+            const bool is_best = alternative.method == advice_.best->stepping.method;
             return is_best ||
-                   (advice_.runner_up && alternative.method == advice_.runner_up->choice.method);
+                   (advice_.runner_up && alternative.method == advice_.runner_up->stepping.method);
         };
         std::erase_if(advice_.alternatives, named);
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) alternative.why = why_worse(*alternative.row);
     }
 
-    void time(const std::function<bool()>& stopped) {
+    void time(const SweepWatch& whole) {
         std::vector<TradeoffRow*> rows;
         for (TradeoffRow& row : front_) rows.push_back(&row);
         if (advice_.today) rows.push_back(&*advice_.today);
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) rows.push_back(&*alternative.row);
-        SweepWatch watch;
-        watch.stopped = stopped;
+        // The search alone shows its progress.
+        SweepWatch watch = whole;
+        watch.progress = [](double) {};
         time_rows(scene_, rows, timing_rounds, watch);
     }
 
@@ -127,7 +128,7 @@ private:
                               [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
         for (const TradeoffRow& row : front_)
-            if (row.choice.method != advice_.best->choice.method && !advice_.runner_up)
+            if (row.stepping.method != advice_.best->stepping.method && !advice_.runner_up)
                 advice_.runner_up = row;
         const bool near = lab::meets(advice_.best->judgement, wish_);
         advice_.meets = near && in_time(*advice_.best);
@@ -147,13 +148,13 @@ private:
                 continue;
             }
             const auto row = std::find_if(nearest.begin(), nearest.end(), [&](const auto& one) {
-                return one.choice.precision == precision;
+                return one.stepping.precision == precision;
             });
             if (row == nearest.end()) continue;
             advice_.obstacles.push_back(fmt::format(
                 "in {} nothing comes nearer than {}, with {:.3g} times the {} that is asked for: "
                 "higher rates, up to {} Hz, only round more often or are too much work",
-                name_of(precision), words_of(row->choice), excess(row->judgement, wish_),
+                name_of(precision), words_of(row->stepping), excess(row->judgement, wish_),
                 wish_.position_error ? "error" : "energy drift", search_.rates().back()));
         }
     }
@@ -203,7 +204,7 @@ Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
     Search search(scene, reference, wish, watch);
     search.run();
     if (watch.stopped()) return {};
-    return Conclusion(scene, reference, wish, search).run(watch.stopped);
+    return Conclusion(scene, reference, wish, search).run(watch);
 }
 
 }  // namespace oiler::lab

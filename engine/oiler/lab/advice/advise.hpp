@@ -59,6 +59,6 @@ void require_judgeable(const Scene& scene, const Reference& reference, const Wis
                                                 const Reference& reference, const Wish& wish);
 
 /// "rk4 at 60 Hz in double"
-[[nodiscard]] std::string words_of(const SceneChoice& choice);
+[[nodiscard]] std::string words_of(const Stepping& choice);
 
 }  // namespace oiler::lab

@@ -49,7 +49,7 @@ std::string wish_words(const Wish& wish) {
 std::string conclusion(const Advice& advice, const Reference& reference, const Wish& wish) {
     if (!advice.best) return fmt::format("Nothing keeps within {}.", wish_words(wish));
     const std::string what =
-        fmt::format("{}: {}, {}{}", words_of(advice.best->choice),
+        fmt::format("{}: {}, {}{}", words_of(advice.best->stepping),
                     error_words(advice.best->judgement, reference), cost_words(*advice.best),
                     wish.ns_per_second
                         ? fmt::format(", {:.3g} µs per frame", advice.best->ns_per_second / 60'000)
@@ -63,17 +63,17 @@ std::string conclusion(const Advice& advice, const Reference& reference, const W
 
 std::string beside(const char* role, const TradeoffRow& row, const Advice& advice,
                    const Reference& reference) {
-    if (!row.judgement.stable) return fmt::format("{}: {}, unstable.", role, words_of(row.choice));
+    if (!row.judgement.stable) return fmt::format("{}: {}, unstable.", role, words_of(row.stepping));
     const double times = row.ns_per_second / advice.best->ns_per_second;
-    return fmt::format("{}: {}, {}, {}{}.", role, words_of(row.choice),
+    return fmt::format("{}: {}, {}, {}{}.", role, words_of(row.stepping),
                        error_words(row.judgement, reference), cost_words(row),
                        std::isfinite(times) ? fmt::format(", {:.3g} times the cost", times) : "");
 }
 
 }  // namespace
 
-std::string words_of(const SceneChoice& choice) {
-    return fmt::format("{} at {} Hz in {}", choice.method->name, choice.rate,
+std::string words_of(const Stepping& choice) {
+    return fmt::format("{} at {} Hz in {}", choice.method->name, choice.rate.steps,
                        name_of(choice.precision));
 }
 

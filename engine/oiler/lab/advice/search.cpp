@@ -59,7 +59,7 @@ Search::Search(const Scene& scene, const Reference& reference, const Wish& wish,
     for (const Method* method : wish.methods)
         for (const Precision precision : {Precision::single, Precision::double_})
             if (!(precision == Precision::single && too_coarse_float_) &&
-                why_not(scene, settings_of({method, rungs_.back(), precision})).empty())
+                why_not(scene, Settings{{method, {rungs_.back()}, precision}}).empty())
                 add_candidate(*method, precision);
 }
 
@@ -69,12 +69,12 @@ void Search::add_candidate(const Method& method, Precision precision) {
     constexpr std::int64_t many = 64;
     constexpr double dear = 5e6;  // ns, beside which calling is nothing
     Candidate candidate{.method = &method, .precision = precision};
-    candidate.alone = candidate.together = ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.alone = candidate.together = watch_.ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.alone)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until();
     if (candidate.alone < dear)
         candidate.together =
-            std::min(candidate.alone, ns_per_step(scene_, candidate.at(rate), many));
+            std::min(candidate.alone, watch_.ns_per_step(scene_, candidate.at(rate), many));
     candidates_.push_back(candidate);
 }
 
@@ -83,12 +83,12 @@ void Search::run() {
     if (wish_.has_tolerance()) refine();
 }
 
-TradeoffRow Search::try_choice(const SceneChoice& choice) {
+TradeoffRow Search::try_choice(const Stepping& choice) {
     for (const TradeoffRow& row : rows_)
-        if (row.choice == choice) return row;
-    rows_.push_back({.choice = choice,
-                     .judgement = judge(scene_, settings_of(choice), reference_, watch_.stopped),
-                     .meets_steps = reference_.looks.meet_steps(choice.rate)});
+        if (row.stepping == choice) return row;
+    rows_.push_back({.stepping = choice,
+                     .judgement = judge(scene_, Settings{choice}, reference_, watch_.stopped),
+                     .meets_steps = reference_.looks.meet_steps(choice.rate.steps)});
     return rows_.back();
 }
 
@@ -98,9 +98,9 @@ TradeoffRow Search::try_next(const Candidate& candidate) {
 
 bool Search::good(const TradeoffRow& row) const { return meets(row.judgement, wish_, spared); }
 
-double Search::cost_of(const SceneChoice& choice) const {
+double Search::cost_of(const Stepping& choice) const {
     for (const Candidate& candidate : candidates_)
-        if (candidate.at(choice.rate) == choice) return candidate.cost(choice.rate);
+        if (candidate.at(choice.rate.steps) == choice) return candidate.cost(choice.rate.steps);
     return INFINITY;
 }
 
@@ -120,11 +120,11 @@ Search::Candidate* Search::cheapest_next() {
 /// should.
 std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& row,
                                 double excess) const {
-    const std::int64_t next = row.choice.rate + 1;
+    const std::int64_t next = row.stepping.rate.steps + 1;
     const bool falls = row.judgement.position_error < wild * reference_.extent;
     if (!falls || excess <= 1) return next;
     const double order = candidate.method->order + 1;
-    return std::max(next, static_cast<std::int64_t>(static_cast<double>(row.choice.rate) *
+    return std::max(next, static_cast<std::int64_t>(static_cast<double>(row.stepping.rate.steps) *
                                                     std::pow(excess, 1 / order)));
 }
 
@@ -134,11 +134,11 @@ bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
 
 /// To the next rung that is worth a run, if any.
 void Search::go_on(Candidate& candidate, const TradeoffRow& row, double excess) {
-    std::int64_t least = row.choice.rate + 1;
+    std::int64_t least = row.stepping.rate.steps + 1;
     if (row.judgement.stable && row.meets_steps) {
         const double error = row.judgement.position_error;
         candidate.descent.take(error);
-        candidate.tried = row.choice.rate;
+        candidate.tried = row.stepping.rate.steps;
         candidate.error = error;
         const bool only_rounding = candidate.method->order == exact_order;
         candidate.over = only_rounding || candidate.descent.ended();
@@ -164,8 +164,8 @@ void Search::find_cheapest() {
         }
         next->over = true;
         first = std::min(first, cost);
-        if (!first_method) first_method = row.choice.method;
-        has_second = has_second || row.choice.method != first_method;
+        if (!first_method) first_method = row.stepping.method;
+        has_second = has_second || row.stepping.method != first_method;
     }
     if (!first_method) try_highest();
 }
@@ -182,7 +182,7 @@ void Search::tell_progress() const {
 /// are worth their work.
 void Search::try_highest() {
     constexpr std::size_t most = 3;
-    std::vector<std::pair<double, SceneChoice>> highest;
+    std::vector<std::pair<double, Stepping>> highest;
     for (const Candidate& candidate : candidates_) {
         std::int64_t rate = candidate.tried;
         for (const std::int64_t rung : rungs_)
@@ -225,16 +225,16 @@ void Search::refine() {
 
 /// Between the rung that does and the one below: multiples of how often is looked.
 void Search::refine(const TradeoffRow& row) {
-    const auto rung = std::find(rungs_.begin(), rungs_.end(), row.choice.rate);
+    const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
     if (rung == rungs_.begin()) return;
     const std::int64_t unit = reference_.looks.per_second;
-    std::int64_t low = std::max(*std::prev(rung), wish_.min_rate - 1) / unit;
-    std::int64_t high = row.choice.rate / unit;
-    SceneChoice choice = row.choice;
+    std::int64_t low = *std::prev(rung) / unit;
+    std::int64_t high = row.stepping.rate.steps / unit;
+    Stepping choice = row.stepping;
     // A thirty-second part of the rate is worth no more runs.
     while (high - low > std::max<std::int64_t>(1, high / 32) && !watch_.stopped()) {
         const std::int64_t middle = (low + high) / 2;
-        choice.rate = middle * unit;
+        choice.rate.steps = middle * unit;
         (good(try_choice(choice)) ? high : low) = middle;
     }
 }
@@ -244,7 +244,7 @@ std::vector<TradeoffRow> Search::good_rows() const {
     for (const TradeoffRow& row : rows_)
         if (good(row)) found.push_back(row);
     std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
-        return cost_of(a.choice) < cost_of(b.choice);
+        return cost_of(a.stepping) < cost_of(b.stepping);
     });
     return found;
 }
@@ -258,7 +258,7 @@ std::vector<TradeoffRow> Search::nearest_rows() const {
     for (const TradeoffRow& row : rows_)
         if (row.judgement.stable) found.push_back(row);
     std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
-        return std::pair(off(a), cost_of(a.choice)) < std::pair(off(b), cost_of(b.choice));
+        return std::pair(off(a), cost_of(a.stepping)) < std::pair(off(b), cost_of(b.stepping));
     });
     return found;
 }

@@ -21,9 +21,9 @@ public:
     void run();
 
     /// Judged once.
-    TradeoffRow try_choice(const SceneChoice& choice);
+    TradeoffRow try_choice(const Stepping& choice);
     /// An estimate in ns for a second of the scene.
-    [[nodiscard]] double cost_of(const SceneChoice& choice) const;
+    [[nodiscard]] double cost_of(const Stepping& choice) const;
     /// With a little to spare, since an independent run may look elsewhere.
     [[nodiscard]] bool good(const TradeoffRow& row) const;
 
@@ -52,7 +52,7 @@ private:
         double error = unknown;  ///< m, there
         bool over = false;
 
-        [[nodiscard]] SceneChoice at(std::int64_t rate) const { return {method, rate, precision}; }
+        [[nodiscard]] Stepping at(std::int64_t rate) const { return {method, {rate}, precision}; }
         [[nodiscard]] double cost(std::int64_t rate) const;
     };
 

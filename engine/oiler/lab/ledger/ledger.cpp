@@ -111,7 +111,7 @@ void time_passes(Ledger& ledger, const Scene& scene, const std::vector<const Sce
 Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress) {
     require(steps >= 2, "a ledger takes two steps at least");
     Ledger ledger;
-    const World world = make_world(scene, settings_of(scene));
+    const World world = make_world(scene, Settings{scene.stepping});
     const auto forces = enter_columns(ledger, world.bodies());
     if (ledger.bodies == 0) return ledger;
     const std::vector<Leaving> all = leavings(scene, forces, ledger.links > 0);

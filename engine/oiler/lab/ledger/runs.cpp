@@ -31,7 +31,7 @@ constexpr double comparing_share = 0.6;
 /// Steps a world that may diverge.
 class Rival {
 public:
-    explicit Rival(const Scene& scene) : world_(make_world(scene, settings_of(scene))) {
+    explicit Rival(const Scene& scene) : world_(make_world(scene, Settings{scene.stepping})) {
         world_.require_applicable();
     }
 
@@ -130,7 +130,7 @@ std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t s
                          const LedgerProgress& progress) {
     std::vector<World> starts;
     for (const Scene* scene : scenes) {
-        starts.push_back(make_world(*scene, settings_of(*scene)));
+        starts.push_back(make_world(*scene, Settings{scene->stepping}));
         starts.back().step();
     }
     std::vector<double> least(starts.size(), INFINITY);

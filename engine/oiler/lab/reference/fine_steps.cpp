@@ -120,7 +120,7 @@ private:
         return method_.order + static_cast<int>(k) * (method_.symmetric ? 2 : 1);
     }
     [[nodiscard]] std::optional<Track> run(std::int64_t rate) const {
-        Follower follower(scene_, settings_of({&method_, rate, Precision::extended}),
+        Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}},
                           looks_.per_second);
         Track track{.bodies = follower.bodies().size()};
         for (std::int64_t look = 0; look < looks_.count; ++look) {

@@ -106,7 +106,7 @@ public:
     Making(const Scene& scene, const Looks& looks, const ReferenceEffort& effort)
         : scene_(scene),
           effort_(effort),
-          start_(make_world(scene, settings_of({scene.method, scene.rate, Precision::extended}))
+          start_(make_world(scene, Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}})
                      .bodies()) {
         reference_.looks = looks;
     }
@@ -175,7 +175,7 @@ private:
         const double most = std::max(
             resolution * extent_of(fine.track),
             margin * std::numeric_limits<double>::epsilon() * largest_coordinate(fine.track));
-        Follower follower(scene_, settings_of({fine.method, fine.rate, Precision::double_}),
+        Follower follower(scene_, Settings{{fine.method, {fine.rate}, Precision::double_}},
                           reference_.looks.per_second);
         for (std::int64_t look = 0; look < reference_.looks.count && !effort_.stopped(); ++look) {
             if (!follower.go_to(look)) return look;
@@ -259,7 +259,7 @@ Reference make_reference(const Scene& scene, const Looks& looks, const Reference
 }
 
 Work::Work(const Scene& scene) {
-    const Bodies bodies = make_world(scene, settings_of(scene)).bodies();
+    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     const auto size = static_cast<double>(bodies.size());
     const auto links = static_cast<double>(bodies.link_count());
     per_evaluation_ = size + links;

@@ -56,12 +56,12 @@ Looks looks_of(const Scene& scene) {
     if (!(scene.duration > 0) || scene.duration > longest)
         fail(Exit::usage, "a duration of {} s cannot be measured: give --duration from 0 to {:g} s",
              scene.duration, longest);
-    if (scene.duration * static_cast<double>(scene.rate) < 1)
+    if (scene.duration * static_cast<double>(scene.stepping.rate.steps) < 1)
         fail(Exit::usage, "the scene ends within one of its steps: give a longer --duration");
     const double affordable =
         most_states / static_cast<double>(std::max<std::int64_t>(1, bodies)) / scene.duration;
     const double wanted = std::max(usual_looks_per_second, fewest_looks / scene.duration);
-    Looks looks{.per_second = largest_divisor(look_rate(scene.rate, wanted), affordable)};
+    Looks looks{.per_second = largest_divisor(look_rate(scene.stepping.rate.steps, wanted), affordable)};
     const double states =
         static_cast<double>(bodies) * scene.duration * static_cast<double>(looks.per_second);
     if (states > most_kept_states)
@@ -79,7 +79,7 @@ Follower::Follower(const Scene& scene, const Settings& settings, std::int64_t lo
 }
 
 bool Follower::go_to(std::int64_t look) {
-    const std::int64_t product = look * world_.settings().rate.steps;
+    const std::int64_t product = look * world_.settings().stepping.rate.steps;
     const std::int64_t tick = product / looks_per_second_;
     alpha_ = static_cast<long double>(product % looks_per_second_) /
              static_cast<long double>(looks_per_second_);

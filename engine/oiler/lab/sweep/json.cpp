@@ -31,14 +31,14 @@ Json json_of(const Machine& machine) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-Json json_of(const SceneChoice& choice) {
+Json json_of(const Stepping& choice) {
     return {{"method", choice.method->name},
-            {"rate", choice.rate},
+            {"rate", choice.rate.steps},
             {"precision", name_of(choice.precision)}};
 }
 
 Json json_of(const TradeoffRow& row) {
-    Json json = json_of(row.choice);
+    Json json = json_of(row.stepping);
     json["stable"] = row.judgement.stable;
     json["meets_steps"] = row.meets_steps;
     json["below_floor"] = row.judgement.below_floor();

@@ -25,7 +25,7 @@ inline constexpr RowNumber row_numbers[]{
 
 /// Null for what is not finite.
 [[nodiscard]] Json number_or_null(double value);
-[[nodiscard]] Json json_of(const SceneChoice& choice);
+[[nodiscard]] Json json_of(const Stepping& choice);
 [[nodiscard]] Json json_of(const TradeoffRow& row);
 [[nodiscard]] Json json_of(const Tradeoff& tradeoff);
 

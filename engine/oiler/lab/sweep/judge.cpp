@@ -76,7 +76,7 @@ bool gets_lost(const Scene& scene, const Settings& settings, const Reference& re
     World world = make_world(scene, settings);
     world.require_applicable();
     const auto steps = static_cast<std::int64_t>(reference.meaningful_until() *
-                                                 static_cast<double>(settings.rate.steps));
+                                                 static_cast<double>(settings.stepping.rate.steps));
     for (std::int64_t tick = 0; tick < steps && !stopped(); ++tick) {
         if (world.try_step()) return true;
         for (std::size_t row = 0; row < reference.track.bodies; ++row)
@@ -91,7 +91,7 @@ bool gets_lost(const Scene& scene, const Settings& settings, const Reference& re
 
 Judgement judge(const Scene& scene, const Settings& settings, const Reference& reference,
                 const std::function<bool()>& stopped) {
-    if (settings.rate.steps < reference.looks.per_second &&
+    if (settings.stepping.rate.steps < reference.looks.per_second &&
         gets_lost(scene, settings, reference, stopped))
         return {.stable = false};
     Follower follower(scene, settings, reference.looks.per_second);
@@ -101,7 +101,7 @@ Judgement judge(const Scene& scene, const Settings& settings, const Reference& r
     Judgement judgement = notes.judgement();
     judgement.evaluations =
         evaluations_per_step(scene, settings) *
-        std::ceil(reference.meaningful_until() * static_cast<double>(settings.rate.steps));
+        std::ceil(reference.meaningful_until() * static_cast<double>(settings.stepping.rate.steps));
     return judgement;
 }
 
@@ -120,17 +120,17 @@ std::vector<const Method*> obvious_methods() {
 }
 
 std::vector<const Method*> usual_methods(const Scene& scene) {
-    std::vector<const Method*> usual{scene.method};
+    std::vector<const Method*> usual{scene.stepping.method};
     for (const Method* method : obvious_methods())
-        if (method != scene.method &&
-            why_not(scene, settings_of({method, scene.rate, scene.precision})).empty())
+        if (method != scene.stepping.method &&
+            why_not(scene, Settings{{method, scene.stepping.rate, scene.stepping.precision}}).empty())
             usual.push_back(method);
     return usual;
 }
 
 double evaluations_per_step(const Scene& scene, const Settings& settings) {
     // An implicit method looks for each solution as long as it takes.
-    const std::int64_t steps = settings.method->evaluations > 0 ? 1 : 16;
+    const std::int64_t steps = settings.stepping.method->evaluations > 0 ? 1 : 16;
     const World start = make_world(scene, settings);
     const auto after = [&](std::int64_t count) {
         World world = start;

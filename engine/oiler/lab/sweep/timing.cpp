@@ -36,8 +36,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 }  // namespace
 
 // Runs start over when the scene ends, since what is stable up to then may not be afterwards.
-double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t at_once) try {
-    World start = make_world(scene, settings_of(choice));
+double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t at_once) try {
+    World start = make_world(scene, Settings{choice});
     if (start.try_step()) return unknown;
     if (at_once > 1) {
         World probe = start;
@@ -47,7 +47,7 @@ double ns_per_step(const Scene& scene, const SceneChoice& choice, std::int64_t a
             at_once = std::max<std::int64_t>(1, std::llround(most));
     }
     const auto last = std::max<std::int64_t>(
-        1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate)));
+        1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
     double seconds = 0;
     std::int64_t steps = 0;
     while (seconds < shortest) {
@@ -65,11 +65,6 @@ std::int64_t steps_at_once(std::int64_t rate) {
     return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_at_once);
 }
 
-double time_once(const Scene& scene, const SceneChoice& choice) {
-    return ns_per_step(scene, choice, steps_at_once(choice.rate)) *
-           static_cast<double>(choice.rate);
-}
-
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch) {
     std::vector<TradeoffRow*> stable;
@@ -77,11 +72,15 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
         if (row->judgement.stable) stable.push_back(row);
     std::vector<std::vector<double>> times(stable.size());
     const auto all = static_cast<double>(stable.size()) * rounds;
+    const auto ns_per_second = [&](const Stepping& choice) {
+        return watch.ns_per_step(scene, choice, steps_at_once(choice.rate.steps)) *
+               static_cast<double>(choice.rate.steps);
+    };
     double done = 0;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < stable.size(); ++i) {
             if (watch.stopped()) return;
-            times[i].push_back(time_once(scene, stable[i]->choice));
+            times[i].push_back(ns_per_second(stable[i]->stepping));
             watch.progress(++done / all);
         }
     for (std::size_t i = 0; i < stable.size(); ++i) {

@@ -29,7 +29,7 @@ public:
     /// Leaves the ladder as it was where it was stopped.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
-        std::string end = why_not(scene_, settings_of(choice(rungs_.front())));
+        std::string end = why_not(scene_, Settings{choice(rungs_.front())});
         const double work_per_hertz =
             work_.per_step(*ladder_.method) * reference_.meaningful_until();
         Descent descent;
@@ -40,8 +40,8 @@ public:
                 break;
             }
             rows.push_back(
-                {.choice = choice(rate),
-                 .judgement = judge(scene_, settings_of(choice(rate)), reference_, stopped),
+                {.stepping = choice(rate),
+                 .judgement = judge(scene_, Settings{choice(rate)}, reference_, stopped),
                  .meets_steps = reference_.looks.meet_steps(rate)});
             if (stopped()) return;
             const Judgement& judgement = rows.back().judgement;
@@ -56,8 +56,8 @@ public:
     }
 
 private:
-    [[nodiscard]] SceneChoice choice(std::int64_t rate) const {
-        return {ladder_.method, rate, ladder_.precision};
+    [[nodiscard]] Stepping choice(std::int64_t rate) const {
+        return {ladder_.method, {rate}, ladder_.precision};
     }
 
     Ladder& ladder_;
@@ -120,9 +120,9 @@ std::vector<const TradeoffRow*> Tradeoff::rows() const {
     return all;
 }
 
-const TradeoffRow* Tradeoff::find(const SceneChoice& choice) const {
+const TradeoffRow* Tradeoff::find(const Stepping& choice) const {
     for (const TradeoffRow* row : rows())
-        if (row->choice == choice) return row;
+        if (row->stepping == choice) return row;
     return nullptr;
 }
 
@@ -164,7 +164,7 @@ std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks, std::int
         if (rate > looks.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
     }
     all.erase(all.upper_bound(max_rate), all.end());
-    all.insert(scene.rate);
+    all.insert(scene.stepping.rate.steps);
     return {all.begin(), all.end()};
 }
 
@@ -174,7 +174,7 @@ Tradeoff start_tradeoff(const Scene& scene, const Looks& looks, const Reference&
                       .title = scene.title,
                       .fingerprint = {},
                       .duration = scene.duration,
-                      .today = scene.choice(),
+                      .today = scene.stepping,
                       .looks = looks,
                       .reference = summary(reference),
                       .machines = {this_machine()}};

@@ -13,7 +13,7 @@ namespace oiler::lab {
 
 /// One way to step a scene: what it is wrong by and what it costs.
 struct TradeoffRow {
-    SceneChoice choice{};
+    Stepping stepping{};
     Judgement judgement{};
     bool meets_steps = true;         ///< at every look, so that nothing is drawn between steps
     double ns_per_second = unknown;  ///< of computing for a second of the scene: a median
@@ -60,7 +60,7 @@ struct Tradeoff {
     std::string title;
     std::string fingerprint;  ///< of the scene's file and all that decides on errors
     double duration = 0;      ///< s
-    SceneChoice today{};      ///< the scene's own choice
+    Stepping today{};      ///< the scene's own choice
     Looks looks{};
     ReferenceSummary reference{};
     std::vector<Machine> machines{};
@@ -70,7 +70,7 @@ struct Tradeoff {
     /// Nothing of them was left out, and all that are stable were timed.
     [[nodiscard]] bool timed() const;
     [[nodiscard]] std::vector<const TradeoffRow*> rows() const;
-    [[nodiscard]] const TradeoffRow* find(const SceneChoice& choice) const;
+    [[nodiscard]] const TradeoffRow* find(const Stepping& choice) const;
 };
 
 /// A row's cost, by which a diagram is drawn: lower is better.
@@ -89,11 +89,21 @@ using Cost = double (*)(const TradeoffRow& row);
 [[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks,
                                               std::int64_t max_rate);
 
+/// Measures the cost of one step in ns, where one call takes `at_once` steps, or fewer where a call
+/// takes long. Returns `unknown` for an unstable run.
+[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
+                                 std::int64_t at_once);
+/// How often a game that shows 60 frames per second steps in a call, but for very high rates.
+[[nodiscard]] std::int64_t steps_at_once(std::int64_t rate);
+
 /// How a sweep tells its caller how far it is, may be stopped, and hands over what is done.
 struct SweepWatch {
     std::function<void(double share)> progress = [](double) {};
     std::function<bool()> stopped = [] { return false; };
     std::function<void(const Tradeoff&)> ladder_done = [](const Tradeoff&) {};
+    /// Measures all costs; tests give costs of their own.
+    std::function<double(const Scene&, const Stepping&, std::int64_t at_once)> ns_per_step =
+        lab::ns_per_step;
 };
 
 /// All ladders of the plan, none climbed.
@@ -110,14 +120,6 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
 /// frames per second.
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch);
-
-/// In ns for a second of the scene, once.
-[[nodiscard]] double time_once(const Scene& scene, const SceneChoice& choice);
-/// Once, where the world is stepped so often in a call, or less where a call takes long.
-[[nodiscard]] double ns_per_step(const Scene& scene, const SceneChoice& choice,
-                                 std::int64_t at_once);
-/// How often a game that shows 60 frames per second steps in a call, but for very high rates.
-[[nodiscard]] std::int64_t steps_at_once(std::int64_t rate);
 
 /// The ladders of parts of one sweep. Throws Error{usage} where they are not of the same one, or
 /// some are missing.

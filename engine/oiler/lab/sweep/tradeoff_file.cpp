@@ -26,13 +26,14 @@ Precision to_precision(const std::string& name) {
     fail(Exit::usage, "no precision is called {}: float or double", name);
 }
 
-SceneChoice to_choice(const Parsed& json) {
-    return {&find_method(json.at("method").get<std::string>()), json.at("rate"),
+Stepping to_stepping(const Parsed& json) {
+    return {&find_method(json.at("method").get<std::string>()),
+            {json.at("rate").get<std::int64_t>()},
             to_precision(json.at("precision"))};
 }
 
 TradeoffRow to_row(const Parsed& json) {
-    TradeoffRow row{.choice = to_choice(json), .meets_steps = json.at("meets_steps")};
+    TradeoffRow row{.stepping = to_stepping(json), .meets_steps = json.at("meets_steps")};
     row.judgement.stable = json.at("stable");
     for (const RowNumber& number : row_numbers) number.of(row) = to_number(json.at(number.name));
     return row;
@@ -56,7 +57,7 @@ Tradeoff from_json(const Parsed& json) {
                       .title = json.at("title"),
                       .fingerprint = json.at("fingerprint"),
                       .duration = json.at("duration"),
-                      .today = to_choice(json.at("today")),
+                      .today = to_stepping(json.at("today")),
                       .looks = {json.at("looks_per_second"), json.at("looks")},
                       .reference = to_reference(json.at("reference"))};
     for (const Parsed& machine : json.at("machines"))
@@ -70,7 +71,7 @@ Tradeoff from_json(const Parsed& json) {
     for (const Parsed& json_row : json.at("rows")) {
         const TradeoffRow row = to_row(json_row);
         for (Ladder& ladder : tradeoff.ladders)
-            if (ladder.method == row.choice.method && ladder.precision == row.choice.precision)
+            if (ladder.method == row.stepping.method && ladder.precision == row.stepping.precision)
                 ladder.rows.push_back(row);
     }
     return tradeoff;
@@ -104,8 +105,8 @@ std::string to_csv(const Tradeoff& tradeoff) {
     for (const TradeoffRow* found : tradeoff.rows()) {
         TradeoffRow row = *found;
         const bool best = std::find(front.begin(), front.end(), found) != front.end();
-        text += fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.choice.method->name,
-                            row.choice.rate, name_of(row.choice.precision), row.judgement.stable,
+        text += fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.stepping.method->name,
+                            row.stepping.rate.steps, name_of(row.stepping.precision), row.judgement.stable,
                             row.meets_steps, row.judgement.below_floor(), best);
         for (const RowNumber& number : row_numbers)
             text += fmt::format(",{}", cell(number.of(row)));

@@ -46,7 +46,7 @@ Range decades(double low, double high) {
 std::vector<const TradeoffRow*> rows_of(const Tradeoff& tradeoff, const Method* method) {
     std::vector<const TradeoffRow*> rows;
     for (const TradeoffRow* row : tradeoff.rows())
-        if (row->choice.method == method && row->choice.precision == Precision::double_ &&
+        if (row->stepping.method == method && row->stepping.precision == Precision::double_ &&
             row->judgement.stable)
             rows.push_back(row);
     return rows;
@@ -112,8 +112,8 @@ private:
             write(left,
                   error < 1e-3 ? fmt::format("{:.0e} m", error) : fmt::format("{:g} m", error));
             write(left + 36,
-                  fmt::format("{} {} Hz{} {:.4g}", (*row)->choice.method->name, (*row)->choice.rate,
-                              (*row)->choice.precision == Precision::single ? " float:" : ":",
+                  fmt::format("{} {} Hz{} {:.4g}", (*row)->stepping.method->name, (*row)->stepping.rate.steps,
+                              (*row)->stepping.precision == Precision::single ? " float:" : ":",
                               axis_.of(**row) / axis_.unit));
         }
     }
@@ -136,7 +136,7 @@ private:
     void add_today() {
         const TradeoffRow* const today = tradeoff_.find(tradeoff_.today);
         if (!today || !today->judgement.stable) return;
-        Series series{.name = fmt::format("today: {} Hz", tradeoff_.today.rate),
+        Series series{.name = fmt::format("today: {} Hz", tradeoff_.today.rate.steps),
                       .colour = palette::black,
                       .mark = Mark::square};
         add(series, *today);
@@ -170,7 +170,7 @@ std::vector<const Method*> notable_methods(const Tradeoff& tradeoff) {
     for (const Method* method : obvious_methods())
         if (has_rows(method)) add_if_new(methods, method);
     std::map<const Method*, int> best;
-    for (const TradeoffRow* row : pareto(tradeoff, time_of)) ++best[row->choice.method];
+    for (const TradeoffRow* row : pareto(tradeoff, time_of)) ++best[row->stepping.method];
     std::vector<std::pair<int, const Method*>> order;
     for (const Method& method : oiler::methods())
         if (best.contains(&method)) order.emplace_back(-best[&method], &method);
@@ -186,7 +186,7 @@ Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis) {
 }
 
 Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Reference& reference,
-                         const std::vector<SceneChoice>& choices) {
+                         const std::vector<Stepping>& choices) {
     Plot plot{
         .box = plot_box,
         .title =
@@ -194,7 +194,7 @@ Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Ref
         .caption = fmt::format(
             "How far the energy is from the reference's at {} Hz, the largest so far; below {:.1e} "
             "nothing is told.",
-            choices.front().rate, reference.floor().energy),
+            choices.front().rate.steps, reference.floor().energy),
         .x_label = "time, s",
         .y_label = "relative energy drift",
         .x = {0, reference.meaningful_until()},
@@ -207,7 +207,7 @@ Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Ref
         Series series{.name = std::string(choices[i].method->name),
                       .colour = looks[i].colour,
                       .dashed = i % 2 == 1};
-        Follower follower(scene, settings_of(choices[i]), reference.looks.per_second);
+        Follower follower(scene, Settings{choices[i]}, reference.looks.per_second);
         double most = 0;
         for (std::int64_t look = 0; look < reference.meaningful && follower.go_to(look); ++look) {
             const double off =

@@ -29,6 +29,6 @@ struct CostAxis {
 /// reference's scale.
 [[nodiscard]] Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff,
                                        const Reference& reference,
-                                       const std::vector<SceneChoice>& choices);
+                                       const std::vector<Stepping>& choices);
 
 }  // namespace oiler::lab

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "house/rules.hpp"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "house/plan.hpp"
+#include "house/scan.hpp"
+
+namespace oiler::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Row* find_row(const std::string& place) {
+    const auto row = std::find_if(plan.begin(), plan.end(),
+                                  [&](const Row& candidate) { return candidate.place == place; });
+    return row == plan.end() ? nullptr : &*row;
+}
+
+bool has_floors(const std::string& room) {
+    return std::any_of(plan.begin(), plan.end(),
+                       [&](const Row& row) { return row.place.starts_with(room + "/"); });
+}
+
+bool lists(const Row& row, const std::string& place) {
+    std::istringstream words{std::string(row.may_include)};
+    for (std::string word; words >> word;)
+        if (word == place) return true;
+    return false;
+}
+
+/// Whether a file at the place `from` may include `header` (without "oiler/").
+bool may_include(const std::string& from, const fs::path& header) {
+    const std::string to = place_of(header);
+    if (from == to) return true;
+    const bool same_room = room_of(from) == room_of(to);
+    const Row* row = find_row(same_room ? from : room_of(from));
+    if (row == nullptr) return false;
+    return same_room ? lists(*row, to) || lists(*row, header.string()) : lists(*row, room_of(to));
+}
+
+bool is_window_or_gl(const std::string& header) {
+    const std::string top = fs::path(header).begin()->string();
+    return top.starts_with("SDL") || top == "GL" || top == "EGL" || top == "GLES3" ||
+           header == "osmesa.h";
+}
+
+bool is_provider(const fs::path& file) {
+    return std::find(providers.begin(), providers.end(), file.string()) != providers.end();
+}
+
+/// Whether a header is included as "oiler/…".
+bool is_ours(const fs::path& header) { return *header.begin() == "oiler"; }
+
+fs::path below_oiler(const fs::path& path) { return path.lexically_relative("oiler"); }
+
+/// Walks `graph` depth first from `node`; `path` ends with the circle once one is found.
+bool walk(const Graph& graph, const std::string& node, std::vector<std::string>& path,
+          std::set<std::string>& done) {
+    const bool closes = std::find(path.begin(), path.end(), node) != path.end();
+    if (done.count(node) == 1 && !closes) return false;
+    path.push_back(node);
+    if (closes) return true;
+    if (const auto edges = graph.find(node); edges != graph.end())
+        for (const std::string& next : edges->second)
+            if (walk(graph, next, path, done)) return true;
+    path.pop_back();
+    done.insert(node);
+    return false;
+}
+
+}  // namespace
+
+std::string room_of(const fs::path& file) {
+    return file.empty() ? std::string() : file.begin()->string();
+}
+
+std::string place_of(const fs::path& file) {
+    const std::string room = room_of(file);
+    const fs::path folder = file.parent_path();
+    if (!has_floors(room) || folder == room) return room;
+    return room + "/" + std::next(folder.begin())->string();
+}
+
+Faults check_place(const fs::path& file) {
+    if (find_row(place_of(file)) != nullptr) return {};
+    return {file.string() + ": the plan has no " + place_of(file)};
+}
+
+Faults check_includes(const fs::path& file, const std::string& text) {
+    Faults faults;
+    const auto report = [&](const std::string& what) {
+        faults.push_back(file.string() + ": " + what);
+    };
+    for (const std::string& header : find_includes(text)) {
+        if (is_ours(header) && !may_include(place_of(file), below_oiler(header)))
+            report(place_of(file) + " must not include " + header);
+        if (is_window_or_gl(header) && !is_provider(file))
+            report("only a provider may include " + header);
+        if (header.find("demos/") != std::string::npos)
+            report("nothing in engine/ includes a demo: " + header);
+        if (header.starts_with("../") || header.starts_with("./"))
+            report("not a full path: " + header);
+    }
+    return faults;
+}
+
+Graph include_graph(const Texts& texts, std::string (*node_of)(const fs::path&)) {
+    Graph graph;
+    for (const auto& [file, text] : texts)
+        for (const fs::path header : find_includes(text)) {
+            if (!is_ours(header)) continue;
+            const std::string from = node_of(file);
+            const std::string to = node_of(below_oiler(header));
+            if (from != to || file == below_oiler(header)) graph[from].insert(to);
+        }
+    return graph;
+}
+
+std::vector<std::string> find_circle(const Graph& graph) {
+    std::set<std::string> done;
+    for (const auto& [node, edges] : graph) {
+        std::vector<std::string> path;
+        if (!walk(graph, node, path, done)) continue;
+        path.erase(path.begin(), std::find(path.begin(), path.end(), path.back()));
+        return path;
+    }
+    return {};
+}
+
+Faults check_form(const fs::path& file, const std::string& text) {
+    // Written so that this line does not match itself.
+    static const std::regex unfinished(R"(\b(TO)DO\b|\bFIX(ME)\b)");
+    Faults faults;
+    if (!text.starts_with("// SPDX-License-Identifier: MIT\n"))
+        faults.push_back(file.string() + ": the first line must be the SPDX line");
+    if (file.extension() == ".hpp" && text.find("\n#pragma once\n") == std::string::npos)
+        faults.push_back(file.string() + ": no #pragma once");
+    if (std::smatch found; std::regex_search(text, found, unfinished))
+        faults.push_back(file.string() + ": unfinished: " + found.str());
+    return faults;
+}
+
+Faults find_doubled_names(const Texts& texts) {
+    Faults faults;
+    std::map<std::string, std::set<std::string>> files_of;
+    for (const auto& [file, text] : texts) {
+        const Definitions found = find_definitions(text);
+        if (!found.balanced) faults.push_back(file.string() + ": brackets do not match");
+        for (const std::string& name : found.names) files_of[name].insert(file.string());
+    }
+    for (const auto& [name, files] : files_of) {
+        if (files.size() < 2) continue;
+        std::string list;
+        for (const std::string& file : files) list += (list.empty() ? "" : ", ") + file;
+        faults.push_back(list + ": each defines " + name);
+    }
+    return faults;
+}
+
+}  // namespace oiler::house

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace oiler::house {
+
+/// One line per fault; each begins with the file.
+using Faults = std::vector<std::string>;
+/// The texts of files by their paths, relative to engine/oiler or to the source tree.
+using Texts = std::map<std::filesystem::path, std::string>;
+/// The nodes that each node includes.
+using Graph = std::map<std::string, std::set<std::string>>;
+
+/// The room of a file of engine/oiler: "lab" for "lab/sweep/judge.hpp".
+std::string room_of(const std::filesystem::path& file);
+
+/// The place of a file of engine/oiler in the plan: its floor where its room has floors, else its
+/// room.
+std::string place_of(const std::filesystem::path& file);
+
+/// Rooms and floors that the plan lacks.
+Faults check_place(const std::filesystem::path& file);
+
+/// Includes against the plan, of demos, by relative paths, and of window and GL headers outside
+/// the providers.
+Faults check_includes(const std::filesystem::path& file, const std::string& text);
+
+/// The includes among the nodes that `node_of` gives files of engine/oiler: files, places, rooms.
+Graph include_graph(const Texts& texts, std::string (*node_of)(const std::filesystem::path&));
+
+/// A circle such as {"a", "b", "a"}; empty where there is none.
+std::vector<std::string> find_circle(const Graph& graph);
+
+/// The SPDX line, #pragma once, and no unfinished work.
+Faults check_form(const std::filesystem::path& file, const std::string& text);
+
+/// Names that two files define in one namespace, and files whose brackets do not match.
+Faults find_doubled_names(const Texts& texts);
+
+/// Files that no build compiles. `compiled`: the files of CMake's compile commands. `cmake_files`:
+/// the CMake files of the tree; they count in the plan's optional folders only.
+Faults find_uncompiled(const std::vector<std::filesystem::path>& files,
+                       const std::set<std::filesystem::path>& compiled, const Texts& cmake_files);
+
+}  // namespace oiler::house

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Costs of rows from a made-up clock, so that each number is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "lab/measured_scenes.hpp"
+#include "oiler/lab/sweep/tradeoff.hpp"
+
+namespace oiler::test {
+namespace {
+
+using namespace lab;
+
+TradeoffRow row_at(std::int64_t rate, bool stable = true) {
+    TradeoffRow row{.stepping = {&find_method("rk4"), rate, Precision::double_}};
+    row.judgement.stable = stable;
+    return row;
+}
+
+/// A clock that shows these costs of a step one after the other, and then from the first on.
+SweepWatch clock_of(const std::vector<double>& ns) {
+    SweepWatch watch;
+    watch.ns_per_step = [ns, calls = std::size_t{0}](const auto&, const auto&,
+                                                     std::int64_t) mutable {
+        return ns[calls++ % ns.size()];
+    };
+    return watch;
+}
+
+void time_row(TradeoffRow& row, int rounds, const SweepWatch& watch) {
+    const Scene scene;
+    time_rows(scene, {&row}, rounds, watch);
+}
+
+// Sorted: 1, 2, 3, 4 and 100 ns. The median is 3, the quartiles are 2 and 4: half of what lies
+// between them is 1. A step at 50 Hz is taken 50 times a second.
+TEST(TimeRow, HasTheMedianAndHalfOfWhatLiesBetweenTheQuartiles) {
+    TradeoffRow row = row_at(50);
+    time_row(row, 5, clock_of({4, 1, 100, 3, 2}));
+    EXPECT_DOUBLE_EQ(row.ns_per_second, 50 * 3);
+    EXPECT_DOUBLE_EQ(row.ns_spread, 50 * 1);
+}
+
+// Of 10 and 20 ns the quartiles are 12.5 and 17.5.
+TEST(TimeRow, HasQuartilesBetweenTwoMeasurements) {
+    TradeoffRow row = row_at(1);
+    time_row(row, 2, clock_of({20, 10}));
+    EXPECT_DOUBLE_EQ(row.ns_per_second, 15);
+    EXPECT_DOUBLE_EQ(row.ns_spread, 2.5);
+}
+
+TEST(TimeRow, TimedAgainForgetsWhatWasMeasuredBefore) {
+    TradeoffRow row = row_at(10);
+    time_row(row, 3, clock_of({500, 700, 900}));
+    time_row(row, 3, clock_of({6, 6, 6}));
+    EXPECT_DOUBLE_EQ(row.ns_per_second, 60);
+    EXPECT_EQ(row.ns_spread, 0);
+}
+
+// Several rows take turns, so that a machine that gets slower slows down all of them.
+TEST(TimeRows, TakeTurns) {
+    TradeoffRow first = row_at(1);
+    TradeoffRow unstable = row_at(1, false);
+    TradeoffRow second = row_at(1);
+    const Scene scene;
+    time_rows(scene, {&first, &unstable, &second}, 3, clock_of({1, 10, 2, 20, 3, 30}));
+    EXPECT_EQ(first.ns_per_second, 2);
+    EXPECT_EQ(second.ns_per_second, 20);
+    EXPECT_TRUE(std::isnan(unstable.ns_per_second));
+}
+
+// A frame of 1/60 s has four steps at 240 Hz, and one at 30 Hz; no call takes more than 256.
+TEST(TimeRow, IsTimedWithTheStepsOfAFrameInACall) {
+    SweepWatch watch;
+    watch.ns_per_step = [](const auto&, const auto&, std::int64_t at_once) {
+        return static_cast<double>(at_once);
+    };
+    for (const auto& [rate, at_once] : std::vector<std::pair<std::int64_t, double>>{
+             {30, 1}, {60, 1}, {119, 1}, {120, 2}, {240, 4}, {15'360, 256}, {60'000, 256}}) {
+        TradeoffRow row = row_at(rate);
+        time_row(row, 1, watch);
+        EXPECT_DOUBLE_EQ(row.ns_per_second, static_cast<double>(rate) * at_once) << rate;
+    }
+}
+
+// The clock is given the row's own choice: method, rate and precision.
+TEST(TimeRow, IsTimedWithItsOwnChoice) {
+    const Stepping choice{&find_method("velocity_verlet"), 75, Precision::single};
+    Stepping timed;
+    SweepWatch watch;
+    watch.ns_per_step = [&](const auto&, const Stepping& given, std::int64_t) {
+        timed = given;
+        return 1.0;
+    };
+    TradeoffRow row{.stepping = choice};
+    time_row(row, 1, watch);
+    EXPECT_EQ(timed, choice);
+}
+
+}  // namespace
+}  // namespace oiler::test
