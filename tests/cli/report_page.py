@@ -275,7 +275,8 @@ class Check:
         row = next((r for r in self.rows if same(r, self.tradeoff["today"])), None)
         place = row and self.place(row, "time")
         expected = [place] if place else []
-        self.expect(close_to(today["points"], expected), f"the star of the current setting is at {today['points']}")
+        self.expect(close_to(today["points"], expected),
+                    f"the star of the current setting is at {today['points']}")
         [front] = self.datasets("d.label === 'Pareto front'")
         count = sum(self.place(r, "time") is not None for r in self.rows if r["pareto"])
         points = front["points"]

@@ -58,7 +58,7 @@ struct AdviseCommand {
     [[nodiscard]] Wish wish() const {
         Wish wish{.position_error = tolerances.position_error,
                   .energy_drift = tolerances.energy_drift};
-        if (budget_us) wish.ns_per_second = *budget_us * 1e3 * frames_per_second;
+        if (budget_us) wish.ns_per_second = *budget_us * (1e3 * frames_per_second);
         if (!wish.has_tolerance() && !wish.ns_per_second)
             fail(Exit::usage,
                  "give a tolerance or a budget: --position-error, --energy-drift or --budget-us "
