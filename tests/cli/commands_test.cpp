@@ -207,7 +207,7 @@ TEST(Oiler, KeepsALedgerForPeople) {
     EXPECT_TRUE(holds(run.out,
                       "\nNot stored, not evaluated: springs, coil springs, attractors, "
                       "links\n"));
-    EXPECT_TRUE(holds(run.out, "\n  in all              60\n")) << run.out;
+    EXPECT_TRUE(holds(run.out, "\n  total               60\n")) << run.out;
     EXPECT_TRUE(holds(run.out, "4 of 12 bodies have it"));
     EXPECT_FALSE(holds(run.out, "12 of 12"));
     EXPECT_TRUE(holds(run.out, "\n  quadratic_drag "));
