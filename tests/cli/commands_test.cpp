@@ -162,6 +162,7 @@ const std::string scenes = OILER_SOURCE "/assets/scenes/";
 
 TEST(Oiler, KeepsALedgerOfEveryScene) {
     for (const std::string& name : names_in(scenes)) {
+        if (!name.ends_with(".toml")) continue;
         const Outcome run =
             shell("oiler ledger --quiet --steps 3 --json - '" + scenes + name + "'");
         EXPECT_EQ(run.exit, 0) << name << run.err;
