@@ -4,7 +4,9 @@
 #   sources        its files, relative to the folder; none where it is all headers
 #   rooms          the rooms that its headers include; those are made first
 #   links          libraries that its users link, too
-#   private_links  libraries that only its own files include
+#   private_links  libraries that only its own files include; header-only ones in
+#                  $<BUILD_INTERFACE:>, since an installed room does not need them
+# A link PkgConfig::OILER_NAME is the pkg-config module NAME; the installed package looks for it.
 cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME room)
 foreach(below IN LISTS rooms)
   if(NOT TARGET oiler_${below})
@@ -22,3 +24,6 @@ else()
 endif()
 add_library(oiler::${room} ALIAS oiler_${room})
 set_target_properties(oiler_${room} PROPERTIES EXPORT_NAME ${room})
+if(PROJECT_IS_TOP_LEVEL AND NOT room STREQUAL cli)
+  include(${OILER_ENGINE}/cmake/install_room.cmake)
+endif()

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# Installs the room that room.cmake has just made, as a component of the package: its headers, its
+# library, its targets in oiler-ROOM.cmake, and in global properties the facts that package.cmake
+# writes down for those who look for it:
+#   OILER_INSTALLED           the rooms, lowest first
+#   OILER_ROOM_rooms          the rooms that it links
+#   OILER_ROOM_packages       the packages to find again
+#   OILER_ROOM_modules        the pkg-config modules to find again
+#   OILER_ROOM_libraries      the other libraries that it links
+set_property(GLOBAL APPEND PROPERTY OILER_INSTALLED ${room})
+set_property(GLOBAL PROPERTY OILER_${room}_rooms ${rooms})
+foreach(link IN LISTS links private_links)
+  if(link MATCHES "^PkgConfig::OILER_(.+)$")
+    set_property(GLOBAL APPEND PROPERTY OILER_${room}_modules ${CMAKE_MATCH_1})
+  elseif(link MATCHES "^([A-Za-z0-9_]+)::")
+    set_property(GLOBAL APPEND PROPERTY OILER_${room}_packages ${CMAKE_MATCH_1})
+  elseif(NOT link MATCHES "^\\$<BUILD_INTERFACE:")
+    set_property(GLOBAL APPEND PROPERTY OILER_${room}_libraries ${link})
+  endif()
+endforeach()
+
+install(TARGETS oiler_${room} EXPORT oiler-${room})
+install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/oiler/${room}
+        FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT oiler-${room} NAMESPACE oiler:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/oiler)
