@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
-# Installs the room that room.cmake has just made, as a component of the package: its headers, its
-# library, its targets in oiler-ROOM.cmake, and in global properties the facts that package.cmake
-# writes down for those who look for it:
-#   OILER_INSTALLED           the rooms, lowest first
-#   OILER_ROOM_rooms          the rooms that it links
-#   OILER_ROOM_packages       the packages to find again
-#   OILER_ROOM_modules        the pkg-config modules to find again
-#   OILER_ROOM_libraries      the other libraries that it links
+# Installs the room of room.cmake as a component of the package: headers, library, and the target in
+# oiler-ROOM.cmake. Global properties tell package.cmake about it:
+#   OILER_INSTALLED       all installed rooms, lowest first
+#   OILER_ROOM_rooms      rooms that the room links
+#   OILER_ROOM_packages   packages that its users must find
+#   OILER_ROOM_modules    pkg-config modules that its users must find
+#   OILER_ROOM_libraries  other libraries that it links
 set_property(GLOBAL APPEND PROPERTY OILER_INSTALLED ${room})
 set_property(GLOBAL PROPERTY OILER_${room}_rooms ${rooms})
 foreach(link IN LISTS links private_links)

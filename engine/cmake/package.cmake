@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The installed package, once all rooms are made: what find_package(oiler) and pkg-config read, and
-# archives of it.
+# Installs the files that find_package(oiler) and pkg-config read, and sets up cpack. Included after
+# all rooms are made.
 include(CMakePackageConfigHelpers)
 
 get_property(installed GLOBAL PROPERTY OILER_INSTALLED)
@@ -85,8 +85,8 @@ endforeach()
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
-# What the libraries need to be linked, and what the programs load while they run: SDL2 and GL for a
-# window, OSMesa or EGL without one. Shared libraries that they link are found by dpkg-shlibdeps.
+# Packages to link a game, and packages that the programs load at run time: SDL2 and GL for a window,
+# OSMesa or EGL without one. dpkg-shlibdeps adds the shared libraries that they link.
 set(build_needs pkg-config libfmt-dev libxxhash-dev libdeflate-dev libtomlplusplus-dev)
 set(run_needs libsdl2-2.0-0 libosmesa6 libegl1 libgl1 libgl1-mesa-dri)
 list(JOIN build_needs ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
