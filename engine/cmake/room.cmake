@@ -18,14 +18,6 @@ if(sources)
   add_library(oiler_${room} STATIC ${sources})
   target_link_libraries(oiler_${room} PUBLIC oiler::options ${room_links} ${links}
                                       PRIVATE $<BUILD_INTERFACE:oiler_warnings> ${private_links})
-  # What nearly every file includes takes a quarter of its compile time.
-  if(room STREQUAL core)
-    target_precompile_headers(oiler_core PRIVATE
-      <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <optional>
-      <span> <string> <string_view> <variant> <vector> <fmt/core.h>)
-  else()
-    target_precompile_headers(oiler_${room} REUSE_FROM oiler_core)
-  endif()
 else()
   add_library(oiler_${room} INTERFACE)
   target_link_libraries(oiler_${room} INTERFACE oiler::options ${room_links} ${links})
