@@ -114,10 +114,10 @@ TEST(Library, SaysWhatToInstall) {
 
 TEST(Llvmpipe, IsTamedUnlessTheUserSaysOtherwise) {
     unsetenv("LP_NATIVE_VECTOR_WIDTH");
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
     setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "128");
 }
 

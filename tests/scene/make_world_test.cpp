@@ -144,13 +144,13 @@ TEST(MakeWorld, AGridWithoutDiagonalsHasNone) {
 TEST(Grid, HangsWhatItIsTold) {
     using Nodes = std::vector<std::size_t>;
     SceneGrid grid{.count = {3, 2}};
-    EXPECT_EQ(hung_nodes(grid), Nodes{});
+    EXPECT_EQ(anchored_nodes(grid), Nodes{});
     grid.hang = Hang::top;
-    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 4, 5}));
+    EXPECT_EQ(anchored_nodes(grid), (Nodes{3, 4, 5}));
     grid.hang = Hang::corners;
-    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 5}));
+    EXPECT_EQ(anchored_nodes(grid), (Nodes{3, 5}));
     grid.count = {1, 4};
-    EXPECT_EQ(hung_nodes(grid), Nodes{3});
+    EXPECT_EQ(anchored_nodes(grid), Nodes{3});
 }
 
 // The generator's published first number from seed 0.
