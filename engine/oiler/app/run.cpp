@@ -87,7 +87,7 @@ int guard_main(std::string_view name, const std::function<Exit()>& program) {
         say(fmt::format("{}: {}", name, error.what()));
         return static_cast<int>(error.exit());
     } catch (const std::bad_alloc&) {
-        say(fmt::format("{}: not enough memory; take fewer bodies, or a shorter time", name));
+        say(fmt::format("{}: not enough memory; take fewer bodies or a shorter time", name));
         return static_cast<int>(Exit::io);
     }
 }
