@@ -142,7 +142,7 @@ struct Projectile {
         world.each<Shot, Trail>([&](Entity entity, const Shot& shot, const Trail& trail) {
             draw_shot(picture, entity, shot, trail);
         });
-        draw_words(picture);
+        draw_labels(picture);
         return picture;
     }
 
@@ -172,7 +172,7 @@ struct Projectile {
         picture.polylines.push_back(std::move(path));
     }
 
-    void draw_words(Picture& picture) const {
+    void draw_labels(Picture& picture) const {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},

@@ -75,7 +75,7 @@ struct SpringDamper {
         Picture picture{.camera = {.centre = {0, -560}, .height = 1800}};
         draw_spring(picture);
         draw_curves(picture);
-        draw_words(picture);
+        draw_labels(picture);
         return picture;
     }
 
@@ -134,7 +134,7 @@ struct SpringDamper {
             .draw(picture, {key.object, 20, scale_of(from + reach)});
     }
 
-    void draw_words(Picture& picture) const {
+    void draw_labels(Picture& picture) const {
         const Sample now = sample();
         const Settings& settings = world.settings();
         picture.labels.push_back(

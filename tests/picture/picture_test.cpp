@@ -102,7 +102,7 @@ TEST(Between, MatchesByKeyInAnyOrderAndKeepsTheFirstOrder) {
     }
 }
 
-TEST(Between, MatchesNothingWithoutAnObjectOrInAnotherSpace) {
+TEST(Between, DoesNotMatchWithoutAnObjectOrInAnotherSpace) {
     Picture before = of_discs({disc({0, 7, 0}, {0, 0}), disc({1, 0, 0}, {0, 0})});
     Picture after = of_discs({disc({0, 7, 0}, {8, 0}), disc({1, 0, 0}, {8, 0})});
     after.discs[1].space = Space::canvas;

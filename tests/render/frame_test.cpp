@@ -49,12 +49,12 @@ TEST_F(Frame, ShowsTheRimOfADiscBeyondACorner) {
         EXPECT_GT(total_coverage(draw(of_disc(centre, 20))), 20) << centre.x << ", " << centre.y;
 }
 
-TEST_F(Frame, ShowsNothingOfADiscOutside) {
+TEST_F(Frame, DoesNotShowADiscOutside) {
     for (const Point centre : {Point{-21, 180}, {661, 180}, {320, -21}, {320, 381}})
         EXPECT_EQ(total_coverage(draw(of_disc(centre, 20))), 0) << centre.x << ", " << centre.y;
 }
 
-/// A disc that covers the frame, whatever its size.
+/// A disc that covers a frame of any size.
 const Picture black = of_disc({320, 180}, 1e5F);
 
 TEST_F(Frame, HasItsSizeAfterAChangeOfOneSide) {

@@ -62,7 +62,7 @@ TEST(Glyphs, AreKeptUntilTheAtlasIsFull) {
     Glyphs glyphs;
     const Placed placed = place(glyphs, "oiler", 40);
     const std::uint64_t revision = glyphs.revision();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     EXPECT_EQ(glyphs.revision(), revision);
     expect_own_pictures(glyphs, placed, "oiler", 40);
     (void)place(glyphs, "oiler", 40);
@@ -84,7 +84,7 @@ TEST(Glyphs, AreForgottenWhenTheAtlasIsFull) {
     fill(glyphs);
     expect_own_pictures(glyphs, before, "oiler", 40);
     const std::uint64_t revision = glyphs.revision();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     EXPECT_NE(glyphs.revision(), revision);
     EXPECT_EQ(glyphs.atlas_height(), 0);
     expect_own_pictures(glyphs, place(glyphs, "oiler", 40), "oiler", 40);
@@ -99,7 +99,7 @@ TEST(Glyphs, NeverRepeatARevision) {
     for (int round = 0; round < 3; ++round) {
         fill(glyphs);
         EXPECT_TRUE(revisions.insert(glyphs.revision()).second);
-        glyphs.tidy();
+        glyphs.clear_if_full();
         EXPECT_TRUE(revisions.insert(glyphs.revision()).second);
     }
 }
@@ -115,7 +115,7 @@ TEST(Atlas, IsUploadedAnewAfterItWasFull) {
     EXPECT_EQ(studio->draw(picture).rgb, first.rgb);
 }
 
-TEST(Atlas, IsTidiedBeforeEachPicture) {
+TEST(Atlas, IsClearedIfFullBeforeEachPicture) {
     Glyphs glyphs;
     Layout layout;
     int largest = 0;

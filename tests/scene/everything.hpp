@@ -15,6 +15,7 @@ axes = 2
 rate = 100
 method = "velocity_verlet"
 precision = "double"
+damping = "drift"
 duration = 4.0
 
 [gravity]

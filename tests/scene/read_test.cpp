@@ -36,6 +36,7 @@ std::string other_value(const SceneKey& key) {
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
     if (is(key, "scene", "precision")) return "\"float\"";
+    if (is(key, "scene", "damping")) return "\"kick\"";
     if (is(key, "grid", "hang")) return "\"top\"";
     switch (key.kind) {
         case KeyKind::text:
@@ -168,6 +169,7 @@ TEST(Read, ReadsEveryValueOfAFile) {
     EXPECT_EQ(scene.stepping.rate.steps, 100);
     EXPECT_EQ(scene.stepping.method->name, "velocity_verlet");
     EXPECT_EQ(scene.stepping.precision, Precision::double_);
+    EXPECT_EQ(scene.stepping.damping, Damping::in_drift);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
     ASSERT_EQ(scene.bodies.size(), 3U);
@@ -263,7 +265,7 @@ TEST(Read, RefusesANumberTooLargeForTheColumnsWithItsLine) {
     EXPECT_NO_THROW((void)parsed(text));
     const std::string line = line_of_error(
         Exit::usage, [&] { (void)parsed(altered(text, "scene", "precision", "\"float\"")); });
-    EXPECT_TRUE(holds(line, "test.toml:16: body.position: position of 1e+39")) << line;
+    EXPECT_TRUE(holds(line, "test.toml:17: body.position: position of 1e+39")) << line;
 }
 
 TEST(ReadFile, NamesAPathThatIsNotAFile) {
@@ -285,6 +287,7 @@ TEST(ReadFile, DoesNotWaitForAPipe) {
 TEST(ReadFile, ReadsAllScenesOfTheRepository) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OILER_SOURCE "/assets/scenes")) {
+        if (entry.path().extension() != ".toml") continue;
         const Scene scene = read_scene(entry.path().string());
         EXPECT_GE(scene.body_count(), 1) << entry.path();
         EXPECT_NE(scene.title, "") << entry.path();

@@ -62,11 +62,11 @@ void film(Playback& playback, Renderer& renderer, const Manifest& header, std::i
     std::optional<Capture> capture;
     Progress progress(options.quiet, "frames", frames);
     Pixels pixels;
-    Input nobody;
+    Input no_input;
     try {
         for (std::int64_t frame = 0; frame < frames; ++frame) {
             const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-            const Picture picture = playback.show(at.step, at.alpha, nobody);
+            const Picture picture = playback.show(at.step, at.alpha, no_input);
             if (Interrupt::requested()) break;
             renderer.draw(picture, header.size);
             renderer.read(pixels);

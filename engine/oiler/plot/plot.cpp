@@ -159,7 +159,7 @@ std::vector<std::string> wrap(const std::string& text, float size, float width) 
     return lines;
 }
 
-void draw_words(const Plot& plot, Picture& picture) {
+void draw_labels(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
     const auto put = [&](Point at, const std::string& words, float size, Align align) -> Label& {
         return picture.labels.emplace_back(text(at, words, size, align));
@@ -247,7 +247,7 @@ void draw_marks(const Plot& plot, const Series& series, Picture& picture) {
 
 void Plot::draw(Picture& picture, ElementKey key) const {
     draw_grid(*this, picture);
-    draw_words(*this, picture);
+    draw_labels(*this, picture);
     draw_legend(*this, picture);
     for (const Series& curve : series) {
         ++key.part;

@@ -130,7 +130,7 @@ void Glyphs::reserve(Glyph& glyph) {
 
 int Glyphs::atlas_height() const { return static_cast<int>(atlas_.size() / atlas_width); }
 
-void Glyphs::tidy() {
+void Glyphs::clear_if_full() {
     if (atlas_height() <= full_atlas) {
         return;
     }

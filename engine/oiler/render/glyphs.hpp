@@ -51,7 +51,7 @@ public:
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
     /// Empties the cache if the atlas is full, for example after many sizes of a window. Placed
     /// glyphs become invalid.
-    void tidy();
+    void clear_if_full();
 
 private:
     [[nodiscard]] float scale(int em) const;

@@ -120,7 +120,7 @@ void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout)
         lay_out_disc(disc, mapping, frame, layout.discs);
     }
     layout.glyphs.clear();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     for (const Label& label : picture.labels) {
         lay_out_label(label, mapping, frame, glyphs, layout.glyphs);
     }

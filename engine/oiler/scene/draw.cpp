@@ -64,7 +64,7 @@ public:
         }
         for (const SceneScatter& scatter : scene_.scatters)
             draw_discs(scatter.count, scatter.matter, small_radius);
-        draw_words();
+        draw_labels();
         return std::move(picture_);
     }
 
@@ -130,7 +130,7 @@ private:
         if (thread.points.size() > 1) picture_.polylines.push_back(std::move(thread));
     }
 
-    void draw_words() {
+    void draw_labels() {
         const Settings& settings = world_.settings();
         const std::string how = fmt::format(
             "{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,

@@ -48,9 +48,9 @@ void require_file(int descriptor, const std::string& path) {
 
 /// Counts nested brackets and dots of keys, outside of strings and comments. An unterminated string
 /// ends the count, as it ends the parser.
-class Walk {
+class NestingGuard {
 public:
-    Walk(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+    NestingGuard(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
     void run() {
         while (at_ < text_.size()) {
@@ -147,7 +147,7 @@ void guard_scene_text(std::string_view text, std::string_view file) {
                    static_cast<unsigned char>(text[at]));
         if (text[at] == '\n') ++line;
     }
-    Walk(text, file).run();
+    NestingGuard(text, file).run();
 }
 
 }  // namespace oiler

@@ -18,9 +18,9 @@ Attractor to_force(const SceneAttractor& attractor) {
 
 /// Spawns a scene's bodies. Forces are passed with a body where possible, because bodies with equal
 /// forces then share them in memory.
-class Maker {
+class WorldBuilder {
 public:
-    Maker(const Scene& scene, const Settings& settings)
+    WorldBuilder(const Scene& scene, const Settings& settings)
         : scene_(scene), world_(scene.axes, settings) {}
 
     World run() {
@@ -126,7 +126,7 @@ Scene with_seed(Scene scene, std::uint64_t seed) {
 }
 
 World make_world(const Scene& scene, const Settings& settings) {
-    return Maker(scene, settings).run();
+    return WorldBuilder(scene, settings).run();
 }
 
 }  // namespace oiler
