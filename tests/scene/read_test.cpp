@@ -36,7 +36,7 @@ std::string other_value(const SceneKey& key) {
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
     if (is(key, "scene", "precision")) return "\"float\"";
-    if (is(key, "scene", "damping")) return "\"kick\"";
+    if (is(key, "scene", "damping")) return "\"drift\"";
     if (is(key, "grid", "hang")) return "\"top\"";
     switch (key.kind) {
         case KeyKind::text:
@@ -169,7 +169,7 @@ TEST(Read, ReadsEveryValueOfAFile) {
     EXPECT_EQ(scene.stepping.rate.steps, 100);
     EXPECT_EQ(scene.stepping.method->name, "velocity_verlet");
     EXPECT_EQ(scene.stepping.precision, Precision::double_);
-    EXPECT_EQ(scene.stepping.damping, Damping::in_drift);
+    EXPECT_EQ(scene.stepping.damping, Damping::in_kick);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
     ASSERT_EQ(scene.bodies.size(), 3U);

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "oiler/app/parse_size.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/size.hpp"
 
 namespace oiler {
 
@@ -34,9 +34,6 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Wh
 
 /// Adds `--damping`, "kick" or "drift".
 CLI::Option* add_damping(CLI::App& app, std::string& words);
-
-/// Parses "1280x720". Throws Error{usage}.
-[[nodiscard]] Size parse_size(const std::string& words);
 
 /// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
 /// Error{usage} in one line that ends with "(see PROGRAM --help)".

@@ -141,6 +141,8 @@ std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule& rule,
                                           const Steps& steps, Team* team) {
+    // Here, since what it throws would end a thread of the team and the program with it.
+    if constexpr (!std::is_same_v<T, long double>) static_cast<void>(kernels<T, Axes>());
     if (!team || !is_worth_a_team(columns.size, steps))
         return step_range(columns, rule, steps, 0, columns.size);
     std::mutex at_first;
