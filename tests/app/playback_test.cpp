@@ -10,14 +10,13 @@
 namespace oiler {
 namespace {
 
-/// A free body at 1 m/s and 1 step/s, so that its position in m is the tick. `update` counts calls
-/// and key presses.
+/// A free body at 1 m/s and 1 step/s, so that its position in m is the tick. `update` counts key
+/// presses.
 struct Walker {
     static constexpr About about{.name = "walker", .title = "Walker"};
 
     World world;
     Entity body;
-    int updates = 0;
     int presses = 0;
     std::int64_t teleport_after = -1;
 
@@ -25,7 +24,6 @@ struct Walker {
         : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
 
     void update(const Input& input) {
-        ++updates;
         presses += input.pressed(Key::space) ? 1 : 0;
         if (world.tick() == teleport_after) world.teleport(body, {1000});
     }
@@ -38,7 +36,7 @@ struct Walker {
     }
 };
 
-/// A free body without `update`, so that the loop takes many steps per call.
+/// A body on a spring without `update`, so that the loop takes many steps per call.
 struct Drifter {
     static constexpr About about{.name = "drifter", .title = "Drifter"};
     World world;
