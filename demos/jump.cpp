@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same jump twice: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on the ledge.
+// Shows one jump at two rates: at 60 Hz it misses a ledge at 2.00 m, at 240 Hz it lands on it.
 // --rate changes the second rate, --method changes the method of both.
 #include <fmt/core.h>
 
@@ -19,17 +19,17 @@ constexpr float ledge = 2;            // m
 constexpr std::int64_t slow = 60;     // Hz
 constexpr std::int64_t interval = 2;  // s from one take-off to the next
 
-/// The feet of a body that jumps, in m from the take-off.
+/// A jumping body and the path of its feet, in m from the take-off.
 struct Jumper {
     Entity body{};
-    std::vector<Point> path{};  // a point after each step
+    std::vector<Point> path{};  // one point per step
 
     void jump(World& world) {
         if (world.alive(body)) world.destroy(body);
         *this = {world.spawn(Body{.velocity = take_off}), {{0, 0}}};
     }
 
-    /// Takes the position after a step. A body that falls onto the ledge or the ground stays there.
+    /// Adds the position after a step. A body that falls onto the ledge or the ground stays there.
     void follow(World& world) {
         const Point before = path.back();
         path.push_back(world.has_body(body) ? to_point(world.position(body)) : before);
@@ -41,7 +41,7 @@ struct Jumper {
     }
 };
 
-/// Draws a jump whose feet are at the end of `path`, from the take-off at `left`.
+/// Draws a jump along `path`, with the take-off at x = `left`.
 void draw(Picture& picture, const World& world, Entity body, std::vector<Point> path, float left,
           Colour colour) {
     const auto line = [&](std::vector<Point> points, float width, Colour ink, ElementKey key = {}) {
@@ -89,13 +89,15 @@ struct Jump {
         .name = "jump", .title = "A jump at two rates", .rate = 240, .duration = interval};
 
     World world;
-    World slow_world;  // up to one step ahead of the other
+    World slow_world;  // at most one step ahead of `world`
     Jumper jumper, slow_jumper;
 
     explicit Jump(const Settings& settings)
         : world(2, settings),
           slow_world(2,
-                     {.method = settings.stepping.method, .rate = {slow}, .precision = settings.stepping.precision}) {
+                     {.method = settings.stepping.method,
+                      .rate = {slow},
+                      .precision = settings.stepping.precision}) {
         world.set_gravity({0, -gravity});
         slow_world.set_gravity({0, -gravity});
         jump();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A salvo at seven elevations: without drag, with linear and with quadratic drag, over the exact
-// trajectories of those that have a closed form.
+// Shows a salvo at seven elevations: without drag, with linear and with quadratic drag. The first
+// two have closed forms, drawn below them.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ constexpr std::array kinds{Kind{Drag::none, "no drag", palette::blue},
                            Kind{Drag::linear, "linear drag", palette::green},
                            Kind{Drag::quadratic, "quadratic drag", palette::orange}};
 
-/// Tangents of half the elevation: the direction (1 − u², 2u)/(1 + u²) needs no sine, whose last
-/// bit depends on the machine.
+/// Tangents u of half the elevation. The direction (1 − u², 2u)/(1 + u²) needs no sine, so its bits
+/// are the same on every machine.
 constexpr std::array half_tangents{0.18, 0.26, 0.34, 0.42, 0.50, 0.58, 0.66};
 
 struct Shot {
@@ -45,21 +45,21 @@ struct Trail {
     std::vector<Point> points;
 };
 
-/// Exact position `t` s after the launch, for the kinds of drag that have a closed form.
+/// Exact position `t` s after the launch, without drag or with linear drag.
 Vec3 exact(const Shot& shot, double t) {
     const double c = shot.drag == Drag::linear ? linear_coefficient : 0;
     return {linear_drag_motion({0.0, shot.launch[0]}, 0.0, c, t).x,
             linear_drag_motion({0.0, shot.launch[1]}, gravity, c, t).x};
 }
 
-/// The last point, which is below the ground, moves up the last segment to it.
+/// Moves the last point, which is below the ground, up the last segment to the ground.
 void cut_at_ground(std::vector<Point>& points) {
     const Point above = points[points.size() - 2];
     Point& below = points.back();
     below = {above.x + (below.x - above.x) * above.y / (above.y - below.y), 0};
 }
 
-/// Points closer than this would cost memory and show nothing.
+/// Smallest distance of two points. Closer points would cost memory and be invisible.
 constexpr float trail_spacing = 0.1F;  // m
 
 void extend(Trail& trail, Point at, bool landed) {
@@ -77,7 +77,7 @@ struct Projectile {
     World world;
     std::mt19937_64 random;
     double last_landing = 0;
-    std::array<double, kinds.size()> largest_error{};  // m, of each kind
+    std::array<double, kinds.size()> largest_error{};  // m, per kind
 
     explicit Projectile(const Settings& settings) : world(2, settings), random(settings.seed) {
         world.set_gravity({0, gravity});
@@ -142,7 +142,7 @@ struct Projectile {
         world.each<Shot, Trail>([&](Entity entity, const Shot& shot, const Trail& trail) {
             draw_shot(picture, entity, shot, trail);
         });
-        draw_words(picture);
+        draw_labels(picture);
         return picture;
     }
 
@@ -172,12 +172,13 @@ struct Projectile {
         picture.polylines.push_back(std::move(path));
     }
 
-    void draw_words(Picture& picture) const {
+    void draw_labels(Picture& picture) const {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
              .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
-                                 settings.stepping.rate.steps, name_of(settings.stepping.precision), world.time()),
+                                 settings.stepping.rate.steps,
+                                 name_of(settings.stepping.precision), world.time()),
              .size = 13,
              .colour = palette::ink});
         float y = 296;
@@ -191,7 +192,7 @@ struct Projectile {
                 {.at = {456, y},
                  .text = kind.drag == Drag::quadratic
                              ? std::string(kind.name)
-                             : fmt::format("{}: at most {:.2g} m off", kind.name, error),
+                             : fmt::format("{}: error at most {:.2g} m", kind.name, error),
                  .size = 10,
                  .colour = palette::ink});
             y -= 14;

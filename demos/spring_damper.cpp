@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The article's spring and damper, its position drawn live over the exact one, and the error of the
-// method below it.
+// Shows the article's spring and damper: the position over the exact position, and the error below.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -20,8 +19,8 @@ namespace {
 constexpr double stiffness = 15;  // N/m
 constexpr double damping = 0.1;   // N·s/m
 constexpr double start = 1000;    // m
-constexpr double page = 20;       // s of curve that are seen at once
-constexpr double spacing = 0.01;  // s between two points of it
+constexpr double page = 20;       // s on the time axis
+constexpr double spacing = 0.01;  // s between two points of a curve
 
 struct Sample {
     double t, simulated, exact;
@@ -31,7 +30,7 @@ double exact_position(double t) {
     return damped_oscillator(1.0, stiffness, damping, {start, 0.0}, t).x;
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is at least `value`; 1 for 0.
+/// The smallest 1, 2 or 5 times a power of ten that is ≥ `value`; 1 for 0.
 double round_up(double value) {
     if (value == 0 || !std::isfinite(value)) return 1;
     const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -40,7 +39,7 @@ double round_up(double value) {
     return 10 * power;
 }
 
-/// Tells pictures apart that are drawn to different scales, so that none is drawn in between.
+/// A `jump` for ElementKey: curves of different scales are not interpolated.
 std::uint32_t scale_of(double scale) {
     return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(scale) >> 32U);
 }
@@ -52,7 +51,7 @@ struct SpringDamper {
 
     World world;
     Entity mass;
-    std::vector<Sample> samples;  // of this page
+    std::vector<Sample> samples;  // of the current page
     double largest_error = 0;
 
     explicit SpringDamper(const Settings& settings)
@@ -76,7 +75,7 @@ struct SpringDamper {
         Picture picture{.camera = {.centre = {0, -560}, .height = 1800}};
         draw_spring(picture);
         draw_curves(picture);
-        draw_words(picture);
+        draw_labels(picture);
         return picture;
     }
 
@@ -135,12 +134,13 @@ struct SpringDamper {
             .draw(picture, {key.object, 20, scale_of(from + reach)});
     }
 
-    void draw_words(Picture& picture) const {
+    void draw_labels(Picture& picture) const {
         const Sample now = sample();
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}", settings.stepping.method->name, settings.stepping.rate.steps,
+             .text = fmt::format("{} at {} Hz, {}", settings.stepping.method->name,
+                                 settings.stepping.rate.steps,
                                  name_of(settings.stepping.precision)),
              .size = 13,
              .colour = palette::ink});

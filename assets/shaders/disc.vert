@@ -1,7 +1,7 @@
 #version 330 core
 // SPDX-License-Identifier: MIT
-// One quad an instance, just large enough for a disc and its soft edge, and never larger than the
-// frame, since a rasteriser's fixed-point coordinates are limited.
+// One quad per instance, large enough for a disc with its soft edge. It is clamped to the frame,
+// because the fixed-point coordinates of a rasteriser are limited.
 layout(location = 0) in vec2 centre;               // pixels
 layout(location = 1) in vec2 radius_and_strength;  // pixels, 1
 layout(location = 2) in vec4 colour;

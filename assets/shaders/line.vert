@@ -1,8 +1,8 @@
 #version 330 core
 // SPDX-License-Identifier: MIT
-// A polyline's strip: positions in pixels, the lower left corner of the frame at (0, 0).
+// The strip of a polyline: positions in pixels, with the lower left corner of the frame at (0, 0).
 layout(location = 0) in vec2 position;
-layout(location = 1) in vec2 from_centre_line;  // pixels across, and past the end along the line
+layout(location = 1) in vec2 from_centre_line;  // pixels across the line, and beyond its end
 layout(location = 2) in vec2 half_width_and_strength;
 layout(location = 3) in vec4 colour;
 

@@ -1,6 +1,6 @@
 #version 330 core
 // SPDX-License-Identifier: MIT
-// One quad a glyph, on whole pixels of the frame and of the atlas.
+// One quad per glyph, on whole pixels of the frame and of the atlas.
 layout(location = 0) in ivec4 box;       // left, bottom, width, height in pixels
 layout(location = 1) in ivec2 in_atlas;  // texel of the glyph's lower left corner
 layout(location = 2) in vec4 colour;

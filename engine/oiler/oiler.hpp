@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// All that a game includes: a world to step, a picture of it, and run() to play it.
+// All headers of a game: a world to step, a picture of it, and run() to play it.
 #include "oiler/app/run.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/picture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number of frames of a film, and its manifest.
+// Tests the number of frames of a film, and its manifest.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -31,7 +31,7 @@ Options options_for(int fps) {
 
 class Film : public testing::Test {
 protected:
-    /// The manifest of a film of so many seconds; skips the test where nothing draws.
+    /// Returns the manifest of a film. Skips the test without OSMesa and EGL.
     nlohmann::json film(Options options, double seconds) {
         const Folder folder;
         options.out = folder / "film";
@@ -64,15 +64,15 @@ TEST_F(Film, HasTheFramesOfItsDuration) {
     EXPECT_EQ(frames(0.5, 30), 15U);
 }
 
-TEST_F(Film, HasAFrameHoweverShortItIs) { EXPECT_EQ(frames(1e-9, 60), 1U); }
+TEST_F(Film, HasAtLeastOneFrame) { EXPECT_EQ(frames(1e-9, 60), 1U); }
 
-TEST_F(Film, HasAsManyFramesAsTheOptionSays) {
+TEST_F(Film, HasTheFramesOfTheOption) {
     Options options = options_for(10);
     options.frames = 2;
     EXPECT_EQ(film(options, 1.1)["frames"].size(), 2U);
 }
 
-// Frame 28 shows 28/100 s, in which 7 steps a second are 1.96.
+// Frame 28 shows 28/100 s. At 7 steps per second this is tick 1.96.
 TEST_F(Film, ManifestHasTheFrameRateAndTheStepRate) {
     const auto manifest = film(options_for(100), 0.29);
     EXPECT_EQ(manifest["fps"], 100);

@@ -61,7 +61,7 @@ TEST(Options, AreReadAsGiven) {
     EXPECT_TRUE(options.quiet);
 }
 
-// The other values of the words above, and the largest numbers that are taken.
+// The other values of the words above, and the largest allowed numbers.
 TEST(Options, AreReadUpToTheirLimits) {
     const Options options =
         parse(
@@ -128,7 +128,7 @@ TEST(Options, HelpAndVersionAreText) {
 
 struct Wrong {
     const char* words;
-    const char* named;  ///< what the message must name
+    const char* named;  ///< text that the message must have
 
     friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.words; }
 };

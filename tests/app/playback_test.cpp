@@ -10,14 +10,13 @@
 namespace oiler {
 namespace {
 
-/// A free body at 1 m/s and 1 step/s, so that its place is the tick; `update` counts what it is
-/// told.
+/// A free body at 1 m/s and 1 step/s, so that its position in m is the tick. `update` counts key
+/// presses.
 struct Walker {
     static constexpr About about{.name = "walker", .title = "Walker"};
 
     World world;
     Entity body;
-    int updates = 0;
     int presses = 0;
     std::int64_t teleport_after = -1;
 
@@ -25,7 +24,6 @@ struct Walker {
         : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
 
     void update(const Input& input) {
-        ++updates;
         presses += input.pressed(Key::space) ? 1 : 0;
         if (world.tick() == teleport_after) world.teleport(body, {1000});
     }
@@ -38,7 +36,7 @@ struct Walker {
     }
 };
 
-/// The same without rules of its own: stepped many steps at once.
+/// A body on a spring without `update`, so that the loop takes many steps per call.
 struct Drifter {
     static constexpr About about{.name = "drifter", .title = "Drifter"};
     World world;
@@ -60,10 +58,10 @@ struct Shown {
     }
 };
 
-TEST(Playback, ShowsTheTickAndWhatLiesBehindIt) {
+TEST(Playback, ShowsATickAndInterpolatesToTheNext) {
     Shown shown;
     EXPECT_EQ(shown.at(0, 0).x, 0);
-    EXPECT_EQ(shown.game.world().tick(), 0) << "nothing between two ticks was asked for";
+    EXPECT_EQ(shown.game.world().tick(), 0) << "no frame was between two ticks";
     EXPECT_EQ(shown.at(0, 0.25).x, 0.25F);
     EXPECT_EQ(shown.at(0, 0.75).x, 0.75F);
     EXPECT_EQ(shown.game.world().tick(), 1) << "both lie before the same tick";
@@ -74,20 +72,20 @@ TEST(Playback, ShowsTheTickAndWhatLiesBehindIt) {
     EXPECT_EQ(shown.at(9, 0.5).x, 9.5F);
 }
 
-TEST(Playback, AtAnyRateAndFrameRateShowsTheTimeOfTheFrame) {
+TEST(Playback, ShowsTheTimeOfTheFrameAtAnyRateAndFrameRate) {
     for (const int rate : {1, 30, 60, 100, 144})
         for (const int fps : {1, 24, 60, 100, 144}) {
             Shown shown;
             for (std::int64_t i = 0; i < 200; ++i) {
                 const HeadlessFrame frame = headless_frame(i, rate, fps);
                 const double ticks = static_cast<double>(i * rate) / fps;
-                // Positions are floats of at most 2e4, whose spacing is 2e-3.
+                // Positions are floats of at most 2e4 m, whose spacing is 2e-3 m.
                 EXPECT_NEAR(shown.at(frame.step, frame.alpha).x, ticks, 2e-3);
             }
         }
 }
 
-TEST(Playback, HashIsOfTheTickThatIsShown) {
+TEST(Playback, HashIsThatOfTheShownTick) {
     Shown shown;
     Walker alone(Settings{.stepping = {.rate = {1}}});
     (void)shown.at(0, 0.5);
@@ -106,12 +104,12 @@ TEST(Playback, APressIsSeenByOneStepHoweverLongItWaits) {
     EXPECT_EQ(shown.at(9, 0).y, 1);
 }
 
-/// A walker that is put at 1000 m before its third step.
+/// A walker that teleports to 1000 m before its third step.
 struct Jumper : Walker {
     explicit Jumper(const Settings& settings) : Walker(settings) { teleport_after = 2; }
 };
 
-TEST(Playback, ATeleportIsNotDrawnInBetween) {
+TEST(Playback, DoesNotInterpolateATeleport) {
     AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}}};
     Recorder none{{}, {}, game.world()};
     Playback playback{game, none, false};
@@ -125,7 +123,7 @@ TEST(Playback, ATeleportIsNotDrawnInBetween) {
     }
 }
 
-TEST(Playback, ManyStepsAtOnceGiveTheBitsOfOneAtATime) {
+TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}}};
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};
     Recorder none{{}, {}, together.world()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The demos as their users run them: from a shell, without a display.
+// Runs the demos as users do: from a shell, without a display.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,8 @@ TEST(Program, OsmesaAndEglDrawTheSamePixels) {
     EXPECT_EQ(frames[0], frames[1]);
 }
 
-// ω = √15 rad/s: at 1 Hz far beyond 2, and explicit Euler at 100 Hz beyond b/k = 1/150 s.
+// ω = √15 rad/s. At 1 Hz ω·dt is 3.87, above the limit of 2. At 100 Hz the dt of explicit Euler is
+// above its limit of b/k = 1/150 s.
 TEST(Program, WarnsOfASpringThatTheMethodCannotFollow) {
     const Outcome coarse = shell("spring_damper --steps 1 --rate 1");
     EXPECT_EQ(coarse.exit, 0);
@@ -59,7 +60,7 @@ TEST(Program, WarnsOfASpringThatTheMethodCannotFollow) {
         EXPECT_EQ(shell(std::string("spring_damper --steps 1 ") + fine).err, "") << fine;
 }
 
-TEST(Program, NamesTheCauseWhereItDiverges) {
+TEST(Program, NamesTheCauseOfADivergence) {
     const Folder folder;
     const Outcome run = shell("spring_damper --steps 5000 --rate 1 --quiet --trace " +
                               quoted(folder / "trace.csv"));
@@ -84,7 +85,7 @@ TEST(Program, RefusesAMethodThatCannotStepItsForcesBeforeItWrites) {
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 
-TEST(Program, PutsDampingWhereItIsTold) {
+TEST(Program, TakesDampingFromTheOption) {
     const auto position = [](const std::string& options) {
         const Outcome run =
             shell("spring_damper --quiet --steps 1000 --json - --trace /dev/null " + options);
@@ -98,7 +99,7 @@ TEST(Program, PutsDampingWhereItIsTold) {
     EXPECT_EQ(position("--method rk4").second, position("--method rk4 --damping kick").second);
 }
 
-TEST(Program, FramesAreFinePngFiles) {
+TEST(Program, FramesAreValidPngFiles) {
     if (shell("command -v pngcheck").exit != 0) GTEST_SKIP() << "pngcheck is not installed";
     const Folder folder;
     EXPECT_EQ(shell("projectile" + small + "--frames 3 --out " + quoted(folder / "o")).exit, 0);
@@ -118,7 +119,7 @@ TEST(Program, FrameIShowsTickIWhenRateAndFpsAgree) {
     }
 }
 
-// With the folder set, SDL goes on to a driver that draws where nobody sees it.
+// With XDG_RUNTIME_DIR set, SDL falls back to an invisible driver.
 TEST(Program, WithoutADisplayNamesHeadless) {
     const Folder folder;
     for (const std::string& set : {std::string("unset XDG_RUNTIME_DIR"),
@@ -139,7 +140,7 @@ TEST(Program, WrongUsageIsOneLineAndExitTwo) {
     }
 }
 
-TEST(Program, WhatCannotBeWrittenIsOneLineAndExitFour) {
+TEST(Program, AFailedWriteIsOneLineAndExitFour) {
     for (const std::string words :
          {"--headless --quiet --frames 1 --size 16x9 --out /proc/none",
           "--steps 1 --trace /proc/none", "--steps 1 --quiet --json /dev/full",
@@ -150,7 +151,7 @@ TEST(Program, WhatCannotBeWrittenIsOneLineAndExitFour) {
     }
 }
 
-TEST(Program, InterruptedCaptureIsCompleteUpToThere) {
+TEST(Program, AnInterruptedCaptureIsCompleteUpToThere) {
     const Folder folder;
     const Outcome run =
         shell("hello" + small + "--frames 100000 --out " + quoted(folder / "o") +
@@ -162,7 +163,7 @@ TEST(Program, InterruptedCaptureIsCompleteUpToThere) {
     EXPECT_EQ(names_in(folder / "o").size(), manifest["frames"].size() + 1) << "no other file";
 }
 
-TEST(Program, TraceReadsBackAndJsonTellsTheRun) {
+TEST(Program, TraceReadsBackAndJsonDescribesTheRun) {
     const Folder folder;
     const Outcome run = shell("spring_damper --quiet --steps 1000 --json - --trace " +
                               quoted(folder / "t.csv") + " --energy " + quoted(folder / "e.csv"));
@@ -190,8 +191,8 @@ TEST(Program, TraceReadsBackAndJsonTellsTheRun) {
     EXPECT_NEAR(x, 303.79268459741713, 1e-9) << row;
 }
 
-// No option has the value that the demo has without it. 7 steps at 50 Hz are 0.14 s.
-TEST(Program, JsonTellsTheSettingsThatWereGiven) {
+// Every option differs from the default of the demo. 7 steps at 50 Hz are 0.14 s.
+TEST(Program, JsonHasTheGivenSettings) {
     const Outcome run = shell(
         "spring_damper --quiet --steps 7 --rate 50 --method velocity_verlet --precision float "
         "--damping kick --threads 3 --seed 9 --json -");
@@ -239,10 +240,10 @@ TEST(Program, ClosedOrFullStreamsDoNoHarm) {
     EXPECT_EQ(shell("hello --help >/dev/full").exit, 4);
     EXPECT_EQ(shell("hello --steps 5 --json - >/dev/full").exit, 4);
     EXPECT_EQ(shell("(hello --steps 300000 --trace -; echo $? >" + trace + ") | head -1").exit, 0);
-    EXPECT_EQ(text_of(folder / "t.csv"), "4\n") << "the reader went away";
+    EXPECT_EQ(text_of(folder / "t.csv"), "4\n") << "the reader has closed the pipe";
 }
 
-TEST(Program, ALinkToNothingIsNotReplaced) {
+TEST(Program, ADanglingLinkIsNotReplaced) {
     const Folder folder;
     std::filesystem::create_symlink("nothing", folder / "link");
     EXPECT_EQ(shell("hello --steps 5 --quiet --json " + quoted(folder / "link")).exit, 4);
@@ -258,14 +259,14 @@ TEST(Program, AnEnergyThatOverflowsIsADivergence) {
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
 }
 
-TEST(Program, QuietSaysNothingAndDataComesOnlyWhenAsked) {
+TEST(Program, QuietPrintsNothingAndDataNeedsAnOption) {
     const Folder folder;
     const Outcome quiet = shell("hello" + small + "--frames 2 --out " + quoted(folder / "o"));
     EXPECT_EQ(quiet.out + quiet.err, "");
     const Outcome loud =
         shell("hello --headless --size 160x90 --frames 2 --out " + quoted(folder / "p"));
     EXPECT_EQ(loud.out, "");
-    EXPECT_NE(loud.err.find("osmesa"), std::string::npos) << "auto says which surface it took";
+    EXPECT_NE(loud.err.find("osmesa"), std::string::npos) << "auto prints the selected surface";
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace oiler::test {
 namespace {
 
-/// The files that a recorder writes of tick 0 and of `steps` steps.
+/// The files of a recorder after tick 0 and `steps` steps.
 struct Recorded {
     Recorded(World& world, int steps) {
         const Folder folder;
@@ -43,7 +43,7 @@ T last_number(const std::string& csv, std::size_t column) {
     return number;
 }
 
-// In double's digits 0.1F is 0.10000000149011612.
+// With the digits of a double, 0.1F would be 0.10000000149011612.
 TEST(Recorder, TracesFloatsInTheirShortestForm) {
     World world(3, {.precision = Precision::single});
     world.spawn(Body{.position = {0.1, -0.2, 0.3}, .velocity = {1e-7, 2.5, 0.7}});
@@ -76,7 +76,8 @@ TEST(Recorder, TracesNumbersThatReadBackToTheSameBits) {
     expect_same_bits<double>(Precision::double_);
 }
 
-// At 4 steps a second a free body at 2 m/s moves 0.5 m a step. The body of entity 2 is in row 0.
+// At 4 steps per second a free body at 2 m/s moves 0.5 m per step. The body of entity 2 is in row
+// 0.
 TEST(Recorder, TracesEachBodyByItsEntityAfterEachStep) {
     World world(1, {.rate = {4}});
     const Entity gone = world.spawn(Body{});
@@ -90,8 +91,8 @@ TEST(Recorder, TracesEachBodyByItsEntityAfterEachStep) {
               "2,0.5,2,8,0\n2,0.5,1,2,2\n");
 }
 
-// ½·2·3² = 9 J and 2·10·5 = 100 J. In a step of 0.5 s semi-implicit Euler takes −10·0.5 m/s from
-// the velocity, which is then −2 m/s, and −1 m from the height: 4 J and 80 J.
+// At the start ½·2·3² = 9 J and 2·10·5 = 100 J. A step of 0.5 s of semi-implicit Euler changes the
+// velocity by −10·0.5 m/s to −2 m/s and the height by −1 m: 4 J and 80 J.
 TEST(Recorder, WritesEachEnergyInItsColumn) {
     World world(2, {.rate = {2}});
     world.set_gravity({0, -10});
@@ -106,7 +107,8 @@ TEST(Recorder, IsActiveForEitherFile) {
     EXPECT_FALSE(Recorder({}, {}, world).active());
     EXPECT_TRUE(Recorder(folder / "trace", {}, world).active());
     EXPECT_TRUE(Recorder({}, folder / "energy", world).active());
-    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>()) << "nothing is committed";
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>())
+        << "without commit() there are no files";
 }
 
 }  // namespace

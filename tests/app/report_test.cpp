@@ -67,7 +67,7 @@ struct Empty {
     Picture picture() const { return {}; }
 };
 
-/// How a run of one step ends whose budget has these entries, kept or not.
+/// Exit code of a run of one step whose budget entries are kept or exceeded.
 Exit end_of(const std::vector<bool>& kept, Options options) {
     options.steps = 1;
     options.quiet = true;
@@ -82,7 +82,7 @@ Exit end_of(const std::vector<bool>& kept, Options options) {
     return run_game(options, Empty::about, make, measure);
 }
 
-TEST(Budget, FailsTheRunWhicheverEntryIsExceeded) {
+TEST(Budget, FailsTheRunIfAnyEntryIsExceeded) {
     const Folder folder;
     Options options;
     options.json = folder / "report";
@@ -92,14 +92,14 @@ TEST(Budget, FailsTheRunWhicheverEntryIsExceeded) {
     EXPECT_EQ(end_of({false, false}, options), Exit::comparison_failed);
 }
 
-TEST(Budget, IsMeasuredForJsonOrHeadlessRunsAlone) {
+TEST(Budget, IsMeasuredOnlyForJsonOrHeadlessRuns) {
     EXPECT_EQ(end_of({false}, {}), Exit::done);
     Options headless;
     headless.headless = true;
     EXPECT_EQ(end_of({false}, headless), Exit::comparison_failed);
 }
 
-TEST(Budget, SaysWhichEntryIsExceededAlsoToQuietRuns) {
+TEST(Budget, PrintsExceededEntriesInQuietRunsToo) {
     Options options;
     options.headless = true;
     testing::internal::CaptureStderr();

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# A demo in a real window: pause holds the picture, a single step changes it, Q ends it well, and
-# --frames N ends it after N frames.
-# Usage: window_test.sh PROGRAM TITLE. Exit 77: Xvfb or xdotool is not installed.
+# Runs a demo in a real window: pause freezes the picture, a single step changes it, Q quits with
+# exit code 0, and --frames N quits after N frames. Usage: window_test.sh PROGRAM TITLE. Exit 77:
+# Xvfb or xdotool is not installed.
 set -u
 program=$1
 title=$2
@@ -14,7 +14,7 @@ game=
 trap 'kill $game $server 2>/dev/null; rm -rf "$folder"' EXIT
 fail() { echo "window_test: $1"; exit 1; }
 
-# until_true COMMAND...: tries for up to 20 s.
+# until_true COMMAND...: repeats the command for up to 20 s.
 until_true() {
     for _ in $(seq 200); do
         "$@" && return 0
@@ -44,13 +44,13 @@ export DISPLAY
 "$program" --size 640x360 >"$folder/out" 2>"$folder/err" &
 game=$!
 until_true window_focused || fail "no window: $(cat "$folder/err")"
-until_true grep -q "drawing with sdl2" "$folder/err" || fail "auto did not take the window"
+until_true grep -q "drawing with sdl2" "$folder/err" || fail "auto does not select the window"
 until_true moves || fail "nothing moves before the pause"
 xdotool key p
 until_true stands_still || fail "P does not pause"
 xdotool key period
 until_true has_changed || fail "a single step shows nothing"
-until_true stands_still || fail "a single step goes on"
+until_true stands_still || fail "the picture moves after a single step"
 xdotool key p
 until_true moves || fail "P does not resume"
 xdotool key q
@@ -58,8 +58,8 @@ wait $game
 status=$?
 [ $status -eq 0 ] || fail "Q leaves with exit code $status"
 
-# steps_in_frames N: the steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame starts
-# the clock and takes none; a late frame takes 250 at most.
+# steps_in_frames N: number of steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame
+# starts the clock and takes no step; a late frame takes at most 250.
 steps_in_frames() {
     "$program" --size 640x360 --quiet --frames "$1" --fps 10 --rate 1000 --json "$folder/report" ||
         fail "--frames $1 leaves with exit code $?"

@@ -76,8 +76,8 @@ TEST(Capture, WritesFramesAndAManifestThatNamesThem) {
     EXPECT_EQ(frame["pixel_hash"], oiler::hash_text(expected.value()));
 }
 
-// No two numbers and no two texts of the header agree.
-TEST(Capture, ManifestSaysHowTheFramesWereMade) {
+// All numbers and all texts of the header are different.
+TEST(Capture, ManifestHasEachFieldOfTheHeader) {
     const Folder folder;
     capture(folder / "out", 1);
     const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
@@ -169,7 +169,7 @@ TEST(Capture, AStaleFrameThatIsALinkLosesOnlyTheLink) {
     EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json"}));
 }
 
-TEST(Capture, SomebodyElsesManifestIsNotTouched) {
+TEST(Capture, AManifestOfAnotherProgramIsNotTouched) {
     for (const char* text :
          {"{}", "[]", "", "{\"frames\":1}", "{\"gl_renderer\":\"x\"}", "{\"frames\":{}}",
           "{\"frames\":[{}]}", "not json", "{\"name\":\"a web app\"}"}) {

@@ -62,7 +62,7 @@ TEST(File, LeavesNothingWithoutACommit) {
     EXPECT_EQ(names_in(folder.path()), Names{"a.txt"});
 }
 
-TEST(File, SeveralAtOnceDoNotMeet) {
+TEST(File, SeveralAtOnceHaveDifferentTemporaryFiles) {
     const Folder folder;
     File a(folder / "a");
     File b(folder / "b");
@@ -73,7 +73,7 @@ TEST(File, SeveralAtOnceDoNotMeet) {
     EXPECT_EQ(text_of(folder / "a") + text_of(folder / "b"), "AB");
 }
 
-TEST(File, OnceCommittedLeavesTheNextOneAlone) {
+TEST(File, OnceCommittedDoesNotTouchTheNextOne) {
     const Folder folder;
     auto first = std::make_unique<File>(folder / "a");
     first->commit();
@@ -95,7 +95,7 @@ TEST(File, HasThePermissionsOfAnyNewFile) {
     EXPECT_EQ(permissions_of(folder / "a"), 0640U);
 }
 
-// The file that takes the name is a new one, which the umask would make 0640.
+// The replacing file is new, and the umask alone would make it 0640.
 TEST(File, KeepsThePermissionsOfTheFileThatItReplaces) {
     const Folder folder;
     const mode_t before = umask(027);
@@ -119,7 +119,7 @@ TEST(File, KeepsThePermissionsOfTheFileThatASymbolicLinkNames) {
     EXPECT_EQ(permissions_of(folder / "real"), 0600U);
 }
 
-TEST(File, KeepsASymbolicLinkAndWritesWhatItNames) {
+TEST(File, KeepsASymbolicLinkAndWritesItsTarget) {
     const Folder folder;
     put(folder / "real", "old");
     fs::create_symlink("real", folder / "link");
@@ -128,19 +128,19 @@ TEST(File, KeepsASymbolicLinkAndWritesWhatItNames) {
     EXPECT_EQ(text_of(folder / "real"), "new");
 }
 
-TEST(File, TakesTheLongestNameThatTheFileSystemTakes) {
+TEST(File, AcceptsTheLongestNameOfTheFileSystem) {
     const Folder folder;
     const std::string name(255, 'n');
     write_file(folder / name, bytes_of("a"));
     EXPECT_EQ(text_of(folder / name), "a");
 }
 
-// Never the machine's own /dev/full: run as root, a File that fails this test would replace it.
+// Not the machine's /dev/full: if this test fails as root, File would replace it.
 TEST(File, AFullDeviceFailsAndStaysADevice) {
     const Folder folder;
     const fs::path full = folder / "full";
     if (mknod(full.c_str(), S_IFCHR | 0600, makedev(1, 7)) != 0 || !std::ofstream(full))
-        GTEST_SKIP() << "may not make a device here";
+        GTEST_SKIP() << "no permission to make a device";
     for (const std::size_t count : {std::size_t{1}, std::size_t{1} << 20})
         EXPECT_EQ(io_error_of([&] { write_file(full, bytes_of(std::string(count, 'x'))); }),
                   "cannot write " + full.string() +
@@ -168,7 +168,7 @@ TEST(File, StandardOutputIsWrittenInPlaceEvenWhenItIsAFile) {
     EXPECT_EQ(text_of(folder / "out"), "before data after");
 }
 
-TEST(File, SaysWhyItCannotBeOpened) {
+TEST(File, NamesTheReasonWhyItCannotBeOpened) {
     const Folder folder;
     put(folder / "file", "");
     EXPECT_EQ(io_error_of([&] { File(folder / "none/a"); }),
@@ -181,7 +181,7 @@ TEST(File, SaysWhyItCannotBeOpened) {
               std::string::npos);
 }
 
-TEST(File, LeavesNoTemporaryFileWhenItCannotTakeItsName) {
+TEST(File, LeavesNoTemporaryFileIfItCannotBeRenamed) {
     const Folder folder;
     {
         File file(folder / "a");
@@ -191,7 +191,7 @@ TEST(File, LeavesNoTemporaryFileWhenItCannotTakeItsName) {
     EXPECT_EQ(names_in(folder.path()), Names{"a"});
 }
 
-TEST(MakeFolder, MakesParentsAndSaysWhetherItWasMissing) {
+TEST(MakeFolder, MakesParentsAndReturnsWhetherItWasMissing) {
     const Folder folder;
     EXPECT_TRUE(make_folder(folder / "a/b/c"));
     EXPECT_TRUE(fs::is_directory(folder / "a/b/c"));
@@ -199,7 +199,7 @@ TEST(MakeFolder, MakesParentsAndSaysWhetherItWasMissing) {
     EXPECT_TRUE(make_folder(folder / "d/"));
 }
 
-TEST(MakeFolder, SaysWhyItCannot) {
+TEST(MakeFolder, NamesTheReasonOfAFailure) {
     const Folder folder;
     put(folder / "file", "");
     for (const char* name : {"file", "file/below"})

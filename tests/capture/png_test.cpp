@@ -19,7 +19,7 @@ using oiler::Exit;
 using oiler::Size;
 using Pixels = std::vector<std::uint8_t>;
 
-/// What libpng reads, top row first.
+/// Decodes a PNG with libpng, top row first.
 Pixels decode(const std::vector<std::byte>& png, Size size) {
     png_image image = {};
     image.version = PNG_IMAGE_VERSION;
@@ -65,7 +65,7 @@ TEST(EncodePng, SamePixelsGiveSameBytes) {
     EXPECT_EQ(encode_png({64, 64}, pixels), encode_png({64, 64}, pixels));
 }
 
-TEST(EncodePng, RefusesWhatCannotBeCounted) {
+TEST(EncodePng, RefusesEmptyAndTooLargeFrames) {
     for (const Size size :
          {Size{0, 0}, {0, 5}, {5, 0}, {-1, 5}, {32768, 32768}, {1 << 30, 1 << 30}})
         try {
@@ -76,8 +76,9 @@ TEST(EncodePng, RefusesWhatCannotBeCounted) {
         }
 }
 
-TEST(EncodePng, PngcheckFindsNoFault) {
-    if (std::system("command -v pngcheck > /dev/null") != 0) GTEST_SKIP() << "no pngcheck here";
+TEST(EncodePng, PassesPngcheck) {
+    if (std::system("command -v pngcheck > /dev/null") != 0)
+        GTEST_SKIP() << "pngcheck is not installed";
     const oiler::test::Folder folder;
     const auto png = encode_png({33, 17}, noise({33, 17}));
     oiler::test::put(folder / "a.png", {reinterpret_cast<const char*>(png.data()), png.size()});

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scene.sh [SECONDS]: feeds the scene reader mutations of all scenes, good and bad ones, for that
-# long. What makes it fail is left in build-fuzz/.
+# scene.sh [SECONDS]: runs the fuzzer of the scene reader on mutations of all valid and invalid
+# scenes, for 60 s if not given. Failing inputs are written to build-fuzz/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-60}

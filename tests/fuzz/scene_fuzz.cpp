@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes are either a scene, of which a world can be made, or refused in one line that names the
-// file.
+// Any bytes are either a valid scene, from which a world can be made, or refused in one line that
+// names the file.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace oiler;
 
-/// More would take the time of the many small ones.
+/// Larger scenes would take the time of many small ones.
 constexpr std::int64_t most_made = 10'000;
 
 void expect(bool holds) {
@@ -22,7 +22,7 @@ void expect(bool holds) {
 
 void make(const Scene& scene) {
     if (scene.body_count() > most_made) return;
-    const World world = make_world(scene, settings_of(scene));
+    const World world = make_world(scene, Settings{scene.stepping});
     world.require_applicable();
     expect(world.bodies().size() == static_cast<std::size_t>(scene.body_count()));
 }

@@ -36,7 +36,7 @@ TEST(Camera, PutsItsCentreInTheMiddleAndItsHeightOverTheCanvas) {
 }
 
 TEST(Between, IsExactlyBeforeAtZeroAndAfterAtOne) {
-    // 0.1 and 0.7 have no exact sum or difference in float, so a formula alone would miss.
+    // 0.1 and 0.7 have no exact sum or difference in float, so interpolation alone would miss.
     const Picture before = of_discs({disc({1, 0, 0}, {0.1F, 1e7F})});
     const Picture after = of_discs({disc({1, 0, 0}, {0.7F, -3e-7F}), disc({2, 0, 0}, {5, 5})});
     EXPECT_EQ(centre_at(before, after, 0), (Point{0.1F, 1e7F}));
@@ -63,14 +63,14 @@ TEST(Between, MovesDiscsOnStraightLines) {
     EXPECT_EQ(moved.colour, (Colour{64, 191, 13, 191}));
 }
 
-TEST(Between, LeavesWhatStandsStillExactlyWhereItIs) {
+TEST(Between, KeepsElementsThatDoNotMoveExactly) {
     const Picture still = of_discs({disc({1, 0, 0}, {0.1F, 1.0F / 3})});
     for (int i = 0; i <= 100; ++i) {
         EXPECT_EQ(centre_at(still, still, static_cast<float>(i) / 100), (Point{0.1F, 1.0F / 3}));
     }
 }
 
-TEST(Between, DoesNotStreakWhatTeleports) {
+TEST(Between, DoesNotStreakTeleportedElements) {
     const Picture before = of_discs({disc({1, 0, 0}, {0, 0})});
     const Picture after = of_discs({disc({1, 0, 1}, {100, 0})});
     EXPECT_EQ(centre_at(before, after, 0.99F), (Point{0, 0}));
@@ -78,7 +78,7 @@ TEST(Between, DoesNotStreakWhatTeleports) {
     EXPECT_EQ(between(before, after, 0.99F).discs.size(), 1U);
 }
 
-TEST(Between, ShowsNewAndDropsGoneOnlyAtTheEnd) {
+TEST(Between, AddsNewAndRemovesOldElementsOnlyAtTheEnd) {
     const Picture before = of_discs({disc({1, 0, 0}, {0, 0}), disc({2, 0, 0}, {10, 0})});
     const Picture after = of_discs({disc({2, 0, 0}, {20, 0}), disc({3, 0, 0}, {30, 0})});
     const Picture half = between(before, after, 0.5F);
@@ -87,7 +87,7 @@ TEST(Between, ShowsNewAndDropsGoneOnlyAtTheEnd) {
     EXPECT_EQ(half.discs[1].centre.x, 15);
 }
 
-TEST(Between, MatchesByKeyWhateverTheOrderAndKeepsTheOrderBefore) {
+TEST(Between, MatchesByKeyInAnyOrderAndKeepsTheFirstOrder) {
     Picture before;
     Picture after;
     for (std::uint64_t i = 1; i <= 50; ++i) {
@@ -102,7 +102,7 @@ TEST(Between, MatchesByKeyWhateverTheOrderAndKeepsTheOrderBefore) {
     }
 }
 
-TEST(Between, MatchesNothingWithoutAnObjectOrInAnotherSpace) {
+TEST(Between, DoesNotMatchWithoutAnObjectOrInAnotherSpace) {
     Picture before = of_discs({disc({0, 7, 0}, {0, 0}), disc({1, 0, 0}, {0, 0})});
     Picture after = of_discs({disc({0, 7, 0}, {8, 0}), disc({1, 0, 0}, {8, 0})});
     after.discs[1].space = Space::canvas;

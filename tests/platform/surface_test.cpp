@@ -17,8 +17,8 @@
 namespace oiler {
 namespace {
 
-/// What decides about the bits of a sum: rounding, and whether subnormal numbers are flushed. The
-/// six lowest bits of MXCSR only report what has happened.
+/// The control bits that affect sums: rounding, and whether subnormal numbers are flushed. The six
+/// lowest bits of MXCSR are status flags.
 unsigned arithmetic() {
     auto mode = static_cast<unsigned>(std::fegetround());
 #ifdef __SSE__
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-TEST_P(Provider, OffersOpenGl33WhichAPictureCanBeDrawnWith) {
+TEST_P(Provider, DrawsAPictureWithOpenGl33) {
     const auto studio = drawing::open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
     EXPECT_EQ(studio->surface->provider(), expected_name());
@@ -55,7 +55,7 @@ TEST_P(Provider, OpensAgainAndAgain) {
     }
 }
 
-TEST_P(Provider, LeavesTheArithmeticAlone) {
+TEST_P(Provider, DoesNotChangeTheArithmetic) {
     const unsigned before = arithmetic();
     const auto studio = drawing::open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Offscreen, Provider, testing::Values(Offscreen::osmesa,
                              return chosen.param == Offscreen::osmesa ? "osmesa" : "egl";
                          });
 
-TEST(Automatic, TakesWhatIsInstalled) {
+TEST(Automatic, SelectsAnInstalledProvider) {
     const auto studio = drawing::open_studio(Offscreen::automatic);
     if (!studio) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
     const auto osmesa = drawing::open_studio(Offscreen::osmesa);
@@ -79,7 +79,7 @@ TEST(Automatic, TakesWhatIsInstalled) {
 void expect_no_window() {
     try {
         static_cast<void>(open_window({64, 36}, "test"));
-        EXPECT_TRUE(std::filesystem::exists("/dev/dri/card0")) << "a window that nobody can see";
+        EXPECT_TRUE(std::filesystem::exists("/dev/dri/card0")) << "an invisible window";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::no_display);
         const std::string line = error.what();
@@ -93,14 +93,14 @@ TEST(Window, WithoutADisplayNamesHeadless) {
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
     unsetenv("SDL_VIDEODRIVER");
-    // SDL falls back to an invisible driver only where that folder is set.
+    // SDL falls back to an invisible driver only if this folder is set.
     setenv("XDG_RUNTIME_DIR", "/nonexistent", 1);
     expect_no_window();
     unsetenv("XDG_RUNTIME_DIR");
     expect_no_window();
 }
 
-TEST(Library, SaysWhatToInstall) {
+TEST(Library, NamesThePackageToInstall) {
     try {
         const Library library("libOilerHasNoSuchThing.so.9", "install the Debian package x");
         FAIL() << "loaded a library that does not exist";
@@ -112,12 +112,12 @@ TEST(Library, SaysWhatToInstall) {
     }
 }
 
-TEST(Llvmpipe, IsTamedUnlessTheUserSaysOtherwise) {
+TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
     unsetenv("LP_NATIVE_VECTOR_WIDTH");
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
     setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "128");
 }
 

@@ -19,7 +19,7 @@ Plot with_curve(std::vector<DataPoint> points) {
     return plot;
 }
 
-/// The red polylines of a drawn plot: its curve, in as many pieces as the box cuts it into.
+/// The red polylines of a drawn plot: its curve, in one piece or several.
 std::vector<Polyline> curve_pieces(const Plot& plot, ElementKey key = {.object = 1}) {
     Picture picture;
     plot.draw(picture, key);
@@ -57,7 +57,7 @@ TEST(Plot, DrawsACurveInOnePieceWithItsKey) {
 }
 
 TEST(Plot, CutsACurveAtTheBox) {
-    // From the middle straight up to twice the height: cut where y = 1, half way.
+    // The line leads from the middle up to twice the height, and is cut half way, at y = 1.
     const auto pieces = curve_pieces(with_curve({{5, 0}, {6, 2}, {7, 0}}));
     ASSERT_EQ(pieces.size(), 2U);
     EXPECT_EQ(pieces[0].points.back(), (Point{210, 150}));
@@ -66,7 +66,7 @@ TEST(Plot, CutsACurveAtTheBox) {
         for (const Point at : piece.points) EXPECT_LE(at.y, 150);
 }
 
-TEST(Plot, LeavesOutWhatIsWhollyOutside) {
+TEST(Plot, OmitsSegmentsOutsideTheBox) {
     EXPECT_TRUE(curve_pieces(with_curve({{0, 2}, {10, 3}})).empty());
     EXPECT_TRUE(curve_pieces(with_curve({{11, 0}, {12, 0}})).empty());
 }
@@ -160,7 +160,7 @@ TEST(Plot, MarksThePointsWithinItsRangesAndItsLegend) {
     EXPECT_EQ(picture.discs[3].centre, (Point{300, 150}));
 }
 
-TEST(Plot, MarksWithRingsThatLetNothingThrough) {
+TEST(Plot, MarksWithRingsThatHideTheCurve) {
     Plot plot = with_curve({{5, 0}});
     plot.series[0].mark = Mark::ring;
     Picture picture;
@@ -172,7 +172,7 @@ TEST(Plot, MarksWithRingsThatLetNothingThrough) {
     EXPECT_EQ(picture.discs[3].centre, picture.discs[2].centre);
 }
 
-TEST(Plot, HasAsManyTicksAsItIsAskedFor) {
+TEST(Plot, HasTheRequestedNumberOfTicks) {
     const auto labels = [](int x_ticks) {
         Plot plot = square;
         plot.x_ticks = x_ticks;
@@ -215,7 +215,7 @@ void expect_near(const std::vector<double>& at, const std::vector<double>& expec
     for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(at[i] / expected[i], 1, 1e-12);
 }
 
-TEST(LogarithmicTicks, ArePowersOfTenAsManyAsAskedFor) {
+TEST(LogarithmicTicks, ArePowersOfTenInTheRequestedNumber) {
     expect_near(logarithmic_ticks({1, 1000}, 4), {1, 10, 100, 1000});
     expect_near(logarithmic_ticks({0.5, 2e3}, 4), {1, 10, 100, 1000});
     expect_near(logarithmic_ticks({1e-6, 1e6}, 6), {1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6});
@@ -253,7 +253,7 @@ TEST(LogarithmicPlot, WritesPlainNumbersUpToFourDigits) {
               (std::vector<std::string>{"2e-6", "5e-6", "1e-5", "2e-5", "5e-5"}));
 }
 
-TEST(LogarithmicPlot, PartsACurveWhereAPointHasNoPlace) {
+TEST(LogarithmicPlot, LeavesAGapAtAPointThatIsNotAboveZero) {
     const auto pieces = curve_pieces(
         logarithmic_with({{1, 1}, {10, 1}, {20, 0}, {100, 1}, {200, 1}, {300, -5}, {500, 1}}));
     ASSERT_EQ(pieces.size(), 2U);
@@ -262,7 +262,7 @@ TEST(LogarithmicPlot, PartsACurveWhereAPointHasNoPlace) {
     EXPECT_EQ(curve_pieces(logarithmic_with({{-1, 1}, {10, 1}, {100, 1}})).size(), 1U);
 }
 
-TEST(LogarithmicPlot, MarksOnlyWhatHasAPlace) {
+TEST(LogarithmicPlot, MarksOnlyPointsAboveZero) {
     Plot plot = logarithmic_with({{1, 1}, {0, 1}, {10, 0}, {-3, -4}, {1000, 1e4}});
     plot.series[0].mark = Mark::disc;
     EXPECT_EQ(drawn(plot).discs.size(), 3U);  // one of the legend's
@@ -283,7 +283,7 @@ TEST(LogarithmicPlot, HasAMinorGridOfFourDecadesAtMost) {
     EXPECT_EQ(lines({1, 1e5}), 6);
 }
 
-/// Those of the mark at the one point of a plot.
+/// The polylines of the mark at the only point of a plot.
 std::vector<Polyline> outlines(Mark mark) {
     Plot plot = with_curve({{5, 0}});
     plot.series[0].name = "";
@@ -296,7 +296,7 @@ std::vector<Polyline> outlines(Mark mark) {
     return found;
 }
 
-TEST(Marks, ArePolygonsThatLetNothingThrough) {
+TEST(Marks, ArePolygonsThatHideTheCurve) {
     for (const auto& [mark, corners] :
          {std::pair{Mark::square, 4U}, {Mark::diamond, 4U}, {Mark::triangle, 3U}}) {
         const auto lines = outlines(mark);

@@ -13,7 +13,7 @@
 
 namespace oiler::drawing {
 
-/// A surface with a renderer on it; null where the provider is not installed.
+/// A surface with a renderer; null if the provider is not installed.
 struct Studio {
     explicit Studio(std::unique_ptr<Surface> on)
         : surface(std::move(on)),
@@ -47,7 +47,7 @@ inline int red(const Pixels& pixels, int x, int y) {
         3);
 }
 
-/// How much of a pixel black covers on white.
+/// Coverage of a pixel by black on white, from 0 to 1.
 inline double coverage(const Pixels& pixels, int x, int y) {
     return (255 - red(pixels, x, y)) / 255.0;
 }
@@ -60,7 +60,7 @@ inline double total_coverage(const Pixels& pixels) {
     return sum;
 }
 
-/// The box of pixels that are not white.
+/// Bounding box of the pixels that are not white.
 struct Ink {
     int left = 1 << 20;
     int right = -1;
@@ -119,7 +119,7 @@ inline double distance_to_line(double x, double y, const std::vector<Point>& poi
     return least;
 }
 
-/// Something of everything that a game draws.
+/// A picture with all kinds of elements that a game draws.
 inline Picture rich_picture() {
     Picture picture;
     picture.background = {250, 250, 252, 255};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames at their edges, at their largest size, and after a change of size.
+// Tests frames at their edges, at their largest size, and after a change of size.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,14 +27,14 @@ protected:
     std::unique_ptr<drawing::Studio> studio_ = drawing::open_studio(Offscreen::automatic);
 };
 
-/// The area of a disc beyond a line at a distance from its centre.
+/// Area of the part of a disc beyond a line at a distance from its centre.
 double segment(double radius, double distance) {
     return radius * radius * std::acos(distance / radius) -
            distance * std::sqrt(radius * radius - distance * distance);
 }
 
-// Each pixel of the rim is rounded to 1/255 and stands for a ramp, sampled at its centre; the rim
-// within the frame is 42 pixels long.
+// The rim within the frame is 42 pixels long. Each of its pixels samples a ramp at its centre and
+// is rounded to 1/255.
 TEST_F(Frame, ShowsTheRimOfADiscWhoseCentreIsOutside) {
     const double area = segment(20, 10);
     for (const Point centre : {Point{-10, 180}, {650, 180}, {320, -10}, {320, 370}})
@@ -49,15 +49,15 @@ TEST_F(Frame, ShowsTheRimOfADiscBeyondACorner) {
         EXPECT_GT(total_coverage(draw(of_disc(centre, 20))), 20) << centre.x << ", " << centre.y;
 }
 
-TEST_F(Frame, ShowsNothingOfADiscOutside) {
+TEST_F(Frame, DoesNotShowADiscOutside) {
     for (const Point centre : {Point{-21, 180}, {661, 180}, {320, -21}, {320, 381}})
         EXPECT_EQ(total_coverage(draw(of_disc(centre, 20))), 0) << centre.x << ", " << centre.y;
 }
 
-/// A disc that covers the frame, whatever its size.
+/// A disc that covers a frame of any size.
 const Picture black = of_disc({320, 180}, 1e5F);
 
-TEST_F(Frame, HasItsSizeAlsoWhereOneSideAloneHasChanged) {
+TEST_F(Frame, HasItsSizeAfterAChangeOfOneSide) {
     for (const Size size :
          {Size{320, 180}, {320, 200}, {320, 90}, {300, 90}, {400, 90}, {400, 91}}) {
         const Pixels pixels = draw(black, size);
@@ -68,7 +68,7 @@ TEST_F(Frame, HasItsSizeAlsoWhereOneSideAloneHasChanged) {
     }
 }
 
-/// The largest size that the refusal of a larger one names: "… choose a --size from 1x1 to WxH".
+/// The largest size, from the message for a larger one: "… choose a --size from 1x1 to WxH".
 Size largest_frame(drawing::Studio& studio) {
     try {
         (void)studio.draw({}, {1 << 20, 1});
@@ -78,11 +78,11 @@ Size largest_frame(drawing::Studio& studio) {
         const std::string size_named = line.substr(line.rfind(' ') + 1);
         if (std::sscanf(size_named.c_str(), "%dx%d", &size.width, &size.height) == 2) return size;
     }
-    ADD_FAILURE() << "no largest size is named";
+    ADD_FAILURE() << "the message names no largest size";
     return {1, 1};
 }
 
-TEST_F(Frame, MayBeAsLargeAsTheRefusalOfALargerOneSays) {
+TEST_F(Frame, HasTheLargestSizeThatTheMessageNames) {
     const Size largest = largest_frame(*studio_);
     EXPECT_EQ(draw({}, {largest.width, 1}).size.width, largest.width);
     EXPECT_EQ(draw({}, {1, largest.height}).size.height, largest.height);

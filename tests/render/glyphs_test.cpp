@@ -15,9 +15,9 @@
 namespace oiler {
 namespace {
 
-/// Rows; a higher atlas is full.
+/// Rows. The atlas is full above this height.
 constexpr int full = 2048;
-/// Rows that one picture of the letters below adds at most.
+/// Largest number of rows that one picture of the letters below adds.
 constexpr int tallest = 600;
 
 using Placed = std::vector<PlacedGlyph>;
@@ -28,7 +28,7 @@ Placed place(Glyphs& glyphs, const std::string& text, int em) {
     return placed;
 }
 
-/// The rows of a glyph's picture in the atlas.
+/// The pixels of a glyph in the atlas, row by row.
 std::vector<std::uint8_t> picture_of(const Glyphs& glyphs, const PlacedGlyph& glyph) {
     std::vector<std::uint8_t> picture;
     for (int y = 0; y < glyph.box[3]; ++y)
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> picture_of(const Glyphs& glyphs, const PlacedGlyph& gl
     return picture;
 }
 
-/// Compares each picture with that of the same letters in an atlas of their own.
+/// Compares the glyphs with the same letters in a new atlas.
 void expect_own_pictures(const Glyphs& glyphs, const Placed& placed, const std::string& text,
                          int em) {
     Glyphs alone;
@@ -50,8 +50,8 @@ void expect_own_pictures(const Glyphs& glyphs, const Placed& placed, const std::
     }
 }
 
-/// Places letters of ever larger sizes, as in a window that is being resized, until the atlas is
-/// full. 50 sizes of two letters, at most four to a shelf of 150 rows, are more than enough.
+/// Places letters of increasing sizes until the atlas is full, as a resized window does. 50 sizes
+/// of two letters, at most four to a shelf of 150 rows, are enough.
 void fill(Glyphs& glyphs) {
     for (int em = 200; em < 250 && glyphs.atlas_height() <= full; ++em)
         (void)place(glyphs, "WM", em);
@@ -62,15 +62,15 @@ TEST(Glyphs, AreKeptUntilTheAtlasIsFull) {
     Glyphs glyphs;
     const Placed placed = place(glyphs, "oiler", 40);
     const std::uint64_t revision = glyphs.revision();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     EXPECT_EQ(glyphs.revision(), revision);
     expect_own_pictures(glyphs, placed, "oiler", 40);
     (void)place(glyphs, "oiler", 40);
     EXPECT_EQ(glyphs.revision(), revision) << "no letter is rasterised twice";
 }
 
-// A picture may need more rows than a full atlas has. No letter overwrites another.
-TEST(Glyphs, OfOnePictureAllFitIntoTheAtlas) {
+// A picture may need more rows than a full atlas has. No letter may overwrite another.
+TEST(Glyphs, AllFitIntoTheAtlasForOnePicture) {
     Glyphs glyphs;
     const std::string text = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
     const Placed placed = place(glyphs, text, 500);
@@ -84,22 +84,22 @@ TEST(Glyphs, AreForgottenWhenTheAtlasIsFull) {
     fill(glyphs);
     expect_own_pictures(glyphs, before, "oiler", 40);
     const std::uint64_t revision = glyphs.revision();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     EXPECT_NE(glyphs.revision(), revision);
     EXPECT_EQ(glyphs.atlas_height(), 0);
     expect_own_pictures(glyphs, place(glyphs, "oiler", 40), "oiler", 40);
     EXPECT_LE(glyphs.atlas_height(), 40) << "the first rows are used again";
 }
 
-// The renderer uploads the atlas when the revision changes; a revision that returns would leave
-// former letters in the texture.
-TEST(Glyphs, NeverComeBackToARevision) {
+// The renderer uploads the atlas if the revision changes. A repeated revision would leave old
+// letters in the texture.
+TEST(Glyphs, NeverRepeatARevision) {
     Glyphs glyphs;
     std::set<std::uint64_t> revisions{glyphs.revision()};
     for (int round = 0; round < 3; ++round) {
         fill(glyphs);
         EXPECT_TRUE(revisions.insert(glyphs.revision()).second);
-        glyphs.tidy();
+        glyphs.clear_if_full();
         EXPECT_TRUE(revisions.insert(glyphs.revision()).second);
     }
 }
@@ -115,7 +115,7 @@ TEST(Atlas, IsUploadedAnewAfterItWasFull) {
     EXPECT_EQ(studio->draw(picture).rgb, first.rgb);
 }
 
-TEST(Atlas, IsTidiedBeforeEachPicture) {
+TEST(Atlas, IsClearedIfFullBeforeEachPicture) {
     Glyphs glyphs;
     Layout layout;
     int largest = 0;

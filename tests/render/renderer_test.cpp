@@ -20,7 +20,7 @@ using drawing::red;
 using drawing::total_coverage;
 
 constexpr double pi = std::numbers::pi;
-// Blending in eight bits rounds alpha and both products, half a step each.
+// Blending in eight bits rounds alpha and both products by up to half a step each.
 constexpr double blend_rounding = 1.5 / 255;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -35,8 +35,8 @@ protected:
         return studio_->draw(picture, size);
     }
 
-    /// The mean over sixteen places within a pixel: what sampling at pixel centres would be on a
-    /// grid four times as fine, so that it stands for the integral.
+    /// Mean area over sixteen sub-pixel positions. It approximates the integral like samples on a
+    /// grid four times as fine.
     template <class PictureAt>
     double mean_coverage(PictureAt picture_at) {
         double sum = 0;
@@ -55,7 +55,7 @@ TEST_F(Drawing, ADiscCoversItsArea) {
         const double area = mean_coverage([&](Point shift) {
             return of_disc({300 + shift.x, 170 + shift.y}, radius);
         });
-        // The edge is a ring one pixel wide; 1 % of a pixel for what the finer grid still misses.
+        // The edge is a ring one pixel wide. The finer grid misses up to 1 % of a pixel.
         const double rounding = 2 * pi * (radius + 1.0) * blend_rounding;
         EXPECT_NEAR(area, pi * radius * radius, rounding + 0.01) << "radius " << radius;
     }
@@ -70,7 +70,7 @@ TEST_F(Drawing, ALineCoversLengthTimesWidth) {
                 const Point from{200 + shift.x, 100 + shift.y};
                 return of_line({from, {from.x + dx, from.y + dy}}, width);
             });
-            // The two half discs at the ends, with their soft edge: π(R² + 1/12).
+            // The ends are two half discs with soft edges: π(R² + 1/12).
             const double half = std::fmax(width, 1) / 2;
             const double ends = std::fmin(width, 1) * pi * (half * half + 1.0 / 12);
             const double rounding = 2 * 102 * blend_rounding;
@@ -93,7 +93,7 @@ TEST_F(Drawing, ALineOfOnePixelIsAsDarkAsItsColour) {
     }
 }
 
-TEST_F(Drawing, AnAxisBetweenTwoRowsIsSharpAllTheSame) {
+TEST_F(Drawing, AnAxisBetweenTwoRowsIsSharp) {
     const Pixels pixels = draw(of_line({{100, 100}, {200, 100}}, 1));
     EXPECT_EQ(red(pixels, 150, 100), 0);
     EXPECT_EQ(red(pixels, 150, 99), 255);
@@ -145,8 +145,8 @@ TEST_F(Drawing, TurnsHaveNeitherGapsNorSpikes) {
             for (int y = 80; y < 250; ++y) {
                 for (int x = 80; x < 350; ++x) {
                     const double d = drawing::distance_to_line(x + 0.5, y + 0.5, line);
-                    // Up to half a pixel of the axis-aligned ones may have been snapped, and a
-                    // point left out moves a curve by less than that.
+                    // Axis-aligned lines are snapped by up to half a pixel. Omitted points move a
+                    // curve by less.
                     if (d < width / 2 - 1.3) {
                         ASSERT_LE(red(pixels, x, y), 1) << x << ' ' << y << " width " << width;
                     }
@@ -171,7 +171,7 @@ TEST_F(Drawing, ARightAngleIsMitredToItsCorner) {
     EXPECT_NEAR(total_coverage(box), 110 * 110 - 90 * 90, 1);
 }
 
-TEST_F(Drawing, ALineSurvivesPointsThatAreNoPlace) {
+TEST_F(Drawing, ALineSurvivesPointsThatAreNotFinite) {
     const Pixels all = draw(of_line({{100, 50}, {200, 60}, {nan, 70}, {300, 80}, {400, 99}}, 2));
     Picture parts = of_line({{100, 50}, {200, 60}}, 2);
     parts.polylines.push_back(of_line({{300, 80}, {400, 99}}, 2).polylines[0]);
@@ -197,7 +197,7 @@ TEST_F(Drawing, ADiscSurvivesAnyNumber) {
 }
 
 TEST_F(Drawing, LettersHaveTheFontsMeasures) {
-    // DejaVu Sans, units of 2048 to the em: H has height 1493, bearing 201 and advance 1540.
+    // DejaVu Sans has 2048 units per em. H has height 1493, bearing 201 and advance 1540.
     const Ink one = ink(draw(of_text("H", {100, 100}, 100)));
     EXPECT_EQ(one.bottom, 100);
     EXPECT_NEAR(one.top, 100 + 100 * 1493 / 2048.0, 1);
@@ -208,7 +208,7 @@ TEST_F(Drawing, LettersHaveTheFontsMeasures) {
     EXPECT_EQ(red(upright, 140, 168), 255);
     const Ink two = ink(draw(of_text("HH", {100, 100}, 100)));
     EXPECT_NEAR(two.right - one.right, 100 * 1540 / 2048.0, 1);
-    // Kerned, the second letter of AV stands closer than that of AH by about an eighth of an em.
+    // Kerning moves the second letter of AV closer than that of AH, by about 1/8 em.
     const Ink kerned = ink(draw(of_text("AV", {100, 100}, 100)));
     EXPECT_LT(kerned.right, 100 + 100 * (1401 + 1401) / 2048.0 - 5);
 }
@@ -229,13 +229,13 @@ TEST_F(Drawing, SmallTextIsLegible) {
         EXPECT_LT(text.darkest, 64) << size;
         EXPECT_GT(text.right - text.left, 4 * size);
     }
-    // At twice the frame the same text is twice as large.
+    // In a frame of twice the size the text is twice as large.
     const Ink large = ink(draw(of_text("H", {100, 100}, 50), {1280, 720}));
     EXPECT_EQ(large.bottom, 200);
     EXPECT_NEAR(large.top, 200 + 100 * 1493 / 2048.0, 1);
 }
 
-TEST_F(Drawing, TheFontHasWhatFormulasNeed) {
+TEST_F(Drawing, TheFontHasTheSignsOfFormulas) {
     const Pixels missing = draw(of_text("\U0010FFFD", {100, 100}, 20));
     for (const char* sign : {"ω", "ζ", "Δ", "²", "·", "−", "√", "₀", "≤"}) {
         const Pixels pixels = draw(of_text(sign, {100, 100}, 20));
@@ -258,7 +258,7 @@ TEST_F(Drawing, LaterKindsCoverEarlierOnesAndAlphaMixes) {
 
 TEST_F(Drawing, TheCameraLooksAtTheMiddleOfAnyFrame) {
     Picture picture;
-    picture.camera = {{10, 20}, 36};  // ten canvas units to the metre
+    picture.camera = {{10, 20}, 36};  // ten canvas units per metre
     picture.discs.push_back({{}, {10, 20}, 0.5F, {}, Space::world});
     picture.discs.push_back({{}, {-30, 20}, 0.5F, {}, Space::world});  // left of the canvas
     for (const Size size : {Size{640, 360}, Size{1000, 360}, Size{640, 500}}) {
@@ -283,7 +283,7 @@ TEST_F(Drawing, TheSamePictureGivesTheSameBytes) {
     EXPECT_EQ(draw(picture).rgb, first.rgb);
 }
 
-TEST_F(Drawing, RefusesFramesThatCannotBe) {
+TEST_F(Drawing, RefusesImpossibleFrameSizes) {
     for (const Size size : {Size{0, 360}, Size{640, -1}, Size{1 << 20, 4}, Size{4, 1 << 20}}) {
         try {
             draw(Picture{}, size);
@@ -305,14 +305,14 @@ TEST(Providers, ShowTheSamePixels) {
     EXPECT_EQ(seen[0].rgb, seen[1].rgb);
 }
 
-TEST(PolylineMesh, LeavesOutWhatNobodySees) {
+TEST(PolylineMesh, OmitsInvisibleParts) {
     std::vector<Point> dense;
     for (int i = 0; i <= 100000; ++i) {
         dense.push_back({static_cast<float>(i) / 1000, 50});
     }
     LineMesh mesh;
     append_polyline(dense, {1, {}}, {640, 360}, mesh);
-    // 100 pixels at 0.75 a point, two vertices each, and the ends.
+    // 100 pixels at 0.75 pixels per point, two vertices each, and the ends.
     EXPECT_LE(mesh.vertices.size(), 2U * 134 + 4);
     EXPECT_EQ(mesh.vertices.back().position.y, 49 - 0.5F);
     mesh.clear();
@@ -334,7 +334,7 @@ TEST(PolylineMesh, NeverFoldsOver) {
     }
 }
 
-TEST(Utf8, DecodesAndMarksWhatIsNot) {
+TEST(Utf8, DecodesAndMarksInvalidBytes) {
     EXPECT_EQ(decode_utf8("aω√\U0001F600"), U"aω√\U0001F600");
     EXPECT_EQ(decode_utf8("\xFF"), U"\uFFFD");
     EXPECT_EQ(decode_utf8("\xC0\x80"), U"\uFFFD\uFFFD");              // overlong

@@ -28,7 +28,7 @@ std::string with_crlf(const std::string& text) {
     return std::regex_replace(text, std::regex("\n"), "\r\n");
 }
 
-/// Of a scene without bodies.
+/// Compares the texts with LF and with CRLF, each with a body appended.
 void expect_applied(std::string_view scene, std::string_view expected) {
     EXPECT_EQ(applied(with_body(scene)), with_body(expected));
     EXPECT_EQ(applied(with_crlf(with_body(scene))), with_crlf(with_body(expected)));
@@ -69,7 +69,7 @@ TEST(Apply, AddsLinesBelowTheLastKey) {
                    "method = \"rk4\"\nprecision = \"float\"\n");
 }
 
-TEST(Apply, AddsLinesWhereTheLastLineDoesNotEnd) {
+TEST(Apply, AddsLinesAfterALastLineWithoutEnd) {
     const std::string text = "[[body]]\nvelocity = [1.0]\n[scene]\naxes = 1";
     const std::string expected = text + "\nrate = 120\nmethod = \"rk4\"\nprecision = \"float\"";
     EXPECT_EQ(applied(text), expected);
@@ -95,7 +95,7 @@ TEST(Apply, WritesInlineTables) {
                    "scene={axes=1, rate = 120, method = \"rk4\", precision = \"float\"}\n");
 }
 
-TEST(Apply, ReadsWhateverTomlAllows) {
+TEST(Apply, ReadsAllFormsOfTomlValues) {
     expect_applied(
         "[\"scene\"]\n'axes' = 1\n\"rate\" = 1_00\n'method' = 'exact'\n"
         "\"precisio\\u006e\" = \"\"\"double\"\"\"\n",
@@ -110,7 +110,7 @@ TEST(Apply, ReadsWhateverTomlAllows) {
         "[scene]\nmethod = 'rk4'\nrate = 120\nprecision = \"float\"\naxes=1\n");
 }
 
-TEST(Apply, LeavesAloneWhatLooksLikeAScene) {
+TEST(Apply, IgnoresKeysInStringsAndComments) {
     expect_applied(
         "[camera]\nheight = 5.0\n[scene]\naxes = 1\nprecision = 'double'\n"
         "title = '[scene] method = \"exact\" rate = 5 # \\u00e9'\nmethod = \"exact\"\n"
@@ -125,7 +125,7 @@ TEST(Apply, LeavesAloneWhatLooksLikeAScene) {
         "method = \"rk4\"\nprecision = \"float\"\n");
 }
 
-TEST(Apply, LeavesAloneWhatSaysTheSame) {
+TEST(Apply, KeepsEqualValuesAsTheyAreWritten) {
     const std::string same = with_body(
         "[scene]\nmethod='''rk4'''\nprecision = \"\\u0066loat\"\naxes = 1\nrate = 0x78 # fast\n");
     EXPECT_EQ(applied(same), same);
@@ -133,7 +133,7 @@ TEST(Apply, LeavesAloneWhatSaysTheSame) {
     EXPECT_EQ(applied(once), once);
 }
 
-TEST(Apply, KeepsEachLineEndOfMixedOnes) {
+TEST(Apply, KeepsMixedLineEnds) {
     EXPECT_EQ(applied("[scene]\r\naxes = 1\n\r\n[[body]]\r\n"),
               "[scene]\r\naxes = 1\nrate = 120\nmethod = \"rk4\"\nprecision = \"float\"\n\r\n"
               "[[body]]\r\n");
@@ -142,7 +142,7 @@ TEST(Apply, KeepsEachLineEndOfMixedOnes) {
               "[[body]]\n");
 }
 
-/// The line with another value of its key.
+/// Replaces the value of rate, method or precision in a line.
 std::string changed(const std::string& line) {
     const std::string rate = std::regex_replace(line, std::regex("^rate = \\d+"), "rate = 120");
     const std::string method =
@@ -150,7 +150,7 @@ std::string changed(const std::string& line) {
     return std::regex_replace(method, std::regex("^precision = \"\\w+\""), "precision = \"float\"");
 }
 
-TEST(Apply, ChangesNothingElseOfTheScenesThatComeWithIt) {
+TEST(Apply, ChangesNothingElseInTheScenesOfTheRepository) {
     std::size_t count = 0;
     for (const auto& file : std::filesystem::directory_iterator(OILER_SOURCE "/assets/scenes")) {
         if (file.path().extension() != ".toml") continue;
@@ -172,7 +172,7 @@ TEST(Apply, ChangesNothingElseOfTheScenesThatComeWithIt) {
     EXPECT_GE(count, 10U);
 }
 
-TEST(Apply, RefusesWhatIsNoScene) {
+TEST(Apply, RefusesInvalidScenes) {
     for (const std::string_view text :
          {"", "[scene", "[scene]\naxes = 1\n", "[gravity]\nacceleration = [1.0]\n[[body]]\n",
           "scene.axes = 1\n[scene]\nrate = 5\n[[body]]\n"}) {
@@ -181,7 +181,7 @@ TEST(Apply, RefusesWhatIsNoScene) {
     }
 }
 
-TEST(Apply, RefusesAChoiceThatTheSceneCannotTake) {
+TEST(Apply, RefusesSettingsThatDoNotSuitTheScene) {
     const std::string text = with_body("[scene]\naxes = 1\n");
     EXPECT_THROW((void)apply(text, "test.toml", {.method = &find_method("rk4"), .rate = 0}), Error);
     const Stepping exact{.method = &find_method("exact"), .rate = 100};

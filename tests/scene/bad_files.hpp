@@ -11,15 +11,15 @@
 
 namespace oiler::test {
 
-/// A file in tests/scene/bad: what is wrong with it, and on which line.
+/// A file in tests/scene/bad, with the line and the message of its error.
 struct BadFile {
     std::string path;
     int line;
     std::string message;
 };
 
-/// Each file says so in its first line, `# line 4: the message`; of files in which a comment would
-/// change what they are about, expected.json does.
+/// Reads the expected errors: the first line of each file, `# line 4: the message`, or an entry in
+/// expected.json for files that a comment would change.
 inline std::vector<BadFile> bad_files() {
     static const std::regex first_line(R"(# line (\d+): (.*))");
     const std::filesystem::path folder = OILER_SOURCE "/tests/scene/bad";
@@ -36,7 +36,8 @@ inline std::vector<BadFile> bad_files() {
         const std::string comment = text.substr(0, text.find('\n'));
         std::smatch match;
         if (!std::regex_match(comment, match, first_line))
-            throw std::runtime_error(path + ": neither its first line nor expected.json says why");
+            throw std::runtime_error(path +
+                                     ": no expected error in its first line or in expected.json");
         files.push_back({path, std::stoi(match[1]), match[2]});
     }
     return files;

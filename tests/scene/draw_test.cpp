@@ -37,7 +37,7 @@ TEST(DrawScene, ShowsBodiesAttractorsAndAnchors) {
     EXPECT_EQ(picture.labels.at(1).text, "velocity_verlet at 100 Hz, double   t = 0.00 s");
 }
 
-// Two springs; of 3 × 2 bodies two rows, three columns, and two threads of a diagonal each way.
+// Two springs. A grid of 3 × 2 bodies has threads for two rows, three columns and four diagonals.
 TEST(DrawScene, ShowsSpringsFromEndToEnd) {
     const Picture picture = drawn(parsed(everything));
     ASSERT_EQ(picture.polylines.size(), 2U + 2 + 3 + 2 + 2);
@@ -59,7 +59,7 @@ void expect_distinct_keys(const std::vector<Element>& elements) {
             }
 }
 
-TEST(DrawScene, EverythingThatMovesHasAKeyOfItsOwn) {
+TEST(DrawScene, GivesEachMovingElementItsOwnKey) {
     const Picture picture = drawn(parsed(everything));
     expect_distinct_keys(picture.discs);
     expect_distinct_keys(picture.polylines);
@@ -68,7 +68,7 @@ TEST(DrawScene, EverythingThatMovesHasAKeyOfItsOwn) {
         2);
 }
 
-TEST(DrawScene, MovesBetweenTwoSteps) {
+TEST(DrawScene, InterpolatesBetweenTwoSteps) {
     const Scene scene = parsed(everything);
     World world = make_world(scene, Settings{scene.stepping});
     const Camera camera = camera_of(scene, world);
@@ -82,18 +82,18 @@ TEST(DrawScene, MovesBetweenTwoSteps) {
     EXPECT_NE(half.polylines[0].points.back(), before.polylines[0].points.back());
 }
 
-TEST(Camera, FitsWhatTheSceneStartsWith) {
+TEST(Camera, FitsTheStartOfTheScene) {
     const Scene scene = parsed(
         "[scene]\naxes = 2\n[[body]]\nname = 'a'\nposition = [-8, 1]\n[[body]]\nposition = [8, 3]\n"
         "[[spring]]\nbody = 'a'\nanchor = [0, -1]\nstiffness = 1\n"
         "[[attractor]]\nposition = [0, 5]\ngm = 1\n");
     const Camera camera = camera_of(scene, make_world(scene, Settings{scene.stepping}));
     EXPECT_EQ(camera.centre, (Point{0, 2}));
-    // 16 m wide and 6 m high, in 16:9 with a quarter more.
+    // The box is 16 m wide and 6 m high. In 16:9 with 25 % more this is 11.25 m.
     EXPECT_FLOAT_EQ(camera.height, 9 * 1.25F);
 }
 
-TEST(Camera, ShowsOnePointWithSomethingAroundIt) {
+TEST(Camera, HasADefaultHeightForOnePoint) {
     const Scene scene = parsed("[scene]\naxes = 1\n[[body]]\nposition = [3]\n");
     const Camera camera = camera_of(scene, make_world(scene, Settings{scene.stepping}));
     EXPECT_EQ(camera.centre, (Point{3, 0}));

@@ -7,8 +7,7 @@
 
 namespace oiler::test {
 
-/// A scene in which every key is used, and every number matters: all moves, and nothing is at rest
-/// with what pulls at it.
+/// A scene with every key. Every number has an effect: all bodies move, and no force on them is 0.
 inline const std::string everything = R"(
 [scene]
 title = "Everything"
@@ -97,8 +96,8 @@ position_error = 1.0
 energy_drift = 0.01
 )";
 
-/// `text` with another value, or without a line where there is none, of the first such key in the
-/// tables of that name.
+/// Replaces the value of the first such key in the tables of that name. An empty value removes the
+/// line.
 inline std::string altered(std::string text, std::string_view table, std::string_view key,
                            std::string_view value) {
     const std::size_t header = text.find("[" + std::string(table) + "]");

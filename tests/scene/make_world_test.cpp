@@ -27,7 +27,7 @@ std::optional<Force> force_on(const World& world, std::size_t row, std::size_t n
     return std::get<std::optional<Force>>(world.bodies().forces_per_mass(row, nth));
 }
 
-TEST(MakeWorld, BodiesAreInTheRowsInTheOrderOfTheScene) {
+TEST(MakeWorld, OrdersRowsAsTheSceneDoes) {
     const World world = world_of(everything);
     const Bodies& bodies = world.bodies();
     ASSERT_EQ(bodies.size(), 12U);
@@ -51,7 +51,7 @@ TEST(MakeWorld, BodiesAreInTheRowsInTheOrderOfTheScene) {
     }
 }
 
-// What a force is per unit mass: 1.5 kg for the body, 0.5 kg in grid and scatter.
+// Forces are stored per unit mass: 1.5 kg for the body, 0.5 kg in grid and scatter.
 TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
     const World world = world_of(everything);
     const auto coil = force_on<CoilSpring>(world, 0);
@@ -75,7 +75,7 @@ TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
     EXPECT_EQ(force_on<Spring>(world, 7)->stiffness, 0);
 }
 
-TEST(MakeWorld, AddsNoForceThatNothingHas) {
+TEST(MakeWorld, AddsNoUnusedForce) {
     const World world = world_of(
         "[scene]\naxes = 2\n[[body]]\n[[grid]]\ncount = [2, 2]\n"
         "spacing = 1\nstiffness = 1\n[[scatter]]\ncount = 2\n"
@@ -141,19 +141,19 @@ TEST(MakeWorld, AGridWithoutDiagonalsHasNone) {
               3U);
 }
 
-TEST(Grid, HangsWhatItIsTold) {
+TEST(Grid, AnchorsNoneCornersOrTop) {
     using Nodes = std::vector<std::size_t>;
     SceneGrid grid{.count = {3, 2}};
-    EXPECT_EQ(hung_nodes(grid), Nodes{});
+    EXPECT_EQ(anchored_nodes(grid), Nodes{});
     grid.hang = Hang::top;
-    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 4, 5}));
+    EXPECT_EQ(anchored_nodes(grid), (Nodes{3, 4, 5}));
     grid.hang = Hang::corners;
-    EXPECT_EQ(hung_nodes(grid), (Nodes{3, 5}));
+    EXPECT_EQ(anchored_nodes(grid), (Nodes{3, 5}));
     grid.count = {1, 4};
-    EXPECT_EQ(hung_nodes(grid), Nodes{3});
+    EXPECT_EQ(anchored_nodes(grid), Nodes{3});
 }
 
-// The generator's published first number from seed 0.
+// The published first number of SplitMix64 from seed 0.
 TEST(Random, IsSplitMix64) {
     EXPECT_EQ(Random(0).next(), 0xe220a8397b1dcdafU);
     EXPECT_EQ(Random(0).fraction(),
@@ -169,8 +169,8 @@ TEST(Random, IsSplitMix64) {
         most = std::max(most, u);
         sum += u;
     }
-    // Of n even numbers the mean is off by 1/√(12·n), the ends are 1/n away; six of those each,
-    // and 20 for the ends, whose chance is e^(−20).
+    // The mean of n uniform numbers has a standard deviation of 1/√(12·n); the bound is six of
+    // them. The ends are missed by 1/n on average, and by 20/n with a probability of e^(−20).
     EXPECT_NEAR(sum / count, 0.5, 6 / std::sqrt(12.0 * count));
     EXPECT_LT(least, 20.0 / count);
     EXPECT_GT(most, 1 - 20.0 / count);
@@ -182,7 +182,7 @@ const std::string scatter =
     "[scene]\naxes = 2\n[[scatter]]\ncount = 2\nseed = 0\nposition_from = [-1, 2]\n"
     "position_to = [1, 2]\nvelocity_from = [0, 0]\nvelocity_to = [0, 8]\n";
 
-TEST(MakeWorld, ScattersByTheSeedAlone) {
+TEST(MakeWorld, ScattersByTheSeed) {
     const World world = world_of(scatter);
     Random random(0);
     for (std::size_t row = 0; row < 2; ++row) {
@@ -208,7 +208,7 @@ TEST(MakeWorld, AnotherSeedOfTheSceneOrOfTheRunScattersDifferently) {
     EXPECT_NE(third, second);
 }
 
-// The seed 0 of a run leaves the scene's own.
+// A run with seed 0 keeps the seeds of the scene.
 TEST(MakeWorld, ASceneWithTheSeedOfARunScattersAsTheRunDoes) {
     const Scene scene = parsed(altered(scatter, "scatter", "seed", "5"));
     static_assert(Random::mixed(0) == 0);
@@ -221,7 +221,7 @@ TEST(MakeWorld, ASceneWithTheSeedOfARunScattersAsTheRunDoes) {
     }
 }
 
-TEST(MakeWorld, PrecisionIsThatOfTheRun) {
+TEST(MakeWorld, TakesThePrecisionOfTheRun) {
     const Scene scene = parsed(scatter);
     Settings settings = Settings{scene.stepping};
     settings.stepping.precision = Precision::single;

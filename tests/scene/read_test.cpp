@@ -22,13 +22,15 @@ constexpr double none = 0;
 
 Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
 
-std::string name_of(const SceneKey& key) { return std::string(key.table) + "." + std::string(key.name); }
+std::string name_of(const SceneKey& key) {
+    return std::string(key.table) + "." + std::string(key.name);
+}
 
 bool is(const SceneKey& key, std::string_view table, std::string_view name) {
     return key.table == table && key.name == name;
 }
 
-/// A value that `everything` does not have.
+/// A valid value that differs from the one in `everything`.
 std::string other_value(const SceneKey& key) {
     if (is(key, "spring", "body")) return "\"c\"";
     if (is(key, "spring", "to")) return "\"c\"";
@@ -56,7 +58,7 @@ std::string other_value(const SceneKey& key) {
     return "\"#123456\"";
 }
 
-/// All that a run of the scene shows.
+/// State hash and picture of the scene after three steps.
 struct Shown {
     std::uint64_t state_hash;
     Picture picture;
@@ -83,13 +85,14 @@ bool look_the_same(const Picture& a, const Picture& b) {
            std::ranges::equal(a.polylines, b.polylines, same_line);
 }
 
-/// Keys that say what a run is measured by; that springs refer to; or that vectors depend on.
+/// Keys without effect on the state or the picture: they only limit a run.
 bool shows_nothing(const SceneKey& key) { return key.table == "budget" || key.name == "duration"; }
+/// Keys that springs refer to or that the length of vectors depends on.
 bool cannot_change_alone(const SceneKey& key) {
     return is(key, "body", "name") || is(key, "scene", "axes");
 }
 
-TEST(Read, SaysHowTheSceneIsStepped) {
+TEST(Read, ReadsTheStepping) {
     const Stepping given =
         parse_scene("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n"
                     "damping = 'kick'\n[[body]]\n",
@@ -115,7 +118,7 @@ TEST(Read, EveryKeyHasAnEffect) {
     }
 }
 
-TEST(Read, EveryDefaultIsAsTheListSays) {
+TEST(Read, EveryDefaultIsThatOfTheList) {
     for (const SceneKey& key : scene_keys()) {
         if (key.required() || is(key, "body", "name") || is(key, "spring", "anchor") ||
             is(key, "spring", "to"))
@@ -126,7 +129,7 @@ TEST(Read, EveryDefaultIsAsTheListSays) {
     }
 }
 
-TEST(Read, EveryKeyThatIsRequiredIsMissed) {
+TEST(Read, EveryRequiredKeyIsReportedAsMissing) {
     int count = 0;
     for (const SceneKey& key : scene_keys()) {
         if (!key.required()) continue;
@@ -138,7 +141,7 @@ TEST(Read, EveryKeyThatIsRequiredIsMissed) {
     EXPECT_EQ(count, 11);
 }
 
-TEST(Read, EveryRangeEndsWhereTheListSays) {
+TEST(Read, EveryRangeIsThatOfTheList) {
     for (const SceneKey& key : scene_keys()) {
         const bool bounded = key.range.low > -1e300;
         if (!bounded || (key.kind != KeyKind::number && key.kind != KeyKind::whole)) continue;
@@ -159,13 +162,14 @@ TEST(Read, EveryRangeEndsWhereTheListSays) {
     }
 }
 
-TEST(Read, ASceneIsWhatItsFileSays) {
+TEST(Read, ReadsEveryValueOfAFile) {
     const Scene scene = parsed(everything);
     EXPECT_EQ(scene.title, "Everything");
     EXPECT_EQ(scene.axes, 2);
     EXPECT_EQ(scene.stepping.rate.steps, 100);
     EXPECT_EQ(scene.stepping.method->name, "velocity_verlet");
     EXPECT_EQ(scene.stepping.precision, Precision::double_);
+    EXPECT_EQ(scene.stepping.damping, Damping::in_kick);
     EXPECT_EQ(scene.duration, 4);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -9.81}));
     ASSERT_EQ(scene.bodies.size(), 3U);
@@ -200,7 +204,7 @@ TEST(Read, ASceneIsWhatItsFileSays) {
     EXPECT_EQ(scene.body_count(), 3 + 6 + 3);
 }
 
-TEST(Read, TheSmallestSceneIsTwoTables) {
+TEST(Read, ReadsASceneOfTwoTables) {
     const Scene scene = parsed("[scene]\naxes = 3\n[[body]]\n");
     Scene expected;
     expected.axes = 3;
@@ -211,7 +215,7 @@ TEST(Read, TheSmallestSceneIsTwoTables) {
     EXPECT_FALSE(scene.gravity);
 }
 
-TEST(Read, TakesWhatTomlTakesForTheSame) {
+TEST(Read, ReadsEquivalentTomlAsTheSameScene) {
     const Scene scene = parsed(
         "scene.axes = 1\nscene.rate = 1_000\n"
         "body = [{ name = 'a', mass = 2 }, { name = \"\\u00e9\", colour = \"#0072B2\" }]\n"
@@ -232,19 +236,19 @@ TEST(Read, ASpringMayComeBeforeItsBodies) {
     EXPECT_EQ(scene.springs[0].body, 1U);
 }
 
-TEST(Read, AFileOfTheMostBytesAndBodies) {
+TEST(Read, ReadsAFileAtTheLimitsOfBytesAndBodies) {
     std::string text =
         "[scene]\naxes = 2\n[[grid]]\ncount = [1000, 1000]\nspacing = 1\nstiffness = 1\n#";
     text.resize(64 * 1024, '#');
     EXPECT_EQ(parsed(text).body_count(), 1'000'000);
 }
 
-TEST(Read, NestingAndDotsAreCountedAsTomlDoes) {
+TEST(Read, CountsNestingAndDotsAsTomlDoes) {
     const auto line = [](const std::string& text) {
         return line_of_error(Exit::usage, [&] { (void)parsed(text); });
     };
     const std::string start = "[scene]\naxes = 1\n[[body]]\n";
-    // As deep, and as many parts, as is let through: these are refused as values and keys.
+    // At the limits the guard lets them through, and the reader refuses the values and keys.
     EXPECT_TRUE(holds(line(start + "position = " + std::string(64, '[') + std::string(64, ']')),
                       "body.position"));
     EXPECT_TRUE(holds(line(start + "position = " + std::string(65, '[') + std::string(65, ']')),
@@ -256,7 +260,7 @@ TEST(Read, NestingAndDotsAreCountedAsTomlDoes) {
     EXPECT_TRUE(holds(line(start + "position = [1.5, \"" + parts + parts + "\"]"), "a list of 2"));
 }
 
-TEST(Read, ANumberThatColumnsDoNotHoldIsRefusedWithItsLine) {
+TEST(Read, RefusesANumberTooLargeForTheColumnsWithItsLine) {
     const std::string text = altered(everything, "body", "position", "[1e39, 0]");
     EXPECT_NO_THROW((void)parsed(text));
     const std::string line = line_of_error(
@@ -264,7 +268,7 @@ TEST(Read, ANumberThatColumnsDoNotHoldIsRefusedWithItsLine) {
     EXPECT_TRUE(holds(line, "test.toml:17: body.position: position of 1e+39")) << line;
 }
 
-TEST(ReadFile, NamesWhatIsNoFile) {
+TEST(ReadFile, NamesAPathThatIsNotAFile) {
     const Folder folder;
     for (const std::string& path :
          {folder.path().string(), std::string("/dev/zero"), (folder / "none.toml").string()}) {
@@ -280,7 +284,7 @@ TEST(ReadFile, DoesNotWaitForAPipe) {
     EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)read_scene(path); }), "not a file"));
 }
 
-TEST(ReadFile, AllScenesOfTheHouse) {
+TEST(ReadFile, ReadsAllScenesOfTheRepository) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OILER_SOURCE "/assets/scenes")) {
         if (entry.path().extension() != ".toml") continue;

@@ -67,7 +67,7 @@ const std::string root = OILER_SOURCE;
 const std::vector<std::string> pages{"/README.md", "/demos/README.md", "/assets/scenes/README.md",
                                      "/engine/README.md", "/tests/README.md"};
 
-/// What the first group of the expression matches in a text.
+/// The matches of the first group of the expression in a text.
 std::vector<std::string> found(const std::string& text, const char* expression) {
     const std::regex regex(expression);
     std::vector<std::string> words;
@@ -103,7 +103,7 @@ TEST(Readme, ListsEverySceneAndEveryDemo) {
     EXPECT_TRUE(mentions_all_files("/demos/README.md", "/demos", ".cpp", false));
 }
 
-TEST(Readme, ScenesInItAreRead) {
+TEST(Readme, ShowsValidScenes) {
     const Folder folder;
     int scenes = 0;
     for (const std::string& page : pages)

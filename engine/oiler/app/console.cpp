@@ -9,8 +9,7 @@
 namespace oiler {
 
 void fill_closed_streams() {
-    // open() takes the lowest free descriptor: each closed one in turn, then one that is not
-    // needed.
+    // open() takes the lowest free descriptor: each closed stream in turn, then one above them.
     int descriptor = 0;
     while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
     if (descriptor > STDERR_FILENO) close(descriptor);
@@ -32,7 +31,7 @@ std::string Progress::time_left(double share) const {
     const double passed =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double left = passed * (1 - share) / share;
-    // What takes less needs no promise, and at first there is nothing to base one on.
+    // Too short to be of interest, or too early for an estimate.
     if (share < 0.02 || passed < 1 || left < 1) return "";
     return left < 100 ? fmt::format(", {:.0f} s left", left)
                       : fmt::format(", {:.0f} min left", left / 60);

@@ -10,21 +10,20 @@
 
 namespace oiler {
 
-/// Where standard input, output or error is closed, puts nothing in its place: the first file
-/// opened would take it, and remarks would land in a user's data.
+/// Opens /dev/null in place of closed standard streams. Otherwise the first opened file would take
+/// their descriptor, and remarks would be written into the user's data.
 void fill_closed_streams();
 
-/// A line on standard error. One that nobody can read is no reason to stop.
+/// Prints a line on standard error. Write errors are ignored.
 void say(const std::string& line);
 
-/// A line for whoever runs the program, unless it is to be quiet.
+/// Prints a line on standard error unless `quiet`.
 template <class... Args>
 void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
     if (!quiet) say(fmt::format(line, std::forward<Args>(args)...));
 }
 
-/// How far long work has come and how long it will take: a bar on standard error where that is a
-/// terminal, nothing elsewhere.
+/// A progress bar with the time left, on standard error if that is a terminal, else invisible.
 class Progress {
 public:
     Progress(bool quiet, std::string what, std::int64_t total);

@@ -12,24 +12,24 @@
 
 namespace oiler {
 
-/// What a game is called and how it steps unless the command line says otherwise.
+/// Name and default settings of a game. The command line overrides the settings.
 struct About {
-    std::string_view name;   ///< of the program, "spring_damper"
-    std::string_view title;  ///< of the window
+    std::string_view name;   ///< name of the program, "spring_damper"
+    std::string_view title;  ///< title of the window
     int rate = 100;          ///< steps per second
     std::string_view method = "semi_implicit_euler";
     Precision precision = Precision::double_;
-    double duration = 4;            ///< s that are filmed without a window
-    std::string_view damping = "";  ///< "kick" or "drift"; empty: the method's own
+    double duration = 4;            ///< s, length of a headless film
+    std::string_view damping = "";  ///< "kick" or "drift"; empty: the method's default
 };
 
-/// The key of what is to be seen of an entity: parts of it are told apart by `part`, and what
-/// `world.teleport` moved is not drawn in between.
+/// The key of an entity's element in a picture. `part` distinguishes several elements of one
+/// entity. Motion by `world.teleport` is not interpolated.
 [[nodiscard]] inline ElementKey key_of(const World& world, Entity entity, std::uint32_t part = 0) {
     return {.object = entity.id(), .part = part, .jump = world.jumps(entity)};
 }
 
-/// The first two axes, for a picture.
+/// x and y of a vector, for a picture.
 [[nodiscard]] inline Point to_point(const Vec3& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1])};
 }
@@ -44,7 +44,7 @@ namespace detail {
 struct NameOfUpdate {
     void update();
 };
-/// Where G has an `update` of any kind, private ones too, the name is ambiguous here.
+/// If G has any member `update`, even a private one, the name is ambiguous here.
 template <class G>
 struct WithUpdate : G, NameOfUpdate {};
 template <class G>
@@ -54,9 +54,9 @@ concept MentionsUpdate = !requires {
 
 }  // namespace detail
 
-/// A game is a value that is made from its settings, has a world that steps, and can say what is to
-/// be seen of it: see the asserts. A game with rules of its own has them in `update`, which is
-/// called before each step; without it, many steps are taken at once where nobody looks in between.
+/// Checks that G is a game: a value with a constructor from settings, a world and a picture, see
+/// the asserts. The loop calls `update`, if there is one, before each step. A game without `update`
+/// takes many steps per call if no frame is drawn between them.
 template <class G>
 consteval bool check_game() {
     static_assert(
@@ -79,7 +79,7 @@ consteval bool check_game() {
     return true;
 }
 
-/// A game whose type the loop does not know; one virtual call per frame.
+/// A game without its type, for the loop; one virtual call per frame.
 class AnyGame {
 public:
     virtual ~AnyGame() = default;
@@ -87,7 +87,7 @@ public:
     AnyGame(const AnyGame&) = delete;
     AnyGame& operator=(const AnyGame&) = delete;
 
-    /// Steps `count` times; presses are seen by the first step alone.
+    /// Steps `count` times. Only the first step sees key presses.
     virtual void step(std::int64_t count, Input& input) = 0;
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;

@@ -25,7 +25,7 @@ std::int64_t frames_in(double seconds, int fps) {
     const double frames = std::max(1.0, std::round(seconds * fps));
     if (frames > double{most_frames})
         fail(Exit::usage,
-             "{} s at {} frames per second are {:.0f} frames; say how many: --frames N", seconds,
+             "{} s at {} frames per second are {:.0f} frames; give fewer with --frames N", seconds,
              fps, frames);
     return static_cast<std::int64_t>(frames);
 }
@@ -47,26 +47,26 @@ Manifest describe(const Options& options, const About& about, int fps, const Sur
             .frames = {}};
 }
 
-/// After a failure: that one is to be told, not a second one of the same disk.
-void finish_anyhow(const Capture& capture) {
+/// Finishes after an error, which matters more than a second one of the same disk.
+void finish_ignoring_errors(const Capture& capture) {
     try {
         capture.finish();
     } catch (const Error&) {
     }
 }
 
-/// Draws the frames that `header` is the manifest of into the folder; its `frames` is empty.
+/// Draws frames into the folder. `header` is the manifest without frames.
 void film(Playback& playback, Renderer& renderer, const Manifest& header, std::int64_t frames,
           const Options& options) {
-    // Made with the first frame, so that failing to draw leaves no folder.
+    // Made with the first frame, so that a failure to draw leaves no folder.
     std::optional<Capture> capture;
     Progress progress(options.quiet, "frames", frames);
     Pixels pixels;
-    Input nobody;
+    Input no_input;
     try {
         for (std::int64_t frame = 0; frame < frames; ++frame) {
             const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-            const Picture picture = playback.show(at.step, at.alpha, nobody);
+            const Picture picture = playback.show(at.step, at.alpha, no_input);
             if (Interrupt::requested()) break;
             renderer.draw(picture, header.size);
             renderer.read(pixels);
@@ -75,7 +75,7 @@ void film(Playback& playback, Renderer& renderer, const Manifest& header, std::i
             progress.show(frame + 1);
         }
     } catch (const Error&) {
-        if (capture) finish_anyhow(*capture);
+        if (capture) finish_ignoring_errors(*capture);
         throw;
     }
     if (capture) capture->finish();

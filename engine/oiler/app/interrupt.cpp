@@ -4,7 +4,7 @@
 namespace oiler {
 namespace {
 
-volatile std::sig_atomic_t requested_flag = 0;  // a signal handler can reach nothing else
+volatile std::sig_atomic_t requested_flag = 0;  // global: signal handlers have no argument for it
 
 void remember(int) { requested_flag = 1; }
 

@@ -6,9 +6,9 @@
 
 namespace oiler {
 
-/// While it lives, Ctrl-C, a polite kill and a terminal that closes are remembered instead of
-/// ending the program, so that a run stops between two frames with its files complete; and a reader
-/// that goes away is an error of writing.
+/// Handles signals during its lifetime. SIGINT (Ctrl-C), SIGTERM and SIGHUP only set a flag, so
+/// that a run stops between two frames with complete files. SIGPIPE is ignored, so that a closed
+/// pipe is a write error.
 class Interrupt {
 public:
     Interrupt();

@@ -12,19 +12,19 @@
 
 namespace oiler {
 
-/// Draws frame i at t = i/fps into the folder, whatever the machine's clock does. What was written
-/// stays complete when it is interrupted or throws Error.
+/// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
+/// run is interrupted or throws Error, frames and manifest are complete up to there.
 void run_headless(Playback& playback, const Options& options, const About& about);
 
-/// Shows the game in a window at the pace of the clock until the user quits. Returns the time that
+/// Shows the game in a window in real time until the user quits. Returns the simulated time that
 /// late frames dropped.
 std::chrono::nanoseconds run_window(Playback& playback, const Options& options, const About& about);
 
-/// What was measured of a run that plays without a window, if anything.
+/// Measures the budget of a run without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>()>;
 
-/// Plays a game from its start to its end as the options say, and writes what they ask for.
-/// With --headless or --json the budget is measured, and exceeding it is a failed comparison.
+/// Plays a game with the given options and writes its files. With --headless or --json it checks
+/// the budget, and returns Exit::comparison_failed if the budget is exceeded.
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget = {});
 

@@ -11,7 +11,7 @@
 namespace oiler {
 namespace {
 
-/// The options as the command line gives them.
+/// The options as words of the command line.
 struct Words {
     std::string scene;
     std::string surface = "auto";
@@ -27,7 +27,7 @@ struct Words {
     int threads = 1;
 };
 
-/// What holds where the command line says nothing, for --help.
+/// Default values, for --help.
 struct Defaults {
     explicit Defaults(const About& about)
         : method(about.method),
@@ -52,43 +52,47 @@ struct Defaults {
 void declare_drawing(CLI::App& app, Options& options, Words& words, const Defaults& defaults) {
     app.add_flag("--headless", options.headless, "draw frames into a folder, without a window")
         ->disable_flag_override();
-    app.add_option("--surface", words.surface, "who draws: a window, or without one OSMesa or EGL")
+    app.add_option("--surface", words.surface,
+                   "provider of OpenGL: a window, or without a window OSMesa or EGL")
         ->check(CLI::IsMember({"auto", "window", "osmesa", "egl"}))
         ->type_name("NAME")
         ->capture_default_str();
     add_whole<std::int64_t>(
         app, "--frames", words.frames, 1, 1'000'000,
-        "how many frames; headless, " + defaults.seconds + " of them if not given");
-    add_whole<int>(app, "--fps", words.fps, 1, 1000,
-                   "frames per second, 60 if not given; in a window at most, the display's");
-    app.add_option("--size", words.size, "of frames and window in pixels; pictures are 16:9")
+        "number of frames; if not given, a headless run draws " + defaults.seconds);
+    add_whole<int>(
+        app, "--fps", words.fps, 1, 1000,
+        "frames per second, 60 if not given; in a window a limit, the display's if not given");
+    app.add_option("--size", words.size, "size of frames or window in pixels; pictures are 16:9")
         ->type_name("WxH")
         ->capture_default_str();
     app.add_option("--out", options.out, "folder for headless frames")
         ->type_name("DIR")
         ->default_str(defaults.out);
     add_whole<std::int64_t>(app, "--steps", words.steps, 0, 1'000'000'000'000,
-                            "take that many steps and draw nothing");
+                            "take N steps as fast as possible and draw nothing");
 }
 
 void declare_stepping(CLI::App& app, Words& words, const Defaults& defaults) {
-    app.add_option("--method", words.method,
-                   "how to step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
-                   "implicit_midpoint, exact, …; `oiler methods` lists all")
+    app.add_option(
+           "--method", words.method,
+           "method of the step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
+           "implicit_midpoint, exact, …; `oiler methods` lists all")
         ->type_name("NAME")
         ->default_str(defaults.method);
     add_damping(app, words.damping);
     add_whole<std::int64_t>(app, "--rate", words.rate, 1, 1'000'000, "steps per second: dt = 1/N s")
         ->default_str(defaults.rate);
-    app.add_option("--precision", words.precision, "of positions and velocities: float, double")
+    app.add_option("--precision", words.precision,
+                   "precision of positions and velocities: float, double")
         ->check(CLI::IsMember({"float", "double"}))
         ->type_name("NAME")
         ->default_str(defaults.precision);
     add_whole<int>(app, "--threads", words.threads, 1, 256,
-                   "how many step; the results are the same")
+                   "number of threads; results do not depend on it")
         ->default_str("1");
     add_whole<std::uint64_t>(app, "--seed", words.seed, 0, ~std::uint64_t{0},
-                             "of the game's random numbers")
+                             "seed of the game's random numbers")
         ->default_str("0");
 }
 
@@ -98,12 +102,12 @@ void declare_output(CLI::App& app, Options& options) {
     };
     add_file("--trace", options.trace, "write each body after each step as CSV, - for stdout");
     add_file("--energy", options.energy, "write energies after each step as CSV, - for stdout");
-    add_file("--json", options.json, "write what the run was, - for stdout");
-    app.add_flag("--quiet", options.quiet, "no remarks and no progress on standard error")
+    add_file("--json", options.json, "write a summary of the run as JSON, - for stdout");
+    app.add_flag("--quiet", options.quiet, "print no remarks and no progress on standard error")
         ->disable_flag_override();
 }
 
-/// Every path names something, and no two name the same.
+/// Checks that no path is empty and no two are the same.
 void check_paths(const CLI::App& app, const Options& options) {
     const std::array<std::pair<const char*, const std::filesystem::path*>, 4> paths{{
         {"--trace", &options.trace},
@@ -121,21 +125,22 @@ void check_paths(const CLI::App& app, const Options& options) {
     }
 }
 
-/// Options that contradict each other.
-void check_together(const CLI::App& app, const Options& options, const Words& words) {
+/// Refuses options that contradict each other.
+void check_conflicts(const CLI::App& app, const Options& options, const Words& words) {
     const auto refuse = [](std::string_view option, std::string_view why) {
         fail(Exit::usage, "{}: {}", option, why);
     };
     const bool offscreen = words.surface == "osmesa" || words.surface == "egl";
     if (app.count("--steps") > 0)
         for (const char* other : {"--frames", "--fps", "--size", "--out", "--surface"})
-            if (app.count(other) > 0) refuse(other, "draws, but --steps draws nothing; give one");
+            if (app.count(other) > 0)
+                refuse(other, "draws, but --steps draws nothing; give one of them");
     if (offscreen && !options.headless)
         refuse("--surface " + words.surface, "draws without a window; add --headless");
     if (words.surface == "window" && options.headless)
-        refuse("--surface window", "is a window; leave out --headless");
+        refuse("--surface window", "opens a window; leave out --headless");
     if (app.count("--out") > 0 && !options.headless)
-        refuse("--out", "frames are written without a window; add --headless");
+        refuse("--out", "needs a run without a window; add --headless");
 }
 
 void fill_in(const CLI::App& app, Words& words, const About& about) {
@@ -146,15 +151,14 @@ void fill_in(const CLI::App& app, Words& words, const About& about) {
 }
 
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
-    check_together(app, options, words);
+    check_conflicts(app, options, words);
     check_paths(app, options);
-    options.settings = {
-        .stepping = {.method = &find_method(words.method),
-                     .rate = {words.rate},
-                     .precision =
-                         words.precision == "float" ? Precision::single : Precision::double_},
-        .seed = words.seed,
-        .threads = words.threads};
+    options.settings = {.stepping = {.method = &find_method(words.method),
+                                     .rate = {words.rate},
+                                     .precision = words.precision == "float" ? Precision::single
+                                                                             : Precision::double_},
+                        .seed = words.seed,
+                        .threads = words.threads};
     if (!words.damping.empty())
         options.settings.stepping.damping =
             words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
@@ -169,7 +173,8 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
 }
 
 void declare_scene(CLI::App& app, Words& words) {
-    app.add_option("SCENE", words.scene, "the scene file, TOML: see the README")->required();
+    app.add_option("SCENE", words.scene, "scene file in TOML, see assets/scenes/README.md")
+        ->required();
 }
 
 std::string footer(const std::string& program) {

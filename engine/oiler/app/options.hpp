@@ -13,7 +13,7 @@
 
 namespace oiler {
 
-/// How a run goes, besides what the game itself is told.
+/// Options of a run. `settings` are passed to the game.
 struct Options {
     Settings settings;
     bool headless = false;
@@ -22,28 +22,29 @@ struct Options {
     std::optional<int> fps;
     Size size{1280, 720};
     std::filesystem::path out;
-    std::optional<std::int64_t> steps;  ///< nothing is drawn
-    std::filesystem::path trace;        ///< empty: none, as for the other files
+    std::optional<std::int64_t> steps;  ///< if set, the run draws no frames
+    std::filesystem::path trace;        ///< empty: not written, also for `energy` and `json`
     std::filesystem::path energy;
     std::filesystem::path json;
     bool quiet = false;
 };
 
-/// Either options, or the text that --help or --version asks for.
+/// Options, or the text of --help or --version.
 struct CommandLine {
     Options options;
     std::string text;
-    About about;  ///< of the game, or of the scene in the file
+    About about;  ///< name and defaults of the game or the scene file
 };
 
-/// What a scene file says of itself; its texts outlive the command line.
+/// Reads name and defaults of a scene file. Their texts must outlive the command line.
 using AboutFile = std::function<About(const std::string& path)>;
 
-/// Throws Error{usage} that names the option and what it takes.
+/// Parses the options of a game. Throws Error{usage} with the option and its allowed values.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about);
 
-/// The same of a program `about` that plays the scene file which it is given, as the file says
-/// unless the command line says otherwise.
+/// Parses the options of a program `about` that plays a scene file. Settings of the file hold
+/// unless the command line gives others. Throws Error{usage} with the option and its allowed
+/// values.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about,
                                              const AboutFile& about_file);
 

@@ -8,8 +8,8 @@ namespace oiler {
 CLI::Option* add_damping(CLI::App& app, std::string& words) {
     return app
         .add_option("--damping", words,
-                    "where methods of kicks and drifts put it: exactly into the drifts, or "
-                    "explicitly into the kicks; each its own way if not given")
+                    "where a splitting method puts damping: explicitly into its kicks or exactly "
+                    "into its drifts; the method's default if not given")
         ->check(CLI::IsMember({"kick", "drift"}))
         ->type_name("NAME");
 }

@@ -12,11 +12,11 @@
 
 namespace oiler {
 
-// What all command lines read alike. For the few files that include CLI11, which is slow to
-// compile.
+// Options that all command lines share. Few files include this header, because CLI11 compiles
+// slowly.
 
-/// An option that takes a whole number in decimal digits: a leading 0 is no octal and 1e3 no
-/// number.
+/// Adds an option for a whole number from `low` to `high` in decimal digits: 010 is ten, not octal,
+/// and 1e3 is refused.
 template <class Whole>
 CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Whole low, Whole high,
                        const std::string& help) {
@@ -32,11 +32,11 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Wh
     return app.add_option_function<std::string>(name, parse, help)->type_name("N");
 }
 
-/// `--damping`, in words.
+/// Adds `--damping`, "kick" or "drift".
 CLI::Option* add_damping(CLI::App& app, std::string& words);
 
-/// Parses; returns the text that --help or --version asks for, else none. Throws Error{usage} in
-/// one line that names the program to ask for help.
+/// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
+/// Error{usage} in one line that ends with "(see PROGRAM --help)".
 [[nodiscard]] std::string parse(CLI::App& app, int argc, char** argv);
 
 }  // namespace oiler

@@ -33,18 +33,18 @@ Picture Playback::show(std::int64_t tick, double alpha, Input& input) {
         after_ = {};
     } else if (before_.tick != tick) {
         step_to(tick, input);
-        before_ = look();
+        before_ = sample();
         after_ = {};
     }
     if (alpha > 0 && after_.tick < 0) {
         step_to(tick + 1, input);
-        after_ = look();
+        after_ = sample();
     }
     return alpha > 0 ? between(before_.picture, after_.picture, static_cast<float>(alpha))
                      : before_.picture;
 }
 
-Playback::Moment Playback::look() const {
+Playback::Moment Playback::sample() const {
     const World& world = game_.world();
     return {world.tick(), hashes_ ? world.state_hash() : 0, game_.picture()};
 }

@@ -8,21 +8,22 @@
 
 namespace oiler {
 
-/// Steps a game to the times at which it is looked at. What is shown at a time between two ticks
-/// lies between the states at both, so the game is stepped to the later one.
+/// Steps a game to the times of its frames. A frame between two ticks interpolates both, so the
+/// game is stepped to the later one.
 class Playback {
 public:
-    /// `hashes`: whether somebody will ask for state_hash().
+    /// `hashes` enables state_hash().
     Playback(AnyGame& game, Recorder& recorder, bool hashes);
 
-    /// Steps to tick `tick`, which is not before the game's, many steps at once unless they are
-    /// recorded. Stops early when interrupted.
+    /// Steps to `tick`, which is not before the game's tick. Takes many steps per call unless they
+    /// are recorded. Stops early if interrupted.
     void step_to(std::int64_t tick, Input& input);
 
-    /// What is to be seen `alpha` of the way from tick `tick` to the next. Ticks may not go back.
+    /// Returns the picture at `alpha` in [0, 1) between `tick` and the next. `tick` must not
+    /// decrease.
     [[nodiscard]] Picture show(std::int64_t tick, double alpha, Input& input);
 
-    /// Of the tick shown last; 0 without `hashes`.
+    /// State hash of the last shown tick; 0 without `hashes`.
     [[nodiscard]] std::uint64_t state_hash() const { return before_.state_hash; }
 
 private:
@@ -32,7 +33,7 @@ private:
         Picture picture;
     };
 
-    [[nodiscard]] Moment look() const;
+    [[nodiscard]] Moment sample() const;
 
     AnyGame& game_;
     Recorder& recorder_;

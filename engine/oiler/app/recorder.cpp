@@ -32,7 +32,7 @@ void append_number(std::string& row, double value, Precision precision) {
 void require_finite(const Energy& energy) {
     if (!std::isfinite(energy.total()))
         fail(Exit::diverged,
-             "the energy is no longer finite; take a higher rate, or another method");
+             "the energy is no longer finite; take a higher rate or another method");
 }
 
 Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,

@@ -10,21 +10,21 @@
 
 namespace oiler {
 
-/// Throws Error{diverged}: states may still be finite when their squares no longer are.
+/// Throws Error{diverged} if the energy is not finite. Its squares overflow before the state does.
 void require_finite(const Energy& energy);
 
-/// Writes a row per body and a row of energies after each step, where asked to. Numbers read back
-/// to the same bits.
+/// Writes CSV files after each step: a row per body (trace) and a row of energies. Numbers read
+/// back to the same bits.
 class Recorder {
 public:
     /// Empty paths record nothing. Writes the state at tick 0. Throws Error{io}.
     Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,
              const World& world);
 
-    /// Somebody has to see every step.
+    /// Returns whether every step must be recorded.
     [[nodiscard]] bool active() const { return trace_ || energy_; }
     void record(const World& world);
-    /// Gives the files their names; without it none is left.
+    /// Renames the temporary files to their final names. Without this call they are deleted.
     void commit();
 
 private:

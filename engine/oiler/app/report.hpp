@@ -11,16 +11,16 @@
 
 namespace oiler {
 
-/// One number that a run is held against.
+/// One limit of a budget, compared with the run.
 struct BudgetEntry {
     std::string name;
     double most = 0;
     double measured = 0;
     bool kept = true;
-    std::string words;  ///< all of it, to read
+    std::string words;  ///< the entry as a sentence
 };
 
-/// What a run was and came to, for a program to read.
+/// Results of a run that its world does not hold.
 struct RunReport {
     std::string_view scene;
     Energy first;

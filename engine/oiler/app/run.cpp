@@ -24,10 +24,10 @@ using Clock = std::chrono::steady_clock;
 void run_steps(Playback& playback, const Options& options) {
     Progress progress(options.quiet, "steps", *options.steps);
     const std::int64_t stride = std::max<std::int64_t>(1, *options.steps / 100);
-    Input nobody;
+    Input no_input;
     for (std::int64_t tick = 0; tick < *options.steps && !Interrupt::requested();) {
         tick = std::min(tick + stride, *options.steps);
-        playback.step_to(tick, nobody);
+        playback.step_to(tick, no_input);
         progress.show(tick);
     }
 }
@@ -87,7 +87,7 @@ int guard_main(std::string_view name, const std::function<Exit()>& program) {
         say(fmt::format("{}: {}", name, error.what()));
         return static_cast<int>(error.exit());
     } catch (const std::bad_alloc&) {
-        say(fmt::format("{}: not enough memory; take fewer bodies, or a shorter time", name));
+        say(fmt::format("{}: not enough memory; take fewer bodies or a shorter time", name));
         return static_cast<int>(Exit::io);
     }
 }

@@ -11,18 +11,18 @@
 
 namespace oiler {
 
-/// Draws single pictures into PNG files, without a screen.
+/// Draws single pictures as PNG files, without a screen.
 class Stills {
 public:
-    /// Throws Error{no_display} where neither OSMesa nor EGL draws.
+    /// Throws Error{no_display} if neither OSMesa nor EGL works.
     explicit Stills(Size size);
     ~Stills();
     Stills(const Stills&) = delete;
     Stills& operator=(const Stills&) = delete;
 
-    /// The bytes of a PNG file.
+    /// Returns the bytes of a PNG file.
     [[nodiscard]] std::vector<std::byte> png(const Picture& picture);
-    /// Throws Error{io}; then no part of the file is left.
+    /// Writes a PNG file. Throws Error{io}; partial files are removed.
     void write(const Picture& picture, const std::filesystem::path& path);
 
 private:

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 std::chrono::nanoseconds now() { return Clock::now().time_since_epoch(); }
 
-/// How fast time goes: 1/16 to 16 times, by powers of two.
+/// Factor of simulated time over real time: a power of two from 1/16 to 16.
 class Pace {
 public:
     void slower() { exponent_ = std::max(exponent_ - 1, -4); }
@@ -36,7 +36,7 @@ private:
     int exponent_ = 0;
 };
 
-/// The keys that belong to the loop and not to the game. Returns whether the user quits.
+/// Handles the keys of the loop. Returns whether the user quits.
 bool control(const Input& input, StepClock& clock, Pace& pace) {
     if (input.pressed(Key::p)) clock.paused() ? clock.resume() : clock.pause();
     if (input.pressed(Key::period) && clock.paused()) clock.single_step();
@@ -65,8 +65,8 @@ void show(const Picture& picture, Renderer& renderer, Window& window) {
     window.present();
 }
 
-/// Where the display does not hold frames back, the loop does.
-void hold_back(std::chrono::nanoseconds frame_start, int fps) {
+/// Sleeps until the frame's period ends, unless the display has already waited.
+void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
     const std::chrono::nanoseconds period = std::chrono::nanoseconds(std::chrono::seconds(1)) / fps;
     const std::chrono::nanoseconds spent = now() - frame_start;
     if (spent < period * 4 / 5) std::this_thread::sleep_for(period - spent);
@@ -97,7 +97,7 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
         Picture picture = playback.show(clock.ticks(), clock.alpha(), for_step);
         add_status(picture, clock, pace);
         show(picture, renderer, *window);
-        hold_back(start, fps);
+        limit_frame_rate(start, fps);
     }
     return clock.dropped_time();
 }

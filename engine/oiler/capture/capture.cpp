@@ -25,7 +25,7 @@ constexpr const char* manifest_name = "manifest.json";
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
-/// Whether frame_name() could have made it.
+/// Returns whether frame_name() may have made the name.
 bool is_frame_name(std::string_view name) {
     constexpr std::string_view head = "frame_";
     constexpr std::string_view tail = ".png";
@@ -49,7 +49,7 @@ void remove_if_present(const fs::path& path) {
              path.string(), error.message());
 }
 
-/// The manifest goes last: if removing fails half-way, the next run still knows whose the rest is.
+/// Removes the manifest last: if removal fails half-way, the next run continues it.
 void remove_earlier_capture(const fs::path& folder) {
     const fs::path manifest = folder / manifest_name;
     std::error_code unreadable;

@@ -10,27 +10,25 @@
 
 namespace oiler {
 
-/// A folder of frames that is always one run's: where an earlier capture's manifest is, its frames
-/// are removed first, or a shorter run would leave the longer one's last frames between its own.
-/// The manifest is there from the start, so that this holds after a run that was killed, too. Only
-/// names of the form frame_000000.png are removed; everything else in the folder stays. Without a
-/// frame, nothing is left.
+/// A folder with the frames of one run. If it has the manifest of an earlier capture, the earlier
+/// frames are removed, so that a shorter run does not keep the last frames of a longer one. The
+/// manifest exists from the start, so that this also holds after a killed run. Only files named
+/// like frame_000000.png are removed; all others stay. A capture without frames leaves no files.
 class Capture {
 public:
-    /// `header` is a manifest without frames. Throws Error(Exit::io), also when the folder holds a
-    /// manifest.json that no capture wrote.
+    /// `header` is a manifest without frames. Throws Error(Exit::io), also if the folder has a
+    /// manifest.json of another program.
     Capture(std::filesystem::path folder, Manifest header);
     ~Capture();
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
 
-    /// Writes the next frame; the size is the header's. The pixel hash is XXH3 over the rows of
-    /// RGB, top row first, as a reader of the PNG sees them. Throws Error(Exit::io).
+    /// Writes the next frame. `size` equals the header's. The pixel hash is XXH3 over the rows of
+    /// RGB, top row first, as in the PNG. Throws Error(Exit::io).
     void add(std::int64_t tick, double alpha, std::uint64_t state_hash, Size size,
              std::span<const std::uint8_t> rgb_bottom_up);
 
-    /// Writes manifest.json, which names the frames so far, and never one that is missing. Throws
-    /// Error(Exit::io).
+    /// Writes manifest.json with the frames written so far. Throws Error(Exit::io).
     void finish() const;
 
 private:

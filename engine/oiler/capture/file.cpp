@@ -45,12 +45,13 @@ bool is_same_file(int descriptor, const struct stat& other) {
     return fstat(descriptor, &own) == 0 && own.st_dev == other.st_dev && own.st_ino == other.st_ino;
 }
 
-/// A descriptor, -1 with errno set, or nothing when the path names no file or a replaceable one.
+/// Opens files that must be written in place. Returns a descriptor, -1 with errno set, or empty if
+/// the file is missing or can be replaced.
 std::optional<int> open_in_place(const fs::path& path) {
     if (path == "-") return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
     struct stat named = {};
     if (stat(path.c_str(), &named) != 0) return std::nullopt;
-    // Duplicated, not opened again, to share the offset with what else is printed there.
+    // Duplicated, not opened again, to share the file offset with other output.
     for (const int standard : {STDOUT_FILENO, STDERR_FILENO})
         if (is_same_file(standard, named)) return fcntl(standard, F_DUPFD_CLOEXEC, 0);
     if (S_ISREG(named.st_mode)) return std::nullopt;
@@ -79,7 +80,7 @@ File::~File() {
     if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
-/// As mkstemp(), but with the permissions that the user's umask grants to any new file.
+/// Like mkstemp(), but with the permissions of a new file under the user's umask.
 int File::open_temporary() {
     constexpr int most_attempts = 10'000;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {

@@ -10,11 +10,11 @@
 
 namespace oiler {
 
-/// A file that is written whole or not at all, so that a failed or interrupted run never leaves
-/// half a frame under a good name: bytes go to a temporary file in the same folder, which takes the
-/// name at commit() and is removed without one. "-" is standard output. A device, a pipe, and
-/// whatever standard output or standard error goes to (/dev/stdout) cannot be replaced: they are
-/// written in place. Every failure throws Error(Exit::io) with the path, the reason and a remedy.
+/// A file that is written completely or not at all, so that a failed or interrupted run leaves no
+/// partial frame. Bytes go to a temporary file in the same folder. commit() renames it to its final
+/// name; without commit() it is deleted. "-" is the standard output. Devices, pipes and the targets
+/// of standard output and standard error (/dev/stdout) cannot be replaced and are written in place.
+/// Every failure throws Error(Exit::io) with the path, the reason and a remedy.
 class File {
 public:
     explicit File(const std::filesystem::path& path);
@@ -22,11 +22,11 @@ public:
     File(const File&) = delete;
     File& operator=(const File&) = delete;
 
-    /// Buffered: a full disk may show only at commit().
+    /// Writes are buffered, so a full disk may be reported only by commit().
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    /// Flushes, closes and gives the file its name; nothing may be written afterwards.
+    /// Flushes, closes and renames the file. No write may follow.
     void commit();
 
 private:
@@ -36,16 +36,16 @@ private:
 
     int open_temporary();
 
-    std::filesystem::path path_;       // as the user named it, for messages
+    std::filesystem::path path_;       // as given by the user, for messages
     std::filesystem::path target_;     // path_ with symbolic links followed
-    std::filesystem::path temporary_;  // empty when written in place, or committed
+    std::filesystem::path temporary_;  // empty if written in place or committed
     std::unique_ptr<std::FILE, Closer> file_;
 };
 
 /// Writes all of `bytes` to `path` through File.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Makes the folder and its parents; says whether it was missing. Throws Error(Exit::io).
+/// Makes the folder and its parents. Returns whether it was missing. Throws Error(Exit::io).
 bool make_folder(const std::filesystem::path& path);
 
 }  // namespace oiler

@@ -10,10 +10,9 @@
 
 namespace oiler {
 
-/// What a folder of frames was made by and from: enough to tell, when two captures differ, whether
-/// the simulation (state hashes), the drawing (pixel hashes) or the rasteriser (gl_renderer) did.
-/// Neither a clock nor a path of the machine is in it, so that the same command gives the same
-/// bytes.
+/// The settings, tools and hashes of a capture. If two captures differ, it shows the cause: the
+/// simulation (state hashes), the drawing (pixel hashes) or the rasteriser (gl_renderer). It has
+/// neither times nor paths, so that the same command writes the same bytes.
 struct Manifest {
     struct Frame {
         std::int64_t index = 0;
@@ -39,11 +38,11 @@ struct Manifest {
     std::vector<Frame> frames;
 };
 
-/// JSON, one frame to a line; hashes as 16 hexadecimal digits, since many readers keep numbers in
-/// a double. Text that is not UTF-8 is replaced, not refused.
+/// Writes JSON, one frame per line. Hashes have 16 hexadecimal digits, because many readers hold
+/// numbers in a double. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string to_json(const Manifest& manifest);
 
-/// Whether `json` is a manifest that to_json() could have made.
+/// Returns whether `json` may be a manifest of to_json().
 [[nodiscard]] bool is_manifest(std::string_view json);
 
 }  // namespace oiler

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// What stb calls to compress: a zlib stream in memory from malloc, or null.
+/// stb's compressor. Returns a zlib stream in memory from malloc, or null.
 unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_count, int) {
     constexpr int fastest = 1;
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
@@ -40,7 +40,8 @@ namespace {
 
 constexpr int channels = 3;
 
-/// stb counts in int, and deflate's bound is a little above the bytes that it is given.
+/// Limits a frame to 1 GiB: stb counts in int, and deflate's bound is slightly larger than its
+/// input.
 void require_encodable(Size size) {
     constexpr std::int64_t limit = 1 << 30;
     const std::int64_t filtered_row = std::int64_t{size.width} * channels + 1;
@@ -50,7 +51,7 @@ void require_encodable(Size size) {
              size.width, size.height);
 }
 
-/// stb takes the filter from a variable of its own; set once, so that threads may encode.
+/// Sets stb's global variable for the filter, once, so that threads may encode.
 void choose_filter() {
     constexpr int up = 2;
     [[maybe_unused]] static const int chosen = stbi_write_force_png_filter = up;

@@ -10,9 +10,9 @@
 
 namespace oiler {
 
-/// A PNG of 8-bit RGB pixels, whose rows come without padding and bottom row first, as GL reads
-/// them back. Tuned for speed: one filter (up) and the fastest deflate; the same pixels always give
-/// the same bytes. Throws Error(Exit::usage) for an empty frame or one of a gigabyte and more.
+/// Encodes 8-bit RGB pixels as PNG. Rows have no padding, bottom row first, as GL reads them. For
+/// speed it uses one filter (up) and the fastest deflate. The same pixels always give the same
+/// bytes. Throws Error(Exit::usage) for an empty frame or a frame of 1 GiB and more.
 [[nodiscard]] std::vector<std::byte> encode_png(Size size,
                                                 std::span<const std::uint8_t> rgb_bottom_up);
 

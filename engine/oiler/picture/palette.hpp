@@ -3,8 +3,7 @@
 
 #include "oiler/picture/picture.hpp"
 
-/// Colours that readers with any colour vision tell apart: Okabe and Ito, Color Universal Design,
-/// 2008.
+/// Colours that stay distinct for any colour vision: Okabe and Ito, Color Universal Design, 2008.
 namespace oiler::palette {
 
 inline constexpr Colour black{0, 0, 0};
@@ -20,7 +19,7 @@ inline constexpr Colour grey{128, 132, 140};
 inline constexpr Colour pale{222, 225, 230};
 inline constexpr Colour paper{255, 255, 255};
 
-/// The same colour, less opaque.
+/// Returns the colour with another opacity.
 [[nodiscard]] constexpr Colour faded(Colour colour, std::uint8_t alpha) {
     colour.a = alpha;
     return colour;

@@ -43,7 +43,7 @@ void move(Disc& disc, const Disc& after, float alpha) {
 }
 
 void move(Polyline& line, const Polyline& after, float alpha) {
-    // A line that loses points has no moved shape that would not mislead; it changes at 1.
+    // Every interpolated shape of a line that loses points would mislead, so it changes at 1.
     if (line.points.empty() || after.points.size() < line.points.size()) {
         return;
     }
@@ -62,7 +62,7 @@ void move(Label& label, const Label& after, float alpha) {
 }
 
 /// Finds an element by its key. Pictures of successive steps mostly list the same elements in the
-/// same order, so the index is tried first and the table is only built when that fails.
+/// same order, so the index is tried first. The table is built only if that fails.
 template <class Element>
 class Finder {
 public:

@@ -13,7 +13,7 @@ struct Point {
     friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// Eight bits a channel, not premultiplied.
+/// Eight bits per channel, not premultiplied.
 struct Colour {
     std::uint8_t r = 0;
     std::uint8_t g = 0;
@@ -22,20 +22,20 @@ struct Colour {
     friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-/// The canvas: a box of 640 × 360 units, origin at its lower left, y up, that fills the frame as
-/// far as its shape allows, centred and always wholly visible. One unit is a pixel at 640 × 360.
+/// The canvas is a box of 640 × 360 units, origin at its lower left, y up. It is centred in the
+/// frame, always wholly visible, and as large as possible. One unit is a pixel at 640 × 360.
 inline constexpr float canvas_width = 640;
 inline constexpr float canvas_height = 360;
 
-/// What an element's points are measured in.
+/// The coordinates of an element's points.
 enum class Space : std::uint8_t {
-    world,   ///< metres, seen through the picture's camera
+    world,   ///< metres, shown by the picture's camera
     canvas,  ///< units of the canvas
 };
 
-/// Which element of the picture before is which of the picture after. An element without an object
-/// (0) is matched with nothing and jumps. A body that teleports changes `jump`, so that it is not
-/// streaked across the screen.
+/// Matches the elements of two successive pictures for interpolation. An element without an object
+/// (0) has no match and jumps. A teleported body changes `jump`, so that it does not streak across
+/// the screen.
 struct ElementKey {
     std::uint64_t object = 0;
     std::uint32_t part = 0;
@@ -54,15 +54,15 @@ struct Disc {
 struct Polyline {
     ElementKey key{};
     std::vector<Point> points{};
-    float width = 1;  ///< in units of the canvas, whatever the space
+    float width = 1;  ///< always in units of the canvas
     Colour colour{};
     Space space = Space::world;
 };
 
 enum class Align : std::uint8_t { left, centre, right };
 
-/// A line of text. `at` is on the baseline; `align` tells which end of the line is there. Between
-/// two steps the text is that of the step before.
+/// A line of text. `at` is on the baseline, at the end or the middle that `align` selects. Between
+/// two steps the label shows the text of the earlier step.
 struct Label {
     ElementKey key{};
     Point at{};
@@ -81,7 +81,7 @@ struct Camera {
     [[nodiscard]] Point to_canvas(Point world) const;
 };
 
-/// What is to be seen, as a value: drawn by a renderer, compared by a test, interpolated between
+/// A frame as a value: a renderer draws it, a test compares it, the loop interpolates it between
 /// two steps. Polylines are drawn first, then discs, then labels, each in the order of its list.
 struct Picture {
     Colour background{255, 255, 255, 255};
@@ -91,10 +91,10 @@ struct Picture {
     std::vector<Label> labels{};
 };
 
-/// The picture at alpha in [0, 1] of the way between two steps, for display only: `before` at 0,
-/// `after` at 1. Elements of the same kind and key move on straight lines; what is new, gone or
-/// teleported changes when alpha reaches 1. A polyline that has grown at its end (a trail) grows
-/// out of its last point.
+/// Interpolates between the pictures of two steps, for display only: `before` at alpha 0, `after`
+/// at 1. Elements of the same kind and key move on straight lines. New, removed and teleported
+/// elements change when alpha reaches 1. A polyline with new points at its end (a trail) grows out
+/// of its last point.
 [[nodiscard]] Picture between(const Picture& before, const Picture& after, float alpha);
 
 }  // namespace oiler

@@ -7,12 +7,11 @@
 
 namespace oiler {
 
-/// A coil spring seen from the side: straight leads at both ends and `turns` turns of `radius` in
-/// between, in the units of the points. As many points whatever its length, so that it
-/// interpolates.
+/// A coil spring from the side: `turns` turns of `radius` between straight leads, in the units of
+/// the points. The number of points does not depend on its length, so that it interpolates.
 [[nodiscard]] std::vector<Point> coil(Point from, Point to, int turns, float radius);
 
-/// A closed circle.
+/// A circle as a closed polyline.
 [[nodiscard]] std::vector<Point> circle(Point centre, float radius);
 
 }  // namespace oiler

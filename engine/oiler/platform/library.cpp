@@ -9,8 +9,7 @@
 
 namespace oiler {
 
-// A driver that was loaded stays: it keeps threads and memory of its own, and does not survive
-// being unmapped under them.
+// RTLD_NODELETE: a driver has threads of its own, which crash if it is unmapped.
 Library::Library(const char* soname, const char* remedy)
     : soname_(soname), handle_(dlopen(soname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
     if (handle_ == nullptr) {
@@ -29,6 +28,6 @@ void* Library::address(const char* name) const {
     return found;
 }
 
-void tame_llvmpipe() { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); }
+void limit_llvmpipe_vectors() { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); }
 
 }  // namespace oiler

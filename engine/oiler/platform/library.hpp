@@ -5,8 +5,8 @@
 
 namespace oiler {
 
-/// A shared library loaded at run time, so that a program starts on machines that lack it and can
-/// say what to install.
+/// A shared library, loaded at run time. A program therefore starts without it and can name the
+/// package to install.
 class Library {
 public:
     /// Throws Error{no_display}: "cannot load SONAME (the loader's reason); REMEDY".
@@ -15,7 +15,7 @@ public:
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 
-    /// Sets `function` to the function called `name`. Throws Error{no_display} where it is missing.
+    /// Sets `function` to the function `name`. Throws Error{no_display} if it is missing.
     template <class Function>
     void resolve(Function*& function, const char* name) const {
         function = reinterpret_cast<Function*>(address(name));
@@ -28,8 +28,9 @@ private:
     void* handle_;
 };
 
-/// Keeps llvmpipe at vectors of 256 bits: Mesa 22.3 crashes at 512, and pixels are to be the same
-/// on every machine. To be called before a GL driver is loaded; a user's own setting stands.
-void tame_llvmpipe();
+/// Limits llvmpipe to vectors of 256 bits: Mesa 22.3 crashes with 512, and pixels must be the same
+/// on every machine. Call it before a GL driver is loaded. LP_NATIVE_VECTOR_WIDTH of the user
+/// overrides it.
+void limit_llvmpipe_vectors();
 
 }  // namespace oiler

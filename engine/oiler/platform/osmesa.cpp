@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* remedy = "install the Debian package libosmesa6, or use --surface egl";
 
-/// Mesa's off-screen rendering, into memory of ours. Mesa 25.1 dropped it; EGL follows on.
+/// Mesa's off-screen rendering into memory. Mesa 25.1 removed it; EGL replaces it.
 class OsMesa final : public Surface {
 public:
     OsMesa() : library_("libOSMesa.so.8", remedy) {
@@ -57,7 +57,7 @@ private:
     decltype(&OSMesaDestroyContext) destroy_ = nullptr;
     decltype(&OSMesaMakeCurrent) make_current_ = nullptr;
     decltype(&OSMesaGetProcAddress) procedure_ = nullptr;
-    /// OSMesa insists on a default framebuffer; nothing is ever drawn there.
+    /// The default framebuffer that OSMesa requires. It stays unused.
     std::array<unsigned char, 4> pixel_{};
     OSMesaContext context_ = nullptr;
 };

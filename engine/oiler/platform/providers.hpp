@@ -7,7 +7,7 @@
 
 namespace oiler {
 
-/// Each throws Error{no_display} with the Debian packages that cure it.
+/// Both throw Error{no_display} with the Debian packages to install.
 [[nodiscard]] std::unique_ptr<Surface> open_osmesa();
 [[nodiscard]] std::unique_ptr<Surface> open_egl();
 

@@ -64,7 +64,7 @@ struct KeyCode {
     Key key;
 };
 
-/// By key code, not scan code: the letter that is printed on the user's key.
+/// Key codes, not scan codes: the letter that is printed on the user's key.
 constexpr std::array key_codes{
     KeyCode{SDLK_SPACE, Key::space},
     KeyCode{SDLK_RETURN, Key::enter},
@@ -109,15 +109,15 @@ void apply(const SDL_KeyboardEvent& event, Input& input) {
     }
 }
 
-/// SDL's library and its video system, up for as long as this lives.
+/// SDL's library and its video system, for the lifetime of the object.
 class Sdl {
 public:
     Sdl() : library_("libSDL2-2.0.so.0", remedy), sdl_(library_) {
         sdl_.set_main_ready();
-        // Ctrl-C belongs to the program, which has files to complete.
+        // The program handles Ctrl-C itself, to complete its files.
         sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
         sdl_.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-        // Without that folder there is no Wayland, and its library would say so on standard error.
+        // Without this folder there is no Wayland, and libwayland would print that on stderr.
         if (std::getenv("XDG_RUNTIME_DIR") == nullptr) {
             sdl_.set_hint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
         }
@@ -135,7 +135,7 @@ public:
     const SdlFunctions* operator->() const { return &sdl_; }
 
 private:
-    /// Without a display SDL does not fail, it runs where nobody sees it.
+    /// Without a display SDL does not fail; it selects an invisible driver.
     [[nodiscard]] bool invisible() const {
         const char* driver = sdl_.video_driver();
         const std::string_view name = driver != nullptr ? driver : "";
@@ -206,8 +206,8 @@ private:
         sdl_->set_attribute(SDL_GL_DOUBLEBUFFER, 1);
     }
 
-    /// SDL skips a context that it believes current, while OSMesa may have taken the thread's slot
-    /// in libglapi; so it has to let go first.
+    /// Releases the context first: SDL skips a context that it believes current, but OSMesa may
+    /// have taken the thread's slot in libglapi.
     void take_over_thread() const {
         sdl_->make_current(window_, nullptr);
         sdl_->make_current(window_, context_);
@@ -231,7 +231,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Window> open_window(Size size, const std::string& title) {
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     return std::make_unique<SdlWindow>(size, title);
 }
 

@@ -13,8 +13,8 @@ std::unique_ptr<Surface> open_egl_after(const Error& osmesa) {
         return open_egl();
     } catch (const Error& egl) {
         fail(Exit::no_display,
-             "no OpenGL without a screen: {}; {}; either Debian package libosmesa6 or "
-             "libegl1 with libgl1-mesa-dri cures it",
+             "no OpenGL without a screen: {}; {}; install the Debian package libosmesa6, or "
+             "libegl1 with libgl1-mesa-dri",
              osmesa.what(), egl.what());
     }
 }
@@ -22,7 +22,7 @@ std::unique_ptr<Surface> open_egl_after(const Error& osmesa) {
 }  // namespace
 
 std::unique_ptr<Surface> open_offscreen(Offscreen which) {
-    tame_llvmpipe();
+    limit_llvmpipe_vectors();
     if (which == Offscreen::egl) {
         return open_egl();
     }

@@ -10,8 +10,8 @@
 
 namespace oiler {
 
-/// A current OpenGL 3.3 core context, whoever provides it. A surface has no framebuffer that a
-/// renderer may rely on: what is drawn is drawn into an FBO of the renderer's own.
+/// A current OpenGL 3.3 core context of any provider. A surface may have no framebuffer, so a
+/// renderer draws into its own FBO.
 class Surface {
 public:
     using Procedure = void (*)();
@@ -22,36 +22,36 @@ public:
 
     /// "sdl2", "osmesa" or "egl".
     [[nodiscard]] virtual std::string_view provider() const = 0;
-    /// The address of a GL function, null where the provider has none.
+    /// The address of a GL function; null if the provider has none.
     [[nodiscard]] virtual Procedure procedure(const char* name) const = 0;
 
 protected:
     Surface() = default;
 };
 
-/// A surface that somebody looks at.
+/// A surface on the user's display.
 class Window : public Surface {
 public:
-    /// Of the drawable, in pixels; changes when the user resizes.
+    /// Size of the drawable, in pixels; changes when the user resizes the window.
     [[nodiscard]] virtual Size size() const = 0;
-    /// Display refresh in Hz; 60 where the system does not tell.
+    /// Refresh rate of the display, in Hz; 60 if unknown.
     [[nodiscard]] virtual int refresh_rate() const = 0;
-    /// Moves keys pressed and released since the last call into `input`; says whether the user has
+    /// Adds keys pressed and released since the last call to `input`. Returns whether the user has
     /// closed the window.
     [[nodiscard]] virtual bool poll(Input& input) = 0;
-    /// Shows what was drawn into framebuffer 0.
+    /// Shows framebuffer 0.
     virtual void present() = 0;
 };
 
-/// Where a program without a window draws; `automatic` takes OSMesa, else EGL.
+/// The provider without a window; `automatic` selects OSMesa, or EGL if OSMesa is missing.
 enum class Offscreen { automatic, osmesa, egl };
 
 /// Opens a window of about `size` on the user's display.
-/// Throws Error{no_display}, naming --headless, where there is no display, no SDL2 or no GL 3.3.
+/// Throws Error{no_display}, naming --headless, without a display, SDL2 or GL 3.3.
 [[nodiscard]] std::unique_ptr<Window> open_window(Size size, const std::string& title);
 
-/// A context without a screen, its library loaded at run time.
-/// Throws Error{no_display}, naming the Debian package that cures it.
+/// Opens a context without a screen. Its library is loaded at run time.
+/// Throws Error{no_display}, naming the Debian package to install.
 [[nodiscard]] std::unique_ptr<Surface> open_offscreen(Offscreen which);
 
 }  // namespace oiler

@@ -10,13 +10,13 @@ namespace {
 constexpr float mark_radius = 2.6F;
 constexpr float outline = 1.1F;
 constexpr float dash = 6;
-constexpr float gap = 5;  // the round ends of a line take its width of that
+constexpr float gap = 5;  // the round ends of the dashes narrow it by the line's width
 
-/// A mark's corners on a circle around its middle; as large to the eye as a disc.
+/// A regular polygon as a mark. It looks as large as a disc.
 struct Polygon {
     int corners;
     float radius;
-    float first;  ///< which way its first corner is, in turns
+    float first;  ///< direction of the first corner, in turns
 
     [[nodiscard]] Polyline scaled(float by, Point centre, Colour colour, float width) const {
         Polyline line{.width = width, .colour = colour, .space = Space::canvas};
@@ -29,8 +29,8 @@ struct Polygon {
         }
         return line;
     }
-    /// How far its sides are from its middle.
-    [[nodiscard]] float depth() const {
+    /// Distance of the sides from the centre.
+    [[nodiscard]] float inradius() const {
         return radius * std::cos(std::numbers::pi_v<float> / static_cast<float>(corners));
     }
 };
@@ -41,13 +41,14 @@ Polygon polygon_of(Mark mark) {
     return {.corners = 3, .radius = 3.8F, .first = 0.25F};
 }
 
-/// A picture fills no polygon, but a line along half its size that is wide enough does.
+/// Fills the polygon with a wide outline at half its size, because pictures have no filled
+/// polygons.
 void draw_polygon(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
-    picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.depth()));
+    picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.inradius()));
     picture.polylines.push_back(polygon.scaled(1, at, colour, outline));
 }
 
-Point on_the_way(Point from, Point to, float part) {
+Point point_between(Point from, Point to, float part) {
     return {from.x + (to.x - from.x) * part, from.y + (to.y - from.y) * part};
 }
 
@@ -69,7 +70,7 @@ void draw_dashes(const Polyline& whole, Picture& picture) {
         const float length = std::hypot(to.x - from.x, to.y - from.y);
         float gone = 0;
         for (; gone + left < length; left = is_gap ? gap : dash)
-            turn(on_the_way(from, to, (gone += left) / length));
+            turn(point_between(from, to, (gone += left) / length));
         left -= length - gone;
         piece.points.push_back(to);
     }

@@ -5,10 +5,10 @@
 
 namespace oiler {
 
-/// The series' mark on the canvas; nothing of the curve below it shows through.
+/// Draws the series' mark on the canvas. It hides the curve below it.
 void draw_mark(const Series& series, Point at, Picture& picture);
 
-/// A line of the series, which is on the canvas: whole with its key, or in dashes without one.
+/// Draws a line of the series on the canvas: solid with its key, or dashed without a key.
 void draw_line(const Series& series, const Polyline& whole, Picture& picture);
 
 }  // namespace oiler

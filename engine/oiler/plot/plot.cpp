@@ -22,7 +22,7 @@ constexpr float label_size = 10;
 constexpr float title_size = 13;
 constexpr float caption_line = 14;
 constexpr float swatch = 16;
-constexpr float long_swatch = 28;  // three dashes, of which a mark hides only the middle
+constexpr float long_swatch = 28;  // three dashes; a mark hides only the middle one
 constexpr float legend_line = 14;
 
 Polyline line(Point from, Point to, Colour colour, float width) {
@@ -38,7 +38,7 @@ float clamped(float low, double value, float high) {
     return static_cast<float>(std::clamp(value, double{low}, double{high}));
 }
 
-/// The part of a segment within the box, by Liang and Barsky (1984); none of one that has no end.
+/// The part of a segment within the box (Liang and Barsky, 1984); empty if an end is not finite.
 std::optional<std::pair<Point, Point>> clip(DataPoint a, DataPoint b, const Box& box) {
     for (const double number : {a.x, a.y, b.x, b.y})
         if (!std::isfinite(number)) return std::nullopt;
@@ -103,8 +103,8 @@ void draw_grid(const Plot& plot, Picture& picture) {
     picture.polylines.push_back(line(box.low, {box.low.x, box.high.y}, palette::ink, 1));
 }
 
-/// How wide a letter is, in ems: a picture does not know its font, so this is DejaVu Sans, rounded.
-/// Bytes that continue a letter of UTF-8 have no width of their own.
+/// Width of a letter in ems, rounded from DejaVu Sans: a picture does not know its font.
+/// Continuation bytes of UTF-8 have width 0.
 float width_of(char letter) {
     const auto is_in = [&](std::string_view set) { return set.find(letter) != set.npos; };
     if ((letter & 0xC0) == 0x80) return 0;
@@ -121,7 +121,7 @@ float width_of(std::string_view words, float size) {
     return width;
 }
 
-/// The words of a text, those together that a line's end must not part: "t = 3.65 s" and "40 %".
+/// Splits a text into words, but keeps "t = 3.65 s" and "40 %" together.
 std::vector<std::string> unbreakable(const std::string& text) {
     const auto binds = [](char c) { return c == '=' || (c >= '0' && c <= '9'); };
     std::vector<std::string> parts;
@@ -146,7 +146,7 @@ std::vector<std::string> lines_of(const std::vector<std::string>& parts, float s
     return lines;
 }
 
-/// As few lines as the width allows, and about equally long.
+/// Wraps a text into the smallest number of lines, all about equally long.
 std::vector<std::string> wrap(const std::string& text, float size, float width) {
     const std::vector<std::string> parts = unbreakable(text);
     std::vector<std::string> lines = lines_of(parts, size, width);
@@ -159,7 +159,7 @@ std::vector<std::string> wrap(const std::string& text, float size, float width) 
     return lines;
 }
 
-void draw_words(const Plot& plot, Picture& picture) {
+void draw_labels(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
     const auto put = [&](Point at, const std::string& words, float size, Align align) -> Label& {
         return picture.labels.emplace_back(text(at, words, size, align));
@@ -180,7 +180,7 @@ void draw_swatch(const Series& series, Point left, float width, Picture& picture
     draw_mark(series, {left.x + width / 2, left.y}, picture);
 }
 
-/// Names beside their curves' colours, from the right end of the y label's line leftwards.
+/// Draws names and swatches on the line of the y label, from its right end to the left.
 void draw_legend_above(const Plot& plot, Picture& picture) {
     float right = plot.box.high.x;
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
@@ -194,7 +194,7 @@ void draw_legend_above(const Plot& plot, Picture& picture) {
     }
 }
 
-/// The same from the top of the box downwards, closer together where there are many.
+/// Draws names and swatches beside the box, from its top down. Many names are closer together.
 void draw_legend_beside(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
     const auto names = std::ranges::count_if(
@@ -247,13 +247,13 @@ void draw_marks(const Plot& plot, const Series& series, Picture& picture) {
 
 void Plot::draw(Picture& picture, ElementKey key) const {
     draw_grid(*this, picture);
-    draw_words(*this, picture);
+    draw_labels(*this, picture);
     draw_legend(*this, picture);
     for (const Series& curve : series) {
         ++key.part;
         draw_curve(*this, curve, key, picture);
     }
-    // Above all curves, as discs are anyway.
+    // Above all curves. Discs always are.
     for (const Series& curve : series) draw_marks(*this, curve, picture);
 }
 

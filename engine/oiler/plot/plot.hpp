@@ -21,29 +21,29 @@ struct DataPoint {
     double y;
 };
 
-/// What stands at each point of a curve, on the line through them: shapes that are told apart
-/// whatever colours a reader sees. All but the disc are hollow.
+/// The shape at each point of a curve. Shapes are distinct without colours. All but the disc are
+/// hollow.
 enum class Mark : std::uint8_t { none, disc, ring, square, diamond, triangle };
 
-/// One curve of a plot, and its line in the legend.
+/// One curve of a plot, with its entry in the legend.
 struct Series {
     std::string name{};
     Colour colour{};
     std::vector<DataPoint> points{};
     float width = 1.5F;
     Mark mark = Mark::none;
-    bool dashed = false;  ///< and never interpolated
+    bool dashed = false;  ///< dashed curves are never interpolated
 };
 
-/// Curves over labelled axes, drawn into a box of the canvas; curves are cut at the box, and parted
-/// where a point has no place on an axis. Labels stand outside of the box: about 16 units above it,
-/// or 36 with a title; 26 below, and 14 more for each line of a caption; 44 to its left; and with
-/// the legend beside it 44 to its right, and 6 more for each letter of the longest name.
+/// Curves over labelled axes, drawn into a box of the canvas. Curves are clipped at the box and
+/// have a gap at points that an axis cannot show. Labels need space outside of the box, in units:
+/// about 16 above it, or 36 with a title; 26 below, and 14 for each line of a caption; 44 to its
+/// left. A legend beside the box needs 44 to its right, and 6 for each letter of the longest name.
 struct Plot {
     Box box{};
-    std::string title{};    ///< on a line of its own, above that of the y label and the legend
+    std::string title{};    ///< on its own line, above the y label and the legend
     std::string remark{};   ///< small, at the right end of the title's line
-    std::string caption{};  ///< below all else, wrapped to the width of the box
+    std::string caption{};  ///< at the bottom, wrapped to the width of the box
     std::string x_label{};
     std::string y_label{};
     Range x{};
@@ -51,12 +51,13 @@ struct Plot {
     Scale x_scale = Scale::linear;
     Scale y_scale = Scale::linear;
     std::vector<Series> series{};
-    int x_ticks = 8;  ///< about how many
+    int x_ticks = 8;  ///< approximate number
     int y_ticks = 4;
-    bool legend_beside = false;  ///< of the box, not above it: for many names, or long ones
+    bool legend_beside = false;  ///< beside the box, not above it: for many or long names
 
-    /// `key.object` identifies the plot; a change of `key.jump`, say for other ranges, keeps the
-    /// picture from interpolating curves across it. Marks are never interpolated.
+    /// Adds the plot to `picture`. `key.object` identifies the plot. A change of `key.jump`, for
+    /// example with new ranges, stops the interpolation of its curves. Marks are never
+    /// interpolated.
     void draw(Picture& picture, ElementKey key) const;
 
     [[nodiscard]] Point to_canvas(DataPoint point) const;

@@ -14,7 +14,7 @@ bool is_logarithmic(Range range) {
     return range.low > 0 && range.high > range.low && std::isfinite(range.high);
 }
 
-/// The factors times powers of ten, as far as they lie within the range.
+/// The factors times powers of ten, within the range.
 std::vector<double> multiples(Range range, std::initializer_list<int> factors) {
     std::vector<double> at;
     const double last = std::ceil(std::log10(range.high));

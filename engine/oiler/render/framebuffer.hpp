@@ -8,14 +8,14 @@
 
 namespace oiler {
 
-/// The one place that a renderer draws into, whatever the surface: EGL without a surface has no
-/// default framebuffer, and OSMesa fills its own only at glFinish.
+/// The framebuffer of a renderer, the same for every surface: EGL without a surface has no default
+/// framebuffer, and OSMesa fills its own only at glFinish.
 class Framebuffer {
 public:
     explicit Framebuffer(const Gl& gl);
 
-    /// Makes it current and of that size.
-    /// Throws Error{usage} where the provider cannot draw frames so large.
+    /// Makes it current with that size.
+    /// Throws Error{usage} if the provider cannot draw such a large frame.
     void bind(Size size);
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] GLuint name() const { return name_; }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What oiler_render is built from besides its own sources: the GL loader, written by glad, and the
-# shaders and the font, embedded so that an installed program needs no files.
+# Generated sources of oiler_render: the GL loader from glad, and the embedded shaders and font. An
+# installed program therefore needs no files.
 find_program(OILER_GLAD_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 find_file(OILER_FONT DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu)
 if(NOT OILER_FONT)

@@ -7,11 +7,11 @@
 
 namespace oiler {
 
-/// The functions of one context. A value rather than glad's usual globals, so that a window and an
-/// off-screen surface can live in one process.
+/// The functions of one context. A value, not glad's usual globals, so that one process can have a
+/// window and an off-screen surface.
 using Gl = GladGLContext;
 
-/// The name of a GL object that is deleted with its owner.
+/// The name of a GL object. The destructor deletes the object.
 class GlName {
 public:
     using Create = void (*)(GLsizei, GLuint*);
@@ -29,7 +29,7 @@ private:
     GLuint name_ = 0;
 };
 
-/// A linked program. The shaders are ours, so a failure is the driver's: Error{no_display}.
+/// A linked shader program. Throws Error{no_display} if the driver refuses the embedded shaders.
 class GlProgram {
 public:
     GlProgram(const Gl& gl, std::string_view vertex, std::string_view fragment);
@@ -37,7 +37,7 @@ public:
     GlProgram(const GlProgram&) = delete;
     GlProgram& operator=(const GlProgram&) = delete;
 
-    /// Makes it current for a frame of that many pixels.
+    /// Makes it current for a frame of that size in pixels.
     void use(int width, int height) const;
 
 private:

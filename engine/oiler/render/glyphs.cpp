@@ -12,7 +12,7 @@ namespace oiler {
 namespace {
 
 constexpr int phases = 4;
-// Rows; textures of GL 3.3 may have no more than 1024, of any driver we met at least 8192.
+// Rows. GL 3.3 guarantees textures of 1024 rows; all tested drivers have at least 8192.
 constexpr int full_atlas = 2048;
 
 std::vector<int> glyph_numbers(const stbtt_fontinfo& font, const std::string& text) {
@@ -98,7 +98,7 @@ Glyph Glyphs::rasterise(int glyph, int em, int phase) {
         return {};
     }
     reserve(picture);
-    // stb writes from the top down, a frame's rows run upwards.
+    // stb writes the top row first; a frame starts with its bottom row.
     std::vector<std::uint8_t> rows(static_cast<std::size_t>(picture.width) * picture.height);
     stbtt_MakeGlyphBitmapSubpixel(&font_, rows.data(), picture.width, picture.height, picture.width,
                                   factor, factor, shift, 0, glyph);
@@ -112,7 +112,7 @@ Glyph Glyphs::rasterise(int glyph, int em, int phase) {
     return picture;
 }
 
-/// Finds room on the current shelf, or on a new one above it.
+/// Reserves space on the current shelf of the atlas, or on a new shelf above it.
 void Glyphs::reserve(Glyph& glyph) {
     if (shelf_x_ + glyph.width > atlas_width) {
         shelf_x_ = 0;
@@ -130,7 +130,7 @@ void Glyphs::reserve(Glyph& glyph) {
 
 int Glyphs::atlas_height() const { return static_cast<int>(atlas_.size() / atlas_width); }
 
-void Glyphs::tidy() {
+void Glyphs::clear_if_full() {
     if (atlas_height() <= full_atlas) {
         return;
     }

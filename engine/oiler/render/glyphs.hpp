@@ -12,34 +12,33 @@
 
 namespace oiler {
 
-/// A glyph's picture: where it goes, relative to the pen on the baseline, and where it is kept.
+/// A rasterised glyph: its box relative to the pen on the baseline, and its place in the atlas.
 struct Glyph {
     int left = 0;    ///< pixels
     int bottom = 0;  ///< pixels, y up
     int width = 0;
     int height = 0;
-    int atlas_x = 0;  ///< texels, of the lower left corner
+    int atlas_x = 0;  ///< lower left corner, texels
     int atlas_y = 0;
 };
 
-/// A glyph placed in the frame, as the text shader takes it.
+/// A glyph in the frame, as an instance of the text shader.
 struct PlacedGlyph {
     std::int32_t box[4];    ///< left, bottom, width, height in pixels
     std::int32_t atlas[2];  ///< texels
     Colour colour;
 };
 
-/// The embedded font, DejaVu Sans, and the glyphs of it that have been asked for, rasterised at
-/// four sub-pixel positions: text that moves by a quarter of a pixel moves smoothly, and none of it
-/// is ever resampled.
+/// The embedded font, DejaVu Sans, with a cache of its glyphs. Glyphs are rasterised at four
+/// sub-pixel positions, so that moving text is smooth and never resampled.
 class Glyphs {
 public:
     static constexpr int atlas_width = 1024;
 
     Glyphs();
 
-    /// Appends the glyphs of a line of UTF-8 text whose baseline starts, is centred or ends at
-    /// `at` (pixels). The font's em is `em` pixels.
+    /// Appends the glyphs of a line of UTF-8 text. Its baseline starts, is centred or ends at `at`
+    /// (pixels). The font's em is `em` pixels.
     void place(const Label& label, Point at, int em, std::vector<PlacedGlyph>& placed);
 
     /// Length of a line of text in pixels.
@@ -48,11 +47,11 @@ public:
     /// Rows of `atlas_width` bytes of coverage.
     [[nodiscard]] const std::vector<std::uint8_t>& atlas() const { return atlas_; }
     [[nodiscard]] int atlas_height() const;
-    /// Changes with the atlas, so that whoever holds a copy knows when it is old.
+    /// Changes whenever the atlas changes, so that the holder of a copy knows when to update it.
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
-    /// Forgets all glyphs when too many sizes have come and gone (a window being resized); to be
-    /// called when nothing placed is waiting to be drawn.
-    void tidy();
+    /// Empties the cache if the atlas is full, for example after many sizes of a window. Placed
+    /// glyphs become invalid.
+    void clear_if_full();
 
 private:
     [[nodiscard]] float scale(int em) const;

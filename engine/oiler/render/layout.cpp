@@ -7,10 +7,10 @@
 namespace oiler {
 namespace {
 
-// Pixels; larger letters fill any frame, and a glyph has to fit into a row of the atlas.
+// Pixels. A glyph must fit into a row of the atlas, and larger letters fill any frame.
 constexpr int largest_em = 512;
 
-/// From a picture's spaces to the pixels of a frame, the lower left corner at (0, 0).
+/// Maps a picture's spaces to the pixels of a frame, with the lower left corner at (0, 0).
 class Mapping {
 public:
     Mapping(const Camera& camera, Size frame)
@@ -37,7 +37,7 @@ private:
 };
 
 bool is_near(Point p, Size frame, float reach) {
-    // Written so that a NaN is far away.
+    // False for NaN.
     return p.x > -reach && p.x < static_cast<float>(frame.width) + reach && p.y > -reach &&
            p.y < static_cast<float>(frame.height) + reach;
 }
@@ -53,9 +53,9 @@ bool runs_along_axes(const Polyline& line) {
     return true;
 }
 
-/// Puts the edges of an axis, a tick or a frame onto pixel edges: a line of one pixel between two
-/// rows would be two rows of grey. Only what stands still on the canvas is moved so, by at most
-/// half a pixel; a curve, which may happen to be flat, has more points.
+/// Snaps an axis, a tick or a frame to pixel edges, by at most half a pixel: a line of one pixel
+/// between two rows would be two rows of grey. World-space lines move, so they are not snapped.
+/// Curves may be flat too, but have more points.
 void snap(const Polyline& line, float width, std::vector<Point>& points) {
     constexpr std::size_t most_corners = 5;
     if (line.space != Space::canvas || points.size() > most_corners || !runs_along_axes(line)) {
@@ -79,8 +79,8 @@ void lay_out_line(const Polyline& line, const Mapping& mapping, Size frame, Line
     append_polyline(points, stroke, frame, mesh);
 }
 
-/// The disc whose soft edge, one pixel wide, covers π·r² pixels: the integral over a ramp from R−½
-/// to R+½ is π(R² + 1/12), and below R = ½ the colour fades instead.
+/// A disc whose soft edge, one pixel wide, covers π·r² pixels. The integral over a ramp from R−½ to
+/// R+½ is π(R² + 1/12). Below R = ½ the colour fades instead.
 PlacedDisc with_soft_edge(Point centre, float radius, Colour colour) {
     const float square = radius * radius;
     const float smallest = 0.25F + 1.0F / 12;
@@ -120,7 +120,7 @@ void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout)
         lay_out_disc(disc, mapping, frame, layout.discs);
     }
     layout.glyphs.clear();
-    glyphs.tidy();
+    glyphs.clear_if_full();
     for (const Label& label : picture.labels) {
         lay_out_label(label, mapping, frame, glyphs, layout.glyphs);
     }

@@ -10,7 +10,7 @@
 
 namespace oiler {
 
-/// A disc as its shader takes it.
+/// A disc in the frame, as an instance of the disc shader.
 struct PlacedDisc {
     Point centre;    ///< pixels
     float radius;    ///< pixels
@@ -18,14 +18,14 @@ struct PlacedDisc {
     Colour colour;
 };
 
-/// A picture in pixels of one frame, ready to be uploaded: the part of drawing that needs no GL.
+/// A picture in the pixels of one frame, ready for upload. It needs no GL.
 struct Layout {
     LineMesh lines;
     std::vector<PlacedDisc> discs;
     std::vector<PlacedGlyph> glyphs;
 };
 
-/// Lays `picture` out for a frame of that size into `layout`, whose memory is reused.
+/// Lays out `picture` for a frame of that size. The memory of `layout` is reused.
 void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout);
 
 }  // namespace oiler

@@ -13,7 +13,8 @@ struct Segment {
     Vec to;
 };
 
-/// Narrows [first, last] to where from + t·step lies between low and high on one axis.
+/// Narrows [first, last] to the t at which from + t·step is in [low, high] on one axis. Returns
+/// whether any is left.
 bool narrow(double from, double step, double low, double high, double& first, double& last) {
     if (step == 0) {
         return from >= low && from <= high;
@@ -25,8 +26,8 @@ bool narrow(double from, double step, double low, double high, double& first, do
     return first <= last;
 }
 
-/// Liang & Barsky, ACM Trans. Graphics 3 (1984). Measured from the end that is nearer the origin,
-/// since the other may be so far away that its offsets have lost their digits.
+/// Clips a segment: Liang & Barsky, ACM Trans. Graphics 3 (1984). Starts at the end nearer the
+/// origin, because the other end may be so far away that its offsets have lost all digits.
 std::optional<Segment> clip(const Segment& segment, const Box& box) {
     if (length(segment.from) > length(segment.to)) {
         const auto turned = clip({segment.to, segment.from}, box);
@@ -39,7 +40,7 @@ std::optional<Segment> clip(const Segment& segment, const Box& box) {
         !narrow(segment.from.y, step.y, box.low.y, box.high.y, first, last)) {
         return std::nullopt;
     }
-    // Held in the box, for when both ends are so far away that no digit is left.
+    // Clamped to the box, in case both ends are so far away that no digit is left.
     return Segment{box.nearest(segment.from + first * step),
                    box.nearest(last < 1 ? segment.from + last * step : segment.to)};
 }

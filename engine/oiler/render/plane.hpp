@@ -10,7 +10,7 @@
 
 namespace oiler::plane {
 
-/// Double, because a clipped line's other end may lie 1e30 pixels away.
+/// In double, because the other end of a clipped line may be 1e30 pixels away.
 struct Vec {
     double x = 0;
     double y = 0;
@@ -36,7 +36,7 @@ struct Box {
     }
 };
 
-/// The parts of a line that lie in the box, as unbroken runs of points; a point that is not finite
+/// The parts of a line within the box, as runs of connected points. A point that is not finite
 /// leaves a gap.
 [[nodiscard]] std::vector<std::vector<Vec>> runs_within(const Box& box,
                                                         std::span<const Point> points);

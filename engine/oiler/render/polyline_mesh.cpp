@@ -12,11 +12,11 @@ namespace {
 using plane::Box;
 using plane::Vec;
 
-// Pixels; denser points cost time and add nothing but noise in the turns.
+// Pixels. Denser points cost time and only add noise in the turns.
 constexpr double closest = 0.75;
-// Pixels; more than any frame has, and little enough for a rasteriser.
+// Pixels. Larger than any frame, and small enough for a rasteriser.
 constexpr float widest = 1e5F;
-// cos 120°: beyond that turn a mitre is longer than the line is wide, and the joint is round.
+// cos 120°: at sharper turns a mitre would be longer than the line is wide, so the joint is round.
 constexpr double sharpest_cosine = -0.5;
 
 /// Writes one unbroken run of points as triangles.
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// A joint's two vertices, to the left and the right of the line.
+    /// The two vertices of a joint, to the left and right of the line.
     struct Cut {
         std::uint32_t left;
         std::uint32_t right;
@@ -58,7 +58,7 @@ private:
             }
         }
         points.resize(kept);
-        // The line must end where it ends.
+        // Thinning must keep the last point.
         if (kept > 1) {
             points.back() = last;
         }
@@ -89,7 +89,7 @@ private:
 
     void add_closed(const std::vector<Vec>& points) {
         const std::size_t count = points.size();
-        // The joint at the first point is made twice: to leave from, and to arrive at.
+        // The joint at the first point is made twice: for the first and for the last segment.
         const auto quads = mesh_.indices.size();
         Cut cut = add_joint({0, 0}, points[count - 1], points[0], points[1]);
         mesh_.indices.resize(quads);
@@ -98,14 +98,14 @@ private:
         }
     }
 
-    /// Ends the segment that started at `start` and returns where the next one starts.
+    /// Ends the segment that started at `start`. Returns the start of the next segment.
     Cut add_joint(Cut start, Vec before, Vec at, Vec after) {
         const Vec in = towards(before, at);
         const Vec out = towards(at, after);
         const double cosine = dot(in, out);
         const double shorter = std::min(length(at - before), length(after - at));
-        // tan of half the turn, times outer_, is how far the mitre reaches back along the segments;
-        // beyond half of a segment the strip would fold over itself.
+        // The mitre reaches outer_ · tan(turn/2) back along the segments. Beyond half of a segment
+        // the strip would fold over itself.
         const double reach = outer_ * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine)));
         if (cosine < sharpest_cosine || reach > shorter / 2) {
             return add_round_joint(start, at, in, out);
@@ -132,7 +132,7 @@ private:
         return {left, add_vertex(at - to_left, -outer, 0)};
     }
 
-    /// A quad beyond `cut`, in which the distance to the end point makes the half disc.
+    /// Adds a quad beyond `cut`. The shader draws the half disc in it by distance to the end point.
     void add_cap(Vec at, Vec direction, Cut cut) {
         const Vec to_left = outer_ * left_of(direction);
         const Vec tip = at + outer_ * direction;
@@ -162,7 +162,7 @@ private:
 
     float half_width_;
     float strength_;
-    double outer_;  ///< half the strip's width: the line's and its soft edge
+    double outer_;  ///< half the width of the line with its soft edges
     Colour colour_;
     LineMesh& mesh_;
 };
@@ -175,7 +175,7 @@ void append_polyline(std::span<const Point> points, const Stroke& stroke, Size f
         return;
     }
     const Stroke drawable{std::min(stroke.width, widest), stroke.colour};
-    // Far enough out that no end or mitre made by the clipping shows.
+    // Ends and mitres from clipping stay outside the frame.
     const double margin = 2 * (drawable.width + 2.0);
     const Box box{{-margin, -margin}, {frame.width + margin, frame.height + margin}};
     Strip strip(drawable, mesh);

@@ -13,7 +13,7 @@ namespace oiler {
 struct LineVertex {
     Point position;  ///< pixels
     float across;    ///< signed distance from the centre line, pixels
-    float along;     ///< distance past the line's end, pixels; 0 between the ends
+    float along;     ///< distance beyond the line's end, pixels; 0 between the ends
     float half_width;
     float strength;  ///< factor on the colour's alpha, below 1 for lines thinner than a pixel
     Colour colour;
@@ -35,10 +35,10 @@ struct Stroke {
     Colour colour;
 };
 
-/// Appends a strip along `points` (pixels), mitred at gentle turns, with round ends and round sharp
-/// turns. A line whose last point is its first is closed. Points closer than 0.75 pixels to the
-/// one before are left out, and so is whatever lies well outside the frame; a point that is not
-/// finite leaves a gap. Mitres and distances: Rougier, "Antialiased 2D Grid, Marker, and Arrow
+/// Appends a strip along `points` (pixels) with round ends, mitres at gentle turns and round joints
+/// at sharp turns. A line is closed if its last point equals its first. Points closer than 0.75
+/// pixels to the one before are omitted, and so are parts far outside the frame. A point that is
+/// not finite leaves a gap. Mitres and distances: Rougier, "Antialiased 2D Grid, Marker, and Arrow
 /// Shaders" and "Shader-Based Antialiased, Dashed, Stroked Polylines", JCGT 2013.
 void append_polyline(std::span<const Point> points, const Stroke& stroke, Size frame,
                      LineMesh& mesh);

@@ -21,13 +21,13 @@ Gl load_functions(const Renderer::LoadProcedure& load) {
         gladLoadGLContextUserPtr(&gl, call, const_cast<Renderer::LoadProcedure*>(&load));
     if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33) {
         fail(Exit::no_display,
-             "this surface offers OpenGL {}.{}, and 3.3 is needed; try --headless",
+             "this surface offers OpenGL {}.{}; Oiler needs 3.3; try --headless",
              GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
     }
     return gl;
 }
 
-/// A buffer, the description of what is in it, and the program that draws it.
+/// A vertex buffer, its layout, and the program that draws it.
 struct Batch {
     Batch(const Gl& gl, std::string_view vertex, std::string_view fragment)
         : program(gl, vertex, fragment),
@@ -42,7 +42,7 @@ struct Batch {
     GlName buffer;
 };
 
-/// Where in a vertex or an instance an attribute lies.
+/// Location of an attribute in a vertex or an instance.
 struct Field {
     std::size_t offset;
     std::size_t stride;
@@ -132,7 +132,7 @@ struct Renderer::Impl {
         gl.Clear(GL_COLOR_BUFFER_BIT);
     }
 
-    /// Everything that somebody else in the same context (an inspector) may have changed.
+    /// Sets all state that other users of the context (an inspector) may have changed.
     void set_state() const {
         for (const GLenum off : {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
                                  GL_FRAMEBUFFER_SRGB, GL_DITHER}) {

@@ -12,29 +12,29 @@
 
 namespace oiler {
 
-/// Rows of RGB bytes, the lowest row first, as OpenGL reads them.
+/// Rows of RGB bytes, bottom row first, as OpenGL reads them.
 struct Pixels {
     Size size;
     std::vector<std::uint8_t> rgb;
 };
 
-/// Draws pictures into one framebuffer object of its own, so that a window, OSMesa and EGL show the
-/// same pixels. Needs a current GL 3.3 core context for as long as it lives.
+/// Draws pictures into its own framebuffer object, so that a window, OSMesa and EGL show the same
+/// pixels. The GL 3.3 core context must stay current for its lifetime.
 class Renderer {
 public:
     using LoadProcedure = std::function<void (*(const char*))()>;
 
-    /// Throws Error{no_display} where the context is older than 3.3.
+    /// Throws Error{no_display} if the context is older than 3.3.
     explicit Renderer(const LoadProcedure& load);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Throws Error{usage} where `size` exceeds what the provider can draw.
+    /// Throws Error{usage} if the provider cannot draw frames of that size.
     void draw(const Picture& picture, Size size);
-    /// What was drawn last; `pixels` is reused.
+    /// Reads the last frame. The memory of `pixels` is reused.
     void read(Pixels& pixels) const;
-    /// Copies what was drawn last to framebuffer 0, a window's of the same size.
+    /// Copies the last frame to framebuffer 0, of a window of the same size.
     void blit() const;
 
     [[nodiscard]] std::string gl_renderer() const;

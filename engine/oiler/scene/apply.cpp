@@ -36,15 +36,16 @@ std::string replaced(std::string text, const Value& old, const Value& value) {
     return text.replace(old.at.begin, old.at.size(), written(value, text[old.at.begin]));
 }
 
-/// "\r\n" if the line ends so that `at` is in; the last line need not end at all.
+/// Line end of the line that holds `at`: "\r\n" or "\n". If the last line has none, the line end of
+/// the text.
 std::string_view line_end(std::string_view text, std::size_t at) {
     const std::size_t end = text.find('\n', at);
     if (end == std::string_view::npos) return text.find("\r\n") < at ? "\r\n" : "\n";
     return end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
 }
 
-/// With a line below that of `last`, which begins as that line does: with its indentation, and with
-/// the "scene." of a dotted key.
+/// Adds a line below that of `last`. It repeats the indentation of that line and the "scene." of a
+/// dotted key.
 std::string with_line(std::string text, const Value& last, const Value& value) {
     const std::string_view whole = text;
     const std::size_t begin = whole.substr(0, last.key_at.begin).rfind('\n') + 1;
@@ -61,7 +62,7 @@ std::string with(std::string text, std::string_view file, const Value& value) {
     const Value& scene = *document.find("scene");
     if (const Value* const old = scene.find(value.key))
         return replaced(std::move(text), *old, value);
-    // There is one: a scene has axes.
+    // Never empty, because `axes` is required.
     const Value& last =
         *std::ranges::max_element(scene.items, {}, [](const Value& item) { return item.at.end; });
     if (text[scene.at.begin] == '{')
@@ -72,7 +73,7 @@ std::string with(std::string text, std::string_view file, const Value& value) {
 }  // namespace
 
 std::string apply(std::string_view text, std::string_view file, const Stepping& stepping) {
-    require(stepping.method, "a scene is stepped by a method");
+    require(stepping.method, "stepping needs a method");
     Scene scene = parse_scene(text, file);
     Stepping chosen = stepping;
     if (scene.stepping.damping && !chosen.damping) chosen.damping = chosen.method->damping;
@@ -81,7 +82,7 @@ std::string apply(std::string_view text, std::string_view file, const Stepping& 
     for (const Value& value : values_of(chosen)) applied = with(std::move(applied), file, value);
     if (parse_scene(applied, file) != scene)
         fail(Exit::usage,
-             "{}: cannot be edited without changing more; write rate = {}, method = \"{}\" and "
+             "{}: an edit would change other keys; write rate = {}, method = \"{}\" and "
              "precision = \"{}\" into its [scene] by hand",
              file, chosen.rate.steps, chosen.method->name, name_of(chosen.precision));
     return applied;

@@ -8,9 +8,9 @@
 
 namespace oiler {
 
-/// The text of a scene file with another choice in its table `scene`; all else, comments and
-/// spacing too, stays as it was, and so does what says the same already. Throws Error{usage} where
-/// the text is no scene, or would be none with that choice: not every method takes every force.
+/// Returns the text of a scene file with the rate, method, precision and damping of `stepping`. All
+/// other bytes stay, comments and spacing included, and so do values that already agree. Throws
+/// Error{usage} if the text is not a valid scene, or if its forces do not suit the method.
 [[nodiscard]] std::string apply(std::string_view text, std::string_view file,
                                 const Stepping& stepping);
 

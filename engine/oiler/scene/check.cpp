@@ -10,7 +10,7 @@
 namespace oiler {
 namespace {
 
-/// Gives what `f` refuses its place.
+/// Adds place and key to the error that `f` throws.
 template <class F>
 void at(const Place& place, std::string_view key, F f) {
     try {
@@ -20,7 +20,7 @@ void at(const Place& place, std::string_view key, F f) {
     }
 }
 
-/// What the key's table says is held by `limits`.
+/// Checks values against the limits of the scene's precision.
 template <class... Checked>
 void check_at(const Scene& scene, const Section& section, std::string_view key,
               const Checked&... checked) {
@@ -38,18 +38,18 @@ GivenForces given(const Force& force) {
 void check_size(const Scene& scene, const Section& section) {
     if (scene.body_count() > most_bodies)
         refuse(section.place("count"),
-               "{}.count: with it the scene has {} bodies; give at most {} in all", section.name(),
-               scene.body_count(), most_bodies);
+               "{}.count: expected at most {} bodies in the scene, got {}; give fewer",
+               section.name(), most_bodies, scene.body_count());
 }
 
-/// A box from `low` to `high` along each axis.
+/// Checks a box from `low` to `high`.
 void check_box(const Scene& scene, const Section& section, std::string_view key, const Vec3& low,
                const Vec3& high) {
     check_numbers(scene, section, key, high);
     check_numbers(scene, section, key, high - low);
     for (int i = 0; i < scene.axes; ++i)
         if (high[i] < low[i])
-            refuse(section.place(key), "{}.{}: expected no less than {} along {}, got {}",
+            refuse(section.place(key), "{}.{}: expected at least {} along {}, got {}",
                    section.name(), key, low[i], axis_names[static_cast<std::size_t>(i)], high[i]);
 }
 
@@ -85,7 +85,7 @@ void check_grid(const Scene& scene, const Section& section, const SceneGrid& gri
     check_size(scene, section);
     if (scene.axes == 1 && grid.count[1] > 1)
         refuse(section.place("count"),
-               "grid.count: expected one number with one axis, got {} rows; give axes = 2",
+               "grid.count: expected one row with one axis, got {} rows; give axes = 2",
                grid.count[1]);
     check_matter(scene, section, grid.matter);
     check_numbers(scene, section, "origin", grid.origin);
@@ -112,19 +112,19 @@ void check_forces(const Scene& scene, const Place& place) {
         if (!spring.to) ++springs[spring.body];
     const std::int64_t forces = std::ranges::max(springs) + std::ssize(scene.attractors);
     if (forces * scene.body_count() > most_forces)
-        refuse(
-            place,
-            "{} anchored springs of one body and attractors, for each of {} bodies; give at most "
-            "{} in all",
-            forces, scene.body_count(), most_forces);
+        refuse(place,
+               "expected at most {} forces, got {} anchored springs of one body and attractors for "
+               "each of {} bodies; give fewer",
+               most_forces, forces, scene.body_count());
 }
 
 void check_method(const Scene& scene, const Place& place) {
-    Scene small = scene;
+    Scene small = scene;  // with few bodies: the method depends on the forces alone
     for (SceneGrid& grid : small.grids)
         for (std::int64_t& count : grid.count) count = std::min<std::int64_t>(count, 2);
     for (SceneScatter& scatter : small.scatters) scatter.count = 1;
-    at(place, "scene.method", [&] { make_world(small, Settings{small.stepping}).require_applicable(); });
+    at(place, "scene.method",
+       [&] { make_world(small, Settings{small.stepping}).require_applicable(); });
 }
 
 }  // namespace oiler

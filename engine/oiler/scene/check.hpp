@@ -6,8 +6,8 @@
 
 namespace oiler {
 
-// What no single key decides: whether the columns of the scene's precision hold what its numbers
-// come to, and whether they make sense together. All throw Error{usage} with file, line and key.
+// Checks that need more than one key: numbers fit the scene's precision and agree with each other.
+// All throw Error{usage} with file, line and key.
 
 void check_number(const Scene& scene, const Section& section, std::string_view key, double number);
 void check_numbers(const Scene& scene, const Section& section, std::string_view key,
@@ -17,10 +17,10 @@ void check_spring(const Scene& scene, const Section& section, const SceneSpring&
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid);
 void check_scatter(const Scene& scene, const Section& section, const SceneScatter& scatter);
 
-/// That the forces of all bodies fit into memory.
+/// Checks that the scene has at most `most_forces` forces.
 void check_forces(const Scene& scene, const Place& place);
 
-/// That the method can step the forces that the scene has.
+/// Checks that the method can step the forces of the scene.
 void check_method(const Scene& scene, const Place& place);
 
 }  // namespace oiler

@@ -42,7 +42,7 @@ std::optional<Colour> find_colour(std::string_view text) {
     return from_hexadecimal(text);
 }
 
-std::vector<std::string_view> colour_words() {
+std::vector<std::string_view> colour_names() {
     std::vector<std::string_view> words;
     for (const auto& [name, colour] : named) words.push_back(name);
     return words;

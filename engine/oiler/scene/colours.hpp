@@ -9,10 +9,10 @@
 
 namespace oiler {
 
-/// "blue" or "#0072b2"; nothing for any other text.
+/// Reads "blue" or "#0072b2"; empty for any other text.
 [[nodiscard]] std::optional<Colour> find_colour(std::string_view text);
 
-/// The colours that have a name: those of the palette.
-[[nodiscard]] std::vector<std::string_view> colour_words();
+/// The names of the palette.
+[[nodiscard]] std::vector<std::string_view> colour_names();
 
 }  // namespace oiler

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one file that includes toml++, whose parser is in a library of its own. NDEBUG, because its
-// assertions fail on texts that it goes on to refuse.
+// The only file that includes toml++. It is compiled with NDEBUG, because the parser's assertions
+// fail on texts that the parser would refuse.
 #include "oiler/scene/document.hpp"
 
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@ namespace {
 
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
 
-/// Makes values of the nodes of a text.
+/// Converts toml++ nodes to values.
 class Converter {
 public:
     explicit Converter(std::string_view text) {
@@ -71,7 +71,7 @@ private:
         return items;
     }
 
-    /// toml++ counts lines and columns from 1, and columns in letters, which of ASCII are bytes.
+    /// toml++ counts lines and columns from 1. Columns count characters; in ASCII these are bytes.
     [[nodiscard]] std::size_t offset(toml::source_position position) const {
         return position ? lines_.at(position.line - 1) + position.column - 1 : 0;
     }
@@ -79,7 +79,7 @@ private:
         return {offset(region.begin), offset(region.end)};
     }
 
-    std::vector<std::size_t> lines_{0};  ///< where each starts
+    std::vector<std::size_t> lines_{0};  ///< offset of the start of each line
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ Value parse_document(std::string_view text, std::string_view file) {
     try {
         return Converter(text).convert(toml::parse(text));
     } catch (const toml::parse_error& error) {
-        refuse({file, line_of(error.source())}, "not TOML: {}; mend this line or the one above",
+        refuse({file, line_of(error.source())}, "not TOML: {}; correct this line or the one above",
                printable(error.description(), 200));
     }
 }

@@ -19,26 +19,26 @@ struct Extent {
     [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-/// What a scene file says, before anything is made of it.
+/// A value of a parsed TOML document, with its place in the text.
 struct Value {
-    std::string key{};  ///< of a table's members
-    Extent key_at{};    ///< its last part, where it has dots
-    Extent at{};        ///< what stands behind the key; of a table its header, or its braces
-    int line = 1;       ///< of the key, where there is one
+    std::string key{};  ///< empty unless the value is a member of a table
+    Extent key_at{};    ///< the last part of a dotted key
+    Extent at{};        ///< the value; for a table its header or its braces
+    int line = 1;       ///< line of the key, or of the value if it has no key
     ValueKind kind = ValueKind::table;
     std::string text{};
     std::int64_t whole = 0;
-    double number = 0;  ///< of a whole one, too
+    double number = 0;  ///< also set for whole numbers
     bool flag = false;
-    std::vector<Value> items{};  ///< of a list in its order, of a table by line
+    std::vector<Value> items{};  ///< elements of a list in order, members of a table by line
 
-    /// Null where the table has no such member.
+    /// Returns null if the table has no such member.
     [[nodiscard]] const Value* find(std::string_view name) const;
-    /// "15.0", "the text "abc"", "a list": for a message.
+    /// Text for a message: "15.0", "the text "abc"", "a list of 2".
     [[nodiscard]] std::string shown() const;
 };
 
-/// The table that the text is. Throws Error{usage} with the line where it is not TOML.
+/// Parses TOML. Throws Error{usage} with the line of the first mistake.
 [[nodiscard]] Value parse_document(std::string_view text, std::string_view file);
 
 }  // namespace oiler

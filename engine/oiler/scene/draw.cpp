@@ -12,7 +12,7 @@
 namespace oiler {
 namespace {
 
-/// Parts of a camera's height.
+/// Radii of discs, as fractions of the camera's height.
 constexpr float large_radius = 1 / 40.0F;
 constexpr float small_radius = 1 / 200.0F;
 
@@ -46,7 +46,7 @@ Box box_of(const Scene& scene, const World& world) {
     return box;
 }
 
-/// Draws a scene's things in the order of the world's rows.
+/// Draws the bodies in the order of the world's rows.
 class Drawing {
 public:
     Drawing(const Scene& scene, const World& world, const Camera& camera)
@@ -64,7 +64,7 @@ public:
         }
         for (const SceneScatter& scatter : scene_.scatters)
             draw_discs(scatter.count, scatter.matter, small_radius);
-        draw_words();
+        draw_labels();
         return std::move(picture_);
     }
 
@@ -107,7 +107,7 @@ private:
         }
     }
 
-    /// Its springs as threads, each from one edge to another.
+    /// Draws the springs of a grid as threads from edge to edge.
     void draw_net(const SceneGrid& grid) {
         const std::vector<GridLink> links = links_of(grid);
         for (std::size_t kind = 0; kind < links.size(); ++kind)
@@ -130,11 +130,11 @@ private:
         if (thread.points.size() > 1) picture_.polylines.push_back(std::move(thread));
     }
 
-    void draw_words() {
+    void draw_labels() {
         const Settings& settings = world_.settings();
-        const std::string how =
-            fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
-                        settings.stepping.rate.steps, name_of(settings.stepping.precision), world_.time());
+        const std::string how = fmt::format(
+            "{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
+            settings.stepping.rate.steps, name_of(settings.stepping.precision), world_.time());
         picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = palette::ink},
                            {.at = {12, 326}, .text = how, .size = 9, .colour = palette::grey}};
     }
@@ -149,12 +149,12 @@ private:
 
 Camera camera_of(const Scene& scene, const World& world) {
     constexpr float margin = 1.25F;
-    constexpr float where_all_is_in_one_point = 10;
+    constexpr float default_height = 10;  // m, if all is in one point
     const Box box = box_of(scene, world);
     Camera camera{.centre = {box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2}};
     const float height =
         std::max(box.high.y - box.low.y, (box.high.x - box.low.x) * canvas_height / canvas_width);
-    camera.height = height > 0 ? margin * height : where_all_is_in_one_point;
+    camera.height = height > 0 ? margin * height : default_height;
     if (scene.camera.centre) camera.centre = to_point(*scene.camera.centre);
     if (scene.camera.height) camera.height = static_cast<float>(*scene.camera.height);
     return camera;

@@ -28,7 +28,7 @@ std::optional<std::size_t> node_at(const SceneGrid& grid, std::int64_t column, s
     return static_cast<std::size_t>(row * grid.count[0] + column);
 }
 
-std::vector<std::size_t> hung_nodes(const SceneGrid& grid) {
+std::vector<std::size_t> anchored_nodes(const SceneGrid& grid) {
     std::vector<std::size_t> nodes;
     const std::int64_t step =
         grid.hang == Hang::corners ? std::max<std::int64_t>(1, grid.count[0] - 1) : 1;

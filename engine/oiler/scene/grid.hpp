@@ -7,24 +7,24 @@
 
 namespace oiler {
 
-/// A kind of spring in a grid: from each body to the one that many to the right and above.
+/// A kind of spring in a grid. It links each body to the one `right` columns and `up` rows away.
 struct GridLink {
     int right = 0;
     int up = 0;
     Link link{};
 };
 
-/// Those that the grid has, in the order in which they are made.
+/// The kinds of springs of a grid, in the order of their creation.
 [[nodiscard]] std::vector<GridLink> links_of(const SceneGrid& grid);
 
-/// Where the body starts, in m.
+/// Initial position of a body, in m.
 [[nodiscard]] Vec3 node_position(const SceneGrid& grid, std::int64_t column, std::int64_t row);
 
-/// Which of the grid's bodies, row by row; nothing where it has none there.
+/// Index of a body, counted row by row; empty outside of the grid.
 [[nodiscard]] std::optional<std::size_t> node_at(const SceneGrid& grid, std::int64_t column,
                                                  std::int64_t row);
 
-/// Those that hang, each once.
-[[nodiscard]] std::vector<std::size_t> hung_nodes(const SceneGrid& grid);
+/// Indices of the bodies with an anchored spring, each once.
+[[nodiscard]] std::vector<std::size_t> anchored_nodes(const SceneGrid& grid);
 
 }  // namespace oiler

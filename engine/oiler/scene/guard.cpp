@@ -17,7 +17,7 @@ namespace {
 
 class Descriptor {
 public:
-    /// Opening a pipe that nobody writes to does not wait.
+    /// O_NONBLOCK: opening a pipe without a writer does not wait.
     explicit Descriptor(const std::string& path)
         : number_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
     ~Descriptor() {
@@ -32,8 +32,8 @@ private:
     int number_;
 };
 
-/// Whether the path is at fault that the user gave, and not the machine.
-bool is_misnamed(int error) {
+/// Returns whether the user's path is wrong, rather than the machine.
+bool is_wrong_path(int error) {
     constexpr std::array at_fault{ENOENT, ENOTDIR, ENXIO, ELOOP, ENAMETOOLONG};
     return std::ranges::find(at_fault, error) != at_fault.end();
 }
@@ -46,11 +46,11 @@ void require_file(int descriptor, const std::string& path) {
              path);
 }
 
-/// Goes through the text as TOML has it: brackets and dots count only outside of texts and
-/// comments. Where a text does not end, the parser stops there as well.
-class Walk {
+/// Counts nested brackets and dots of keys, outside of strings and comments. An unterminated string
+/// ends the count, as it ends the parser.
+class NestingGuard {
 public:
-    Walk(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+    NestingGuard(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
     void run() {
         while (at_ < text_.size()) {
@@ -76,8 +76,7 @@ private:
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
         if (depth_ > most_depth)
-            refuse({file_, line_}, "brackets within brackets, deeper than {}; close them",
-                   most_depth);
+            refuse({file_, line_}, "brackets nested deeper than {}; close them", most_depth);
         if (c == '\n') ++line_;
         if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots_ = 0;
     }
@@ -93,7 +92,7 @@ private:
             if (text_[at_] == '\n') ++line_;
         }
         at_ = std::min(at_ + mark.size(), text_.size());
-        // Such a text may itself end with two quotes.
+        // The content of a multi-line string may end with two quotes.
         for (int more = 0; lines && more < 2 && follows(mark.substr(2)); ++more) ++at_;
     }
     [[nodiscard]] bool follows(std::string_view part) const {
@@ -108,7 +107,7 @@ private:
     int dots_ = 0;
 };
 
-/// The byte is one of a text of ASCII; a carriage return only before the end of a line.
+/// Returns whether a byte is ASCII text. A carriage return must be followed by a line feed.
 bool is_text(std::string_view text, std::size_t at) {
     const char c = text[at];
     if (c == '\r') return text.substr(at).starts_with("\r\n");
@@ -120,7 +119,7 @@ bool is_text(std::string_view text, std::size_t at) {
 std::string read_scene_text(const std::string& path) {
     const Descriptor file(path);
     if (file.number() < 0)
-        fail(is_misnamed(errno) ? Exit::usage : Exit::io,
+        fail(is_wrong_path(errno) ? Exit::usage : Exit::io,
              "{}: {}; give a scene file such as assets/scenes/cloth.toml", path,
              system_reason(errno));
     require_file(file.number(), path);
@@ -139,17 +138,16 @@ std::string read_scene_text(const std::string& path) {
 
 void guard_scene_text(std::string_view text, std::string_view file) {
     if (text.size() > most_scene_bytes)
-        refuse({file}, "more than {} bytes; a grid or a scatter makes many bodies of one table",
+        refuse({file}, "more than {} bytes; use a [[grid]] or a [[scatter]] for many bodies",
                most_scene_bytes);
     int line = 1;
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (!is_text(text, at))
-            refuse({file, line},
-                   "byte 0x{:02x}, but a scene is ASCII text; in quotes write \\u00e9 for é",
+            refuse({file, line}, "byte 0x{:02x}; expected ASCII text, in quotes \\u00e9 for é",
                    static_cast<unsigned char>(text[at]));
         if (text[at] == '\n') ++line;
     }
-    Walk(text, file).run();
+    NestingGuard(text, file).run();
 }
 
 }  // namespace oiler

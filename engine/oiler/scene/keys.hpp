@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// What is written behind a key.
+/// The type of a key's value.
 enum class KeyKind {
     text,
     whole,   ///< a whole number
@@ -24,39 +24,39 @@ enum class KeyKind {
 struct ValueRange {
     double low = -std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::max();
-    bool without_low = false;  ///< `low` itself is outside
+    bool without_low = false;  ///< excludes `low` itself
     [[nodiscard]] bool holds(double number) const {
         return number <= high && (without_low ? number > low : number >= low);
     }
 };
 
-/// One key of a scene file, and all that the reader checks of it by itself.
+/// One key of a scene file, and all checks of its value that need no other key.
 struct SceneKey {
     std::string_view table;  ///< "spring"
     std::string_view name;   ///< "stiffness"
     KeyKind kind;
     std::string_view unit;  ///< "N/m"
     ValueRange range{};
-    std::string_view value;   ///< as TOML, with two axes: the default, or an example where
-                              ///< `absent` is not empty
-    std::string_view absent;  ///< "required", or in words what holds without it; empty: `value`
-    std::string_view what;
-    std::vector<std::string_view> (*words)() = nullptr;  ///< that are allowed
+    std::string_view value;   ///< in TOML, with two axes: the default if `absent` is empty, else an
+                              ///< example
+    std::string_view absent;  ///< "required", the default in words, or empty: `value`
+    std::string_view what;    ///< description, in the README's table
+    std::vector<std::string_view> (*words)() = nullptr;  ///< allowed words
 
     [[nodiscard]] bool required() const { return absent == "required"; }
 };
 
-/// The one list: the reader knows no other key, and the README's table is this.
+/// All keys that the reader accepts. The table in assets/scenes/README.md is this list.
 [[nodiscard]] std::span<const SceneKey> scene_keys();
 
-/// Null where the table has no such key.
+/// Returns null if the table has no such key.
 [[nodiscard]] const SceneKey* find_scene_key(std::string_view table, std::string_view name);
 
 [[nodiscard]] std::vector<std::string_view> scene_tables();
-/// Whether a scene may have several of the table, written [[table]].
+/// Returns whether a scene may have several of the table, written [[table]].
 [[nodiscard]] bool is_repeated(std::string_view table);
 
-/// "a number above 0, in kg": what the reader expects.
+/// Expected value for a message: "a number above 0, in kg".
 [[nodiscard]] std::string expectation(const SceneKey& key, int axes);
 
 }  // namespace oiler

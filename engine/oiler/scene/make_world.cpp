@@ -16,11 +16,11 @@ Attractor to_force(const SceneAttractor& attractor) {
     return {.centre = attractor.position, .gm = attractor.gm};
 }
 
-/// Spawns a scene's bodies. Forces are given with a body where they can be, because bodies that
-/// agree on those share them in memory.
-class Maker {
+/// Spawns a scene's bodies. Forces are passed with a body where possible, because bodies with equal
+/// forces then share them in memory.
+class WorldBuilder {
 public:
-    Maker(const Scene& scene, const Settings& settings)
+    WorldBuilder(const Scene& scene, const Settings& settings)
         : scene_(scene), world_(scene.axes, settings) {}
 
     World run() {
@@ -42,8 +42,8 @@ private:
     }
     Entity spawn(const Body& body, const GivenForces& forces) {
         const Entity entity = world_.spawn(body, forces);
-        for (std::size_t nth = 1; nth < scene_.attractors.size(); ++nth)
-            world_.attach_nth(nth, entity, to_force(scene_.attractors[nth]));
+        for (std::size_t i = 1; i < scene_.attractors.size(); ++i)
+            world_.attach_nth(i, entity, to_force(scene_.attractors[i]));
         return entity;
     }
 
@@ -81,12 +81,12 @@ private:
                                        .velocity = grid.velocity},
                                       forces));
         for (const GridLink& link : links_of(grid)) add_links(grid, link, nodes);
-        for (const std::size_t node : hung_nodes(grid))
+        for (const std::size_t node : anchored_nodes(grid))
             world_.attach(nodes[node], Spring{.anchor = world_.position(nodes[node]),
                                               .stiffness = grid.stiffness,
                                               .damping = grid.damping});
     }
-    /// Row by row, so that links that follow each other join rows that do.
+    /// Links row by row, so that consecutive links join consecutive rows of bodies.
     void add_links(const SceneGrid& grid, const GridLink& link, const std::vector<Entity>& nodes) {
         for (std::int64_t row = 0; row < grid.count[1]; ++row)
             for (std::int64_t column = 0; column < grid.count[0]; ++column)
@@ -126,7 +126,7 @@ Scene with_seed(Scene scene, std::uint64_t seed) {
 }
 
 World make_world(const Scene& scene, const Settings& settings) {
-    return Maker(scene, settings).run();
+    return WorldBuilder(scene, settings).run();
 }
 
 }  // namespace oiler

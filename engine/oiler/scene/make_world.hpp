@@ -6,12 +6,13 @@
 
 namespace oiler {
 
-/// The scene whose scatters have the bodies that `seed` of Settings gives those of this one.
+/// Returns the scene with new seeds of its scatters: a run of it with seed 0 has the same bodies as
+/// a run of `scene` with seed `seed`.
 [[nodiscard]] Scene with_seed(Scene scene, std::uint64_t seed);
 
-/// A world of the scene's bodies with just the forces that it names. The bodies are in the rows in
-/// the order of Scene: the named ones, then those of each grid row by row, then those of each
-/// scatter. Throws Error{usage} where the precision of `settings` does not hold its numbers.
+/// Makes a world of the scene's bodies, with no other forces than the scene names. Rows are in the
+/// order of Scene: the bodies of [[body]], then of each grid row by row, then of each scatter.
+/// Throws Error{usage} if a number does not fit the precision of `settings`.
 [[nodiscard]] World make_world(const Scene& scene, const Settings& settings);
 
 }  // namespace oiler

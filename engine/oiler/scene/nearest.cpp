@@ -11,7 +11,7 @@
 namespace oiler {
 namespace {
 
-/// How many letters are to be added, left out or changed to make `b` of `a`: Levenshtein, 1966.
+/// Number of letters to insert, delete or replace to turn `a` into `b`: Levenshtein, 1966.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,7 +28,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> words) {
-    // What is longer is no misspelling, and a file of long names would take minutes.
+    // Longer words are no misspellings, and a file of long names would take minutes.
     constexpr std::size_t longest = 64;
     std::string_view best;
     std::size_t least = 2 + word.size() / 4;

@@ -7,7 +7,7 @@
 
 namespace oiler {
 
-/// "; did you mean `stiffness`?" of the word that `word` is a misspelling of, else empty.
+/// Returns "; did you mean `stiffness`?" if `word` is close to one of `words`, else empty.
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        std::span<const std::string_view> words);
 

@@ -5,7 +5,7 @@
 
 namespace oiler {
 
-/// Random numbers that are the same on every machine and with every library: SplitMix64 of Steele,
+/// Random numbers, the same on every machine and with every standard library: SplitMix64 of Steele,
 /// Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 class Random {
 public:
@@ -15,12 +15,12 @@ public:
         state_ += 0x9e3779b97f4a7c15;
         return mixed(state_);
     }
-    /// At least 0 and below 1, a multiple of 2⁻⁵³.
+    /// A multiple of 2⁻⁵³ in [0, 1).
     [[nodiscard]] constexpr double fraction() {
         return static_cast<double>(next() >> 11) * 0x1p-53;
     }
 
-    /// Spreads a difference in any bit over all of them; 0 stays 0.
+    /// Spreads a change of any bit over all bits. 0 stays 0.
     [[nodiscard]] static constexpr std::uint64_t mixed(std::uint64_t bits) {
         bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
         bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;

@@ -28,7 +28,7 @@ Hang hang_of(const std::string& word) {
     return word == "top" ? Hang::top : Hang::none;
 }
 
-/// Makes a scene of a document, table by table.
+/// Makes a scene from a document, table by table.
 class Reader {
 public:
     Reader(const Value& document, std::string_view file) : document_(document), file_(file) {
@@ -66,23 +66,24 @@ private:
         std::string owners;
         for (const SceneKey& known : scene_keys())
             if (known.name == key) owners += fmt::format(" [{}]", known.table);
-        if (!owners.empty()) return "; it is a key of" + owners + ", below which it belongs";
+        if (!owners.empty()) return "; it is a key of" + owners + "; write it below that header";
         const std::string near = did_you_mean(key, tables);
         return near.empty() ? fmt::format("; it has {}", fmt::join(tables, ", ")) : near;
     }
-    /// Before any value is looked at, so that a misspelt key is not told to be missing.
+    /// Runs before any value is read, so that a misspelt key is not reported as missing.
     void refuse_unknown_keys() const {
         for (const std::string_view table : scene_tables()) each(table, [](const Section&) {});
     }
 
-    /// Calls `f` with each table of the name that the document has.
+    /// Calls `f` with each table of that name.
     template <class F>
     void each(std::string_view table, F f) const {
         const Value* const value = document_.find(table);
         if (!value) return;
         if (!is_repeated(table)) return f(section(table, *value));
         if (value->kind != ValueKind::list)
-            refuse({file_, value->line}, "{0}: there may be several, so write [[{0}]]", table);
+            refuse({file_, value->line}, "{}: expected a list of tables, got {}; write [[{}]]",
+                   table, value->shown(), table);
         for (const Value& item : value->items) f(section(table, item));
     }
     [[nodiscard]] Section section(std::string_view table, const Value& value) const {
@@ -127,9 +128,11 @@ private:
     }
     void remember(const Section& section, const std::string& name) {
         if (name.empty())
-            refuse(section.place("name"), "body.name: an empty name; leave it out or give one");
+            refuse(section.place("name"),
+                   "body.name: expected a name, got an empty text; leave it out");
         if (!names_.emplace(name, scene_.bodies.size() - 1).second)
-            refuse(section.place("name"), "body.name: another body is \"{}\"; give another name",
+            refuse(section.place("name"),
+                   "body.name: another body has the name \"{}\"; give another name",
                    printable(name));
     }
     [[nodiscard]] std::size_t find_body(const Section& section, std::string_view key) const {
@@ -157,8 +160,7 @@ private:
             force_place_ = section.place();
         if (spring.to == spring.body)
             refuse(section.place("to"),
-                   "spring.to: the spring is on that body already; give "
-                   "another body, or an anchor");
+                   "spring.to: both ends are the same body; give another body or an anchor");
         section.read("anchor", spring.anchor);
         section.read("stiffness", spring.stiffness);
         section.read("damping", spring.damping);
@@ -219,8 +221,8 @@ private:
     const Value& document_;
     std::string_view file_;
     Place method_place_{};
-    Place force_place_{};                       // of the last anchored spring or attractor
-    std::map<std::string, std::size_t> names_;  // of bodies
+    Place force_place_{};                       // last anchored spring or attractor
+    std::map<std::string, std::size_t> names_;  // name of a body → its index
     Scene scene_;
 };
 

@@ -8,11 +8,11 @@
 
 namespace oiler {
 
-/// The scene that a file describes. Throws Error{usage} for a file that is none, in one line with
-/// file, line, key and remedy, and Error{io} where it cannot be read.
+/// Reads a scene file. Throws Error{usage} if it is not a valid scene, in one line with file, line,
+/// key and remedy. Throws Error{io} if reading fails.
 [[nodiscard]] Scene read_scene(const std::string& path);
 
-/// The same of a text; `file` is for the messages.
+/// Reads a scene from a text; messages name `file`. Throws Error{usage} like read_scene.
 [[nodiscard]] Scene parse_scene(std::string_view text, std::string_view file);
 
 }  // namespace oiler

@@ -15,7 +15,7 @@ struct Place {
     int line = 1;
 };
 
-/// Throws Error{usage} with the line "FILE:LINE: …".
+/// Throws Error{usage} with the message "FILE:LINE: …".
 [[noreturn]] void refuse_text(const Place& place, const std::string& text);
 
 template <class... Args>
@@ -23,8 +23,8 @@ template <class... Args>
     refuse_text(place, fmt::format(text, std::forward<Args>(args)...));
 }
 
-/// What a file holds, fit for a line on a terminal: nothing but printable ASCII, and of that at
-/// most `most` bytes.
+/// Makes text from a file safe for one line on a terminal: printable ASCII, at most `most` bytes
+/// and "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = 60);
 
 }  // namespace oiler

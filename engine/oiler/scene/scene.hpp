@@ -13,34 +13,34 @@
 
 namespace oiler {
 
-/// The most bodies of a scene, those that grids and scatters make among them.
+/// Largest number of bodies in a scene, with those of grids and scatters.
 inline constexpr std::int64_t most_bodies = 1'000'000;
-/// The most forces of a scene: every body has room for as many anchored springs as the body that
-/// has the most, and for every attractor.
+/// Largest number of forces in a scene. Every body has room for all attractors and for as many
+/// anchored springs as the body with the most.
 inline constexpr std::int64_t most_forces = 10'000'000;
 
-/// What moving things of a scene have in common.
+/// Properties that bodies, grids and scatters share.
 struct SceneMatter {
-    double mass = 1;            ///< kg, of each body
+    double mass = 1;            ///< kg, per body
     double linear_drag = 0;     ///< N·s/m
     double quadratic_drag = 0;  ///< N·s²/m²
     Colour colour = palette::blue;
-    std::optional<double> radius{};  ///< m; decided by the picture where there is none
+    std::optional<double> radius{};  ///< m; if absent, the picture chooses it
     friend bool operator==(const SceneMatter&, const SceneMatter&) = default;
 };
 
 struct SceneBody {
-    std::string name{};  ///< empty where nothing refers to it
+    std::string name{};  ///< empty if no spring refers to the body
     SceneMatter matter{};
     Vec3 position{};  ///< m
     Vec3 velocity{};  ///< m/s
     friend bool operator==(const SceneBody&, const SceneBody&) = default;
 };
 
-/// From a body to a fixed anchor or to another body.
+/// A spring from a body to a fixed anchor or to another body.
 struct SceneSpring {
-    std::size_t body = 0;             ///< which of the scene's bodies
-    std::optional<std::size_t> to{};  ///< another of them; where there is none, the anchor counts
+    std::size_t body = 0;             ///< index in Scene::bodies
+    std::optional<std::size_t> to{};  ///< index of the other body; if absent, `anchor` holds
     Vec3 anchor{};                    ///< m
     double stiffness = 0;             ///< N/m
     double damping = 0;               ///< N·s/m
@@ -58,29 +58,29 @@ struct SceneAttractor {
     friend bool operator==(const SceneAttractor&, const SceneAttractor&) = default;
 };
 
-/// Which nodes of a grid hang on springs of the grid's own kind, each where it starts.
+/// The bodies of a grid that have an anchored spring at their initial position.
 enum class Hang { none, corners, top };
 
-/// A row of bodies, or a net of `count[1]` rows upwards from the first one, with a spring between
+/// A row of bodies, or a net of `count[1]` rows from the bottom to the top, with a spring between
 /// neighbours.
 struct SceneGrid {
-    std::array<std::int64_t, 2> count{1, 1};  ///< bodies in a row, rows
-    Vec3 origin{};                            ///< m, of the lower left body
+    std::array<std::int64_t, 2> count{1, 1};  ///< bodies in a row, number of rows
+    Vec3 origin{};                            ///< m, position of the lower left body
     Vec3 velocity{};                          ///< m/s
     double spacing = 1;                       ///< m
     SceneMatter matter{};
     double stiffness = 0;                 ///< N/m
     double damping = 0;                   ///< N·s/m
-    std::optional<double> rest_length{};  ///< m; the spacing where there is none
-    bool diagonals = false;               ///< as well, √2 as long
-    Hang hang = Hang::none;               ///< corners: both ends of the uppermost row
+    std::optional<double> rest_length{};  ///< m; if absent, the spacing
+    bool diagonals = false;               ///< adds diagonal springs, √2 times as long
+    Hang hang = Hang::none;               ///< corners: both ends of the top row
     friend bool operator==(const SceneGrid&, const SceneGrid&) = default;
 
     [[nodiscard]] std::int64_t size() const { return count[0] * count[1]; }
 };
 
-/// Bodies at random, evenly in a box of positions and a box of velocities. Which ones is decided by
-/// the seed alone, on every machine.
+/// Random bodies, uniform in a box of positions and a box of velocities. The same seed gives the
+/// same bodies on every machine.
 struct SceneScatter {
     std::int64_t count = 0;
     std::int64_t seed = 0;
@@ -92,25 +92,25 @@ struct SceneScatter {
     friend bool operator==(const SceneScatter&, const SceneScatter&) = default;
 };
 
-/// Where the picture looks; what is left out fits what the scene starts with.
+/// The camera of the picture. Absent values are fitted to the start of the scene.
 struct SceneCamera {
     std::optional<Vec3> centre{};    ///< m
     std::optional<double> height{};  ///< m
     friend bool operator==(const SceneCamera&, const SceneCamera&) = default;
 };
 
-/// What the scene may at most be wrong by.
+/// Largest errors that the scene allows.
 struct SceneBudget {
-    std::optional<double> position_error{};  ///< m, largest over the run
-    std::optional<double> energy_drift{};    ///< relative
+    std::optional<double> position_error{};  ///< m, largest of the run
+    std::optional<double> energy_drift{};    ///< largest relative change of the energy
     friend bool operator==(const SceneBudget&, const SceneBudget&) = default;
 };
 
-/// A scene as its file describes it, all of whose numbers are within the limits of the table of
-/// keys. Grids and scatters stay what they are until a world is made.
+/// A scene as its file describes it. All numbers are within the limits of scene_keys().
+/// make_world() expands grids and scatters into bodies.
 struct Scene {
     std::string title{};
-    Stepping stepping{};  ///< the rate in whole steps per second
+    Stepping stepping{};  ///< the rate is a whole number of steps per second
     int axes = 1;
     double duration = 10;           ///< s
     std::optional<Vec3> gravity{};  ///< m/s²
@@ -123,14 +123,14 @@ struct Scene {
     SceneBudget budget{};
     friend bool operator==(const Scene&, const Scene&) = default;
 
-    /// Those that grids and scatters make among them.
+    /// Number of bodies, with those of grids and scatters.
     [[nodiscard]] std::int64_t body_count() const {
         std::int64_t count = static_cast<std::int64_t>(bodies.size());
         for (const SceneGrid& grid : grids) count += grid.size();
         for (const SceneScatter& scatter : scatters) count += scatter.count;
         return count;
     }
-    /// How a body is called, "body 3" where it has no name.
+    /// Name of a body for messages; "body 3" if it has none.
     [[nodiscard]] std::string name_of_body(std::size_t row) const {
         return row < bodies.size() && !bodies[row].name.empty() ? bodies[row].name
                                                                 : "body " + std::to_string(row);

@@ -49,7 +49,7 @@ void Section::refuse_value(const SceneKey& key, const Value& value, std::string_
 
 const SceneKey& Section::entry(std::string_view key) const {
     const SceneKey* const found = find_scene_key(name_, key);
-    require(found, "the list of keys lacks a key that is read");
+    require(found, "scene_keys() lacks a key that is read");
     return *found;
 }
 
@@ -91,8 +91,8 @@ void Section::read(std::string_view key, std::string& target) const {
     if (!value) return;
     target = text(entry(key), *value);
     if (target.size() > longest)
-        refuse({file_, value->line}, "{}.{}: a text of {} bytes; give at most {}", name_, key,
-               target.size(), longest);
+        refuse({file_, value->line}, "{}.{}: expected a text of at most {} bytes, got {}", name_,
+               key, longest, target.size());
     for (const char c : target)
         if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
             refuse({file_, value->line}, "{}.{}: control character 0x{:02x}; leave it out", name_,
@@ -136,7 +136,7 @@ void Section::read(std::string_view key, Colour& target) const {
     const Value* const value = find(entry(key));
     if (!value) return;
     const std::optional<Colour> colour = find_colour(text(entry(key), *value));
-    if (!colour) refuse_value(entry(key), *value, did_you_mean(value->text, colour_words()));
+    if (!colour) refuse_value(entry(key), *value, did_you_mean(value->text, colour_names()));
     target = *colour;
 }
 

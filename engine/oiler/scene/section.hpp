@@ -14,15 +14,14 @@
 
 namespace oiler {
 
-/// One table of a scene file, read by the list of keys: each value is checked against its entry
-/// there, and what an absent key means is left to the target. All throw Error{usage} with file,
-/// line and key.
+/// One table of a scene file. Each value is checked against its entry in scene_keys(). An absent
+/// key leaves its target unchanged. All functions throw Error{usage} with file, line and key.
 class Section {
 public:
-    /// Refuses members that are no keys of the table `name`.
+    /// Refuses unknown keys of the table `name`.
     Section(std::string_view file, std::string_view name, const Value& value);
 
-    /// How many numbers a vector has.
+    /// Sets the number of components of a vector.
     void set_axes(int axes) { axes_ = axes; }
 
     void read(std::string_view key, std::string& target) const;
@@ -39,17 +38,17 @@ public:
         read(key, given);
         target = given;
     }
-    /// One of the words of the key's entry; empty where it is absent.
+    /// Returns one of the key's allowed words; empty if the key is absent.
     [[nodiscard]] std::string word(std::string_view key) const;
 
     [[nodiscard]] bool has(std::string_view key) const;
-    /// Of a key, or of the table where it does not have it.
+    /// Place of a key, or of the table if the key is absent.
     [[nodiscard]] Place place(std::string_view key) const;
     [[nodiscard]] Place place() const { return {file_, value_.line}; }
     [[nodiscard]] std::string_view name() const { return name_; }
 
 private:
-    /// Null where the key is absent and need not be there.
+    /// Returns null if the key is absent and optional.
     [[nodiscard]] const Value* find(const SceneKey& key) const;
     [[nodiscard]] const SceneKey& entry(std::string_view key) const;
     void refuse_unknown(const Value& member) const;

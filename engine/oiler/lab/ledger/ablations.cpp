@@ -41,7 +41,7 @@ void take_apart(Scene& scene, const SceneGrid& grid) {
             scene.bodies.push_back({.matter = grid.matter,
                                     .position = node_position(grid, column, row),
                                     .velocity = grid.velocity});
-    for (const std::size_t node : hung_nodes(grid))
+    for (const std::size_t node : anchored_nodes(grid))
         scene.springs.push_back({.body = first + node,
                                  .anchor = scene.bodies[first + node].position,
                                  .stiffness = grid.stiffness,
