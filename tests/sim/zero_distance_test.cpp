@@ -51,7 +51,7 @@ TYPED_TEST(Precise, ACoilSpringHasNoForceAtItsAnchor) {
     EXPECT_EQ(coil.potential(state), T(0.5) * 7 * 16);
     EXPECT_EQ(coil.jacobian(state).dx.row, (Matrix<T, 2>::scalar(-7).row));
     EXPECT_EQ(coil.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
-    coil.slow(state, T(0.5));
+    coil.damp(state, T(0.5));
     EXPECT_EQ(state.v, (Vec<T, 2>{5, 6}));
 }
 
@@ -61,7 +61,7 @@ TYPED_TEST(Precise, QuadraticDragLeavesWhatRestsAtRest) {
     State<T, 2> state{{1, 2}, {0, 0}};
     EXPECT_EQ(drag.accelerate(state, 0), (Vec<T, 2>{0, 0}));
     EXPECT_EQ(drag.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
-    drag.slow(state, 1);
+    drag.damp(state, 1);
     EXPECT_EQ(state.v, (Vec<T, 2>{0, 0}));
 }
 
@@ -75,7 +75,7 @@ void expect_nothing(const State<T, 2>& state) {
         EXPECT_EQ(force.jacobian(state).dx.row, (Matrix<T, 2>{}.row));
         EXPECT_EQ(force.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
         State<T, 2> slowed = state;
-        if constexpr (requires { force.slow(slowed, T(0)); }) force.slow(slowed, T(0));
+        if constexpr (requires { force.damp(slowed, T(0)); }) force.damp(slowed, T(0));
         EXPECT_EQ(slowed.v, state.v);
     };
     std::apply([&](const auto&... force) { (expect_of(force), ...); }, ForceList<T, 2>{});

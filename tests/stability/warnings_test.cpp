@@ -132,8 +132,10 @@ TEST(Warning, SaysThatNoRateHelps) {
     for (const char* name : {"explicit_euler", "rk2_midpoint", "rk2_heun", "rk2_ralston"}) {
         const auto lines = warnings(swinging(0.1), find_method(name), rate);
         ASSERT_EQ(lines.size(), 1U) << name;
-        EXPECT_EQ(lines[0], "spring of body 0: ω·dt = 0.1, " + std::string(name) +
-                                " gains energy at any rate: take another, say velocity_verlet");
+        EXPECT_EQ(
+            lines[0],
+            "spring of body 0: ω·dt = 0.1, " + std::string(name) +
+                " gains energy at any rate: take another method, for example velocity_verlet");
     }
 }
 
