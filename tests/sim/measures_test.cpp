@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures of bodies count every axis, the third alone too.
+// Measures of bodies include every axis.
 #include <gtest/gtest.h>
 
 #include "oiler/sim/bodies.hpp"
@@ -23,7 +23,8 @@ TEST(Deviation, CountsEachAxisAlone) {
         }
 }
 
-// √(3² + 4² + 12²) = 13 in row 0; row 1 is farther along z and 12.5 m away in all.
+// The deviation of row 0 is √(3² + 4² + 12²) = 13 m. That of row 1 is larger along z but 12.5 m in
+// total.
 TEST(Deviation, IsTheLargestOfAllRowsInDistanceAndAlongEachAxis) {
     Bodies bodies(3, Precision::double_);
     for (int i = 0; i < 3; ++i) bodies.add({.position = {1, 1, 1}});
@@ -35,7 +36,7 @@ TEST(Deviation, IsTheLargestOfAllRowsInDistanceAndAlongEachAxis) {
     EXPECT_EQ(apart.along, (Vec3{3, 4, 12.5}));
 }
 
-TEST(Deviation, IsNotZeroWhereTheSquareOfADifferenceIs) {
+TEST(Deviation, IsNotZeroIfTheSquareOfADifferenceUnderflows) {
     Bodies bodies(3, Precision::double_);
     bodies.add({});
     Bodies moved = bodies;
