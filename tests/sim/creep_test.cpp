@@ -184,7 +184,7 @@ TEST(Creep, IsRefusedIfABackwardDriftOverflows) {
             const std::string line = line_of_error(oiler::Exit::usage, [&] {
                 bodies.step(method, {rate, 0, 10});
             });
-            EXPECT_TRUE(holds(line, "backwards")) << line;
+            EXPECT_TRUE(holds(line, "backward drift")) << line;
             EXPECT_TRUE(holds(line, "implicit_euler")) << line;
             EXPECT_EQ(hash_of(bodies), before);
             Bodies just_less = oscillator(precision, k, 0.97 * most, 1);

@@ -102,12 +102,11 @@ public:
     /// do not depend on it. Copies share the threads.
     void set_threads(int threads);
 
-    /// Throws Error{usage} if the method cannot step these forces, see require_applicable. Throws
-    /// Error{diverged} with step, row and field if a number is no longer finite; the bodies are
-    /// then unusable. fail_diverged in stability adds the likely cause.
+    /// Takes the steps. Throws Error{usage} if the method cannot step these forces, see
+    /// require_applicable. Throws Error{diverged} with step, row and field if a number is no longer
+    /// finite; the bodies are then unusable. fail_diverged in stability adds the likely cause.
     void step(const Method& method, const Steps& steps);
-    /// Like step, but returns the divergence, for callers that name bodies by other means than
-    /// rows.
+    /// Like step, but returns the divergence, for callers that do not name bodies by rows.
     [[nodiscard]] std::optional<Divergence> try_step(const Method& method, const Steps& steps);
 
     /// Throws Error{usage} if the method cannot take these steps. The exact method steps neither
@@ -118,21 +117,18 @@ public:
     /// The number of evaluations of the forces on the first body so far.
     [[nodiscard]] std::int64_t evaluations() const;
 
-    /// The forces of that index of each kind on row `row`, per unit mass as the step evaluates
-    /// them.
+    /// The forces with `index` of each kind on row `row`, per unit mass as in the step.
     [[nodiscard]] GivenForces forces_per_mass(std::size_t row, std::size_t index = 0) const;
     /// The largest number of forces of one kind on a body. Bodies with fewer store zeros.
     [[nodiscard]] std::size_t most_forces_of_a_kind() const;
 
-    /// The storage of motion, mass, then each force. Links and the caches of steps are not
-    /// included.
+    /// The storage of motion, mass, then each force, without links and caches.
     [[nodiscard]] std::vector<Stored> stored() const;
     [[nodiscard]] std::size_t bytes_per_link() const;
     /// Compares with bodies of the same precision, axes and number; 0 only if all positions agree.
     [[nodiscard]] Deviation deviation_from(const Bodies& other) const;
 
-    /// The energy, summed in double in eight fixed lanes, so that it does not depend on the
-    /// machine.
+    /// The energy, summed in double in eight fixed lanes: it does not depend on the machine.
     [[nodiscard]] Energy energy() const;
 
     /// Adds count, axes, bytes per number, then the columns: positions axis by axis, velocities
