@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Opens a page of `oiler report` in Chromium and holds what is shown against the page's own data.
+"""Opens a page of `oiler report` in Chromium and compares its contents with its own data.
 
     report_page.py PAGE    a line per failure; exits with 0 or 1
 
@@ -184,13 +184,13 @@ class Check:
         self.expect("@TITLE@" not in self.browser.value("document.title"), "@TITLE@ is left")
         self.expect(self.browser.value("document.getElementById('frame').naturalWidth") > 0,
                     "the frame is no picture")
-        today, box = self.tradeoff["today"], " ".join(self.texts("#today dd"))
+        today, box = self.tradeoff["today"], " ".join(self.texts("#current dd"))
         for word in (today["method"], f"{today['rate']:,} Hz", today["precision"]):
-            self.expect(word in box, f"today's box lacks {word}: {box}")
+            self.expect(word in box, f"the box of the current setting lacks {word}: {box}")
         row = next((r for r in self.rows if same(r, today)), None)
         if row and row["stable"] and row["position_error"] is not None:
-            text = self.texts("#today dd")[3]
-            self.expect(near(text, row["position_error"], "m"), f"today's error: {text}")
+            text = self.texts("#current dd")[3]
+            self.expect(near(text, row["position_error"], "m"), f"the current error: {text}")
 
     def advice(self):
         advice = self.data["advice"]
@@ -199,7 +199,7 @@ class Check:
         self.expect(paragraphs == words, f"the advice reads {paragraphs}")
         table = self.table("#advice tbody tr")
         rows = [("advice", advice["advice"]), ("runner-up", advice["runner_up"]),
-                ("today", advice["today"]),
+                ("current", advice["today"]),
                 *(("alternative", one) for one in advice["alternatives"] if "rate" in one)]
         rows = [(role, row) for role, row in rows if row]
         self.expect(len(table) == len(rows), f"{len(table)} rows of advice")
@@ -219,8 +219,8 @@ class Check:
     def reference(self):
         reference, [text] = self.tradeoff["reference"], self.texts("#reference")
         self.expect(reference["words"] in text, f"the reference reads {text}")
-        self.expect(("They count until" in text) == bool(reference["why_no_longer"]),
-                    f"how long errors count: {text}")
+        self.expect(("The errors cover" in text) == bool(reference["why_no_longer"]),
+                    f"the time that the errors cover: {text}")
 
     def run_table(self):
         browser, selector = self.browser, "#tradeoff tbody tr"
@@ -271,11 +271,12 @@ class Check:
                         f"{when}: {key} has {held[key][:3]}..., not {expected[:3]}...")
 
     def marks(self):
-        [today] = self.datasets("d.label === \"today's choice\"")
+        [today] = self.datasets("d.label === 'current setting'")
         row = next((r for r in self.rows if same(r, self.tradeoff["today"])), None)
         place = row and self.place(row, "time")
         expected = [place] if place else []
-        self.expect(close_to(today["points"], expected), f"today's star is at {today['points']}")
+        self.expect(close_to(today["points"], expected),
+                    f"the star of the current setting is at {today['points']}")
         [front] = self.datasets("d.label === 'Pareto front'")
         count = sum(self.place(r, "time") is not None for r in self.rows if r["pareto"])
         points = front["points"]

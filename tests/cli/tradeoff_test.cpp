@@ -194,19 +194,19 @@ std::string line_with(const std::string& text, const std::string& words) {
 /// A sweep of one method whose numbers are all different.
 Tradeoff made_up() {
     const Method* const rk4 = &find_method("rk4");
-    const Stepping today{rk4, 240, Precision::double_};
+    const Stepping today{rk4, {240}, Precision::double_};
     TradeoffRow told{.stepping = today, .ns_per_second = 36'000, .ns_spread = 1800};
     told.judgement = {.position_error = 0.125,
                       .velocity_error = 2.5,
                       .phase_error = -3.5,
                       .energy_drift = 0.05,
                       .evaluations = 4800};
-    TradeoffRow too_small{.stepping = {rk4, 250, Precision::double_},
+    TradeoffRow too_small{.stepping = {rk4, {250}, Precision::double_},
                           .meets_steps = false,
                           .ns_per_second = 45'000,
                           .ns_spread = 11'250};
     too_small.judgement.evaluations = 5000;
-    TradeoffRow unstable{.stepping = {rk4, 10, Precision::double_}, .meets_steps = false};
+    TradeoffRow unstable{.stepping = {rk4, {10}, Precision::double_}, .meets_steps = false};
     unstable.judgement.stable = false;
     Tradeoff tradeoff{.scene = "made_up", .title = "", .fingerprint = "1", .duration = 5};
     tradeoff.today = today;

@@ -16,6 +16,7 @@ axes = 2
 rate = 100
 method = "velocity_verlet"
 precision = "double"
+damping = "kick"
 duration = 4.0
 
 [gravity]

@@ -9,6 +9,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
+#include "support/explained_step.hpp"
 
 namespace {
 
@@ -114,7 +115,7 @@ TEST(Preflight, NamesALinkAndItsLimit) {
     EXPECT_NEAR(risks[0].omega_dt, 25 / 12.0, 4 * round_off * 25 / 12);
     const std::string line = line_of_error(Exit::diverged, [&] {
         Bodies copy = bodies;
-        copy.step(verlet, {{12}, 0, 100'000});
+        oiler::test::explained_step(copy, verlet, {{12}, 0, 100'000});
     });
     expect_in("link of bodies 0 and 1", line);
     expect_in("ω·dt up to 2.083, velocity_verlet needs < 2: rate ≥ 13 Hz", line);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "oiler/stability/preflight.hpp"
+#include "support/explained_step.hpp"
 #include "support/oscillator.hpp"
 #include "support/text.hpp"
 
@@ -45,7 +46,7 @@ Bodies one_on_a_spring(Precision precision, double h) {
 std::string message_of(Bodies bodies, const char* method, std::int64_t per_call) {
     return line_of_error(Exit::diverged, [&] {
         for (std::int64_t tick = 0; tick < 100'000; tick += per_call)
-            bodies.step(find_method(method), {rate, tick, per_call});
+            explained_step(bodies, find_method(method), {rate, tick, per_call});
     });
 }
 
@@ -135,7 +136,7 @@ TEST(Diverging, NegativeStiffnessIsReportedToo) {
     for (const char* name : {"semi_implicit_euler", "rk4"}) {
         Bodies bodies = oscillator(Precision::single, -15, 0, 1);
         const std::string line = line_of_error(Exit::diverged, [&] {
-            bodies.step(find_method(name), {rate, 0, 100'000});
+            explained_step(bodies, find_method(name), {rate, 0, 100'000});
         });
         EXPECT_TRUE(line.starts_with("diverged at step ")) << line;
     }
@@ -229,7 +230,7 @@ TEST(Attractor, HitHeadOnIsReported) {
         for (const auto& at : ticks) {
             Bodies bodies = falling_in(precision);
             const std::string line = line_of_error(Exit::diverged, [&] {
-                bodies.step(find_method(at.first), {{4}, 0, 10});
+                explained_step(bodies, find_method(at.first), {{4}, 0, 10});
             });
             EXPECT_EQ(step_in(line), at.second) << line;
             EXPECT_TRUE(holds(line, ": velocity x of body 0 is no longer finite; ")) << line;
@@ -242,8 +243,8 @@ TEST(Attractor, HitByAnImplicitStepHasNoSolution) {
     for (const char* name : {"implicit_euler", "implicit_midpoint"}) {
         Bodies bodies(1, Precision::double_);
         bodies.add({}, Attractor{.gm = 1});
-        const std::string line =
-            line_of_error(Exit::diverged, [&] { bodies.step(find_method(name), {{4}}); });
+        const std::string line = line_of_error(
+            Exit::diverged, [&] { explained_step(bodies, find_method(name), {{4}}); });
         EXPECT_EQ(step_in(line), 1);
         EXPECT_TRUE(holds(line, "found no solution")) << line;
         EXPECT_TRUE(holds(line, "body 0; take a higher rate")) << line;

@@ -11,6 +11,7 @@
 
 #include "oiler/stability/preflight.hpp"
 #include "oiler/stability/stability.hpp"
+#include "support/explained_step.hpp"
 #include "support/oscillator.hpp"
 #include "support/text.hpp"
 
@@ -238,7 +239,7 @@ TEST(WarningOfADamperBetween, IsGivenIfTheRunDiverges) {
 TEST(WarningOfADamperBetween, DoesNotReplaceADivergence) {
     for (Bodies bodies : {on_a_coil(9 * 3600, 1e7), on_a_link(9 * 3600, 1e7)}) {
         const std::string line = line_of_error(Exit::diverged, [&] {
-            bodies.step(find_method("forest_ruth4"), {rate, 0, 10'000});
+            explained_step(bodies, find_method("forest_ruth4"), {rate, 0, 10'000});
         });
         EXPECT_TRUE(line.starts_with("diverged at step ")) << line;
     }

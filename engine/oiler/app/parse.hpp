@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "oiler/app/parse_size.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/size.hpp"
 
 namespace oiler {
 
@@ -34,9 +34,6 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Wh
 
 /// `--damping`, in words.
 CLI::Option* add_damping(CLI::App& app, std::string& words);
-
-/// "1280x720". Throws Error{usage}.
-[[nodiscard]] Size parse_size(const std::string& words);
 
 /// Parses; returns the text that --help or --version asks for, else none. Throws Error{usage} in
 /// one line that names the program to ask for help.

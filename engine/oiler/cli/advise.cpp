@@ -1,61 +1,106 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/advise.hpp"
 
-#include <span>
-
 #include "oiler/app/interrupt.hpp"
-#include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/cli/tables.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/lab/advice/json.hpp"
 #include "oiler/scene/apply.hpp"
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
+constexpr double frames_per_second = 60;
+
 Advice search(const Scene& scene, const Reference& reference, const Wish& wish, bool quiet) {
-    Percent percent(quiet, "of the ways to step it, of which most need no run");
+    Percent percent(quiet, "of the settings, most of which need no run");
     SweepWatch watch;
-    watch.progress = [&](double share) { percent(share); };
+    watch.progress = [&](double fraction) { percent(fraction); };
     watch.stopped = Interrupt::requested;
     return advise(scene, reference, wish, watch);
 }
 
 }  // namespace
 
-Exit AdviseCommand::run() const {
-    const Interrupt interrupt;
-    const Scene scene = read_measured(measured);
-    Wish wish{.position_error = position_error, .energy_drift = energy_drift};
-    if (budget_us) wish.ns_per_second = *budget_us * 60'000;
-    if (!wish.has_tolerance() && !wish.ns_per_second)
-        fail(Exit::usage,
-             "say what is good enough: --position-error, --energy-drift or --budget-us (see oiler "
-             "advise --help)");
-    wish.min_rate = min_rate;
-    wish.methods = parse_methods(methods);
-    const Looks looks = looks_of(scene);
-    const Reference reference =
-        measure_reference(scene, looks, wanted_of(wish) / 2, measured.quiet);
-    if (Interrupt::requested()) return Exit::interrupted;
-    const Advice advice = search(scene, reference, wish, measured.quiet);
-    if (Interrupt::requested()) return Exit::interrupted;
-    if (!measured.json.empty()) write_json(measured.json, json_of(advice, scene, reference, wish));
-    if (measured.json != "-") {
+struct AdviseCommand {
+    static constexpr CommandTexts texts{
+        .name = "advise",
+        .summary = "Find the cheapest method, rate and precision within a tolerance",
+        .example = "assets/scenes/orbit.toml --position-error 1e-3",
+        .notes =
+            "Exits with 1 when no setting meets the tolerance. --budget-us alone finds the most\n"
+            "accurate setting within the budget."};
+
+    SceneOptions scene_options;
+    ToleranceOptions tolerances;
+    std::optional<double> budget_us;  ///< per frame of 1/60 s
+    std::int64_t min_rate = 1;        ///< Hz
+    std::string methods = "all";
+    bool writes_scene = false;
+
+    void declare(Arguments& arguments) {
+        scene_options.declare(arguments);
+        tolerances.declare(arguments);
+        arguments.add_positive("--budget-us", budget_us, "US",
+                               "largest computing time in µs for a frame of 1/60 s");
+        arguments.add_integer("--min-rate", min_rate, 1, 1'000'000,
+                              "lowest rate in Hz, 1 if not given");
+        add_method_list(arguments, methods);
+        arguments.add_flag("--apply", writes_scene,
+                           "write the setting into the scene file and keep its comments");
+    }
+
+    /// Throws Error{usage} without a tolerance and a budget.
+    [[nodiscard]] Wish wish() const {
+        Wish wish{.position_error = tolerances.position_error,
+                  .energy_drift = tolerances.energy_drift};
+        if (budget_us) wish.ns_per_second = *budget_us * (1e3 * frames_per_second);
+        if (!wish.has_tolerance() && !wish.ns_per_second)
+            fail(Exit::usage,
+                 "give a tolerance or a budget: --position-error, --energy-drift or --budget-us "
+                 "(see oiler advise --help)");
+        wish.min_rate = min_rate;
+        wish.methods = parse_methods(methods);
+        return wish;
+    }
+
+    void show(const Advice& advice, const Scene& scene, const Reference& reference,
+              const Wish& wish) const {
+        if (!scene_options.json.empty())
+            write_json(scene_options.json, json_of(advice, scene, reference, wish));
+        if (scene_options.json == "-") return;
         std::string text;
         for (const std::string& sentence : words_of(advice, scene, reference, wish))
             text += sentence + "\n";
         print(text);
     }
-    if (!advice.meets) return Exit::comparison_failed;
-    if (apply_it) {
-        const std::string text =
-            apply(read_text(measured.scene), measured.scene.string(), advice.best->stepping);
-        write_file(measured.scene, std::as_bytes(std::span(text)));
-        remark(measured.quiet, "{} now says {}", measured.scene.string(),
-               words_of(advice.best->stepping));
+
+    void apply_to_scene(const Stepping& stepping) const {
+        const std::string file = scene_options.file.string();
+        write_text(file, apply(read_text(file), file, stepping));
+        remark(scene_options.quiet, "{} now has the setting {}", file, words_of(stepping));
     }
-    return Exit::done;
-}
+
+    [[nodiscard]] Exit run() const {
+        const Interrupt interrupt;
+        const Scene scene = scene_options.read();
+        const Wish wish = this->wish();
+        const Reference reference =
+            measure_reference(scene, looks_of(scene), wanted_of(wish) / 2, scene_options.quiet);
+        if (Interrupt::requested()) return Exit::interrupted;
+        const Advice advice = search(scene, reference, wish, scene_options.quiet);
+        if (Interrupt::requested()) return Exit::interrupted;
+        show(advice, scene, reference, wish);
+        if (!advice.meets) return Exit::comparison_failed;
+        if (writes_scene) apply_to_scene(advice.best->stepping);
+        return Exit::done;
+    }
+};
+
+template Command make_command<AdviseCommand>();
 
 }  // namespace oiler::cli

@@ -5,13 +5,17 @@
 #include <unistd.h>
 
 #include "oiler/app/console.hpp"
-#include "oiler/cli/commands.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 
 namespace oiler::cli {
+
+using namespace certify;
+
 namespace {
 
-/// "4.00/4.01", of positions and velocities.
+/// Formats the measured orders of positions and velocities: "4.00/4.01".
 std::string slopes(const Certificate& certificate, std::string_view problem) {
     for (const MeasuredOrder& order : certificate.orders) {
         if (order.problem != problem || order.precision != Precision::extended) continue;
@@ -25,8 +29,7 @@ template <class... Cells>
 std::string row(const Cells&... cells) {
     return fmt::format(
         "{:<31} {:>5}  {:>9} {:>9} {:>9} {:>9}  {:>7} {:>7}  {:>8} {:>8}  {:>12}  {:>5} {:>8} "
-        "{:>8} "
-        "{:>8}  {}\n",
+        "{:>8} {:>8}  {}\n",
         cells...);
 }
 
@@ -51,12 +54,12 @@ std::string row_of(const Certificate& certificate) {
 
 std::string legend(std::int64_t steps) {
     return fmt::format(R"(
-spring, orbit, damped, dragged: slopes of the errors of positions/velocities over dt, in long
-double. forces: evaluations per step in a run; alone: where nothing is left of the step before.
-MᵀJM−J: 0 for a symplectic step; reversal: 0 where stepping back retraces the way. stable ω·dt: by
-the step matrix, and confirmed by runs 10⁻⁶ on both sides of it. lowest, highest: energy less that
-at the start, over it, in a run of up to {} steps at the ω·dt before them; trend: relative
-growth per step of what the method should conserve.
+spring, orbit, damped, dragged: measured convergence orders of positions/velocities in long double.
+forces: evaluations per step in a run; alone: evaluations of a step without reuse. MᵀJM−J:
+symplectic defect, 0 for a symplectic method; reversal: defect of a step forward and back, 0 for a
+symmetric method. stable ω·dt: stability limit of the step matrix, confirmed by runs at (1 ± 10⁻⁶)
+times the limit. lowest, highest: extremes of the energy's relative change in a run of up to {}
+steps at the ω·dt to their left; trend: relative growth per step of the quantity to conserve.
 )",
                        steps);
 }
@@ -96,31 +99,64 @@ Json to_json(const Certificate& certificate) {
             {"failures", certificate.failures}};
 }
 
-void print(const std::string& text) { write_file("-", std::as_bytes(std::span(text))); }
+struct Results {
+    Json certificates = Json::array();
+    std::string failures;  ///< a line each
+};
 
 }  // namespace
 
-Exit CertifyCommand::run() const {
-    const bool table = json != "-";
-    Json certificates = Json::array();
-    std::string failures;
-    Progress progress(quiet || (table && isatty(STDOUT_FILENO) == 1), "methods",
-                      static_cast<std::int64_t>(methods.size()));
-    if (table) print(header());
-    for (const Method* method : methods) {
-        const Certificate certificate = certify::certify(*method, damping.value_or(method->damping), steps);
-        certificates.push_back(to_json(certificate));
-        if (table) print(row_of(certificate));
-        progress.show(static_cast<std::int64_t>(certificates.size()));
-        for (const std::string& failure : certificate.failures)
-            failures += fmt::format("{}: {}\n", method->name, failure);
+struct CertifyCommand {
+    static constexpr CommandTexts texts{
+        .name = "certify",
+        .summary = "Measure each method's properties; exit 1 if one misses its claims",
+        .example = "velocity_verlet rk4"};
+
+    MethodOptions chosen;
+    std::int64_t steps = 1'000'000;  ///< of the long run
+    std::filesystem::path json;
+    bool quiet = false;
+
+    void declare(Arguments& arguments) {
+        chosen.declare(arguments);
+        arguments.add_integer("--steps", steps, 1000, 1'000'000'000,
+                              "steps of the long run for energy, 1000000 if not given");
+        add_json(arguments, json);
+        add_quiet(arguments, quiet);
     }
-    if (table) print(legend(steps));
-    if (!json.empty()) write_json(json, certificates);
-    if (failures.empty()) return Exit::done;
-    failures.pop_back();
-    say(failures);
-    return Exit::comparison_failed;
-}
+
+    [[nodiscard]] bool has_table() const { return json != "-"; }
+
+    [[nodiscard]] Results measure(const std::vector<const Method*>& methods) const {
+        // A table on the terminal shows the progress itself.
+        Progress progress(quiet || (has_table() && isatty(STDOUT_FILENO) == 1), "methods",
+                          static_cast<std::int64_t>(methods.size()));
+        Results results;
+        for (const Method* method : methods) {
+            const Certificate certificate =
+                certify::certify(*method, chosen.damping_of(*method), steps);
+            results.certificates.push_back(to_json(certificate));
+            if (has_table()) print(row_of(certificate));
+            progress.show(static_cast<std::int64_t>(results.certificates.size()));
+            for (const std::string& failure : certificate.failures)
+                results.failures += fmt::format("{}: {}\n", method->name, failure);
+        }
+        return results;
+    }
+
+    [[nodiscard]] Exit run() const {
+        const std::vector<const Method*> methods = chosen.methods();
+        if (has_table()) print(header());
+        Results results = measure(methods);
+        if (has_table()) print(legend(steps));
+        if (!json.empty()) write_json(json, results.certificates);
+        if (results.failures.empty()) return Exit::done;
+        results.failures.pop_back();
+        say(results.failures);
+        return Exit::comparison_failed;
+    }
+};
+
+template Command make_command<CertifyCommand>();
 
 }  // namespace oiler::cli

@@ -3,21 +3,25 @@
 
 #include <cmath>
 
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
-#include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/markup.hpp"
-#include "oiler/cli/measuring.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
-struct Checked {
+struct CheckResult {
     std::string file;
     std::vector<BudgetLine> lines{};
-    std::string error{};  ///< why it could not be checked
+    std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
         for (const BudgetLine& line : lines)
@@ -26,112 +30,148 @@ struct Checked {
     }
 };
 
-/// XML has no place for control characters, and none for bytes that are no text.
+/// Replaces all but printable ASCII characters: XML allows no control characters and no bytes
+/// outside its encoding.
 std::string for_xml(std::string text) {
     for (char& c : text)
         if (c < ' ' || c > '~') c = '?';
     return escaped(text);
 }
 
-/// A test case for each number of a budget; a scene without one was skipped.
-std::string to_junit(const std::vector<Checked>& all) {
-    std::string cases;
-    int tests = 0;
-    int failures = 0;
-    int skipped = 0;
-    int errors = 0;
-    for (const Checked& checked : all) {
-        const std::string file = for_xml(checked.file);
-        for (const BudgetLine& line : checked.lines) {
-            ++tests;
-            failures += line.kept ? 0 : 1;
-            cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", file, line.name);
-            const std::string words = for_xml(words_of(line));
-            cases += line.kept ? fmt::format("><system-out>{}</system-out></testcase>\n", words)
-                               : fmt::format("><failure message=\"{}\"/></testcase>\n", words);
-        }
-        if (!checked.lines.empty()) continue;
-        ++tests;
-        if (!checked.error.empty()) {
-            ++errors;
-            cases += fmt::format(
-                "  <testcase classname=\"{}\" name=\"budget\"><error message=\"{}\"/></testcase>\n",
-                file, for_xml(checked.error));
-            continue;
-        }
-        ++skipped;
-        cases += fmt::format(
-            "  <testcase classname=\"{}\" name=\"budget\"><skipped message=\"no [budget]\"/>"
-            "</testcase>\n",
-            file);
+/// A JUnit test suite: one test case for each number of a budget. A scene without a budget is a
+/// skipped case.
+class TestSuite {
+public:
+    void add(const CheckResult& result) {
+        for (const BudgetLine& line : result.lines) add_line(result.file, line);
+        if (!result.lines.empty()) return;
+        if (!result.error.empty())
+            add_case(result.file, "budget", "error", result.error, errors_);
+        else
+            add_case(result.file, "budget", "skipped", "no [budget]", skipped_);
     }
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" tests=\"{}\" "
-        "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
-        tests, failures, errors, skipped, cases);
+    [[nodiscard]] std::string xml() const {
+        return fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" "
+            "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
+            tests_, failures_, errors_, skipped_, cases_);
+    }
+
+private:
+    void add_line(const std::string& file, const BudgetLine& line) {
+        if (!line.kept) return add_case(file, line.name, "failure", words_of(line), failures_);
+        ++tests_;
+        cases_ += fmt::format(
+            "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
+            for_xml(file), line.name, for_xml(words_of(line)));
+    }
+    void add_case(const std::string& file, const std::string& name, const std::string& outcome,
+                  const std::string& message, int& count) {
+        ++tests_;
+        ++count;
+        cases_ += fmt::format(
+            "  <testcase classname=\"{}\" name=\"{}\"><{} message=\"{}\"/></testcase>\n",
+            for_xml(file), name, outcome, for_xml(message));
+    }
+
+    std::string cases_;
+    int tests_ = 0;
+    int failures_ = 0;
+    int errors_ = 0;
+    int skipped_ = 0;
+};
+
+std::string to_junit(const std::vector<CheckResult>& all) {
+    TestSuite suite;
+    for (const CheckResult& result : all) suite.add(result);
+    return suite.xml();
 }
 
-Json to_json(const std::vector<Checked>& all) {
+Json to_json(const std::vector<CheckResult>& all) {
     Json json = Json::array();
-    for (const Checked& checked : all) {
-        Json one{{"scene", checked.file}, {"kept", checked.kept()}};
-        if (!checked.error.empty()) one = {{"scene", checked.file}, {"error", checked.error}};
-        for (const BudgetLine& line : checked.lines)
-            one[line.name] = {
+    for (const CheckResult& result : all) {
+        Json entry{{"scene", result.file}, {"kept", result.kept()}};
+        if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
+        for (const BudgetLine& line : result.lines)
+            entry[line.name] = {
                 {"measured", number(line.measured)}, {"budget", line.most}, {"kept", line.kept}};
-        json.push_back(std::move(one));
+        json.push_back(std::move(entry));
     }
     return json;
 }
 
-/// One that cannot be checked keeps no other from it.
-Checked check(const std::filesystem::path& path) {
-    Checked checked{.file = path.string()};
+/// Turns an error of usage into a result, so that the other scenes are still checked.
+CheckResult check(const std::filesystem::path& path) {
+    CheckResult result{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
-        checked.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
+        result.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
-        const std::string what = error.what();
-        checked.error =
-            what.starts_with(checked.file) ? what : fmt::format("{}: {}", checked.file, what);
+        const std::string message = error.what();
+        result.error = message.starts_with(result.file)
+                           ? message
+                           : fmt::format("{}: {}", result.file, message);
     }
-    return checked;
+    return result;
 }
 
-std::string text_of(const std::vector<Checked>& all) {
+std::string text_of(const std::vector<CheckResult>& all) {
     std::string text;
-    for (const Checked& checked : all) {
-        if (checked.lines.empty() && checked.error.empty())
-            text += fmt::format("{}: no [budget]\n", checked.file);
-        for (const BudgetLine& line : checked.lines)
-            text += fmt::format("{}: {}\n", checked.file, words_of(line));
+    for (const CheckResult& result : all) {
+        if (result.lines.empty() && result.error.empty())
+            text += fmt::format("{}: no [budget]\n", result.file);
+        for (const BudgetLine& line : result.lines)
+            text += fmt::format("{}: {}\n", result.file, words_of(line));
     }
     return text;
 }
 
-}  // namespace
-
-Exit CheckCommand::run() const {
-    const Interrupt interrupt;
-    std::vector<Checked> all;
-    for (const std::filesystem::path& path : scenes) {
-        all.push_back(check(path));
-        if (Interrupt::requested()) return Exit::interrupted;
-    }
-    if (!junit.empty()) {
-        const std::string xml = to_junit(all);
-        write_file(junit, std::as_bytes(std::span(xml)));
-    }
-    if (!json.empty()) write_json(json, to_json(all));
-    if (json != "-" && junit != "-") print(text_of(all));
+/// An error outweighs an exceeded budget.
+Exit exit_of(const std::vector<CheckResult>& all) {
     Exit exit = Exit::done;
-    for (const Checked& checked : all) {
-        if (!checked.error.empty()) say("oiler: " + checked.error);
-        if (!checked.error.empty()) exit = Exit::usage;
-        if (!checked.kept() && exit == Exit::done) exit = Exit::comparison_failed;
+    for (const CheckResult& result : all) {
+        if (!result.error.empty()) exit = Exit::usage;
+        if (!result.kept() && exit == Exit::done) exit = Exit::comparison_failed;
     }
     return exit;
 }
+
+}  // namespace
+
+struct CheckCommand {
+    static constexpr CommandTexts texts{
+        .name = "check",
+        .summary = "Check scenes against their [budget]; exit 1 if one is exceeded",
+        .example = "assets/scenes/*.toml --junit budgets.xml"};
+
+    std::vector<std::filesystem::path> scenes;
+    std::filesystem::path junit;
+    std::filesystem::path json;
+
+    void declare(Arguments& arguments) {
+        arguments.add_required("SCENE", scenes, "scene files");
+        arguments.add_option("--junit", junit, "FILE",
+                             "write the result as JUnit XML for CI, - for stdout");
+        add_json(arguments, json);
+    }
+
+    [[nodiscard]] Exit run() const {
+        const Interrupt interrupt;
+        std::vector<CheckResult> all;
+        for (const std::filesystem::path& path : scenes) {
+            all.push_back(check(path));
+            if (Interrupt::requested()) return Exit::interrupted;
+        }
+        if (!junit.empty()) write_text(junit, to_junit(all));
+        if (!json.empty()) write_json(json, to_json(all));
+        if (json != "-" && junit != "-") print(text_of(all));
+        for (const CheckResult& result : all)
+            if (!result.error.empty()) say("oiler: " + result.error);
+        return exit_of(all);
+    }
+};
+
+template Command make_command<CheckCommand>();
 
 }  // namespace oiler::cli

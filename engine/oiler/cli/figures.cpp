@@ -4,22 +4,39 @@
 #include "oiler/app/console.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
-#include "oiler/cli/commands.hpp"
+#include "oiler/cli/shared_options.hpp"
 
 namespace oiler::cli {
 
-Exit FiguresCommand::run() const {
-    const std::vector<Figure> figures = article_figures();
-    Stills stills(size);
-    make_folder(out);
-    Progress progress(quiet, "figures", static_cast<std::int64_t>(figures.size()));
-    std::int64_t drawn = 0;
-    for (const Figure& figure : figures) {
-        stills.write(figure.picture, out / (figure.name + ".png"));
-        progress.show(++drawn);
+struct FiguresCommand {
+    static constexpr CommandTexts texts{
+        .name = "figures",
+        .summary = "Draw the figures of the article Integration Basics",
+        .example = "--out figures"};
+
+    PictureOptions pictures{.out = "figures"};
+    bool quiet = false;
+
+    void declare(Arguments& arguments) {
+        pictures.declare(arguments);
+        add_quiet(arguments, quiet);
     }
-    remark(quiet, "{} figures are in {}", figures.size(), out.string());
-    return Exit::done;
-}
+
+    [[nodiscard]] Exit run() const {
+        const std::vector<certify::Figure> figures = certify::article_figures();
+        Stills stills(pictures.size());
+        make_folder(pictures.out);
+        Progress progress(quiet, "figures", static_cast<std::int64_t>(figures.size()));
+        std::int64_t drawn = 0;
+        for (const certify::Figure& figure : figures) {
+            stills.write(figure.picture, pictures.out / (figure.name + ".png"));
+            progress.show(++drawn);
+        }
+        remark(quiet, "{} figures are in {}", figures.size(), pictures.out.string());
+        return Exit::done;
+    }
+};
+
+template Command make_command<FiguresCommand>();
 
 }  // namespace oiler::cli

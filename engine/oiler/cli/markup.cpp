@@ -40,8 +40,7 @@ std::string escaped(std::string_view text) {
 
 std::string for_script(const Json& json) {
     std::string safe;
-    for (const char c :
-         json.dump(-1, Json::Characters::ascii)) {
+    for (const char c : json.dump(-1, Json::Characters::ascii)) {
         if (c == '<')
             safe += "\\u003c";
         else
@@ -50,11 +49,11 @@ std::string for_script(const Json& json) {
     return safe;
 }
 
-std::string address_of(const std::vector<std::byte>& png) {
+std::string data_url_of(const std::vector<std::byte>& png) {
     return "data:image/png;base64," + base64(png);
 }
 
-std::string filled(std::string_view page, const std::map<std::string, std::string>& parts) {
+std::string fill_in(std::string_view page, const std::map<std::string, std::string>& parts) {
     std::string text;
     while (!page.empty()) {
         std::size_t at = page.npos;

@@ -11,20 +11,19 @@
 
 namespace oiler::cli {
 
-// How texts and numbers get into HTML and XML.
+// Texts and data in HTML and XML.
 
-/// For contents, and for values between double quotes.
+/// Escapes a text for an element or for an attribute between double quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// For a script: no end of it can hide in a text.
+/// Writes JSON that cannot end the script element around it.
 [[nodiscard]] std::string for_script(const Json& json);
 
-/// A PNG file as an address.
-[[nodiscard]] std::string address_of(const std::vector<std::byte>& png);
+/// Returns the data URL of a PNG file.
+[[nodiscard]] std::string data_url_of(const std::vector<std::byte>& png);
 
-/// The template with each of the names replaced, in one pass: what is put in is not looked at
-/// again.
-[[nodiscard]] std::string filled(std::string_view page,
-                                 const std::map<std::string, std::string>& parts);
+/// Replaces each name in the page by its part in one pass, so that names inside of parts stay.
+[[nodiscard]] std::string fill_in(std::string_view page,
+                                  const std::map<std::string, std::string>& parts);
 
 }  // namespace oiler::cli

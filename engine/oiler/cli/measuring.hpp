@@ -1,38 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "oiler/app/console.hpp"
-#include "oiler/cli/commands.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::cli {
 
-// What the commands that measure scenes have in common.
+// The long measurements of a scene, with their progress on standard error.
 
-/// The scene of a file, as long as it is to be measured.
-[[nodiscard]] Scene read_measured(const Measured& measured);
-
-/// The file's name without .toml.
-[[nodiscard]] std::string name_of(const Measured& measured);
-
-/// "splitting", "explicit", "all", or names with commas in between. Throws Error{usage}.
-[[nodiscard]] std::vector<const Method*> parse_methods(const std::string& words);
-
-/// A file's bytes. Throws Error{io}.
-[[nodiscard]] std::string read_text(const std::filesystem::path& path);
-
-void print(const std::string& text);
-
-/// Shows a share of work on standard error, in percent.
+/// Shows a fraction of the work as a percentage.
 class Percent {
 public:
-    Percent(bool quiet, const std::string& what) : progress_(quiet, "% " + what, whole) {}
-    void operator()(double share) {
-        progress_.show(static_cast<std::int64_t>(std::min(1.0, share) * double{whole}));
+    Percent(bool quiet, const std::string& work) : progress_(quiet, "% " + work, whole) {}
+    void operator()(double fraction) {
+        progress_.show(static_cast<std::int64_t>(std::min(1.0, fraction) * double{whole}));
     }
 
 private:
@@ -40,13 +26,14 @@ private:
     Progress progress_;
 };
 
-/// Climbs what is not done of the trade-off, then times all of it.
+/// Measures the errors that the trade-off lacks, then the times of all its rows.
 void measure_tradeoff(
-    Tradeoff& tradeoff, const Scene& scene, const Reference& reference, const SweepPlan& plan,
-    bool quiet, const std::function<void(const Tradeoff&)>& ladder_done = [](const auto&) {});
+    lab::Tradeoff& tradeoff, const Scene& scene, const lab::Reference& reference,
+    const lab::SweepPlan& plan, bool quiet,
+    const std::function<void(const lab::Tradeoff&)>& ladder_done = [](const auto&) {});
 
-/// Makes the reference of a scene.
-[[nodiscard]] Reference measure_reference(const Scene& scene, const Looks& looks, double wanted,
-                                          bool quiet);
+/// Computes a scene's reference. `wanted` is the error to reach in m, 0 for the smallest.
+[[nodiscard]] lab::Reference measure_reference(const Scene& scene, const lab::Looks& looks,
+                                               double wanted, bool quiet);
 
 }  // namespace oiler::cli

@@ -3,10 +3,9 @@
 
 #include <cmath>
 #include <iterator>
-#include <span>
 
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/commands.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/stability/stability.hpp"
 
@@ -14,6 +13,13 @@ namespace oiler::cli {
 namespace {
 
 constexpr Oscillation undamped{1, 0};
+
+constexpr const char* legend = R"(
+order: convergence order of positions and velocities when forces depend on position alone.
+damped: order with linear damping. dragged: order with quadratic drag, or damping along a spring.
+forces: evaluations per step; a reused last evaluation counts once. stable ω·dt: undamped springs
+stay bounded below this limit, ω = √(k/m). `oiler certify` measures all of these properties.
+)";
 
 std::string evaluations(const Method& method) {
     return method.evaluations > 0 ? fmt::format("{}", method.evaluations) : "solves";
@@ -33,15 +39,7 @@ std::string table() {
             evaluations(method), yes_or_no(method.symplectic), yes_or_no(method.symmetric),
             limit_text(limit), method.source);
     }
-    text +=
-        "\norder: of the error of positions and velocities as dt shrinks, where forces depend on\n"
-        "position alone; damped: with linear damping; dragged: with quadratic drag, or damping "
-        "along\n"
-        "a spring. forces: evaluations per step, where the last one serves the next step's first.\n"
-        "stable: undamped springs are bounded while ω·dt is below; ω = √(k/m). What is listed "
-        "here\n"
-        "is measured by `oiler certify`.\n";
-    return text;
+    return text + legend;
 }
 
 Json to_json() {
@@ -67,13 +65,22 @@ Json to_json() {
 
 }  // namespace
 
-Exit MethodsCommand::run() const {
-    if (!json.empty()) write_json(json, to_json());
-    if (json != "-") {
-        const std::string text = table();
-        write_file("-", std::as_bytes(std::span(text)));
+struct MethodsCommand {
+    static constexpr CommandTexts texts{.name = "methods",
+                                        .summary = "List the integration methods",
+                                        .example = "--json methods.json"};
+
+    std::filesystem::path json;
+
+    void declare(Arguments& arguments) { add_json(arguments, json); }
+
+    [[nodiscard]] Exit run() const {
+        if (!json.empty()) write_json(json, to_json());
+        if (json != "-") print(table());
+        return Exit::done;
     }
-    return Exit::done;
-}
+};
+
+template Command make_command<MethodsCommand>();
 
 }  // namespace oiler::cli

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the page of `oiler report` is made of, embedded: the page itself and the library that draws
-# its charts.
+# Embeds the page of `oiler report` and the library that draws its charts.
 find_file(OILER_CHART_LIBRARY chart.min.js PATHS /usr/share/javascript/chart.js
           /usr/share/nodejs/chart.js/dist NO_DEFAULT_PATH)
 if(NOT OILER_CHART_LIBRARY)

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <span>
-
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/commands.hpp"
+#include "oiler/cli/arguments.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
@@ -17,7 +15,7 @@ namespace {
 
 class SceneGame final : public AnyGame {
 public:
-    /// The scene outlives the game.
+    /// The scene must outlive the game.
     SceneGame(const Scene& scene, const Settings& settings)
         : scene_(scene), world_(make_world(scene, settings)), camera_(camera_of(scene, world_)) {}
 
@@ -44,9 +42,27 @@ About describe(const Scene& scene, const std::string& name) {
             .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : ""};
 }
 
+std::vector<BudgetEntry> check(const Scene& scene, const Settings& settings) {
+    std::vector<BudgetEntry> entries;
+    for (const lab::BudgetLine& budget : lab::check_budget(scene, settings, Interrupt::requested))
+        entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
+                           fmt::format("over {:g} s: {}", scene.duration, words_of(budget))});
+    return entries;
+}
+
 }  // namespace
 
-Exit run_play(int argc, char** argv) {
+/// Takes the options of all games, which app parses.
+struct PlayCommand {
+    static constexpr CommandTexts texts{
+        .name = "play",
+        .summary = "Play a scene file in a window, as frames or as numbers",
+        .example = "assets/scenes/cloth.toml"};
+
+    static Exit parse_and_run(int argc, char** argv);
+};
+
+Exit PlayCommand::parse_and_run(int argc, char** argv) {
     constexpr About program{.name = "oiler play", .title = "Play a scene file"};
     Scene scene;
     std::string name;
@@ -57,21 +73,16 @@ Exit run_play(int argc, char** argv) {
     };
     const CommandLine line = parse_command_line(argc, argv, program, read);
     if (!line.text.empty()) {
-        write_file("-", std::as_bytes(std::span(line.text)));
+        print(line.text);
         return Exit::done;
     }
     const auto make = [&](const Settings& settings) {
         return std::make_unique<SceneGame>(scene, settings);
     };
-    const auto measure_budget = [&] {
-        std::vector<BudgetEntry> entries;
-        for (const BudgetLine& budget :
-             check_budget(scene, line.options.settings, Interrupt::requested))
-            entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
-                               fmt::format("over {:g} s: {}", scene.duration, words_of(budget))});
-        return entries;
-    };
+    const auto measure_budget = [&] { return check(scene, line.options.settings); };
     return run_game(line.options, line.about, make, measure_budget);
 }
+
+template Command make_command<PlayCommand>();
 
 }  // namespace oiler::cli

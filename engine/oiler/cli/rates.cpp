@@ -2,65 +2,123 @@
 #include "oiler/lab/rates.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "oiler/app/interrupt.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/rates_json.hpp"
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
-std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.5g}", value); }
+constexpr const char* legend = R"(
+The exact value is beside each name. spread: from the smallest to the largest value, relative to it.
+-: missing or unstable. All values are those of the drawn motion: straight lines between steps.
+)";
+
+std::string line_of(const RatesLine& line) {
+    std::string text = fmt::format("  {:<30}", line.method->name);
+    for (const double value : line.values) text += fmt::format(" {:>8}", cell(value, "{:.5g}"));
+    const bool has_spread = !std::isnan(line.spread_percent);
+    return text + (has_spread ? fmt::format(" {:>6.2g}%\n", line.spread_percent) : "       -\n");
+}
 
 std::string text_of(const Scene& scene, const std::string& name, const Rates& rates) {
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
                                    rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
-        text += "It neither jumps nor swings: there is nothing to notice.\n";
+        text += "The body neither jumps nor oscillates: no quantity to compare.\n";
     for (const RatesQuantity& quantity : rates.quantities) {
         text += fmt::format("\n{}, {}: {:.6g}\n  {:<30}", quantity.name, quantity.unit,
                             quantity.truth, "Hz");
         for (const std::int64_t rate : rates.rates) text += fmt::format(" {:>8}", rate);
         text += "  spread\n";
-        for (const RatesLine& line : quantity.lines) {
-            text += fmt::format("  {:<30}", line.method->name);
-            for (const double value : line.values) text += fmt::format(" {:>8}", cell(value));
-            text += std::isnan(line.spread_percent)
-                        ? "       -\n"
-                        : fmt::format(" {:>6.2g}%\n", line.spread_percent);
-        }
+        for (const RatesLine& line : quantity.lines) text += line_of(line);
     }
-    return text +
-           "\nBeside the name is the exact value; spread: from the least to the largest, of it. - "
-           "is not there,\nor unstable. As drawn: straight lines between steps.\n";
+    return text + legend;
+}
+
+/// Parses rates in Hz with commas between them. Throws Error{usage}.
+std::vector<std::int64_t> parse_rates(const std::string& words) {
+    std::vector<std::int64_t> rates;
+    // getline returns an empty last word only before a comma.
+    std::istringstream stream(words + ",");
+    for (std::string word; std::getline(stream, word, ',');) {
+        const int rate = parse_integer(word);
+        if (rate < 1 || rate > 1'000'000)
+            fail(Exit::usage,
+                 "--rates {}: give whole numbers from 1 to 1000000 with commas between them",
+                 words);
+        rates.push_back(rate);
+    }
+    return rates;
 }
 
 }  // namespace
 
-Exit RatesCommand::run() const {
-    const Interrupt interrupt;
-    const Scene scene = read_measured(measured);
-    const Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
-    if (Interrupt::requested()) return Exit::interrupted;
-    if (!reference.why_no_longer.empty())
-        remark(measured.quiet, "of {:.4g} s only the first {:.4g} are measured: {}", scene.duration,
-               reference.meaningful_until(), reference.why_no_longer);
-    const std::vector<const Method*> chosen =
-        methods.empty() ? usual_methods(scene) : parse_methods(methods);
-    const std::size_t row = body.empty() ? most_oscillating_row(reference) : find_body(scene, body);
-    const Rates measured_rates =
-        measure_rates(scene, reference, row, rates, chosen, Interrupt::requested);
-    if (Interrupt::requested()) return Exit::interrupted;
-    if (!measured.json.empty()) {
-        Json json = json_of(measured_rates);
-        json["scene"] = name_of(measured);
-        write_json(measured.json, json);
+struct RatesCommand {
+    static constexpr CommandTexts texts{
+        .name = "rates",
+        .summary = "Measure jump heights and periods of oscillation at several rates",
+        .example = "assets/scenes/jump.toml"};
+
+    SceneOptions scene_options;
+    std::string rates = fmt::format("{}", fmt::join(usual_rates(), ","));
+    std::string methods;  ///< empty: the scene's own and the usual ones
+    std::string body;     ///< name or index; empty: the one with the largest oscillation, or 0
+
+    void declare(Arguments& arguments) {
+        scene_options.declare(arguments);
+        arguments.add_option("--rates", rates, "LIST", "rates in Hz with commas");
+        add_method_list(arguments, methods);
+        arguments.add_option("--body", body, "BODY", "name of the body, or its index from 0");
     }
-    if (measured.json != "-") print(text_of(scene, name_of(measured), measured_rates));
-    return Exit::done;
-}
+
+    /// Returns no rates when interrupted.
+    [[nodiscard]] Rates measure(const Scene& scene, const Reference& reference,
+                                const std::vector<std::int64_t>& wanted) const {
+        const std::vector<const Method*> chosen =
+            methods.empty() ? usual_methods(scene) : parse_methods(methods);
+        const std::size_t row =
+            body.empty() ? most_oscillating_row(reference) : find_body(scene, body);
+        return measure_rates(scene, reference, row, wanted, chosen, Interrupt::requested);
+    }
+
+    void show(const Scene& scene, const Rates& measured) const {
+        if (!scene_options.json.empty()) {
+            Json json = json_of(measured);
+            json["scene"] = scene_options.name();
+            write_json(scene_options.json, json);
+        }
+        if (scene_options.json != "-") print(text_of(scene, scene_options.name(), measured));
+    }
+
+    [[nodiscard]] Exit run() const {
+        const std::vector<std::int64_t> wanted = parse_rates(rates);
+        const Interrupt interrupt;
+        const Scene scene = scene_options.read();
+        const Reference reference =
+            measure_reference(scene, looks_of(scene), 0, scene_options.quiet);
+        if (Interrupt::requested()) return Exit::interrupted;
+        if (!reference.why_no_longer.empty())
+            remark(scene_options.quiet, "measures only the first {:.4g} s of {:.4g} s: {}",
+                   reference.meaningful_until(), scene.duration, reference.why_no_longer);
+        const Rates measured = measure(scene, reference, wanted);
+        if (Interrupt::requested()) return Exit::interrupted;
+        show(scene, measured);
+        return Exit::done;
+    }
+};
+
+template Command make_command<RatesCommand>();
 
 }  // namespace oiler::cli

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
-#include "oiler/cli/tables.hpp"
-#include "oiler/lab/advice/json.hpp"
-#include "oiler/lab/rates_json.hpp"
-#include "oiler/lab/sweep/json.hpp"
-#include "oiler/lab/ledger/ledger.hpp"
-#include "oiler/lab/sweep/tradeoff_picture.hpp"
+#include "oiler/cli/report_data.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/scene/draw.hpp"
-#include "oiler/stability/oscillations.hpp"
+#include "oiler/scene/make_world.hpp"
 
 extern "C" {
 extern const char oiler_page[], oiler_page_end[];
@@ -25,82 +19,56 @@ extern const char oiler_chart[], oiler_chart_end[];
 }
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
-/// A page is for a first look: how far a sweep goes for it.
-constexpr std::int64_t highest_multiple = 128;  ///< of how often is looked
-constexpr double most_work = 5e7;
+// A page is an overview, so its sweep ends earlier than that of `oiler tradeoff`.
+constexpr std::int64_t highest_multiple = 128;  ///< largest rate over the sample rate
+constexpr double most_work = 5e7;               ///< see SweepPlan
 constexpr Size frame_size{960, 540};
-constexpr double usual_tolerance = 1e-3;  ///< of what bodies move
-
-/// What swings, alike ones together; the fastest first and not too many.
-Json springs_json(const Scene& scene, const Bodies& bodies) {
-    constexpr std::size_t most = 12;
-    std::map<std::pair<double, double>, std::pair<std::string, int>> kinds;
-    for (const BodyOscillation& one : oscillations(bodies, true)) {
-        if (!(one.of.k > 0)) continue;
-        const double omega = std::sqrt(one.of.k);
-        auto& [name, count] = kinds[{-omega, one.of.c / (2 * omega)}];
-        if (count++ > 0) continue;
-        name = one.linked ? fmt::format("{} to {}, at most", scene.name_of_body(one.row),
-                                        scene.name_of_body(*one.linked))
-                          : fmt::format("springs of {}", scene.name_of_body(one.row));
-    }
-    Json list = Json::array();
-    for (const auto& [shape, kind] : kinds)
-        if (list.size() < most)
-            list.push_back({{"name", kind.first},
-                            {"omega", -shape.first},
-                            {"zeta", shape.second},
-                            {"count", kind.second}});
-    return list;
-}
-
-Json stability_json(const Scene& scene, const std::vector<const Method*>& methods) {
-    constexpr int points = 11;
-    constexpr double widest = 1.5;
-    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
-    Json springs = springs_json(scene, bodies);
-    if (springs.empty()) return nullptr;
-    Json curves = Json::array();
-    for (const Method* method : methods) {
-        Json curve = Json::array();
-        for (int i = 0; i < points; ++i) {
-            const double zeta = widest * i / (points - 1);
-            const double limit = method->order == exact_order
-                                     ? INFINITY
-                                     : stability_limit(*method, method->damping, {1, 2 * zeta});
-            curve.push_back(Json::array({zeta, std::isinf(limit) ? Json() : Json(limit)}));
-        }
-        curves.push_back({{"method", method->name}, {"points", std::move(curve)}});
-    }
-    return {{"methods", std::move(curves)}, {"springs", std::move(springs)}, {"rate", scene.stepping.rate.steps}};
-}
-
-Json ledger_json(const Scene& scene) {
-    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
-    const Ledger found = ledger(scene, std::max<std::int64_t>(2, steps));
-    Json passes = Json::array();
-    for (const LedgerPass& pass : found.passes)
-        passes.push_back({{"name", pass.name},
-                          {"saves_ns", number(pass.saves_ns)},
-                          {"saves_percent", number(pass.saves_percent)},
-                          {"changes_position_m", number(pass.changes_position)}});
-    return {{"ns_per_body_step", number(found.ns)},
-            {"bytes_per_body", found.bytes_per_body()},
-            {"passes", std::move(passes)},
-            {"absent", found.absent},
-            {"flags", found.flags}};
-}
+constexpr double usual_tolerance = 1e-3;  ///< relative to the extent of the motion
 
 std::string frame_of(const Scene& scene) {
     Stills stills(frame_size);
     const World world = make_world(scene, Settings{scene.stepping});
-    return address_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
+    return data_url_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
 }
 
-Wish wish_of(const ReportCommand& command, const Scene& scene, const Reference& reference) {
-    Wish wish{.position_error = command.position_error, .energy_drift = command.energy_drift};
+}  // namespace
+
+struct ReportCommand {
+    static constexpr CommandTexts texts{
+        .name = "report",
+        .summary = "Write all measurements of a scene to one HTML page",
+        .example = "assets/scenes/orbit.toml --out orbit.html"};
+
+    SceneOptions scene_options;
+    ToleranceOptions tolerances;
+    std::filesystem::path out = "report.html";
+
+    void declare(Arguments& arguments) {
+        scene_options.declare(arguments);
+        tolerances.declare(arguments);
+        arguments.add_option("--out", out, "FILE", "output file");
+    }
+
+    [[nodiscard]] Exit run() const;
+
+private:
+    [[nodiscard]] Wish wish(const Scene& scene, const Reference& reference) const;
+    [[nodiscard]] Reference measure_meaningful(Scene& scene) const;
+    [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
+                                        const Wish& wish) const;
+    [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
+                                             const Json& data);
+};
+
+/// Takes the tolerance of the options, else of the budget, else the largest power of ten within
+/// `usual_tolerance`.
+Wish ReportCommand::wish(const Scene& scene, const Reference& reference) const {
+    Wish wish{.position_error = tolerances.position_error, .energy_drift = tolerances.energy_drift};
     if (!wish.has_tolerance()) {
         wish.position_error = scene.budget.position_error;
         wish.energy_drift = scene.budget.energy_drift;
@@ -112,70 +80,62 @@ Wish wish_of(const ReportCommand& command, const Scene& scene, const Reference& 
     return wish;
 }
 
-/// What is measured of a scene for its page.
-struct Found {
-    Tradeoff tradeoff;
-    Advice advice;
-    Rates rates;
-};
+/// Shortens the scene to the time for which its reference is meaningful.
+Reference ReportCommand::measure_meaningful(Scene& scene) const {
+    const bool quiet = scene_options.quiet;
+    Reference reference = measure_reference(scene, looks_of(scene), 0, quiet);
+    if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
+    remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until(),
+           reference.why_no_longer);
+    scene.duration = reference.meaningful_until();
+    return measure_reference(scene, looks_of(scene), 0, quiet);
+}
 
-Found measure(const ReportCommand& command, const Scene& scene, const Reference& reference,
-              const Wish& wish) {
+ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
+                                     const Wish& wish) const {
     const Looks& looks = reference.looks;
-    const SweepPlan plan{.methods = parse_methods("all"),
-                         .max_rate = std::min<std::int64_t>(
-                             1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
-                         .most_work = most_work};
-    Found found{start_tradeoff(scene, looks, reference, plan), {}, {}};
-    found.tradeoff.scene = name_of(command.measured);
-    measure_tradeoff(found.tradeoff, scene, reference, plan, command.measured.quiet);
+    const SweepPlan plan{
+        .methods = parse_methods("all"),
+        .max_rate = std::min<std::int64_t>(
+            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
+        .most_work = most_work};
+    ReportResults results{start_tradeoff(scene, looks, reference, plan), {}, {}};
+    results.tradeoff.scene = scene_options.name();
+    measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
-    found.advice = advise(scene, reference, wish, watch);
-    found.rates = measure_rates(scene, reference, most_oscillating_row(reference),
-                                RatesCommand{}.rates, usual_methods(scene), Interrupt::requested);
-    return found;
+    results.advice = advise(scene, reference, wish, watch);
+    results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
+                                  usual_methods(scene), Interrupt::requested);
+    return results;
 }
 
-Json obvious_names() {
-    Json names = Json::array();
-    for (const Method* method : obvious_methods()) names.push_back(method->name);
-    return names;
+std::string ReportCommand::page_of(const Scene& scene, const std::string& name, const Json& data) {
+    return fill_in({oiler_page, oiler_page_end},
+                   {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
+                    {"@FRAME@", frame_of(scene)},
+                    {"@TITLE@", escaped(scene.title.empty() ? name : scene.title)},
+                    {"@DATA@", for_script(data)}});
 }
-
-}  // namespace
 
 Exit ReportCommand::run() const {
     const Interrupt interrupt;
-    Scene scene = read_measured(measured);
-    Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
+    Scene scene = scene_options.read();
+    const Reference reference = measure_meaningful(scene);
     if (Interrupt::requested()) return Exit::interrupted;
-    if (!reference.why_no_longer.empty()) {
-        remark(measured.quiet, "the page is about the first {:.4g} s: {}",
-               reference.meaningful_until(), reference.why_no_longer);
-        scene.duration = reference.meaningful_until();
-        reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
-    }
-    const Wish wish = wish_of(*this, scene, reference);
+    const Wish wish = this->wish(scene, reference);
     require_judgeable(scene, reference, wish);
     File page(out);
-    const auto [tradeoff, advice, rates] = measure(*this, scene, reference, wish);
+    const ReportResults results = measure(scene, reference, wish);
     if (Interrupt::requested()) return Exit::interrupted;
-    const Json data{{"tradeoff", json_of(tradeoff)},
-                    {"advice", json_of(advice, scene, reference, wish)},
-                    {"stability", stability_json(scene, notable_methods(tradeoff))},
-                    {"rates", rates.quantities.empty() ? Json(nullptr) : json_of(rates)},
-                    {"ledger", ledger_json(scene)},
-                    {"obvious_methods", obvious_names()}};
-    page.write(filled({oiler_page, oiler_page_end},
-                      {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
-                       {"@FRAME@", frame_of(scene)},
-                       {"@TITLE@", escaped(scene.title.empty() ? tradeoff.scene : scene.title)},
-                       {"@DATA@", for_script(data)}}));
+    const Json data = report_json(scene, reference, wish, results);
+    page.write(page_of(scene, scene_options.name(), data));
     page.commit();
-    if (!measured.json.empty()) write_json(measured.json, data);
-    remark(measured.quiet, "{} is written; open it in a browser", out.string());
+    if (!scene_options.json.empty()) write_json(scene_options.json, data);
+    remark(scene_options.quiet, "{} is written; open it in a browser", out.string());
     return Exit::done;
 }
+
+template Command make_command<ReportCommand>();
 
 }  // namespace oiler::cli

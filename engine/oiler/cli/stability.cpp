@@ -2,28 +2,54 @@
 #include "oiler/app/console.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
-#include "oiler/cli/commands.hpp"
 #include "oiler/certify/region.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/shared_options.hpp"
 
 namespace oiler::cli {
 
-Exit StabilityCommand::run() const {
-    const StabilityGrid grid;
-    Stills stills(size);
-    std::vector<StabilityRegion> regions;
-    {
+using namespace certify;
+
+struct StabilityCommand {
+    static constexpr CommandTexts texts{
+        .name = "stability",
+        .summary = "Simulate the stability regions of damped springs: CSV and PNG",
+        .example = "--out stability"};
+
+    MethodOptions chosen;
+    PictureOptions pictures{.out = "stability"};
+    bool quiet = false;
+
+    void declare(Arguments& arguments) {
+        chosen.declare(arguments);
+        pictures.declare(arguments);
+        add_quiet(arguments, quiet);
+    }
+
+    [[nodiscard]] std::vector<StabilityRegion> measure(const std::vector<const Method*>& methods,
+                                                       const StabilityGrid& grid) const {
         Progress progress(quiet, "methods", static_cast<std::int64_t>(methods.size()));
+        std::vector<StabilityRegion> regions;
         for (const Method* method : methods) {
-            regions.push_back(measure_region(*method, damping.value_or(method->damping), grid));
+            regions.push_back(measure_region(*method, chosen.damping_of(*method), grid));
             progress.show(static_cast<std::int64_t>(regions.size()));
         }
+        return regions;
     }
-    make_folder(out);
-    const std::string csv = to_csv(regions, grid);
-    write_file(out / "stability.csv", std::as_bytes(std::span(csv)));
-    stills.write(atlas(regions, grid), out / "stability.png");
-    remark(quiet, "stability.csv and stability.png are in {}", out.string());
-    return Exit::done;
-}
+
+    [[nodiscard]] Exit run() const {
+        const std::vector<const Method*> methods = chosen.methods();
+        Stills stills(pictures.size());
+        const StabilityGrid grid;
+        const std::vector<StabilityRegion> regions = measure(methods, grid);
+        make_folder(pictures.out);
+        write_text(pictures.out / "stability.csv", to_csv(regions, grid));
+        stills.write(atlas(regions, grid), pictures.out / "stability.png");
+        remark(quiet, "stability.csv and stability.png are in {}", pictures.out.string());
+        return Exit::done;
+    }
+};
+
+template Command make_command<StabilityCommand>();
 
 }  // namespace oiler::cli

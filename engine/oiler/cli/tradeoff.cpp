@@ -4,118 +4,23 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "oiler/app/interrupt.hpp"
-#include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/shared_options.hpp"
+#include "oiler/cli/tradeoff_output.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
 
 namespace oiler::cli {
+
+using namespace lab;
+
 namespace {
 
-std::string head(const Tradeoff& tradeoff) {
-    const ReferenceSummary& reference = tradeoff.reference;
-    std::string text =
-        fmt::format("{}\n  {:.4g} s, looked at {} times a second; measured against {}\n",
-                    tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
-                    reference.meaningful_until, tradeoff.looks.per_second, reference.words);
-    text += fmt::format(
-        "  errors below {:.2g} m are not told: a hundred times the reference's own {:.2g} m\n",
-        reference.floor.position, reference.position_error);
-    if (tradeoff.machines.size() > 1)
-        text += fmt::format(
-            "  times are of {} machines: compare only those of a method in one precision\n",
-            tradeoff.machines.size());
-    if (!reference.why_no_longer.empty())
-        text += fmt::format("  of its {:.4g} s only the first {:.4g} mean anything:\n  {}\n",
-                            tradeoff.duration, reference.meaningful_until, reference.why_no_longer);
-    return text;
-}
-
-std::string cell(double value, const char* format) {
-    return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
-}
-
-std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark) {
-    const Judgement& judgement = row.judgement;
-    const std::string error = !judgement.stable ? "unstable"
-                              : judgement.below_floor()
-                                  ? fmt::format("<{:.1e}", tradeoff.reference.floor.position)
-                                  : fmt::format("{:.3g}", judgement.position_error);
-    return fmt::format(
-        "{} {:<30} {:>7}{} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", mark,
-        row.stepping.method->name, row.stepping.rate.steps, row.meets_steps ? ' ' : '~',
-        name_of(row.stepping.precision), error, cell(judgement.velocity_error, "{:.3g}"),
-        cell(judgement.phase_error, "{:.2g}"), cell(judgement.energy_drift, "{:.2g}"),
-        cell(judgement.evaluations, "{:.4g}"), cell(row.ns_per_second / 1e3, "{:.4g}"),
-        cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"));
-}
-
-/// The cheapest row of a method for each decade of error.
-std::vector<const TradeoffRow*> cheapest_of(const Tradeoff& tradeoff, const Method* method) {
-    std::vector<const TradeoffRow*> rows;
-    for (const TradeoffRow* row : tradeoff.rows())
-        if (row->stepping.method == method && row->judgement.stable) rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
-        return a->ns_per_second < b->ns_per_second;
-    });
-    std::vector<const TradeoffRow*> cheapest;
-    double reached = INFINITY;
-    for (const TradeoffRow* row : rows) {
-        const double error = row->judgement.below_floor() ? tradeoff.reference.floor.position
-                                                          : row->judgement.position_error;
-        const double decade = std::floor(std::log10(error));
-        if (decade >= reached) continue;
-        reached = decade;
-        cheapest.push_back(row);
-    }
-    return cheapest;
-}
-
-std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
-    if (all) return tradeoff.rows();
-    std::vector<const TradeoffRow*> rows = pareto(tradeoff, time_of);
-    const auto add = [&](const TradeoffRow* row) {
-        if (row && std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
-    };
-    for (const Method* method : notable_methods(tradeoff))
-        for (const TradeoffRow* row : cheapest_of(tradeoff, method)) add(row);
-    add(tradeoff.find(tradeoff.today));
-    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
-        return a->ns_per_second < b->ns_per_second;
-    });
-    return rows;
-}
-
-std::string text_of(const Tradeoff& tradeoff, bool all) {
-    std::string text = head(tradeoff);
-    text +=
-        fmt::format("\n  {:<30} {:>8} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", "method",
-                    "Hz", "", "error m", "m/s", "phase °", "energy", "forces", "µs per s", "±");
-    const auto front = pareto(tradeoff, time_of);
-    const auto shown = shown_rows(tradeoff, all);
-    for (const TradeoffRow* row : shown) {
-        const bool best = std::find(front.begin(), front.end(), row) != front.end();
-        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
-        text += line_of(*row, tradeoff, mark);
-    }
-    text += fmt::format(
-        "\n* nothing that costs less is less wrong; > today's choice; ~ looked at between steps, "
-        "on the\nstraight line that is drawn. error and m/s: the largest at any look; phase: at "
-        "the end, + is\nahead; energy: relative drift; forces: evaluations in the run; µs per s: "
-        "of computing for a\nsecond of the scene, in frames of 1/60 s. {} of {} rows are shown{}\n",
-        shown.size(), tradeoff.rows().size(),
-        all ? "." : ", all of them\nwith --all and in tradeoff.csv.");
-    for (const Ladder& ladder : tradeoff.ladders)
-        if (ladder.done && ladder.rows.empty() && ladder.precision == Precision::double_)
-            text += fmt::format("Left out: {}\n", ladder.end);
-    return text;
-}
-
-/// What was begun with the same scene and options, and not ended.
+/// Reads the unfinished trade-off of the same scene and options, if there is one.
 std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
                                         const std::string& fingerprint, bool quiet) try {
     std::error_code error;
@@ -123,109 +28,158 @@ std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
     Tradeoff found = parse_tradeoff(read_text(path), path.string());
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
-    remark(quiet, "going on with {}: {} of {} methods and precisions are done", path.string(),
+    remark(quiet, "continuing {}: {} of {} methods and precisions are done", path.string(),
            std::count_if(found.ladders.begin(), found.ladders.end(),
                          [](const Ladder& ladder) { return ladder.done; }),
            found.ladders.size());
     return found;
 } catch (const Error& error) {
     if (error.exit() != Exit::usage) throw;
-    remark(quiet, "{}; starting anew", error.what());
+    remark(quiet, "{}; starting from the beginning", error.what());
     return std::nullopt;
 }
 
-void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
-    const std::string text = to_json(tradeoff);
-    write_file(path, std::as_bytes(std::span(text)));
+/// Draws the energies of the notable methods at the scene's current rate. Takes runs of the scene,
+/// so `oiler merge` has no such picture.
+void draw_energies(const Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
+                   const std::filesystem::path& path, Stills& stills) {
+    std::vector<Stepping> settings;
+    for (const Method* method : notable_methods(tradeoff))
+        settings.push_back({method, tradeoff.today.rate, Precision::double_});
+    if (!settings.empty())
+        stills.write(energy_over_time(scene, tradeoff, reference, settings), path);
 }
 
-/// Where a trade-off is shown.
-struct Places {
-    std::filesystem::path out;
-    std::filesystem::path json;
-    bool all;  ///< rows are printed
-    bool quiet;
+/// One part of a sweep that several machines share.
+struct Shard {
+    int index = 1;  ///< from 1
+    int count = 1;
+
+    [[nodiscard]] bool is_whole() const { return count == 1; }
+    [[nodiscard]] std::string file_name() const {
+        return is_whole() ? "tradeoff.json" : fmt::format("part-{}-of-{}.json", index, count);
+    }
 };
 
-/// Files, the printed table and the diagrams.
-void publish(const Tradeoff& tradeoff, const Places& places, Stills& stills) {
-    save(tradeoff, places.out / "tradeoff.json");
-    const std::string csv = to_csv(tradeoff);
-    write_file(places.out / "tradeoff.csv", std::as_bytes(std::span(csv)));
-    if (!places.json.empty()) save(tradeoff, places.json);
-    if (places.json != "-") print(text_of(tradeoff, places.all));
-    stills.write(
-        work_precision(tradeoff, {time_of, 1e3, "computing for a second of the scene, µs", "µs"}),
-        places.out / "error_over_time.png");
-    stills.write(
-        work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", "forces"}),
-        places.out / "error_over_evaluations.png");
-    remark(places.quiet, "the table and its pictures are in {}", places.out.string());
+/// Parses "K/N"; no words are the whole sweep. Throws Error{usage}.
+Shard parse_shard(const std::string& words) {
+    if (words.empty()) return {};
+    constexpr int most = 1000;
+    const std::size_t slash = words.find('/');
+    const Shard shard{parse_integer(words.substr(0, slash)),
+                      slash == words.npos ? 0 : parse_integer(words.substr(slash + 1))};
+    if (shard.index < 1 || shard.index > shard.count || shard.count > most)
+        fail(Exit::usage, "--shard {}: give K/N, part K of N with N up to {}, such as 1/4", words,
+             most);
+    return shard;
 }
 
-/// With the energies of the notable methods at today's rate, which only runs of the scene have.
-void publish_whole(const Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
-                   const Places& places, Stills& stills) {
-    publish(tradeoff, places, stills);
-    std::vector<Stepping> choices;
-    for (const Method* method : notable_methods(tradeoff))
-        choices.push_back({method, tradeoff.today.rate, Precision::double_});
-    if (!choices.empty())
-        stills.write(energy_over_time(scene, tradeoff, reference, choices),
-                     places.out / "energy_over_time.png");
-}
+}  // namespace
+
+struct TradeoffCommand {
+    static constexpr CommandTexts texts{
+        .name = "tradeoff",
+        .summary = "Measure error and cost of all methods and rates on a scene",
+        .example = "assets/scenes/orbit.toml --out orbit",
+        .notes =
+            "Ctrl-C interrupts it; the same command continues. On three machines:\n"
+            "  oiler tradeoff SCENE --shard 1/3 --out parts    (2/3 and 3/3 on the others)\n"
+            "  oiler merge parts/part-*.json --out whole"};
+
+    SceneOptions scene_options;
+    std::string methods = "all";
+    std::int64_t max_rate = 0;  ///< Hz; 0: see SweepPlan
+    std::string shard_words;
+    bool all = false;
+    PictureOptions pictures{.out = "tradeoff"};
+
+    void declare(Arguments& arguments) {
+        scene_options.declare(arguments);
+        add_method_list(arguments, methods);
+        arguments.add_integer(
+            "--max-rate", max_rate, 1, 1'000'000,
+            "highest rate in Hz besides the scene's own, 1024 × the sample rate if "
+            "not given");
+        arguments.add_option("--shard", shard_words, "K/N", "measure part K of N");
+        arguments.add_flag("--all", all, "print all rows");
+        pictures.declare(arguments);
+    }
+
+    [[nodiscard]] Exit run() const;
+};
+
+namespace {
+
+/// A run of `oiler tradeoff` after its options were parsed.
+class TradeoffRun {
+public:
+    TradeoffRun(const TradeoffCommand& options, const Shard& shard, Size size)
+        : options_(options),
+          shard_(shard),
+          size_(size),
+          scene_(options.scene_options.read()),
+          looks_(looks_of(scene_)),
+          plan_{.methods = parse_methods(options.methods),
+                .max_rate = options.max_rate,
+                .shard = shard.index,
+                .shards = shard.count},
+          part_(options.pictures.out / shard.file_name()) {}
+
+    [[nodiscard]] Exit run() {
+        const std::string inputs =
+            fingerprint(read_text(options_.scene_options.file), scene_, looks_, plan_);
+        const std::optional<Tradeoff> unfinished = find_unfinished(part_, inputs, quiet());
+        const Reference reference = measure_reference(scene_, looks_, 0, quiet());
+        if (Interrupt::requested()) return Exit::interrupted;
+        Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, looks_, reference, plan_));
+        tradeoff.scene = options_.scene_options.name();
+        tradeoff.fingerprint = inputs;
+        tradeoff.machines = {this_machine()};
+        return complete(tradeoff, reference);
+    }
+
+private:
+    [[nodiscard]] bool quiet() const { return options_.scene_options.quiet; }
+
+    [[nodiscard]] Exit complete(Tradeoff& tradeoff, const Reference& reference) {
+        const std::filesystem::path& out = options_.pictures.out;
+        make_folder(out);
+        // A machine that cannot draw reports it before the work.
+        std::optional<Stills> stills;
+        if (shard_.is_whole()) stills.emplace(size_);
+        measure_tradeoff(tradeoff, scene_, reference, plan_, quiet(),
+                         [&](const Tradeoff& so_far) { save(so_far, part_); });
+        save(tradeoff, part_);
+        if (Interrupt::requested()) {
+            remark(quiet(), "interrupted; the same command continues from {}", part_.string());
+            return Exit::interrupted;
+        }
+        if (!stills) {
+            remark(quiet(), "{} is written; oiler merge joins all parts", part_.string());
+            return Exit::done;
+        }
+        publish(tradeoff, {out, options_.scene_options.json, options_.all, quiet()}, *stills);
+        draw_energies(tradeoff, scene_, reference, out / "energy_over_time.png", *stills);
+        return Exit::done;
+    }
+
+    const TradeoffCommand& options_;
+    Shard shard_;
+    Size size_;
+    Scene scene_;
+    Looks looks_;
+    SweepPlan plan_;
+    std::filesystem::path part_;
+};
 
 }  // namespace
 
 Exit TradeoffCommand::run() const {
     const Interrupt interrupt;
-    const Scene scene = read_measured(measured);
-    const Looks looks = looks_of(scene);
-    const SweepPlan plan{
-        .methods = parse_methods(methods), .max_rate = max_rate, .shard = shard, .shards = shards};
-    const bool whole = shards == 1;
-    const std::filesystem::path part =
-        out / (whole ? "tradeoff.json" : fmt::format("part-{}-of-{}.json", shard, shards));
-    const std::string mark = fingerprint(read_text(measured.scene), scene, looks, plan);
-    const std::optional<Tradeoff> unfinished = find_unfinished(part, mark, measured.quiet);
-    const Reference reference = measure_reference(scene, looks, 0, measured.quiet);
-    if (Interrupt::requested()) return Exit::interrupted;
-
-    Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene, looks, reference, plan));
-    tradeoff.scene = name_of(measured);
-    tradeoff.fingerprint = mark;
-    tradeoff.machines = {this_machine()};
-    make_folder(out);
-    // Before the work, so that a machine that cannot draw says so at once.
-    std::optional<Stills> stills;
-    if (whole) stills.emplace(size);
-    measure_tradeoff(tradeoff, scene, reference, plan, measured.quiet,
-                     [&](const Tradeoff& so_far) { save(so_far, part); });
-    save(tradeoff, part);
-    if (Interrupt::requested()) {
-        remark(measured.quiet, "interrupted; the same command goes on from {}", part.string());
-        return Exit::interrupted;
-    }
-    if (whole)
-        publish_whole(tradeoff, scene, reference, {out, measured.json, all, measured.quiet},
-                      *stills);
-    else
-        remark(measured.quiet, "{} is written; oiler merge joins all parts", part.string());
-    return Exit::done;
+    const Shard shard = parse_shard(shard_words);
+    return TradeoffRun(*this, shard, pictures.size()).run();
 }
 
-Exit MergeCommand::run() const {
-    std::vector<Tradeoff> read;
-    for (const std::filesystem::path& path : parts)
-        read.push_back(parse_tradeoff(read_text(path), path.string()));
-    const Tradeoff tradeoff = merge(read);
-    if (!tradeoff.timed())
-        fail(Exit::usage,
-             "some parts were interrupted before they were timed: run their commands again");
-    make_folder(out);
-    Stills stills(size);
-    publish(tradeoff, {out, json, all, quiet}, stills);
-    return Exit::done;
-}
+template Command make_command<TradeoffCommand>();
 
 }  // namespace oiler::cli

@@ -18,7 +18,7 @@ add_custom_command(
           --extensions GL_KHR_debug --out-path ${OILER_GLAD} c --mx
   COMMENT "Generating the GL loader (Debian package python3-glad)"
   VERBATIM)
-set_source_files_properties(${OILER_GLAD}/src/gl.c PROPERTIES COMPILE_OPTIONS -w)
+set_source_files_properties(${OILER_GLAD}/src/gl.c PROPERTIES COMPILE_OPTIONS -w SKIP_PRECOMPILE_HEADERS ON)
 
 set(oiler_assets font ${OILER_FONT})
 foreach(asset disc_frag disc_vert line_frag line_vert text_frag text_vert)

@@ -124,7 +124,7 @@ void check_method(const Scene& scene, const Place& place) {
     for (SceneGrid& grid : small.grids)
         for (std::int64_t& count : grid.count) count = std::min<std::int64_t>(count, 2);
     for (SceneScatter& scatter : small.scatters) scatter.count = 1;
-    at(place, "scene.stepping.method", [&] { make_world(small, Settings{small.stepping}).require_applicable(); });
+    at(place, "scene.method", [&] { make_world(small, Settings{small.stepping}).require_applicable(); });
 }
 
 }  // namespace oiler

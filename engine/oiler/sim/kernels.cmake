@@ -19,7 +19,7 @@ elseif(sets STREQUAL native)
   set(sets baseline)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CMAKE_CROSSCOMPILING)
     if(NOT DEFINED OILER_NATIVE_KERNELS)
-      try_run(ran compiled SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/native.c
+      try_run(OILER_NATIVE_RAN OILER_NATIVE_COMPILED SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/native.c
               RUN_OUTPUT_VARIABLE native)
       set(OILER_NATIVE_KERNELS ${native} CACHE INTERNAL "This machine's widest instruction set")
     endif()

@@ -142,6 +142,8 @@ std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns, const Rule& rule,
                                            const Steps& steps, Team* team) {
+    // Choose the kernels on this thread: an error in a thread of the team would end the program.
+    if constexpr (!std::is_same_v<T, long double>) static_cast<void>(kernels<T, Axes>());
     if (!team || !pays_for_team(columns.size, steps))
         return step_range(columns, rule, steps, 0, columns.size);
     std::mutex first_mutex;

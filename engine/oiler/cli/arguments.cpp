@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/arguments.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "oiler/app/parse.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/core/version.hpp"
+
+namespace oiler::cli {
+namespace {
+
+template <class Target>
+void add_positive_number(CLI::App& app, const std::string& name, Target& target,
+                         const std::string& type, const std::string& help) {
+    const auto set = [name, &target](const double& value) {
+        if (!(value > 0) || !std::isfinite(value))
+            throw CLI::ValidationError(fmt::format("{} {}: give a number above 0", name, value));
+        target = value;
+    };
+    app.add_option_function<double>(name, set, help)->type_name(type);
+}
+
+/// Declares each command as a subcommand; returns their functions by name.
+std::map<std::string, Command::Run> declare(CLI::App& app, const std::vector<Command>& commands) {
+    std::map<std::string, Command::Run> runs;
+    for (const Command& command : commands) {
+        const CommandTexts& texts = command.texts;
+        const std::string name(texts.name);
+        CLI::App* const subcommand = app.add_subcommand(name, std::string(texts.summary));
+        subcommand->footer(fmt::format("Example: oiler {} {}{}{}", name, texts.example,
+                                       texts.notes.empty() ? "" : "\n", texts.notes));
+        Arguments arguments(*subcommand);
+        if (command.declare) runs[name] = command.declare(arguments);
+    }
+    return runs;
+}
+
+/// "play, methods or certify".
+std::string names_of(const std::vector<Command>& commands) {
+    std::string names;
+    for (const Command& command : commands) {
+        if (!names.empty()) names += &command == &commands.back() ? " or " : ", ";
+        names += command.texts.name;
+    }
+    return names;
+}
+
+}  // namespace
+
+void Arguments::add_required(const std::string& name, std::filesystem::path& target,
+                             const std::string& help) {
+    command_.add_option(name, target, help)->required();
+}
+
+void Arguments::add_required(const std::string& name, std::vector<std::filesystem::path>& target,
+                             const std::string& help) {
+    command_.add_option(name, target, help)->required();
+}
+
+void Arguments::add_words(const std::string& name, std::vector<std::string>& target,
+                          const std::string& help) {
+    command_.add_option(name, target, help);
+}
+
+void Arguments::add_flag(const std::string& name, bool& target, const std::string& help) {
+    command_.add_flag(name, target, help)->disable_flag_override();
+}
+
+void Arguments::add_option(const std::string& name, std::string& target, const std::string& type,
+                           const std::string& help) {
+    command_.add_option(name, target, help)->type_name(type)->default_str(target);
+}
+
+void Arguments::add_option(const std::string& name, std::filesystem::path& target,
+                           const std::string& type, const std::string& help) {
+    command_.add_option(name, target, help)->type_name(type)->default_str(target.string());
+}
+
+void Arguments::add_integer(const std::string& name, std::int64_t& target, std::int64_t low,
+                            std::int64_t high, const std::string& help) {
+    add_whole<std::int64_t>(command_, name, target, low, high, help);
+}
+
+void Arguments::add_positive(const std::string& name, double& target, const std::string& type,
+                             const std::string& help) {
+    add_positive_number(command_, name, target, type, help);
+}
+
+void Arguments::add_positive(const std::string& name, std::optional<double>& target,
+                             const std::string& type, const std::string& help) {
+    add_positive_number(command_, name, target, type, help);
+}
+
+void Arguments::add_damping(std::string& target) { oiler::add_damping(command_, target); }
+
+Exit run_command(const std::vector<Command>& commands, int argc, char** argv) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    for (const Command& command : commands)
+        if (command.parse_and_run && command.texts.name == first)
+            return command.parse_and_run(argc - 1, argv + 1);
+    CLI::App app("Plays scenes at a fixed timestep and measures its error and cost", "oiler");
+    app.set_version_flag("--version", "oiler " + std::string(version()));
+    app.require_subcommand(0, 1);
+    const std::map<std::string, Command::Run> runs = declare(app, commands);
+    if (const std::string text = parse(app, argc, argv); !text.empty()) {
+        print(text);
+        return Exit::done;
+    }
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty())
+        fail(Exit::usage, "give a command: {} (see oiler --help)", names_of(commands));
+    return runs.at(chosen.front()->get_name())();
+}
+
+}  // namespace oiler::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oiler/cli/command.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace oiler::cli {
+
+/// Declares the arguments of one command. CLI11 stays behind this class because it takes five
+/// seconds to compile: only arguments.cpp includes it.
+///
+/// A target outlives the parsing and keeps its value when the command line omits the argument.
+/// `--help` shows the value of a text or path as its default. `type` is the placeholder of the
+/// value in `--help`.
+class Arguments {
+public:
+    explicit Arguments(CLI::App& command) : command_(command) {}
+
+    void add_required(const std::string& name, std::filesystem::path& target,
+                      const std::string& help);
+    /// One or more paths.
+    void add_required(const std::string& name, std::vector<std::filesystem::path>& target,
+                      const std::string& help);
+    /// Any number of words.
+    void add_words(const std::string& name, std::vector<std::string>& target,
+                   const std::string& help);
+
+    void add_flag(const std::string& name, bool& target, const std::string& help);
+    void add_option(const std::string& name, std::string& target, const std::string& type,
+                    const std::string& help);
+    void add_option(const std::string& name, std::filesystem::path& target, const std::string& type,
+                    const std::string& help);
+    /// An integer from `low` to `high` in decimal digits.
+    void add_integer(const std::string& name, std::int64_t& target, std::int64_t low,
+                     std::int64_t high, const std::string& help);
+    /// A finite number above 0.
+    void add_positive(const std::string& name, double& target, const std::string& type,
+                      const std::string& help);
+    void add_positive(const std::string& name, std::optional<double>& target,
+                      const std::string& type, const std::string& help);
+    /// `--damping kick|drift`, as in all games.
+    void add_damping(std::string& target);
+
+private:
+    CLI::App& command_;
+};
+
+/// A class declares a command with `static constexpr CommandTexts texts`, and either
+/// `void declare(Arguments&)` and `Exit run() const`, or `static Exit parse_and_run(int, char**)`.
+/// Its file ends with `template Command make_command<ItsClass>();`.
+template <class Declared>
+Command make_command() {
+    if constexpr (requires(char** argv) { Declared::parse_and_run(0, argv); }) {
+        return {Declared::texts, {}, Declared::parse_and_run};
+    } else {
+        return {Declared::texts, [](Arguments& arguments) -> Command::Run {
+                    const auto command = std::make_shared<Declared>();
+                    command->declare(arguments);
+                    return [command] { return command->run(); };
+                }};
+    }
+}
+
+}  // namespace oiler::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/files.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include "oiler/capture/file.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler::cli {
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        fail(Exit::io, "{}: it is a folder; give a file", path.string());
+    if (!file) fail(Exit::io, "{}: cannot be read: {}", path.string(), system_reason(errno));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    write_file(path, std::as_bytes(std::span(text)));
+}
+
+void write_json(const std::filesystem::path& path, const Json& json) {
+    write_text(path, json.dump(2) + "\n");
+}
+
+void print(const std::string& text) { write_text("-", text); }
+
+}  // namespace oiler::cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "oiler/core/json.hpp"
+
+namespace oiler::cli {
+
+// Texts in files; the path "-" is standard output. All functions throw Error{io}.
+
+[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+void write_text(const std::filesystem::path& path, const std::string& text);
+void write_json(const std::filesystem::path& path, const Json& json);
+
+/// Writes to standard output.
+void print(const std::string& text);
+
+}  // namespace oiler::cli

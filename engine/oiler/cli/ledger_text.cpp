@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/ledger_text.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace oiler::cli {
+
+using namespace lab;
+
+namespace {
+
+std::string heading(const Scene& scene, const std::string& name, const Ledger& ledger,
+                    std::int64_t wanted) {
+    std::string text = fmt::format(
+        "{}\n  {} at {} Hz in {}, {} {}, {} {}, {} {}, {} steps",
+        scene.title.empty() ? name : scene.title, scene.stepping.method->name,
+        scene.stepping.rate.steps, name_of(scene.stepping.precision), scene.axes,
+        scene.axes == 1 ? "axis" : "axes", ledger.bodies, ledger.bodies == 1 ? "body" : "bodies",
+        ledger.links, ledger.links == 1 ? "link" : "links", ledger.steps);
+    if (ledger.steps < wanted && !ledger.diverged)
+        text += fmt::format(" of {}: more steps would take too long", wanted);
+    return text + "\n";
+}
+
+/// The numbers of one force or body property, which are adjacent columns.
+class ColumnGroup {
+public:
+    explicit ColumnGroup(const LedgerColumn& first) : first_(first) {}
+
+    [[nodiscard]] bool has(const LedgerColumn& column) const {
+        return column.of == first_.of && column.index == first_.index;
+    }
+    void add(const LedgerColumn& column) {
+        (column.shared ? shared_ : own_).push_back(column.number);
+        bytes_ += column.bytes;
+    }
+    [[nodiscard]] std::string line(std::int64_t bodies) const {
+        std::string where;
+        if (!own_.empty()) where = fmt::format("a column each: {}", fmt::join(own_, ", "));
+        if (!shared_.empty())
+            where += fmt::format("{}shared by all: {}", where.empty() ? "" : "; ",
+                                 fmt::join(shared_, ", "));
+        if (first_.bodies < bodies)
+            where += fmt::format("; {} of {} bodies have it", first_.bodies, bodies);
+        const std::string name =
+            first_.index == 0 ? first_.of : fmt::format("{} {}", first_.of, first_.index + 1);
+        return fmt::format("  {:<15} {:>6}  {}\n", name, bytes_, where);
+    }
+
+private:
+    LedgerColumn first_;
+    std::vector<std::string> own_;
+    std::vector<std::string> shared_;
+    std::size_t bytes_ = 0;
+};
+
+std::vector<ColumnGroup> groups_of(const Ledger& ledger) {
+    std::vector<ColumnGroup> groups;
+    for (const LedgerColumn& column : ledger.columns) {
+        if (groups.empty() || !groups.back().has(column)) groups.emplace_back(column);
+        groups.back().add(column);
+    }
+    return groups;
+}
+
+std::string columns_text(const Ledger& ledger) {
+    std::string text = "\nStored           bytes per body\n";
+    for (const ColumnGroup& group : groups_of(ledger)) text += group.line(ledger.bodies);
+    if (ledger.links > 0)
+        text += fmt::format("  {:<15} {:>6.1f}  {} bytes each, {:.2f} per body\n", "links",
+                            static_cast<double>(ledger.links) *
+                                static_cast<double>(ledger.bytes_per_link) /
+                                static_cast<double>(ledger.bodies),
+                            ledger.bytes_per_link,
+                            static_cast<double>(ledger.links) / static_cast<double>(ledger.bodies));
+    text += fmt::format("  {:<15} {:>6.4g}\n", "total", ledger.bytes_per_body());
+    if (!ledger.absent.empty())
+        text += fmt::format("Not stored, not evaluated: {}\n", fmt::join(ledger.absent, ", "));
+    return text;
+}
+
+std::string change_text(const LedgerPass& pass) {
+    if (pass.diverged) return "diverges";
+    return pass.changes_position == 0 ? "0 m" : fmt::format("{:.4g} m", pass.changes_position);
+}
+
+/// Formats the time that an ablation saves, "-" within the noise of the whole step.
+std::string saving_text(const Ledger& ledger, const LedgerPass& pass) {
+    if (!(std::abs(pass.saves_ns) > ledger.noise_ns)) return fmt::format("{:>19}", "-");
+    return fmt::format("{:>9.3g} ns {:>4.0f} %", pass.saves_ns, pass.saves_percent);
+}
+
+constexpr auto passes_head = R"(
+A step takes {:.3g} ± {:.2g} ns per body. Ablation: a step without one part. -: within the noise.
+Savings overlap and need not add up; a negative saving is a slower step.
+)";
+constexpr auto passes_foot = R"( Timed: the first {} steps in one call.
+Compared: the positions at {} sample times in {} steps.
+)";
+
+std::string passes_text(const Ledger& ledger) {
+    if (ledger.passes.empty() || ledger.diverged) return "";
+    std::string text = fmt::format(passes_head, ledger.ns, ledger.noise_ns);
+    text += fmt::format("  {:<15} {:>19}  {}\n", "without", "saves", "moves a body by up to");
+    for (const LedgerPass& pass : ledger.passes)
+        if (pass.name != "moving")
+            text += fmt::format("  {:<15} {}  {}\n", pass.name, saving_text(ledger, pass),
+                                change_text(pass));
+    const LedgerPass& moving = ledger.passes.back();
+    text += moving.diverged ? "The run without all of them diverges."
+                            : fmt::format("A step without all of them takes {:.3g} ns.", moving.ns);
+    return text + fmt::format(passes_foot, ledger.timed_steps, ledger.looks, ledger.steps);
+}
+
+std::string flags_text(const Ledger& ledger) {
+    std::string text;
+    for (const std::string& flag : ledger.flags) text += fmt::format("  {}\n", flag);
+    if (text.empty()) text = "  none\n";
+    return ledger.diverged ? "" : "\nWithout effect:\n" + text;
+}
+
+}  // namespace
+
+std::string ledger_text(const Scene& scene, const std::string& name, const Ledger& ledger,
+                        std::int64_t wanted) {
+    std::string text =
+        heading(scene, name, ledger, wanted) + columns_text(ledger) + passes_text(ledger);
+    for (const LedgerPass& pass : ledger.passes)
+        if (pass.diverged) text += fmt::format("Without {}: {}\n", pass.name, *pass.diverged);
+    return text + flags_text(ledger);
+}
+
+}  // namespace oiler::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/file.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/shared_options.hpp"
+#include "oiler/cli/tradeoff_output.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
+
+namespace oiler::cli {
+
+struct MergeCommand {
+    static constexpr CommandTexts texts{.name = "merge",
+                                        .summary = "Join the part files of tradeoff --shard",
+                                        .example = "parts/part-*.json --out whole"};
+
+    std::vector<std::filesystem::path> parts;
+    bool all = false;
+    PictureOptions pictures{.out = "tradeoff"};
+    std::filesystem::path json;
+    bool quiet = false;
+
+    void declare(Arguments& arguments) {
+        arguments.add_required("PART", parts, "part files of all shards");
+        arguments.add_flag("--all", all, "print all rows");
+        pictures.declare(arguments);
+        add_json(arguments, json);
+        add_quiet(arguments, quiet);
+    }
+
+    [[nodiscard]] Exit run() const {
+        const Size size = pictures.size();
+        std::vector<lab::Tradeoff> read;
+        for (const std::filesystem::path& path : parts)
+            read.push_back(lab::parse_tradeoff(read_text(path), path.string()));
+        const lab::Tradeoff tradeoff = lab::merge(read);
+        if (!tradeoff.timed())
+            fail(
+                Exit::usage,
+                "some parts have no times because they were interrupted: run their commands again");
+        make_folder(pictures.out);
+        Stills stills(size);
+        publish(tradeoff, {pictures.out, json, all, quiet}, stills);
+        return Exit::done;
+    }
+};
+
+template Command make_command<MergeCommand>();
+
+}  // namespace oiler::cli

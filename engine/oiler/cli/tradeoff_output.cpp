@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/tradeoff_output.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/app/console.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/tables.hpp"
+#include "oiler/lab/sweep/tradeoff_file.hpp"
+#include "oiler/lab/sweep/tradeoff_picture.hpp"
+
+namespace oiler::cli {
+
+using namespace lab;
+
+namespace {
+
+constexpr auto legend = R"(
+* Pareto front: no cheaper setting is more accurate; > current setting; ~ sampled between steps, on
+the drawn straight line. error and m/s: the largest at any sample time; phase: at the end, + leads;
+energy: relative drift; forces: evaluations in the run; µs per s: computing time per simulated
+second, in frames of 1/60 s; ±: half the interquartile range of repeated times.
+{} of {} rows are shown{}
+)";
+
+std::string heading(const Tradeoff& tradeoff) {
+    const ReferenceSummary& reference = tradeoff.reference;
+    std::string text =
+        fmt::format("{}\n  {:.4g} s, {} samples per second; reference: {}\n",
+                    tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
+                    reference.meaningful_until, tradeoff.looks.per_second, reference.words);
+    text += fmt::format(
+        "  errors below {:.2g} m, 100 × the reference's own error of {:.2g} m, are shown as < "
+        "limit\n",
+        reference.floor.position, reference.position_error);
+    if (tradeoff.machines.size() > 1)
+        text += fmt::format(
+            "  times come from {} machines: compare only times of one method in one precision\n",
+            tradeoff.machines.size());
+    if (!reference.why_no_longer.empty())
+        text += fmt::format("  only the first {:.4g} s of {:.4g} s are measured:\n  {}\n",
+                            reference.meaningful_until, tradeoff.duration, reference.why_no_longer);
+    return text;
+}
+
+std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark) {
+    const Judgement& judgement = row.judgement;
+    const std::string error = !judgement.stable ? "unstable"
+                              : judgement.below_floor()
+                                  ? fmt::format("<{:.1e}", tradeoff.reference.floor.position)
+                                  : fmt::format("{:.3g}", judgement.position_error);
+    return fmt::format(
+        "{} {:<30} {:>7}{} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", mark,
+        row.stepping.method->name, row.stepping.rate.steps, row.meets_steps ? ' ' : '~',
+        name_of(row.stepping.precision), error, cell(judgement.velocity_error, "{:.3g}"),
+        cell(judgement.phase_error, "{:.2g}"), cell(judgement.energy_drift, "{:.2g}"),
+        cell(judgement.evaluations, "{:.4g}"), cell(row.ns_per_second / 1e3, "{:.4g}"),
+        cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"));
+}
+
+/// Returns the cheapest row of a method for each decade of error.
+std::vector<const TradeoffRow*> cheapest_of(const Tradeoff& tradeoff, const Method* method) {
+    std::vector<const TradeoffRow*> rows;
+    for (const TradeoffRow* row : tradeoff.rows())
+        if (row->stepping.method == method && row->judgement.stable) rows.push_back(row);
+    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
+        return a->ns_per_second < b->ns_per_second;
+    });
+    std::vector<const TradeoffRow*> cheapest;
+    double reached = INFINITY;
+    for (const TradeoffRow* row : rows) {
+        const double error = row->judgement.below_floor() ? tradeoff.reference.floor.position
+                                                          : row->judgement.position_error;
+        const double decade = std::floor(std::log10(error));
+        if (decade >= reached) continue;
+        reached = decade;
+        cheapest.push_back(row);
+    }
+    return cheapest;
+}
+
+std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
+    if (all) return tradeoff.rows();
+    std::vector<const TradeoffRow*> rows = pareto(tradeoff, time_of);
+    const auto add = [&](const TradeoffRow* row) {
+        if (row && std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+    };
+    for (const Method* method : notable_methods(tradeoff))
+        for (const TradeoffRow* row : cheapest_of(tradeoff, method)) add(row);
+    add(tradeoff.find(tradeoff.today));
+    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
+        return a->ns_per_second < b->ns_per_second;
+    });
+    return rows;
+}
+
+std::string table_of(const Tradeoff& tradeoff, bool all) {
+    std::string text = heading(tradeoff);
+    text +=
+        fmt::format("\n  {:<30} {:>8} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", "method",
+                    "Hz", "", "error m", "m/s", "phase °", "energy", "forces", "µs per s", "±");
+    const auto front = pareto(tradeoff, time_of);
+    const auto shown = shown_rows(tradeoff, all);
+    for (const TradeoffRow* row : shown) {
+        const bool best = std::find(front.begin(), front.end(), row) != front.end();
+        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
+        text += line_of(*row, tradeoff, mark);
+    }
+    text += fmt::format(legend, shown.size(), tradeoff.rows().size(),
+                        all ? "." : "; --all and tradeoff.csv have all of them.");
+    for (const Ladder& ladder : tradeoff.ladders)
+        if (ladder.done && ladder.rows.empty() && ladder.precision == Precision::double_)
+            text += fmt::format("Omitted: {}\n", ladder.end);
+    return text;
+}
+
+}  // namespace
+
+void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
+    write_text(path, to_json(tradeoff));
+}
+
+void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
+    save(tradeoff, output.out / "tradeoff.json");
+    write_text(output.out / "tradeoff.csv", to_csv(tradeoff));
+    if (!output.json.empty()) save(tradeoff, output.json);
+    if (output.json != "-") print(table_of(tradeoff, output.all));
+    stills.write(
+        work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),
+        output.out / "error_over_time.png");
+    stills.write(
+        work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", "forces"}),
+        output.out / "error_over_evaluations.png");
+    remark(output.quiet, "the table and the pictures are in {}", output.out.string());
+}
+
+}  // namespace oiler::cli

@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# run.sh BUILD: installs the build folder BUILD, moves the prefix into a path with a space, and builds
+# a game and a simulation with it in each documented way: find_package, pkg-config, subproject.
+set -Eeuo pipefail
+build=$(cd "$1" && pwd)
+here=$(cd "$(dirname "$0")" && pwd)
+source=$(cd "$here/../.." && pwd)
+folder=$(mktemp -d)
+log=$folder/log
+trap 'rm -rf "$folder"' EXIT
+trap 'echo "failed in line $LINENO, after:"; tail -n 40 "$log"' ERR
+unset OILER_INSTRUCTIONS PKG_CONFIG_PATH CMAKE_PREFIX_PATH
+# Builds of the engine that compile little: one set of kernels, and what the package's build has left
+# in the compiler's cache.
+quick=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -DOILER_ROOMS=world
+       -DOILER_KERNELS=baseline)
+if command -v ccache > /dev/null; then
+    quick+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
+fi
+
+fail() {
+    echo "$*"
+    tail -n 40 "$log"
+    exit 1
+}
+quietly() { "$@" > "$log" 2>&1; }
+# expect_failure TEXT COMMAND...: the command fails, and its output has the text.
+expect_failure() {
+    local text=$1
+    shift
+    if quietly "$@"; then fail "succeeds: $*"; fi
+    tr -s '\n ' '  ' < "$log" | grep -qF -- "$text" || fail "does not say \"$text\": $*"
+}
+# not_in_cache PATTERN BUILD: nothing that matches was looked for.
+not_in_cache() {
+    if grep -iE "$1" "$2/CMakeCache.txt"; then fail "$2 looks for the above"; fi
+}
+no_window() {
+    local libraries
+    libraries=$(ldd "$1")
+    grep -q libc.so <<< "$libraries" || fail "ldd prints no libraries: $libraries"
+    if grep -E 'SDL|libGL|libEGL|OSMesa|libX|libxcb|wayland|deflate|toml' <<< "$libraries"; then
+        fail "$1 links the above"
+    fi
+}
+# draws PROGRAM: the frames of hello, byte for byte.
+draws() {
+    rm -rf "$folder/frames"
+    quietly "$1" --headless --frames 3 --size 320x180 --out "$folder/frames"
+    for frame in "$folder"/expected/*.png; do cmp "$frame" "$folder/frames/$(basename "$frame")"; done
+}
+
+quietly "$build/bin/hello" --headless --frames 3 --size 320x180 --out "$folder/expected"
+[ "$(find "$folder/expected" -name '*.png' | wc -l)" = 3 ] || fail "hello draws no 3 frames"
+
+quietly cmake --install "$build" --prefix "$folder/installed"
+mkdir "$folder/moved here"
+prefix="$folder/moved here/oiler"
+mv "$folder/installed" "$prefix"
+for place in "$build" "$source/" "$folder/installed"; do
+    if grep -rlF -- "$place" "$prefix"; then fail "the above have the absolute path $place"; fi
+done
+config=$(dirname "$(find "$prefix" -name oiler-config.cmake)")
+libraries=$(dirname "$(dirname "$config")")
+"$prefix/bin/oiler" --version > /dev/null
+quietly "$prefix/bin/oiler" check "$prefix/share/oiler/scenes/article_spring.toml"
+draws "$prefix/libexec/oiler/hello"
+[ ! -e "$prefix/include/oiler/cli" ] || fail "the headers of the program are installed"
+
+echo "a game by CMAKE_PREFIX_PATH, component app"
+mkdir "$folder/game"
+cp "$here/game/CMakeLists.txt" "$folder/game"
+cp "$source/demos/hello.cpp" "$folder/game/game.cpp"
+configure_game() {
+    rm -rf "$folder/game/build"
+    cmake -S "$folder/game" -B "$folder/game/build" -DCMAKE_BUILD_TYPE=Release "$@"
+}
+quietly configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_COMPONENTS=app
+not_in_cache 'SDL|GLAD|CLI11|nlohmann|Eigen' "$folder/game/build"
+quietly cmake --build "$folder/game/build"
+draws "$folder/game/build/game"
+
+echo "a game by oiler_DIR, all components"
+quietly configure_game -Doiler_DIR="$config"
+quietly cmake --build "$folder/game/build"
+draws "$folder/game/build/game"
+
+echo "requests that cannot be met"
+expect_failure "oiler has no component wurld; its components are: core math" \
+    configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_COMPONENTS=wurld
+expect_failure "compatible with requested version \"0.2\"" \
+    configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_OILER=0.2
+expect_failure "oiler::core needs libxxhash" \
+    env PKG_CONFIG_LIBDIR="$folder" cmake -S "$folder/game" -B "$folder/game/without" \
+    -DCMAKE_PREFIX_PATH="$prefix"
+
+echo "a simulation by component world"
+cp -r "$here/simulation" "$folder"
+simulation=$folder/simulation/build
+quietly cmake -S "$folder/simulation" -B "$simulation" -DCMAKE_PREFIX_PATH="$prefix"
+not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|Eigen|deflate|toml' "$simulation"
+quietly cmake --build "$simulation"
+no_window "$simulation/simulation"
+position=$("$simulation/simulation")
+
+echo "pkg-config"
+# compile OUTPUT MODULE SOURCE: with flags in which pkg-config has escaped the space.
+compile() {
+    local flags
+    flags=$(PKG_CONFIG_PATH="$libraries/pkgconfig" pkg-config --cflags --libs "$2")
+    eval "g++ -std=c++20 -O1 -o '$1' '$3' $flags"
+}
+quietly compile "$folder/game/by_pkg_config" oiler "$folder/game/game.cpp"
+draws "$folder/game/by_pkg_config"
+quietly compile "$folder/simulation/by_pkg_config" oiler-world "$folder/simulation/simulation.cpp"
+no_window "$folder/simulation/by_pkg_config"
+[ "$("$folder/simulation/by_pkg_config")" = "$position" ]
+
+echo "the installed headers"
+# Headers of CLI11, GL and stb are not installed: those that include them serve their rooms alone.
+(cd "$prefix/include" && grep -rLE '<CLI/|<glad/|<stb|render/(gl|glyphs|layout|plane|polyline_mesh|framebuffer).hpp' oiler) |
+    sed 's/.*/#include <&>/' > "$folder/headers.cpp"
+[ "$(wc -l < "$folder/headers.cpp")" -gt 80 ] || fail "few headers are installed"
+echo 'int main() {}' >> "$folder/headers.cpp"
+quietly compile "$folder/headers" oiler "$folder/headers.cpp"
+
+echo "a subproject that only simulates"
+cp -r "$here/subproject" "$folder"
+subproject=$folder/subproject/build
+quietly cmake -S "$folder/subproject" -B "$subproject" -DOILER_SOURCE="$source" "${quick[@]}"
+not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|deflate|toml|^CPACK_|GTest' "$subproject"
+quietly cmake --build "$subproject"
+no_window "$subproject/simulation"
+[ "$("$subproject/simulation")" = "$position" ]
+quietly cmake --install "$subproject" --prefix "$folder/nothing"
+[ ! -e "$folder/nothing" ] || fail "a subproject installs: $(find "$folder/nothing")"
+
+echo "a subproject that simulates, with all rooms of a game there"
+quietly cmake -G Ninja -S "$folder/subproject" -B "$folder/subproject/all" -DOILER_SOURCE="$source"
+quietly ninja -C "$folder/subproject/all" -n
+grep -q liboiler_world.a "$log" || fail "ninja -n names no library"
+if grep -E 'liboiler_(app|render|platform|capture|plot|picture).a' "$log"; then
+    fail "a build makes the above, which it does not link"
+fi
+
+echo "an absolute folder of libraries"
+absolute=$folder/absolute
+quietly cmake -S "$source" -B "$folder/world" "${quick[@]}" -DOILER_BUILD_DEMOS=OFF \
+    -DCMAKE_INSTALL_PREFIX="$absolute" -DCMAKE_INSTALL_LIBDIR="$absolute/lib"
+quietly cmake --build "$folder/world"
+quietly cmake --install "$folder/world"
+rm -rf "$simulation"
+quietly cmake -S "$folder/simulation" -B "$simulation" -DCMAKE_PREFIX_PATH="$absolute"
+quietly cmake --build "$simulation"
+[ "$("$simulation/simulation")" = "$position" ]
+mv "$absolute" "$folder/moved here/absolute"
+libraries="$folder/moved here/absolute/lib"
+quietly compile "$folder/simulation/by_pkg_config" oiler-world "$folder/simulation/simulation.cpp"
+[ "$("$folder/simulation/by_pkg_config")" = "$position" ]
