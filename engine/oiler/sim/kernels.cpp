@@ -97,7 +97,8 @@ std::string_view chosen_set() {
         if (set.name == wanted) return set.name;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", set.name);
     }
-    fail(Exit::usage, "{}={}: expected one of {}, which this build and machine have", variable, wanted, names);
+    fail(Exit::usage, "{}={}: expected one of {}, which this build and machine have", variable,
+         wanted, names);
 }
 
 }  // namespace
