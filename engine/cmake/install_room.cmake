@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Installs the room of room.cmake as a component of the package: headers, library, and the target in
-# oiler-ROOM.cmake. Global properties tell package.cmake about it:
+# oiler-ROOM.cmake. Global properties pass it to package.cmake:
 #   OILER_INSTALLED       all installed rooms, lowest first
 #   OILER_ROOM_rooms      rooms that the room links
 #   OILER_ROOM_packages   packages that its users must find

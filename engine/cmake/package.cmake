@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Installs the files that find_package(oiler) and pkg-config read, and sets up cpack. Included after
-# all rooms are made.
+# Installs the files that find_package(oiler) and pkg-config read, and sets up cpack. It is included
+# after all rooms are defined.
 include(CMakePackageConfigHelpers)
 
 get_property(installed GLOBAL PROPERTY OILER_INSTALLED)
@@ -27,7 +27,7 @@ install(FILES ${PROJECT_BINARY_DIR}/oiler-config.cmake
 install(TARGETS oiler_options EXPORT oiler-options)
 install(EXPORT oiler-options NAMESPACE oiler:: DESTINATION ${package_folder})
 
-# NAME.pc links a room and the rooms below it. Its folders are relative to its own place, also where
+# NAME.pc links a room and the rooms below it. Its folders are relative to NAME.pc, also if
 # CMAKE_INSTALL_LIBDIR is absolute, so that an installed prefix can be moved.
 foreach(folder LIBDIR INCLUDEDIR)
   cmake_path(ABSOLUTE_PATH CMAKE_INSTALL_${folder} BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} NORMALIZE
@@ -63,7 +63,7 @@ foreach(top app world)
     if(type STREQUAL STATIC_LIBRARY)
       list(APPEND libraries -loiler_${room})
     endif()
-    # The packages' names for CMake and for pkg-config agree, except that Threads is an option.
+    # Package names are equal for CMake and pkg-config, except Threads, which is an option.
     list(APPEND modules ${room_modules} ${room_packages})
     list(TRANSFORM room_libraries PREPEND -l)
     list(APPEND others ${room_libraries})
@@ -85,8 +85,8 @@ endforeach()
 
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
-# Packages to link a game, and packages that the programs load at run time: SDL2 and GL for a window,
-# OSMesa or EGL without one. dpkg-shlibdeps adds the shared libraries that they link.
+# Packages to link a game, and packages that the programs load at run time: SDL2 and GL for a
+# window, OSMesa or EGL without one. dpkg-shlibdeps adds the shared libraries that they link.
 set(build_needs pkg-config libfmt-dev libxxhash-dev libdeflate-dev libtomlplusplus-dev)
 set(run_needs libsdl2-2.0-0 libosmesa6 libegl1 libgl1 libgl1-mesa-dri)
 list(JOIN build_needs ", " CPACK_DEBIAN_PACKAGE_DEPENDS)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# Makes the room in whose CMakeLists.txt it is included the library oiler::ROOM, ROOM being the
-# folder's name. From these variables:
-#   sources        its files, relative to the folder; none where it is all headers
-#   rooms          the rooms that its headers include; those are made first
-#   links          libraries that its users link, too
+# Defines the library oiler::ROOM for the room whose CMakeLists.txt includes this file; ROOM is the
+# name of the folder. Variables:
+#   sources        files of the room, relative to the folder; empty for a room of headers only
+#   rooms          rooms that its headers include; they are added first
+#   links          libraries that users of the room link too
 #   private_links  libraries that only its own files include; header-only ones in
-#                  $<BUILD_INTERFACE:>, since an installed room does not need them
+#                  $<BUILD_INTERFACE:>, because an installed room does not need them
 # A link PkgConfig::OILER_NAME is the pkg-config module NAME; the installed package looks for it.
 cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME room)
 foreach(below IN LISTS rooms)

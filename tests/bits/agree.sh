@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# agree.sh PROGRAM...: all programs that this machine can run print the same, with the kernels of each
-# set of instructions that it has. One whose name ends in v4 needs AVX-512.
+# agree.sh PROGRAM...: checks that all programs that this machine can run print the same hashes with
+# the kernels of each of its instruction sets. A program whose name ends in v4 needs AVX-512.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -32,5 +32,5 @@ for program in "$@"; do
 done
 lines=$(wc -l < "$folder/0")
 echo "$count runs agree on $lines hashes"
-# Two methods, two precisions and three numbers of axes at least, by two programs at least.
+# At least two methods, two precisions and three numbers of axes, by at least two programs.
 [ "$count" -ge 2 ] && [ "$lines" -ge 12 ]

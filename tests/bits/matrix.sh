@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The full matrix of compilers, optimisation and instruction sets, with plain compiler calls: prints
-# a line for each with the hash of all that tests/bits/state_hash.cpp prints, and exits with 1 when
-# two differ. As a control, a build that may fuse multiplies with adds must differ. Some minutes.
-#   tests/bits/matrix.sh [FOLDER]    # where the programs are put, a temporary one if absent
+# Runs the full matrix of compilers, optimisations and instruction sets with plain compiler calls.
+# Prints a line for each with the hash of the output of tests/bits/state_hash.cpp, and exits with 1
+# if two differ. As a control, a build with fused multiply-adds must differ. Takes some minutes.
+#   tests/bits/matrix.sh [FOLDER]    # folder for the programs; a temporary one if absent
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$(mktemp -d)}

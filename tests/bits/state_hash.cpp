@@ -5,10 +5,9 @@
 #include "oiler/core/state_hash.hpp"
 #include "oiler/world/world.hpp"
 
-// Prints a line for each method, scene, precision and number of axes, with the state hash after 200
-// steps of assorted bodies. Compiled by several compilers with several options, it must print the
-// same. Numbers are made of small integers over powers of two, so that nothing but the engine's own
-// arithmetic can differ.
+// Prints a line for each method, scene, precision and number of axes with the state hash after 200
+// steps of assorted bodies. The output must be the same with all compilers and options. All inputs
+// are small integers over powers of two, so that only the engine's arithmetic can differ.
 
 namespace {
 
@@ -18,7 +17,7 @@ using oiler::World;
 constexpr int bodies = 70;
 constexpr int steps = 200;
 
-/// From −12 to 12, in steps of 1/8.
+/// A vector with coordinates from −12 to 12, in steps of 1/8.
 Vec3 assorted(int i, int axes) {
     Vec3 numbers{};
     for (int axis = 0; axis < axes; ++axis)
@@ -26,8 +25,8 @@ Vec3 assorted(int i, int axes) {
     return numbers;
 }
 
-/// Springs of ω up to 5 rad/s at 256 Hz. Explicit Euler gains up to (ω·dt)²/2 a step on each unless
-/// its damping, at least 1/8 per s and kg, takes more: 1/8·dt > 25·dt².
+/// Bodies on springs of ω up to 5 rad/s at 256 Hz. Explicit Euler gains up to (ω·dt)²/2 per step;
+/// the damping, at least 1/8 per s and kg, takes more: 1/8·dt > 25·dt².
 oiler::Entity spawn_assorted(World& world, int i, bool linear) {
     const int axes = world.bodies().axes();
     const double mass = 1 + i % 3 / 2.0;
@@ -50,7 +49,7 @@ oiler::Entity spawn_assorted(World& world, int i, bool linear) {
     return entity;
 }
 
-/// What there is to step: linear forces alone, all forces, or all with links between neighbours.
+/// The forces of a scene: linear ones, all, or all with links between neighbours.
 enum class Scene { linear, forces, links };
 
 std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision precision, int axes,

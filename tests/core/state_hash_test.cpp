@@ -25,14 +25,14 @@ std::uint64_t hash_of_column(const std::vector<Number>& column) {
     return hash.value();
 }
 
-// XXH3_64bits of nothing with seed 0, from xxHash's own sanity checks.
-TEST(StateHash, NothingHashesAsPublished) {
+// The XXH3_64bits of no bytes with seed 0, from xxHash's sanity checks.
+TEST(StateHash, EmptyInputHashesAsPublished) {
     EXPECT_EQ(StateHash().value(), 0x2D06800538D394C2U);
     EXPECT_EQ(hash_of({}), 0x2D06800538D394C2U);
 }
 
-// xxHash's sanity checks (cli/xsum_sanity_check.c, XSUM_XXH3_testdata, seed 0): its buffer, lengths
-// and results, one for each of the algorithm's ranges of length.
+// Buffer, lengths and results are from xxHash's sanity checks (cli/xsum_sanity_check.c,
+// XSUM_XXH3_testdata, seed 0), one for each of the algorithm's ranges of length.
 TEST(StateHash, TheSanityBufferHashesAsPublished) {
     std::vector<std::byte> buffer(2367);
     std::uint64_t generator = 2654435761U;
@@ -60,16 +60,16 @@ TEST(StateHash, NumbersAreLittleEndianBytes) {
     EXPECT_EQ(hash_of_column<double>({1.0}), hash_of({"\x00\x00\x00\x00\x00\x00\xf0\x3f", 8}));
 }
 
-TEST(StateHash, OrderShows) {
+TEST(StateHash, DependsOnOrder) {
     EXPECT_NE(hash_of_column<float>({1, 2}), hash_of_column<float>({2, 1}));
 }
 
-TEST(StateHash, TheSignOfZeroShows) {
+TEST(StateHash, DependsOnTheSignOfZero) {
     EXPECT_NE(hash_of_column<double>({0.0}), hash_of_column<double>({-0.0}));
     EXPECT_NE(hash_of_column<float>({0.0F}), hash_of_column<float>({-0.0F}));
 }
 
-TEST(StateHash, ChunksDoNotShow) {
+TEST(StateHash, DoesNotDependOnChunks) {
     std::vector<double> column(1000);
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = 0.1 * static_cast<double>(i);
     const std::uint64_t whole = hash_of_column(column);

@@ -17,10 +17,10 @@ using std::chrono::nanoseconds;
 
 constexpr std::int64_t frames_in_an_hour = std::int64_t{144} * 3600;
 
-/// When frame i of a 144 Hz display appears, to the nearest nanosecond.
+/// The time of frame i of a 144 Hz display, to the nearest nanosecond.
 nanoseconds frame_at_144_hz(std::int64_t i) { return nanoseconds{(i * 1'000'000'000 + 72) / 144}; }
 
-/// Advances through an hour of frames; the steps taken.
+/// Advances through an hour of frames and returns the number of steps.
 std::int64_t run_an_hour(StepClock& clock) {
     const std::int64_t before = clock.ticks();
     for (std::int64_t i = 0; i <= frames_in_an_hour; ++i) clock.advance(frame_at_144_hz(i));
@@ -54,7 +54,7 @@ TEST(StepClock, ThreeTenthsOfASecondAt10HzAre3Steps) {
     EXPECT_EQ(clock.advance(300ms).steps, 3);
 }
 
-TEST(StepClock, GoesOnWhereAFloatClockStops) {
+TEST(StepClock, ContinuesWhereAFloatClockStops) {
     constexpr nanoseconds when = 524'288s;
     StepClock clock(60);
     clock.advance(when);
@@ -108,7 +108,7 @@ TEST(StepClock, APauseIsNeitherSimulatedNorDropped) {
     EXPECT_EQ(clock.dropped_time(), 0ns);
 }
 
-TEST(StepClock, ResumingWhatIsNotPausedChangesNothing) {
+TEST(StepClock, ResumingARunningClockChangesNothing) {
     StepClock clock(100);
     clock.advance(0s);
     clock.resume();
@@ -129,7 +129,7 @@ TEST(StepClock, ASingleStepIsOneStepAndKeepsAlpha) {
     EXPECT_GT(alpha, 0);
 }
 
-TEST(StepClock, ASingleStepThatIsNotYetTakenEndsWithThePause) {
+TEST(StepClock, APendingSingleStepEndsWithThePause) {
     StepClock clock(100);
     clock.advance(0s);
     clock.pause();
@@ -188,7 +188,7 @@ TEST(StepClock, ScalesWithoutACommonDenominatorNeverGainOrLoseAStep) {
     EXPECT_EQ(clock.advance(1s + 6ns).steps, 1);
 }
 
-/// Frames like those of a real display, with stalls and backward jumps in between.
+/// The duration of a frame of a real display; stalls and backward jumps occur too.
 nanoseconds random_frame(std::mt19937_64& random) {
     switch (random() % 8) {
         case 0:
@@ -200,8 +200,8 @@ nanoseconds random_frame(std::mt19937_64& random) {
     }
 }
 
-// The law: the steps are those of all kept time together, each stretch at its scale. In twelfths,
-// which hold every scale used here.
+// The number of steps is that of the total kept time, each stretch at its scale. Time is counted in
+// twelfths, which represent every scale used here.
 TEST(StepClock, StepsAreThoseOfTheKeptTimeForAnyStamps) {
     std::mt19937_64 random(20240711);
     for (int run = 0; run < 300; ++run) {
@@ -239,7 +239,7 @@ TEST(HeadlessFrame, AtEqualRatesFrameIShowsStepI) {
     }
 }
 
-TEST(HeadlessFrame, StandsBetweenStepsExactly) {
+TEST(HeadlessFrame, HasAnExactAlphaBetweenSteps) {
     EXPECT_EQ(headless_frame(1, 100, 60).step, 1);
     EXPECT_EQ(headless_frame(1, 100, 60).alpha, 40.0 / 60);
     EXPECT_EQ(headless_frame(59, 100, 60).step, 98);

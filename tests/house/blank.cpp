@@ -15,7 +15,7 @@ std::size_t after(const std::string& text, const std::string& close, std::size_t
     return found == std::string::npos ? text.size() : found + close.size();
 }
 
-/// The end of the comment that begins at `at`; `at` where none begins.
+/// The end of the comment that begins at `at`; `at` if none begins there.
 std::size_t end_of_comment(const std::string& text, std::size_t at) {
     if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
     if (text.compare(at, 2, "/*") == 0) return after(text, "*/", at + 2);
@@ -28,7 +28,7 @@ std::size_t end_of_raw(const std::string& text, std::size_t at) {
     return after(text, ")" + text.substr(at + 1, open - at - 1) + "\"", open);
 }
 
-/// The end of the literal that begins at `at`; `at` where none begins. A quote inside a number
+/// The end of the literal that begins at `at`; `at` if none begins there. A quote inside a number
 /// separates digits.
 std::size_t end_of_literal(const std::string& text, std::size_t at) {
     const char quote = text[at];

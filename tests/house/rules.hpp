@@ -19,21 +19,21 @@ using Graph = std::map<std::string, std::set<std::string>>;
 /// The room of a file of engine/oiler: "lab" for "lab/sweep/judge.hpp".
 std::string room_of(const std::filesystem::path& file);
 
-/// The place of a file of engine/oiler in the plan: its floor where its room has floors, else its
+/// The place of a file of engine/oiler in the plan: its floor if its room has floors, otherwise its
 /// room.
 std::string place_of(const std::filesystem::path& file);
 
 /// Rooms and floors that the plan lacks.
 Faults check_place(const std::filesystem::path& file);
 
-/// Includes against the plan, of demos, by relative paths, and of window and GL headers outside
-/// the providers.
+/// Includes that the plan forbids: of rooms not listed, of demos, by relative paths, and of window
+/// and GL headers outside the providers.
 Faults check_includes(const std::filesystem::path& file, const std::string& text);
 
 /// The includes among the nodes that `node_of` gives files of engine/oiler: files, places, rooms.
 Graph include_graph(const Texts& texts, std::string (*node_of)(const std::filesystem::path&));
 
-/// A circle such as {"a", "b", "a"}; empty where there is none.
+/// A circle such as {"a", "b", "a"}; empty if there is none.
 std::vector<std::string> find_circle(const Graph& graph);
 
 /// The SPDX line, #pragma once, and no unfinished work.

@@ -64,8 +64,8 @@ private:
         return text;
     }
 
-    /// Whether the tokens after a closing brace begin a statement of their own, as they do after
-    /// a function's body, unlike those after an initialiser.
+    /// Whether the tokens after a closing brace begin a new statement: after a function's body they
+    /// do, after an initialiser they do not.
     [[nodiscard]] bool begins_statement() const {
         if (at_ == tokens_.size()) return true;
         const std::string& next = tokens_[at_];

@@ -15,7 +15,7 @@ std::vector<std::string> tokenize(const std::string& code);
 
 bool is_word(const std::string& token);
 
-/// The name, or signature, that a statement defines; empty where it defines none.
+/// The name, or signature, that a statement defines; empty if it defines none.
 std::string defined_name(const Statement& statement);
 
 }  // namespace oiler::house

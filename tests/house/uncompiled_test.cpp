@@ -14,9 +14,10 @@ bool is_uncompiled(const char* file, const char* cmake, const std::string& text)
 TEST(HouseCompiles, FindsATestThatIsNotListed) {
     const char* cmake = "tests/CMakeLists.txt";
     EXPECT_FALSE(is_uncompiled("tests/sim/energy_test.cpp", cmake, ""));
-    EXPECT_TRUE(is_uncompiled("tests/sim/rest_test.cpp", cmake, ""));
-    EXPECT_TRUE(is_uncompiled("tests/sim/rest_test.cpp", cmake, "# oiler_test(sim rest)\n"));
-    EXPECT_TRUE(is_uncompiled("tests/sim/rest_test.cpp", cmake, "add_executable(a rest_test.cpp)"));
+    EXPECT_TRUE(is_uncompiled("tests/sim/sleep_test.cpp", cmake, ""));
+    EXPECT_TRUE(is_uncompiled("tests/sim/sleep_test.cpp", cmake, "# oiler_test(sim sleep)\n"));
+    EXPECT_TRUE(
+        is_uncompiled("tests/sim/sleep_test.cpp", cmake, "add_executable(a sleep_test.cpp)"));
     EXPECT_TRUE(is_uncompiled("engine/oiler/sim/body.cpp", cmake, "body.cpp"));
     EXPECT_FALSE(is_uncompiled("engine/oiler/sim/body.hpp", cmake, ""));
 }

@@ -31,8 +31,8 @@ struct Oscillator {
     T rate() const { return std::max(std::sqrt(k / m), b / (2 * m)); }
 };
 
-/// Sums, products and quotients take a handful of round-offs, the argument of an exponential or a
-/// sine one for each radian or time constant of it: 16 and 4 leave some slack for what cancels.
+/// Sums, products and quotients have a few round-offs. The argument of an exponential or a sine has
+/// one per radian or time constant. The factors 16 and 4 leave room for cancellation.
 template <class T>
 T relative_tolerance(T radians) {
     return (16 + 4 * radians) * round_off<T>;
@@ -44,7 +44,7 @@ void expect_near(Motion<T> motion, Motion<T> expected, T relative, T x_scale, T 
     EXPECT_LE(std::abs(motion.v - expected.v), relative * v_scale) << motion.v << " " << expected.v;
 }
 
-/// Against the size of each number itself.
+/// Compares each number relative to its own size.
 template <class T>
 void expect_digits(const Oscillator<T>& oscillator, Motion<T> expected) {
     expect_near(oscillator.exact(), expected, relative_tolerance(oscillator.rate() * oscillator.t),
@@ -56,8 +56,8 @@ TEST(DampedOscillator, TheArticlesSpring) {
     ASSERT_EQ(table.size(), 9U);
     for (const auto& [t, state] : table.items()) {
         const Oscillator<double> spring{1, 15, 0.1, {1000, 0}, std::stod(t)};
-        // x and v swing through zero, their errors do not: both stand for the decayed amplitude. b
-        // is not a number of double: its round-off is another of γt, small beside ωt.
+        // x and v oscillate through zero, but their errors scale with the decayed amplitude. b is
+        // rounded to double, which adds a round-off of γt, small compared with ωt.
         const double amplitude = 1000 * std::exp(-0.05 * spring.t);
         expect_near(spring.exact(), {number(state[0]), number(state[1])},
                     relative_tolerance(spring.rate() * spring.t), amplitude,
@@ -75,7 +75,7 @@ TEST(DampedOscillator, TheUndampedSpring) {
     }
 }
 
-// The literals below are to 28 digits, x and v of
+// The literals below are x and v to 28 digits from
 //   e^(−γt)·(x0·cosh δt + (v0 + γx0)·sinh(δt)/δ), e^(−γt)·(v0·cosh δt − (k/m·x0 + γv0)·sinh(δt)/δ),
 // δ² = γ² − k/m, in Python:
 //   from mpmath import *; mp.dps = 120  # 1500 for b = 1e8
@@ -92,7 +92,7 @@ Motion<T> digits(long double x, long double v) {
     return {static_cast<T>(x), static_cast<T>(v)};
 }
 
-// v is near a zero, where its error is that of the amplitude, ω·x0·e^(−γt) = 5.1.
+// v is close to zero here. Its error scales with the amplitude, ω·x0·e^(−γt) = 5.1.
 TYPED_TEST(DampedOscillatorDigits, Underdamped) {
     using T = TypeParam;
     const Oscillator<T> spring{2.5, 15, 0.75, {3, -2}, 2.5};
@@ -133,8 +133,8 @@ TYPED_TEST(DampedOscillatorDigits, OnEitherSideOfCriticalFor32TimeConstants) {
         digits<TypeParam>(-1.899506313680156244340022368e-13L, 3.672396092374110597815056856e-13L));
 }
 
-// The textbook's γ − √(γ² − ω²) is 29 % wrong here; the time constants that pass are the slow
-// one's, t/1e8, once the fast one has died away.
+// The textbook's γ − √(γ² − ω²) has an error of 29 % here. After the fast decay, t/1e8 time
+// constants of the slow decay pass.
 template <class T>
 void expect_stiff_digits(T t, T radians, Motion<T> expected) {
     const Oscillator<T> oscillator{1, 1, T(1e8L), {1000, 7}, t};
@@ -154,7 +154,7 @@ TYPED_TEST(DampedOscillatorDigits, FarOverdamped) {
         digits<T>(367.8794411971938824775247352L, -0.00000367879441197193919265468855L));
 }
 
-// At the critical point x and v change by at most t²·x-scale·δb.
+// Near the critical point, x and v change by at most t²·x-scale·δb.
 TEST(DampedOscillator, IsContinuousAcrossTheCriticalPoint) {
     const Motion<double> critical = Oscillator<double>{1, 4, 4, {1, -3}, 0.75}.exact();
     for (const double change : {1e-15, 1e-12, 1e-9, 1e-6})
@@ -188,7 +188,7 @@ TEST(DampedOscillator, StartsAtItsStart) {
     }
 }
 
-/// Going on for t2 from where t1 led must lead where t1 + t2 leads.
+/// Compares the motion over t1, continued over t2, with the motion over t1 + t2.
 template <class F>
 void expect_semigroup(F exact, double radians, double x_scale, double v_scale) {
     const Motion<double> start{3, -2};
@@ -235,7 +235,7 @@ TEST(LinearDragMotion, MatchesTheReferences) {
     }
 }
 
-// Drag changes x by at most c·t·(|v0|t + |a|t²), v likewise.
+// Drag changes x by at most c·t·(|v0|t + |a|t²), and v similarly.
 TEST(LinearDragMotion, TendsToFreeFallAsDragVanishes) {
     const Motion<double> start{3, 20};
     const Motion<double> free = constant_acceleration(start, -9.81, 2.0);
@@ -247,7 +247,7 @@ TEST(LinearDragMotion, TendsToFreeFallAsDragVanishes) {
     }
 }
 
-// Where phi2 changes from its series to its formula, at c·t = 1, nothing jumps.
+// phi2 changes from its series to its formula at c·t = 1.
 TEST(LinearDragMotion, IsContinuousWhereItsFormulaChanges) {
     const double above = std::nextafter(1.0, 2.0);
     const Motion<double> series = linear_drag_motion({3.0, 20.0}, -9.81, 0.5, 2.0);

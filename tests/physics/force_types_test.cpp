@@ -22,7 +22,7 @@ using oiler::State;
 using oiler::Vec;
 using Real = long double;
 
-/// Numbers of the size of 1 without any pattern that a wrong formula could share.
+/// Numbers of size 1 without a pattern that could hide a wrong formula.
 class Assorted {
 public:
     /// Between 0.5 and 1.5.
@@ -30,7 +30,8 @@ public:
         next_ = next_ * 69069 + 12345;
         return 0.5L + static_cast<Real>(next_ % 1024) / 1024;
     }
-    /// At least 2 m from the anchors and centres of forces with positive numbers, and at 0.5 m/s.
+    /// A state at least 2 m from the anchors and centres of forces with positive numbers, at 0.5
+    /// m/s.
     template <int Axes>
     State<Real, Axes> state() {
         State<Real, Axes> state{};
@@ -74,9 +75,9 @@ void expect_near(const Vec<Real, Axes>& a, const Vec<Real, Axes>& b, Real tolera
     EXPECT_LE(largest(a - b), tolerance);
 }
 
-/// f' at 0 by differences over ±h and ±2h. It is h⁴·f⁽⁵⁾/30 off, and 1.5 roundings of f over h.
-/// Here f is of the size of 10 at most, and as it is smooth up to 1/4 m, m/s or s away, f⁽⁵⁾ is
-/// below 5!·4⁵ times that.
+/// f' at 0 from differences over ±h and ±2h. The error is h⁴·f⁽⁵⁾/30 plus 1.5 roundings of f over
+/// h. Here |f| is at most 10. Because f is smooth within 1/4 m, m/s or s, f⁽⁵⁾ is below 5!·4⁵ times
+/// that.
 template <class F>
 auto derivative(F f) {
     constexpr Real h = 1e-4L;
@@ -114,7 +115,7 @@ Vec<Real, Axes> field_of(const Force& force, const State<Real, Axes>& state) {
         return {};
 }
 
-TEST(Forces, HaveFieldsThatGoDownTheirPotentials) {
+TEST(Forces, HaveFieldsThatAreMinusTheGradientOfTheirPotentials) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const Vec<Real, Axes> field = field_of(force, state);
         for (int j = 0; j < Axes; ++j) {
@@ -128,19 +129,19 @@ TEST(Forces, HaveFieldsThatGoDownTheirPotentials) {
     });
 }
 
-/// Where a force that depends on velocity takes it in `tau` s while the body stays where it is.
+/// The velocity after `tau` s of the force's damping at a fixed position.
 template <class Force, int Axes>
 Vec<Real, Axes> slowed(const Force& force, State<Real, Axes> state, Real tau) {
     if constexpr (requires { force.damping_rate(); })
         return state.v * std::exp(-force.damping_rate() * tau);
     else if constexpr (requires { force.rest_length; })
-        force.slow(state, -std::expm1(-force.damping * tau));
-    else if constexpr (requires { force.slow(state, tau); })
-        force.slow(state, tau);
+        force.damp(state, -std::expm1(-force.damping * tau));
+    else if constexpr (requires { force.damp(state, tau); })
+        force.damp(state, tau);
     return state.v;
 }
 
-// What is not field starts the flow of the velocity.
+// The acceleration minus the field is the derivative of the damping flow.
 TEST(Forces, AccelerateByTheirFieldsAndTheirDamping) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const auto damping = derivative([&](Real h) { return slowed(force, state, h); });
@@ -148,9 +149,9 @@ TEST(Forces, AccelerateByTheirFieldsAndTheirDamping) {
     });
 }
 
-// By a Runge–Kutta method of order 4 that knows accelerations alone. They change at no more than
-// 4/s, c·|v| of quadratic drag: of steps of 1/256 s (4/256)⁴/120 is off.
-TEST(Forces, SlowAsTheirAccelerationsDo) {
+// Integrates the accelerations with a Runge–Kutta method of order 4. They change at rates of up to
+// 4/s (c·|v| of quadratic drag). With steps of 1/256 s the relative error is (4/256)⁴/120.
+TEST(Forces, HaveDampingFlowsThatIntegrateTheirAccelerations) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         constexpr Real dt = 1 / 256.0L;
         const Vec<Real, Axes> field = field_of(force, state);
@@ -166,35 +167,35 @@ TEST(Forces, SlowAsTheirAccelerationsDo) {
             at.v = at.v + (k1 + k2 * 2 + k3 * 2 + k4) * (dt / 6);
         }
         expect_near(slowed(force, state, 4), at.v, 1e-9L);
-        // And there and back again.
+        // Forwards and backwards.
         const State<Real, Axes> later{state.x, slowed(force, state, 0.5L)};
         expect_near(slowed(force, later, -0.5L), state.v, 16 * epsilon);
     });
 }
 
 // Quadratic drag keeps the direction, and 1/|v| grows by c·τ.
-TEST(QuadraticDrag, SlowsInItsDirectionByItsLaw) {
+TEST(QuadraticDrag, DampsBySpeedAndKeepsTheDirection) {
     const QuadraticDragForce<Real, 2> drag{0.5L};
     State<Real, 2> state{{}, {3, -4}};
-    drag.slow(state, 0.8L);
+    drag.damp(state, 0.8L);
     expect_near<2>(state.v, {1, -4 / 3.0L}, 4 * epsilon);
 }
 
-// From (3, 4) to the anchor the unit vector is (0.6, 0.8): of (5, 0) it sees 3, and (3.2, −2.4)
-// across stays.
-TEST(CoilSpring, SlowsAlongItsLineAlone) {
+// The unit vector from the anchor is (0.6, 0.8). The component of (5, 0) along it is 3; (3.2, −2.4)
+// across it stays.
+TEST(CoilSpring, DampsOnlyAlongItsLine) {
     const CoilSpringForce<Real, 2> coil{{1, 1}, 7, 2, 4};
     State<Real, 2> state{{4, 5}, {5, 0}};
-    coil.slow(state, 0.5L);
+    coil.damp(state, 0.5L);
     expect_near<2>(state.v, {3.2L + 0.9L, -2.4L + 1.2L}, 16 * epsilon);
 }
 
-/// Gravity and an attractor pull at every mass alike; any other force is shared out by the mass.
+/// Gravity and attractors accelerate all masses equally. Other accelerations are force over mass.
 template <class Force, int Axes>
 constexpr bool pulls_all_masses_alike = std::is_same_v<Force, oiler::GravityForce<Real, Axes>> ||
                                         std::is_same_v<Force, AttractorForce<Real, Axes>>;
 
-TEST(Forces, AreSharedOutByMass) {
+TEST(Forces, AreDividedByMass) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const Real mass = 2.5L;
         const Real share = pulls_all_masses_alike<Force, Axes> ? 1 : 1 / mass;
@@ -206,8 +207,8 @@ TEST(Forces, AreSharedOutByMass) {
     });
 }
 
-// A force is linear where the acceleration halfway between two states is the mean of theirs.
-TEST(Forces, AreLinearWhereTheySaySo) {
+// A force is linear if the acceleration halfway between two states is the mean of theirs.
+TEST(Forces, AreLinearIfTheySaySo) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const State<Real, Axes> other{state.x * 1.5L, state.v * -2};
         const State<Real, Axes> middle{(state.x + other.x) * 0.5L, (state.v + other.v) * 0.5L};
@@ -216,7 +217,7 @@ TEST(Forces, AreLinearWhereTheySaySo) {
         if (Force::linear) {
             EXPECT_LE(bend, 100 * epsilon);
         } else if (Axes > 1 || !std::is_same_v<Force, CoilSpringForce<Real, Axes>>) {
-            EXPECT_GT(bend, 1e-5L);  // a coil spring bends only where its direction can turn
+            EXPECT_GT(bend, 1e-5L);  // a coil spring is not linear if its direction can turn
         }
     });
 }
@@ -240,8 +241,8 @@ struct Listed {
     }
 };
 
-// Numbers of forces that are not there must not be looked at; two of a kind act twice.
-TEST(Forces, AddUpThoseThatArePresent) {
+// Absent forces must not be read; two forces of one kind act twice.
+TEST(Forces, AddUpAllThatArePresent) {
     Assorted assorted;
     const State<Real, 2> state = assorted.state<2>();
     for (unsigned set = 0; set < 1U << oiler::force_count; ++set) {
@@ -257,7 +258,7 @@ TEST(Forces, AddUpThoseThatArePresent) {
             for_each_number(force, [&](Real& number) {
                 number = listed.counts[i] > 0 ? assorted.positive() : std::nanl("");
             });
-            for (std::size_t nth = 0; nth < listed.counts[i]; ++nth) {
+            for (std::size_t index = 0; index < listed.counts[i]; ++index) {
                 acceleration = acceleration + force.accelerate(state, 0);
                 field = field + field_of(force, state);
                 potential += force.potential(state);

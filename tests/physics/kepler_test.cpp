@@ -14,8 +14,8 @@
 
 namespace {
 
-using oiler::circles;
 using oiler::dot;
+using oiler::is_elliptic;
 using oiler::kepler;
 using oiler::State;
 using oiler::Vec;
@@ -34,10 +34,9 @@ Vec3l cross(const Vec3l& a, const Vec3l& b) {
 Real energy(Real gm, const State3& s) { return dot(s.v, s.v) / 2 - gm / length(s.x); }
 Real half_axis(Real gm, const State3& s) { return -gm / (2 * energy(gm, s)); }
 
-/// How far round-off may carry a planet in t s. A rounding of x and v in a state at r changes
-/// the energy by u·(v² + gm/r), so the mean motion relatively by 3u·(v² + gm/r)·a/gm; that moves
-/// it along its way by as much of the angle, and the anomaly's own `turns` are rounded too. 4
-/// roundings of each are allowed for, and the sizes are the largest there are on the ellipse.
+/// The tolerance for round-off after t s. A rounding of x and v at distance r changes the energy by
+/// u·(v² + gm/r), so the mean motion by the fraction 3u·(v² + gm/r)·a/gm, so the angle by that
+/// fraction. The anomaly's turns are rounded too. 4 roundings of each are allowed.
 struct Slack {
     Real x;
     Real v;
@@ -62,8 +61,8 @@ void expect_state(Real gm, const State3& from, Real t, const State3& expected) {
     EXPECT_LE(length(found.v - expected.v), most.v) << "after " << t << " s";
 }
 
-/// An orthonormal frame whose plane of orbit is none of the coordinates', and its two inner axes
-/// swapped for orbits that go round the other way.
+/// An orthonormal frame whose orbital plane is not a coordinate plane. Swapping its first two axes
+/// reverses the orbit.
 struct Frame {
     Vec3l first{1, 0, 0};
     Vec3l second{0, 1, 0};
@@ -98,7 +97,7 @@ struct Units {
 const std::array<const char*, 6> eccentricities{"e=0",   "e=0.2", "e=0.5",
                                                 "e=0.6", "e=0.9", "e=0.99"};
 
-/// When and where the reference's planet is, from its perihelion at 0 s on.
+/// Times and states of the reference's planet; the perihelion is at 0 s.
 std::vector<std::pair<Real, State3>> states_of(const char* eccentricity, const Units& units) {
     const auto run =
         reference("coupled_and_kepler").at("kepler_GM1_a1").at("values").at(eccentricity);
@@ -111,7 +110,7 @@ std::vector<std::pair<Real, State3>> states_of(const char* eccentricity, const U
     return states;
 }
 
-// From every state to every other one, those before it too.
+// From every state to every other state, also backwards in time.
 void expect_reference(const Units& units) {
     for (const char* e : eccentricities) {
         SCOPED_TRACE(e);
@@ -124,7 +123,7 @@ void expect_reference(const Units& units) {
 
 TEST(Kepler, MeetsTheReferenceFromAnyPoint) { expect_reference({}); }
 
-// A planet whose gm is 6.75 m³/s², on a slanting plane, one way round and the other.
+// gm is 6.75 m³/s², on an inclined plane, in both directions.
 TEST(Kepler, MeetsTheReferenceInSpaceAndOtherUnits) {
     expect_reference({.metres = 3, .seconds = 2, .frame = Frame::tilted(false)});
     expect_reference({.metres = 3, .seconds = 2, .frame = Frame::tilted(true)});
@@ -154,10 +153,10 @@ std::vector<Ellipse> ellipses() {
 const Real period = 2 * pi * std::sqrt(8 / gm_of_ellipses);
 constexpr std::array<Real, 7> times{0.001L, 0.3L, 1, 2.25L, 7, 31, 200};
 
-// Lagrange's g, the seconds that the start's velocity is worth, is a difference of two numbers of
-// the size of t; 4 roundings of these move the planet by 4u·t·v0 off its way, and Kepler's equation
-// is solved to as much, beside 16 roundings of the size of the orbit, 2a. A displacement changes
-// the energy by gm/r² times it, and the angular momentum by v times it.
+// Lagrange's g is a difference of two numbers of size t. 4 roundings of these move the planet by
+// 4u·t·v0. Kepler's equation is solved with an equal error, plus 16 roundings of 2a, the size of
+// the orbit. A displacement changes the energy by gm/r² times it, and the angular momentum by v
+// times it.
 TEST(Kepler, KeepsEnergyAndAngularMomentum) {
     for (const Ellipse& ellipse : ellipses()) {
         const State3 start = start_of(ellipse);
@@ -176,9 +175,9 @@ TEST(Kepler, KeepsEnergyAndAngularMomentum) {
     }
 }
 
-// What the first part moves the planet off its way by, changes the energy in the second part, as
-// much more than a rounding of the state does as the angle that was turned.
-TEST(Kepler, GoesOnFromWhereItIs) {
+// The error of the first part changes the energy in the second part. It exceeds a rounding of the
+// state by the angle that was turned.
+TEST(Kepler, ContinuesFromAnyState) {
     for (const Ellipse& ellipse : ellipses()) {
         SCOPED_TRACE(testing::Message() << "e = " << ellipse.e << ", angle " << ellipse.angle);
         const State3 start = start_of(ellipse);
@@ -221,34 +220,34 @@ TEST(Kepler, AgreesWithTheOrbitFromItsNearestPoint) {
     }
 }
 
-/// Whether a body circles that is at the nearest point, 2 m from gm = 3 m³/s², of an orbit of that
-/// eccentricity.
-bool circles_with(Real e) {
-    return circles<Real>(3, {{0, 2, 0}, {0, 0, std::sqrt(1.5L * (1 + e))}});
+/// Whether the orbit with eccentricity `e` and its nearest point 2 m from gm = 3 m³/s² is elliptic.
+bool is_elliptic_with(Real e) {
+    return is_elliptic<Real>(3, {{0, 2, 0}, {0, 0, std::sqrt(1.5L * (1 + e))}});
 }
 
-TEST(Circles, IsAnEllipseThatIsNotTooFlat) {
-    for (const Real e : {0.0L, 0.5L, 0.95L, 0.9989L}) EXPECT_TRUE(circles_with(e)) << e;
-    for (const Real e : {0.9991L, 1.0L, 1.0001L, 2.0L, 30.0L}) EXPECT_FALSE(circles_with(e)) << e;
+TEST(IsElliptic, AcceptsEllipsesThatAreNotTooFlat) {
+    for (const Real e : {0.0L, 0.5L, 0.95L, 0.9989L}) EXPECT_TRUE(is_elliptic_with(e)) << e;
+    for (const Real e : {0.9991L, 1.0L, 1.0001L, 2.0L, 30.0L})
+        EXPECT_FALSE(is_elliptic_with(e)) << e;
     for (const Ellipse& ellipse : ellipses())
-        EXPECT_TRUE(circles(gm_of_ellipses, start_of(ellipse))) << ellipse.e << ellipse.angle;
+        EXPECT_TRUE(is_elliptic(gm_of_ellipses, start_of(ellipse))) << ellipse.e << ellipse.angle;
 }
 
-// v² = 2·gm/r: neither in a closed orbit nor by round-off.
-TEST(Circles, IsNoParabolaNorHyperbola) {
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {0, 1, 0}}));
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {0.6L, 0.8L, 0}}));
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {0, 1.25L, 0}}));
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {1.25L, 0, 0.5L}}));
-    EXPECT_TRUE(circles<Real>(1, {{2, 0, 0}, {0, 0.75L, 0}}));
+// v² = 2·gm/r is not a closed orbit, and round-off must not make it one.
+TEST(IsElliptic, RejectsParabolasAndHyperbolas) {
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {0, 1, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {0.6L, 0.8L, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {0, 1.25L, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {1.25L, 0, 0.5L}}));
+    EXPECT_TRUE(is_elliptic<Real>(1, {{2, 0, 0}, {0, 0.75L, 0}}));
 }
 
-TEST(Circles, IsNoFallAndNoRepulsion) {
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {0, 0, 0}}));
-    EXPECT_FALSE(circles<Real>(1, {{2, 1, -2}, {-0.2L, -0.1L, 0.2L}}));
-    EXPECT_FALSE(circles<Real>(1, {{2, 0, 0}, {0.5L, 0.01L, 0}}));
-    EXPECT_FALSE(circles<Real>(1, {{0, 0, 0}, {0, 1, 0}}));
-    EXPECT_FALSE(circles<Real>(-1, {{2, 0, 0}, {0, 0.75L, 0}}));
+TEST(IsElliptic, RejectsFallsAndRepulsion) {
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {0, 0, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 1, -2}, {-0.2L, -0.1L, 0.2L}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{2, 0, 0}, {0.5L, 0.01L, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(1, {{0, 0, 0}, {0, 1, 0}}));
+    EXPECT_FALSE(is_elliptic<Real>(-1, {{2, 0, 0}, {0, 0.75L, 0}}));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ using oiler::Splitting;
 using oiler::State;
 using oiler::Vec;
 
-TEST(Methods, HaveNamesOfTheirOwn) {
+TEST(Methods, HaveUniqueNames) {
     std::set<std::string_view> names;
     for (const Method& method : methods()) names.insert(method.name);
     EXPECT_EQ(names.size(), methods().size());
@@ -40,7 +40,7 @@ TEST(Methods, HaveNamesOfTheirOwn) {
     EXPECT_EQ(names.count("semi_implicit_euler"), 1U);
 }
 
-TEST(Methods, SayWhereTheyComeFrom) {
+TEST(Methods, NameTheirSources) {
     for (const Method& method : methods()) {
         EXPECT_FALSE(method.source.empty()) << method.name;
         EXPECT_GE(method.order, 1) << method.name;
@@ -52,7 +52,7 @@ TEST(Methods, AreFoundByName) {
     for (const Method& method : methods()) EXPECT_EQ(&find_method(method.name), &method);
 }
 
-TEST(Methods, AnUnknownNameIsAUsageErrorThatNamesTheChoices) {
+TEST(Methods, AnUnknownNameIsAUsageErrorThatListsTheChoices) {
     try {
         static_cast<void>(find_method("semi_implicit_oiler"));
         FAIL() << "found";
@@ -68,9 +68,8 @@ TEST(Methods, AnUnknownNameIsAUsageErrorThatNamesTheChoices) {
 
 constexpr double k = 15;
 
-/// After 1 s, the larger of the errors from two independent starts, so that neither position nor
-/// velocity can be right by the luck of a phase. In long double, so that round-off leaves high
-/// orders to be seen.
+/// The larger of the errors after 1 s from two independent starts, so that no phase hides an error
+/// of position or velocity. In long double, so that round-off does not hide high orders.
 struct Errors {
     long double x = 0;
     long double v = 0;
@@ -93,8 +92,8 @@ Errors errors_at(const Method& method, Damping damping, double b, int steps) {
     return largest;
 }
 
-// With an error of 1e-15 to 1e-8 the step is so small that the next term of the error moves the
-// slope, log2 of a ratio of errors, by less than 0.1; round-off is some 1e-18.
+// For errors from 1e-15 to 1e-8, the next term of the error changes the slope, log2 of a ratio of
+// errors, by less than 0.1. Round-off is about 1e-18.
 void expect_order(const Method& method, Damping damping, double b, int order) {
     int steps = 1024;
     while (errors_at(method, damping, b, 2 * steps).x < 1e-15) steps = steps * 3 / 4;
@@ -121,7 +120,7 @@ TEST(Methods, HaveTheirOrderOnTheDampedSpring) {
         if (!is_exact(method)) expect_order(method, Damping::in_drift, 0.5, method.order);
 }
 
-// A velocity-dependent force that kicks explicitly leaves the first order, and no more.
+// An explicit velocity-dependent force in the kicks reduces the order to 1.
 TEST(Methods, LoseTheirOrderToDampingInTheKicks) {
     for (const Method& method : methods()) {
         if (!is_splitting(method)) continue;
@@ -131,7 +130,7 @@ TEST(Methods, LoseTheirOrderToDampingInTheKicks) {
     }
 }
 
-TEST(Methods, EvaluateAsOftenAsTheySay) {
+TEST(Methods, EvaluateAsOftenAsTheirTableSays) {
     constexpr int steps = 10;
     for (const Method& method : methods()) {
         if (method.evaluations == 0) continue;
@@ -143,17 +142,17 @@ TEST(Methods, EvaluateAsOftenAsTheySay) {
     }
 }
 
-// With damping in the kicks the velocity has its say, and nothing can be reused.
-TEST(Methods, EvaluateAtEveryKickWhereVelocityDecides) {
+// With damping in the kicks the force depends on velocity, and no evaluation can be reused.
+TEST(Methods, EvaluateAtEveryKickIfForcesDependOnVelocity) {
     Bodies bodies = article_spring(damping);
     bodies.step(find_method("velocity_verlet"),
                 {.rate = {100}, .count = 10, .damping = Damping::in_kick});
     EXPECT_EQ(bodies.evaluations(), 20);
 }
 
-// A step has only round-off, some 1e-18, where it conserves area; of order p it else misses by
-// about h^(p+1) or h^(p+2)/72, at h = 0.8 far more than 1e-9.
-TEST(Methods, ConserveAreaWhenTheySaySo) {
+// A step that conserves area has an error of round-off, about 1e-18. Other methods of order p have
+// an error of about h^(p+1) or h^(p+2)/72, at h = 0.8 far more than 1e-9.
+TEST(Methods, ConserveAreaIfTheySaySo) {
     const oiler::Oscillation swing{0.64, 0};
     for (const Method& method : methods()) {
         const auto matrix = oiler::step_matrices(method, method.damping, std::span(&swing, 1))[0];
@@ -164,8 +163,8 @@ TEST(Methods, ConserveAreaWhenTheySaySo) {
     }
 }
 
-// To the last digit of long double, but for one whose 14 published digits leave the kicks' sum
-// 6e-15 too long; here its order conditions hold to 1e-25.
+// Equal to the last digit of long double, except one method: its 14 published digits give a sum of
+// kicks 6e-15 too large, and here its order conditions hold to 1e-25.
 TEST(Splittings, AreThePublishedOnes) {
     const auto published = reference("splittings");
     ASSERT_GE(published.size(), 27U);
@@ -186,7 +185,7 @@ TEST(Splittings, AreThePublishedOnes) {
     }
 }
 
-/// `operations` roundings a step at most, each no larger than the amplitude.
+/// At most `operations` roundings per step, each no larger than the amplitude.
 void expect_reference(const Method& method, double b, oiler::Rate rate, int steps, const char* run,
                       const char* name, int operations) {
     const auto state = reference("spring_states").at(run).at("state").at(name);
@@ -197,8 +196,8 @@ void expect_reference(const Method& method, double b, oiler::Rate rate, int step
     EXPECT_NEAR(bodies.velocity(0)[0], number(state[1]), tolerance * omega) << method.name;
 }
 
-// The final sum of RK4 makes four roundings in x and in v, what comes before is smaller by h.
-TEST(Reference, StatesOfTheArticlesSpringComeOut) {
+// The final sum of RK4 makes four roundings in x and in v; earlier ones are smaller by h.
+TEST(Reference, StatesOfTheArticlesSpringMatch) {
     constexpr const char* damped = "damped_dt0.01_n1000";
     const auto expect = [&](const char* method, const char* name, int operations) {
         expect_reference(find_method(method), damping, {100}, 1000, damped, name, operations);
@@ -210,7 +209,7 @@ TEST(Reference, StatesOfTheArticlesSpringComeOut) {
     expect("rk4", "rk4_classic", 12);
 }
 
-TEST(Reference, StatesOfTheUndampedSpringComeOut) {
+TEST(Reference, StatesOfTheUndampedSpringMatch) {
     constexpr const char* undamped = "undamped_dt0.1_n900";
     const auto expect = [&](const char* method, const char* name, int operations) {
         expect_reference(find_method(method), 0, {10}, 900, undamped, name, operations);
@@ -222,8 +221,8 @@ TEST(Reference, StatesOfTheUndampedSpringComeOut) {
     expect("implicit_midpoint", "implicit_midpoint", 12);
 }
 
-// Explicit Euler grows by 1 + h², h² = 0.15, in the square of each of 900 steps: to 1.8e30.
-TEST(Reference, ExplicitEulersUndampedGrowthComesOut) {
+// The square of the amplitude grows by 1 + h² = 1.15 in each of 900 steps: the amplitude to 1.8e30.
+TEST(Reference, ExplicitEulersUndampedGrowthMatches) {
     const auto state =
         reference("spring_states").at("undamped_dt0.1_n900").at("state").at("explicit_euler");
     Bodies bodies = article_spring(0);
@@ -233,8 +232,8 @@ TEST(Reference, ExplicitEulersUndampedGrowthComesOut) {
     EXPECT_NEAR(bodies.velocity(0)[0], number(state[1]), drift_of_rounding(900, 10, size));
 }
 
-// Leapfrog as users know it starts its velocities half a step early; from there it takes the steps
-// of semi-implicit Euler, through the positions of velocity Verlet.
+// Textbook leapfrog starts its velocities half a step early. From there it takes the steps of
+// semi-implicit Euler, through the positions of velocity Verlet.
 TEST(Leapfrog, IsSemiImplicitEulerWithAStaggeredStartAndVelocityVerletsPositions) {
     Bodies verlet = article_spring(0);
     Bodies leapfrog = article_spring(0);
@@ -247,12 +246,12 @@ TEST(Leapfrog, IsSemiImplicitEulerWithAStaggeredStartAndVelocityVerletsPositions
     }
 }
 
-/// a = t, of which every stage must be told its own time.
+/// a = t: every stage needs its own time.
 struct Clock {
     Vec<double, 1> accelerate(const State<double, 1>&, double t) const { return {t}; }
 };
 
-// From rest at t = 2 with dt = 1: v = ∫t = 2.5 for both, exactly; RK4's x = 2/2 + 1/6.
+// From rest at t = 2 with dt = 1, v = ∫t = 2.5 exactly for both; RK4's x is 2/2 + 1/6.
 TEST(Stages, KnowTheirTime) {
     const Clock clock;
     State<double, 1> state{{0}, {0}};

@@ -21,7 +21,7 @@ class OscillatorResponse : public testing::Test {};
 using Precisions = testing::Types<float, double, long double>;
 TYPED_TEST_SUITE(OscillatorResponse, Precisions);
 
-/// The distance from a number of T to the next, at |x|.
+/// The distance between neighbouring numbers of T at |x|.
 template <class T>
 T unit_at(T x) {
     using Limits = std::numeric_limits<T>;
@@ -29,8 +29,7 @@ T unit_at(T x) {
     return std::ldexp(T(1), std::max(exponent, Limits::min_exponent - 1) - Limits::digits + 1);
 }
 
-/// What is left of 1 after sums that cancel, in the digits that are carried: twice those of double,
-/// also for float, less a few.
+/// The error of a cancelled sum of size 1: nearly twice the digits of double, also for float.
 constexpr long double remnant = 0x1p-100L;
 
 /// The entries whose k, c and t are numbers of T.
@@ -48,9 +47,9 @@ Response<T> response_of(const nlohmann::json& entry) {
                                number<T>(entry.at("t")));
 }
 
-// To the next number of T at most. Both are numbers of T, so that it may be said in units; the text
-// is nearest to one of them. Where decay or what is left of the acceleration, 1 − k·sway, is the
-// small difference of larger numbers, it is right against their size.
+// The error is at most one unit of T; the reference is rounded to T. If decay or the remaining
+// acceleration, 1 − k·sway, is a small difference of larger numbers, the error is relative to
+// those.
 TYPED_TEST(OscillatorResponse, IsRightToTheLastDigit) {
     const auto entries = entries_for<TypeParam>();
     ASSERT_GE(entries.size(), 49U);
@@ -88,7 +87,7 @@ TYPED_TEST(OscillatorResponse, WithoutForcesIsTimeToTheLastBit) {
     }
 }
 
-// A unit of time twice as long is a change of exponents.
+// A unit of time twice as long changes exponents only.
 TYPED_TEST(OscillatorResponse, DependsOnNoUnitOfTime) {
     for (const auto& entry : entries_for<TypeParam>()) {
         const auto k = number<TypeParam>(entry.at("k"));
@@ -102,7 +101,7 @@ TYPED_TEST(OscillatorResponse, DependsOnNoUnitOfTime) {
     }
 }
 
-/// A sum and what its terms, each with a few factors that are a unit of round-off off, may be off.
+/// A sum and its tolerance: each term has a few factors with an error of one round-off.
 template <class T>
 struct Sum {
     T value = 0;
@@ -116,8 +115,8 @@ struct Sum {
     }
 };
 
-/// Going on for t2 from where t1 led leads where t1 + t2 leads: there u is r1 (s1 for a), u' is d1
-/// (r1), and of a are left −k·r1 (1 − k·s1).
+/// Compares the response over t1, continued over t2, with that over t1 + t2. After t1, u is r1 (s1
+/// for a), u' is d1 (r1), and the acceleration is −k·r1 (1 − k·s1).
 template <class T>
 void expect_semigroup(T k, T c, T t1, T t2) {
     const auto [r1, s1, d1] = oscillator_response(k, c, t1);
@@ -132,8 +131,8 @@ void expect_semigroup(T k, T c, T t1, T t2) {
     expect(both.decay, {d1 * d2, -k * r1 * r2});
 }
 
-// All times are binary fractions, so that their sums are exact; backwards in time only where the
-// damping has not grown beyond e^25 by then.
+// All times are binary fractions, so that their sums are exact. Backwards in time, only dampings
+// that grow to at most e^25 are tested.
 TYPED_TEST(OscillatorResponse, IsASemigroup) {
     for (const float k : {0.0F, 1e-6F, 0.3F, 15.0F, 4e4F, 1e8F})
         for (const float c : {0.0F, 1e-6F, 0.1F, 2 * std::sqrt(15.0F), 50.0F, 400.0F, 1e8F})
@@ -145,7 +144,7 @@ TYPED_TEST(OscillatorResponse, IsASemigroup) {
                 }
 }
 
-// The equation, integrated from u' = 1: decay − 1 = −c·reach − k·sway.
+// The integral of the equation from u' = 1 is decay − 1 = −c·reach − k·sway.
 TYPED_TEST(OscillatorResponse, SolvesItsEquation) {
     for (const auto& entry : entries_for<TypeParam>()) {
         const auto [reach, sway, decay] = response_of<TypeParam>(entry);
@@ -156,7 +155,7 @@ TYPED_TEST(OscillatorResponse, SolvesItsEquation) {
     }
 }
 
-// e^1000 is a number of long double alone, e^20000 of none.
+// e^1000 is finite in long double only, e^20000 in no type.
 TEST(OscillatorResponse, IsNotFiniteWhereTheResultOverflows) {
     EXPECT_FALSE(std::isfinite(oscillator_response<float>(0, -1000, 1).decay));
     EXPECT_FALSE(std::isfinite(oscillator_response<double>(0, 1000, -1).decay));

@@ -23,8 +23,8 @@ World world_of(const std::string& text) {
 }
 
 template <class Force>
-std::optional<Force> force_on(const World& world, std::size_t row, std::size_t nth = 0) {
-    return std::get<std::optional<Force>>(world.bodies().forces_per_mass(row, nth));
+std::optional<Force> force_on(const World& world, std::size_t row, std::size_t index = 0) {
+    return std::get<std::optional<Force>>(world.bodies().forces_per_mass(row, index));
 }
 
 TEST(MakeWorld, OrdersRowsAsTheSceneDoes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion as small and as large, and as far from the origin, as numbers go.
+// Motion at the smallest and largest amplitudes, and far from the origin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using oiler::Tableau;
 constexpr Rate rate{64};
 constexpr int steps = 200;
 
-/// After `steps` steps from 2^power m, of which the powers of two are taken out.
+/// The state after `steps` steps from 2^power m, divided by 2^power.
 struct Scaled {
     long double x;
     long double v;
@@ -39,8 +39,8 @@ Scaled from_power(const Method& method, Precision precision, int power, double d
     return {std::ldexp(x_of(bodies), -power), std::ldexp(v_of(bodies), -power)};
 }
 
-// Up to 1e300 m and 1e30 m, and down to where an iteration's last corrections, u² of the state, are
-// still normal numbers.
+// Up to 1e300 m and 1e30 m. The lower limit keeps an iteration's last corrections, u² of the state,
+// normal numbers.
 TEST(Amplitude, ScalesTheMotionToTheBit) {
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
@@ -55,10 +55,10 @@ TEST(Amplitude, ScalesTheMotionToTheBit) {
         }
 }
 
-// 2⁻¹⁰³⁰ = 9e-311 and 2⁻¹³³ = 9e-41. Each rounding is now by up to half of the smallest number, of
-// x or of a velocity, which is ω·x; ω = 3.9 and ω·dt < 1 carry one to the other without enlarging
-// it beyond ω. Without damping: what is damped and so small is put at rest.
-TEST(Amplitude, BelowTheNormalNumbersLosesTheSmallestOfThemARounding) {
+// 2⁻¹⁰³⁰ = 9e-311 and 2⁻¹³³ = 9e-41. Each rounding of x or v is up to half of the smallest number.
+// With ω = 3.9/s and ω·dt < 1, roundings grow by at most ω. Without damping, because damped bodies
+// this small sleep.
+TEST(Amplitude, OfSubnormalNumbersLosesTheSmallestNumberPerRounding) {
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
             const bool single = precision == Precision::single;
@@ -74,9 +74,8 @@ TEST(Amplitude, BelowTheNormalNumbersLosesTheSmallestOfThemARounding) {
         }
 }
 
-// A damped spring comes to rest by way of the subnormal numbers and stays with the smallest ones:
-// that is no divergence. From a thousand times the smallest normal number it is e^(−2t) down to
-// them in 3.5 s = 55 steps.
+// A damped spring fades through the subnormal numbers, which is no divergence. From a thousand
+// times the smallest normal number, e^(−2t) reaches them in 3.5 s = 55 steps.
 TEST(Amplitude, FadesAwayWithoutAnError) {
     for (const Method& method : methods())
         for (const Precision precision : precisions)
@@ -92,12 +91,12 @@ TEST(Amplitude, FadesAwayWithoutAnError) {
             }
 }
 
-/// A number of which the square is more than the columns can hold.
+/// A number whose square overflows in the columns.
 double too_large_to_square(Precision precision) {
     return precision == Precision::single ? 1e30 : 1e200;
 }
 
-/// The methods that step bodies with a number too large to square as if nothing were wrong.
+/// The methods that report no divergence for bodies with a number too large to square.
 template <class MakeBodies>
 std::vector<std::string> silent_methods(MakeBodies make) {
     std::vector<std::string> silent;
@@ -113,9 +112,9 @@ std::vector<std::string> silent_methods(MakeBodies make) {
 }
 const std::vector<std::string> none;
 
-// This drag takes 1.6 % of the speed in a second, but its |v|² is infinite, and must not quietly
-// bring the body to a halt.
-TEST(Amplitude, QuadraticDragOfASpeedThatHasNoSquareIsReported) {
+// This drag reduces the speed by 1.6 % per second, but its |v|² is infinite. It must not silently
+// stop the body.
+TEST(Amplitude, QuadraticDragOfASpeedWithAnInfiniteSquareIsReported) {
     const auto fast = [](Precision precision, double large) {
         Bodies bodies(1, precision);
         bodies.add({.velocity = {large}}, QuadraticDrag{0.016 / large});
@@ -124,7 +123,7 @@ TEST(Amplitude, QuadraticDragOfASpeedThatHasNoSquareIsReported) {
     EXPECT_EQ(silent_methods(fast), none);
 }
 
-TEST(Amplitude, ACoilSpringOfALengthThatHasNoSquareIsReported) {
+TEST(Amplitude, ACoilSpringOfALengthWithAnInfiniteSquareIsReported) {
     for (const double damping : {0.0, 1.0}) {
         const auto long_coil = [&](Precision precision, double large) {
             Bodies bodies(2, precision);
@@ -136,7 +135,7 @@ TEST(Amplitude, ACoilSpringOfALengthThatHasNoSquareIsReported) {
     }
 }
 
-TEST(Amplitude, ALinkOfALengthThatHasNoSquareIsReported) {
+TEST(Amplitude, ALinkOfALengthWithAnInfiniteSquareIsReported) {
     const auto long_link = [](Precision precision, double large) {
         Bodies bodies(2, precision);
         bodies.add({.position = {large, 0}});
@@ -147,7 +146,8 @@ TEST(Amplitude, ALinkOfALengthThatHasNoSquareIsReported) {
     EXPECT_EQ(silent_methods(long_link), none);
 }
 
-/// The largest part of a step's way that the method adds to a position at once.
+/// The largest fraction of a step's displacement that the method adds to a position in one
+/// addition.
 double longest_move(const Method& method) {
     long double longest = 0;
     if (const auto* splitting = std::get_if<oiler::Splitting>(&method.rule)) {
@@ -162,9 +162,9 @@ double longest_move(const Method& method) {
     return static_cast<double>(longest);
 }
 
-// Floats around 1e7 are 1 m apart, and 30 m/s at 60 Hz is 0.5 m a step, which rounds to the even
-// 1e7. That a method moves in more than one go does not help, unless one of them goes further.
-TEST(FarFromTheOrigin, ThirtyMetresASecondMoveNothingInFloat) {
+// Floats around 1e7 are 1 m apart. 30 m/s at 60 Hz is 0.5 m per step, which rounds to the even 1e7.
+// Methods that move in several additions also stand still, unless one addition exceeds 0.5 m.
+TEST(FarFromTheOrigin, ABodyAt30MetresPerSecondStandsStillInFloat) {
     int standing = 0;
     for (const Method& method : methods()) {
         if (longest_move(method) > 1) continue;
@@ -177,8 +177,8 @@ TEST(FarFromTheOrigin, ThirtyMetresASecondMoveNothingInFloat) {
     EXPECT_GE(standing, 13);
 }
 
-// 2⁻³⁰ m apart: each of up to twenty moves a step rounds by half of that.
-TEST(FarFromTheOrigin, InDoubleTheyMoveToWithinRoundOff) {
+// Doubles around 1e7 are 2⁻³⁰ m apart. Each of up to twenty moves per step rounds by half of that.
+TEST(FarFromTheOrigin, ABodyAt30MetresPerSecondMovesToWithinRoundOffInDouble) {
     for (const Method& method : methods()) {
         Bodies bodies(1, Precision::double_);
         bodies.add({.position = {1e7}, .velocity = {30}});
@@ -189,11 +189,11 @@ TEST(FarFromTheOrigin, InDoubleTheyMoveToWithinRoundOff) {
     }
 }
 
-// A metre from its anchor the spring gives 15 m/s² · dt = 0.25 m/s a step, exactly in float, and
-// the mass stands until that has come to 30 m/s, after two seconds. Then half a metre rounds to the
-// even anchor; there is no force there, and half a metre more rounds back to it: for good at 60
-// times the energy, on the spot at 30 m/s. This is what float cannot do.
-TEST(FarFromTheOrigin, ASpringInFloatCatchesItsMassOnTheSpot) {
+// 1 m from its anchor the spring adds 15 m/s² · dt = 0.25 m/s per step, exactly in float. The mass
+// stands still until it has 30 m/s, after 2 s. Then a step of 0.5 m rounds to the anchor, which is
+// even. There is no force there, and the next 0.5 m round back to it: the mass stands still for
+// good, at 30 m/s and 60 times the energy. This is a limit of float.
+TEST(FarFromTheOrigin, ASpringInFloatHoldsItsMassAtTheAnchor) {
     const Method& method = find_method("semi_implicit_euler");
     Bodies bodies(1, Precision::single);
     bodies.add({.position = {1e7 + 1}}, Spring{.anchor = {1e7}, .stiffness = 15});
@@ -207,9 +207,9 @@ TEST(FarFromTheOrigin, ASpringInFloatCatchesItsMassOnTheSpot) {
     EXPECT_EQ(v_of(bodies), -30);
 }
 
-// As at the origin, but for the roundings of positions around 1e7 m, which the spring carries on
-// without enlarging them: h = 0.065 is small.
-TEST(FarFromTheOrigin, ASpringInDoubleSwingsAsAnywhere) {
+// The motion is that at the origin, apart from roundings of positions around 1e7 m. The spring does
+// not amplify them, because h = 0.065 is small.
+TEST(FarFromTheOrigin, ASpringInDoubleOscillatesAsAtTheOrigin) {
     for (const Method& method : methods()) {
         Bodies here = oscillator(Precision::double_, 15, 0.1, 1);
         Bodies far(1, Precision::double_);

@@ -21,7 +21,7 @@ using oiler::Precision;
 using oiler::Rate;
 
 struct Row {
-    double label;  // the article's t, which accumulates float steps in double
+    double label;  // the article's t: float steps accumulated in double
     float position;
     float velocity;
 };
@@ -41,7 +41,7 @@ std::vector<Row> engine_rows(Rate rate) {
     return rows;
 }
 
-/// The article's program, word for word but for the printing.
+/// The article's program, verbatim except for the printing.
 std::vector<Row> article_rows(float dt) {
     std::vector<Row> rows;
     double t = 0.0;
@@ -58,7 +58,7 @@ std::vector<Row> article_rows(float dt) {
     return rows;
 }
 
-/// What a compiler makes of the article's program when it may fuse a multiply with an add.
+/// The article's program compiled with fused multiply-adds.
 std::vector<Row> fused_rows(float dt) {
     std::vector<Row> rows;
     float velocity = 0;
@@ -84,7 +84,7 @@ std::string print(const char* format, const Row& row) {
 
 constexpr const char* second_format = "t=%.2f: position = %f velocity = %f";
 
-TEST(Article, TheFirstTableComesOut) {
+TEST(Article, TheFirstTableMatches) {
     const auto table = reference("article").at("table_dt_1");
     const std::vector<Row> rows = engine_rows({1});
     ASSERT_EQ(rows.size(), 11U);
@@ -93,7 +93,7 @@ TEST(Article, TheFirstTableComesOut) {
         EXPECT_EQ(print("t=%g: position = %g velocity = %g", rows[i]), table[i]);
 }
 
-TEST(Article, TheSecondTableComesOut) {
+TEST(Article, TheSecondTableMatches) {
     const auto table = reference("article").at("table_dt_0.01_last_rows");
     const std::vector<Row> rows = engine_rows({100});
     ASSERT_EQ(rows.size(), 1001U);
@@ -102,8 +102,8 @@ TEST(Article, TheSecondTableComesOut) {
         EXPECT_EQ(print(second_format, rows[rows.size() - table.size() + i]), table[i]);
 }
 
-// The eleven printed rows cannot tell whether a compiler fused; the rows before them can.
-TEST(Article, EveryRowOfTheSecondTableIsTheArticlesProgram) {
+// The eleven printed rows do not show whether a compiler fused; the other rows do.
+TEST(Article, EveryRowOfTheSecondTableEqualsTheArticlesProgram) {
     const std::vector<Row> rows = engine_rows({100});
     const std::vector<Row> article = article_rows(1.0F / 100.0F);
     ASSERT_EQ(rows.size(), article.size());
@@ -111,8 +111,8 @@ TEST(Article, EveryRowOfTheSecondTableIsTheArticlesProgram) {
         EXPECT_TRUE(same_numbers(rows[i], article[i])) << print(second_format, article[i]);
 }
 
-// 299 rows print differently when fused, none of them among those that the article prints.
-TEST(Article, TheMiddleOfTheSecondTableTellsFusion) {
+// 299 rows print differently if fused, none of them in the article.
+TEST(Article, TheMiddleOfTheSecondTableShowsFusion) {
     const std::vector<Row> article = article_rows(1.0F / 100.0F);
     const std::vector<Row> fused = fused_rows(1.0F / 100.0F);
     ASSERT_EQ(article.size(), fused.size());
@@ -124,7 +124,7 @@ TEST(Article, TheMiddleOfTheSecondTableTellsFusion) {
         EXPECT_EQ(print(second_format, article[i]), print(second_format, fused[i]));
 }
 
-TEST(Article, TheEnginesOwnTimeIsNotAccumulated) {
+TEST(Article, TheEnginesTimeIsNotAccumulated) {
     EXPECT_EQ(Rate{100}.time(1000), 10.0);
     EXPECT_LT(engine_rows({100}).back().label, 10.0);
 }
@@ -139,29 +139,29 @@ Expected expected_state(const char* run, const char* method) {
     return {number(state[0]), number(state[1])};
 }
 
-/// `operations` roundings a step: 4 in the kick, 2 in the drift, and dt's own.
+/// `operations` roundings per step: 4 in the kick, 2 in the drift, 1 of dt.
 void expect_state(const Bodies& bodies, const Expected& expected, int steps, double amplitude) {
     const double tolerance = drift_of_rounding(steps, 7, amplitude);
     EXPECT_NEAR(bodies.position(0)[0], expected.x, tolerance);
     EXPECT_NEAR(bodies.velocity(0)[0], expected.v, tolerance * omega);
 }
 
-TEST(ArticleSpring, ExplicitEulerEndsWhereTheoryEnds) {
+TEST(ArticleSpring, ExplicitEulerEndsAtTheStateOfTheory) {
     Bodies bodies = article_spring(damping);
     bodies.step(find_method("explicit_euler"), {{100}, 0, 1000});
-    // It has grown by √det per step, to 1.284 times.
+    // The amplitude grows by √det per step, to 1.284 times.
     expect_state(bodies, expected_state("damped_dt0.01_n1000", "explicit_euler"), 1000,
                  1.29 * start_x);
 }
 
-TEST(ArticleSpring, SemiImplicitEulerEndsWhereTheoryEnds) {
+TEST(ArticleSpring, SemiImplicitEulerEndsAtTheStateOfTheory) {
     Bodies bodies = article_spring(damping);
     bodies.step(find_method("semi_implicit_euler"), {{100}, 0, 1000});
     expect_state(bodies, expected_state("damped_dt0.01_n1000", "semi_implicit_euler_kd/E"), 1000,
                  start_x);
 }
 
-TEST(ArticleSpring, UndampedExplicitEulerEndsWhereTheoryEnds) {
+TEST(ArticleSpring, UndampedExplicitEulerEndsAtTheStateOfTheory) {
     Bodies bodies = article_spring(0);
     bodies.step(find_method("explicit_euler"), {{10}, 0, 900});
     const Expected expected = expected_state("undamped_dt0.1_n900", "explicit_euler");
@@ -170,25 +170,24 @@ TEST(ArticleSpring, UndampedExplicitEulerEndsWhereTheoryEnds) {
     expect_state(bodies, expected, 900, amplitude);
 }
 
-TEST(ArticleSpring, UndampedSemiImplicitEulerEndsWhereTheoryEnds) {
+TEST(ArticleSpring, UndampedSemiImplicitEulerEndsAtTheStateOfTheory) {
     Bodies bodies = article_spring(0);
     bodies.step(find_method("semi_implicit_euler"), {{10}, 0, 900});
-    // The rounding errors' own ellipse has the axes √((2 + h)/(2 − h)) apart, here 1.22.
+    // The axes of the ellipse of the rounding errors have the ratio √((2 + h)/(2 − h)), here 1.22.
     expect_state(bodies, expected_state("undamped_dt0.1_n900", "semi_implicit_euler_kd"), 900,
                  1.22 * start_x);
 }
 
 // The step matrix A = [[1, dt], [−k·dt, 1 − b·dt]] has det A = 1 − b·dt + k·dt². For every 2×2
-// matrix the area z ∧ Az = x·(Az)_v − v·(Az)_x grows by det A from step to step; over −dt that area
-// is the form k·x² + b·x·v + v². It differs from twice the energy by b·x·v alone, |b·x·v| ≤
-// (b/ω)·E.
+// matrix the area z ∧ Az = x·(Az)_v − v·(Az)_x grows by det A per step. Divided by −dt, the area is
+// the form k·x² + b·x·v + v². Its difference from twice the energy is b·x·v, |b·x·v| ≤ (b/ω)·E.
 long double explicit_form(const Bodies& bodies) {
     const long double x = bodies.position(0)[0];
     const long double v = bodies.velocity(0)[0];
     return stiffness * x * x + damping * x * v + v * v;
 }
 
-TEST(ArticleSpring, ExplicitEulersEnergyGrowsAsTheoryGives) {
+TEST(ArticleSpring, ExplicitEulersEnergyGrowsAsInTheory) {
     const auto threshold = reference("article").at("explicit_euler_threshold");
     const double per_step =
         number(threshold.at("amplitude_factor_per_step_dt_0.01=sqrt(1-b dt+k dt^2)"));
@@ -200,7 +199,7 @@ TEST(ArticleSpring, ExplicitEulersEnergyGrowsAsTheoryGives) {
     for (int i = 0; i < steps; ++i) {
         const long double before = explicit_form(bodies);
         bodies.step(find_method("explicit_euler"), {{100}, i, 1});
-        // A form of squares doubles the step's relative error: 2 · 7 roundings.
+        // A quadratic form doubles the step's relative error: 2 · 7 roundings.
         ASSERT_NEAR(static_cast<double>(explicit_form(bodies) / before), per_step * per_step,
                     14 * round_off)
             << i;
@@ -211,8 +210,8 @@ TEST(ArticleSpring, ExplicitEulersEnergyGrowsAsTheoryGives) {
                 after_90_s * after_90_s * damping / omega);
 }
 
-// Semi-implicit Euler ends 16.466 m from the truth after 10 s.
-TEST(ArticleSpring, SemiImplicitEulersErrorAgainstTheTruth) {
+// The error of semi-implicit Euler is 16.466 m after 10 s.
+TEST(ArticleSpring, SemiImplicitEulersErrorIsTheReferences) {
     constexpr double truth = 320.2588219577760048309;
     ASSERT_EQ(truth, number(reference("article").at("exact_damped").at("table").at("10")[0]));
     const double error =
@@ -223,7 +222,7 @@ TEST(ArticleSpring, SemiImplicitEulersErrorAgainstTheTruth) {
     EXPECT_NEAR(truth - bodies.position(0)[0], error, drift_of_rounding(1000, 7, start_x));
 }
 
-/// The largest position error over the first `seconds`, against the exact motion.
+/// The largest difference from the exact position over the first `seconds`.
 double largest_error(const char* method, int seconds) {
     Bodies bodies = article_spring(damping);
     double largest = 0;
@@ -237,7 +236,7 @@ double largest_error(const char* method, int seconds) {
 }
 
 // The reference prints ten digits.
-TEST(ArticleSpring, LargestErrorsAreTheReferences) {
+TEST(ArticleSpring, LargestErrorsMatchTheReference) {
     const auto errors = reference("article").at("damped_dt_0.01_max_abs_x_error");
     for (const auto& [method, name] : {std::pair("semi_implicit_euler", "semi_implicit_euler_kd/E"),
                                        std::pair("explicit_euler", "explicit_euler")}) {

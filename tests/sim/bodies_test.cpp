@@ -32,7 +32,7 @@ using oiler::Vec3;
 constexpr Rate rate{64};
 constexpr Precision precisions[] = {Precision::single, Precision::double_};
 
-/// Assorted bodies: which forces body `i` has, and their numbers, follow from `i` alone.
+/// Assorted bodies: the forces of body `i` and their numbers depend on `i` alone.
 Vec3 assorted(std::size_t i, int axes, double scale) {
     Vec3 numbers{};
     for (int axis = 0; axis < axes; ++axis)
@@ -53,8 +53,8 @@ Spring assorted_spring(std::size_t i, int axes) {
             .damping = 0.1 * static_cast<double>(i % 3)};
 }
 
-/// Longer than the body swings, so that it does not come to its anchor, where the force has no
-/// direction and an implicit step need not have a solution.
+/// Longer than the amplitude of the body, so that it does not reach its anchor. There the force has
+/// no direction, and an implicit step may have no solution.
 CoilSpring assorted_coil(std::size_t i, int axes) {
     return {.anchor = assorted(i + 2, axes, 0.3),
             .stiffness = 2.3 + static_cast<double>(i % 4),
@@ -62,7 +62,7 @@ CoilSpring assorted_coil(std::size_t i, int axes) {
             .rest_length = 50.0 + static_cast<double>(i % 5)};
 }
 
-/// What the method can step: only linear forces for one that needs them.
+/// The forces that a method can step: only linear ones for the exact method.
 enum class Mix { any, linear };
 
 Mix mix_for(const Method& method) {
@@ -139,19 +139,19 @@ TEST(Bodies, MoveTheSameWithSharedAndWithDifferingNumbers) {
     });
 }
 
-TEST(Bodies, ManyStepsAtOnceAreSingleSteps) {
+TEST(Bodies, ManyStepsPerCallEqualSingleSteps) {
     for_each_kind([](const Method& method, Precision precision, int axes) {
-        Bodies at_once = assorted_bodies(axes, precision, 100, mix_for(method));
-        Bodies one_by_one = at_once;
-        const std::uint64_t start = hash_of(at_once);
-        at_once.step(method, {rate, 5, 37});
+        Bodies one_call = assorted_bodies(axes, precision, 100, mix_for(method));
+        Bodies one_by_one = one_call;
+        const std::uint64_t start = hash_of(one_call);
+        one_call.step(method, {rate, 5, 37});
         for (int i = 0; i < 37; ++i) one_by_one.step(method, {rate, 5 + i, 1});
-        EXPECT_EQ(hash_of(at_once), hash_of(one_by_one));
-        EXPECT_NE(hash_of(at_once), start);
+        EXPECT_EQ(hash_of(one_call), hash_of(one_by_one));
+        EXPECT_NE(hash_of(one_call), start);
     });
 }
 
-TEST(Bodies, AroundThePaddingMoveAsInAnyCompany) {
+TEST(Bodies, AroundThePaddingMoveIndependentlyOfOthers) {
     for_each_kind([](const Method& method, Precision precision, int axes) {
         Bodies many = assorted_bodies(axes, precision, 300, mix_for(method));
         many.step(method, {rate, 0, 20});
@@ -164,7 +164,7 @@ TEST(Bodies, AroundThePaddingMoveAsInAnyCompany) {
     });
 }
 
-TEST(Bodies, NoneStepWell) {
+TEST(Bodies, AnEmptySetSteps) {
     for_each_kind([](const Method& method, Precision precision, int axes) {
         Bodies none(axes, precision);
         none.step(method, {rate, 0, 10});
@@ -189,7 +189,7 @@ TEST(Bodies, RemovingMovesTheLastRow) {
     }
 }
 
-// Each removal puts the last row first: 99, 98, … 29, of which 29 has a spring and 0 none.
+// Each removal moves the last row to row 0: 99, 98, … 29. Row 29 has a spring, row 0 has none.
 TEST(Bodies, KeepTheirForcesWhenRowsMove) {
     for (const Method& method : methods()) {
         Bodies bodies = assorted_bodies(3, Precision::single, 100, mix_for(method));
@@ -202,7 +202,7 @@ TEST(Bodies, KeepTheirForcesWhenRowsMove) {
     }
 }
 
-TEST(Bodies, AddedAfterAllWereRemovedAreAsNew) {
+TEST(Bodies, AddedAfterAllWereRemovedAreLikeNewOnes) {
     for (const Method& method : methods()) {
         const Mix mix = mix_for(method);
         Bodies used = assorted_bodies(2, Precision::double_, 70, mix);
@@ -230,16 +230,16 @@ TEST(Bodies, GravityMayComeBeforeOrAfterThem) {
 }
 
 TEST(Bodies, ForcesMayBeAttachedLater) {
-    Bodies at_once(2, Precision::single);
+    Bodies together(2, Precision::single);
     Bodies later(2, Precision::single);
     for (std::size_t i = 0; i < 70; ++i) {
-        at_once.add(assorted_body(i, 2), assorted_spring(i, 2), LinearDrag{0.2});
+        together.add(assorted_body(i, 2), assorted_spring(i, 2), LinearDrag{0.2});
         later.add(assorted_body(i, 2), assorted_spring(i + 1, 2));
     }
     for (std::size_t i = 0; i < 70; ++i) later.attach(i, assorted_spring(i, 2), LinearDrag{0.2});
-    at_once.step(find_method("semi_implicit_euler"), {rate, 0, 9});
+    together.step(find_method("semi_implicit_euler"), {rate, 0, 9});
     later.step(find_method("semi_implicit_euler"), {rate, 0, 9});
-    EXPECT_EQ(hash_of(at_once), hash_of(later));
+    EXPECT_EQ(hash_of(together), hash_of(later));
 }
 
 // Springs, linear drag and gravity do not couple axes; quadratic drag does, through |v|.
@@ -270,8 +270,8 @@ TEST(Bodies, AxesAreIndependent) {
         }
 }
 
-/// A body of 2 kg at (8, 16) with velocity (3, 4) after a step of ¼ s: all numbers below are
-/// dyadic, hence exact in float as in double.
+/// A body of 2 kg at (8, 16) with velocity (3, 4) after a step of ¼ s. All numbers below are
+/// dyadic, hence exact in float and double.
 template <class... Force>
 void expect_first_step(const Vec3& acceleration, const Force&... force) {
     for (const Precision precision : precisions) {
@@ -289,13 +289,15 @@ void expect_first_step(const Vec3& acceleration, const Force&... force) {
 }
 
 // −(1/2)·5·(3, 4).
-TEST(FirstStep, QuadraticDragByHand) { expect_first_step({-7.5, -10, 0}, QuadraticDrag{1}); }
+TEST(FirstStep, QuadraticDragFromHandCalculation) {
+    expect_first_step({-7.5, -10, 0}, QuadraticDrag{1});
+}
 
 // −(1/2)·(3, 4).
-TEST(FirstStep, LinearDragByHand) { expect_first_step({-1.5, -2, 0}, LinearDrag{1}); }
+TEST(FirstStep, LinearDragFromHandCalculation) { expect_first_step({-1.5, -2, 0}, LinearDrag{1}); }
 
 // −(8/2)·(8 − 2, 16 − 20) − (1/2)·(3, 4).
-TEST(FirstStep, SpringByHand) {
+TEST(FirstStep, SpringFromHandCalculation) {
     expect_first_step({-25.5, 14, 0}, Spring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
 }
 
@@ -304,7 +306,7 @@ TEST(FirstStep, ForcesAddUp) {
                       Spring{.anchor = {2, 20, 0}, .stiffness = 8, .damping = 1});
 }
 
-/// How far from where the reference has the first projectile at 2 s.
+/// The distance of the first projectile from its reference at 2 s.
 double projectile_error(int steps_per_second) {
     const auto run = reference("projectile_quadratic_drag").at(0);
     const auto& state = run.at("states").at(2);
@@ -321,8 +323,8 @@ double projectile_error(int steps_per_second) {
                       bodies.position(0)[1] - number(state.at("y")));
 }
 
-// The error of order 1 is g·dt·t/2 = 9.8 cm at 100 Hz without drag and of that size with it; the
-// next term is smaller by about dt/2 s.
+// The error of order 1 is g·dt·t/2 = 9.8 cm at 100 Hz without drag, and similar with drag. The next
+// term is smaller by a factor of about dt/2 s.
 TEST(QuadraticDrag, SemiImplicitEulerConvergesToTheReference) {
     const double coarse = projectile_error(100);
     const double fine = projectile_error(200);
@@ -372,9 +374,9 @@ TEST(Bodies, NumbersAreFinite) {
     }
 }
 
-// A drag of 3 N·s/m on 1 kg at dt = 1 s makes v' = v − 3v = −2v: |v| = 2^n exactly, until 3·2^127
-// is more than a float holds (3·2^1023 a double): step 128 (1024) is the first after which v is not
-// finite. Explicit Euler's x lags a step behind.
+// A drag of 3 N·s/m on 1 kg at dt = 1 s makes v' = v − 3v = −2v, so |v| = 2^n exactly. 3·2^127
+// overflows in float and 3·2^1023 in double, so v is not finite after step 128 or 1024. Explicit
+// Euler's x diverges one step later.
 Bodies doubling(Precision precision, std::size_t count) {
     Bodies bodies(1, precision);
     for (std::size_t i = 0; i < count; ++i) bodies.add({}, LinearDrag{3});
@@ -382,10 +384,10 @@ Bodies doubling(Precision precision, std::size_t count) {
 }
 
 std::string divergence(Bodies bodies, const char* method, std::int64_t count,
-                       std::int64_t at_once) {
+                       std::int64_t per_call) {
     return line_of_error(Exit::diverged, [&] {
-        for (std::int64_t first = 0; first < count; first += at_once)
-            bodies.step(find_method(method), {{1}, first, at_once});
+        for (std::int64_t first = 0; first < count; first += per_call)
+            bodies.step(find_method(method), {{1}, first, per_call});
     });
 }
 
@@ -400,10 +402,10 @@ TEST(Divergence, NamesStepBodyAndField) {
         bodies.set_velocity(66, {1, 0, 0});
         const std::string start =
             std::string("diverged at step ") + step + " (t = " + step + " s): ";
-        for (const int at_once : {1, 7, 2000}) {
-            expect_start(divergence(bodies, "explicit_euler", 2000, at_once),
+        for (const int per_call : {1, 7, 2000}) {
+            expect_start(divergence(bodies, "explicit_euler", 2000, per_call),
                          start + "velocity x of body 66 ");
-            expect_start(divergence(bodies, "semi_implicit_euler", 2000, at_once),
+            expect_start(divergence(bodies, "semi_implicit_euler", 2000, per_call),
                          start + "position x of body 66 ");
         }
     }
@@ -416,20 +418,20 @@ TEST(Divergence, NamesTheAxis) {
                  "diverged at step 128 (t = 128 s): velocity z of body 0 ");
 }
 
-// Body 130 starts 2^20 times as fast and diverges 20 steps before body 3, and so does body 140.
+// Bodies 130 and 140 start 2^20 times as fast and diverge 20 steps before body 3.
 TEST(Divergence, NamesTheEarliestStepAndItsFirstBody) {
     Bodies bodies = doubling(Precision::single, 200);
     bodies.set_velocity(3, {1, 0, 0});
     bodies.set_velocity(130, {1 << 20, 0, 0});
     bodies.set_velocity(140, {1 << 20, 0, 0});
-    for (const int at_once : {1, 1000})
-        expect_start(divergence(bodies, "explicit_euler", 1000, at_once),
+    for (const int per_call : {1, 1000})
+        expect_start(divergence(bodies, "explicit_euler", 1000, per_call),
                      "diverged at step 108 (t = 108 s): velocity x of body 130 ");
 }
 
-// Gravity of 3e38 m/s² takes a body from −3e38 m/s to 3e38 m/s in two steps, which is finite, but
-// one from rest, as in the rows beyond the last body, beyond the largest float, 3.4e38.
-TEST(Divergence, RowsBeyondTheLastBodyDoNotCount) {
+// Gravity of 3e38 m/s² takes a body from −3e38 m/s to 3e38 m/s in two steps, which is finite. From
+// rest, as in the rows after the last body, it exceeds the largest float, 3.4e38.
+TEST(Divergence, RowsAfterTheLastBodyDoNotCount) {
     Bodies bodies(1, Precision::single);
     bodies.set_gravity({3e38, 0, 0});
     bodies.add({.velocity = {-3e38, 0, 0}});
@@ -437,14 +439,14 @@ TEST(Divergence, RowsBeyondTheLastBodyDoNotCount) {
     bodies.step(find_method("explicit_euler"), {{1}, 1, 1});
     EXPECT_EQ(bodies.velocity(0)[0], static_cast<double>(3e38F));
     expect_start(divergence(bodies, "explicit_euler", 1, 1), "diverged at step 1 ");
-    Bodies at_once(1, Precision::single);
-    at_once.set_gravity({3e38, 0, 0});
-    at_once.add({.velocity = {-3e38, 0, 0}});
-    at_once.step(find_method("explicit_euler"), {{1}, 0, 2});
-    EXPECT_TRUE(same_state(bodies, 0, at_once, 0));
+    Bodies two_steps(1, Precision::single);
+    two_steps.set_gravity({3e38, 0, 0});
+    two_steps.add({.velocity = {-3e38, 0, 0}});
+    two_steps.step(find_method("explicit_euler"), {{1}, 0, 2});
+    EXPECT_TRUE(same_state(bodies, 0, two_steps, 0));
 }
 
-TEST(Hash, IsOfTheStateAlone) {
+TEST(Hash, DependsOnTheStateAlone) {
     Bodies bodies = assorted_bodies(2, Precision::double_, 70);
     const std::uint64_t hash = hash_of(bodies);
     bodies.attach(5, Spring{.stiffness = 1});
@@ -459,7 +461,7 @@ TEST(Hash, IsOfTheStateAlone) {
     EXPECT_NE(hash_of(Bodies(1, Precision::single)), hash_of(Bodies(1, Precision::double_)));
 }
 
-TEST(Bodies, TellWhatTheyAre) {
+TEST(Bodies, DescribeThemselves) {
     for (const Precision precision : precisions)
         for (const int axes : {1, 2, 3}) {
             const Bodies bodies(axes, precision);
@@ -470,7 +472,7 @@ TEST(Bodies, TellWhatTheyAre) {
     EXPECT_EQ(name_of(Precision::double_), "double");
 }
 
-// A body that was refused must leave the others as they were.
+// A refused body must leave the others unchanged.
 TEST(Bodies, ARefusedBodyChangesNothing) {
     Bodies bodies(1, Precision::double_);
     bodies.add({.position = {1, 0, 0}}, Spring{.stiffness = 1}, LinearDrag{1});
@@ -481,7 +483,7 @@ TEST(Bodies, ARefusedBodyChangesNothing) {
     EXPECT_EQ(bodies.energy().potential, 0.5 * 1 + 0.5 * 4);
 }
 
-TEST(Bodies, ANumberForAnAxisThatIsNotThereIsRefused) {
+TEST(Bodies, ANumberForAMissingAxisIsRefused) {
     Bodies bodies(2, Precision::double_);
     EXPECT_THROW(bodies.add({.position = {0, 0, 1}}), Error);
     EXPECT_THROW(bodies.add({.velocity = {0, 0, 1}}), Error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Damping from none to so much that the mass only creeps back, by k/b of its distance a second.
+// Damping from none to heavy overdamping, where the mass creeps back by k/b of its distance per
+// second.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,15 +38,15 @@ long double stored_dt(Precision precision) {
                                           : static_cast<long double>(rate.dt<double>());
 }
 
-/// After `steps` steps from rest at 1 m.
+/// The exact motion after `steps` steps from rest at 1 m.
 Motion<long double> exact_motion(Precision precision, double b, int steps) {
     return oiler::damped_oscillator<long double>(1, k, stored(precision, b), {1, 0},
                                                  steps * stored_dt(precision));
 }
 
-// 2·√15 is critical, to within a rounding; beyond 1e4 N·s/m every step is long enough for the
-// velocity to have forgotten the one before, and what it is now has only that step's roundings.
-TEST(Creep, TheExactMethodHasAnyDamping) {
+// 2·√15 is critical, to within a rounding. Above 1e4 N·s/m each velocity is independent of the one
+// before, so that it has the roundings of one step only.
+TEST(Creep, OfTheExactMethodIsRightForAnyDamping) {
     constexpr int steps = 600;
     const Method& method = find_method("exact");
     for (const Precision precision : precisions)
@@ -72,7 +73,7 @@ std::vector<long double> coefficients(const Method& method, Move move) {
     return found;
 }
 
-/// The longest way that a drift goes back in time, as a part of dt.
+/// The longest backward drift as a fraction of dt.
 double farthest_back(const Method& method) {
     long double farthest = 0;
     for (const long double drift : coefficients(method, Move::drift))
@@ -80,7 +81,7 @@ double farthest_back(const Method& method) {
     return static_cast<double>(farthest);
 }
 
-/// Those that can take any damping.
+/// The methods that are stable with any damping.
 std::vector<const Method*> creeping_methods() {
     std::vector<const Method*> found;
     for (const Method& method : methods()) {
@@ -90,14 +91,14 @@ std::vector<const Method*> creeping_methods() {
     return found;
 }
 
-TEST(Creep, IsOfThePositiveSplittingsTheImplicitAndTheExact) {
+TEST(Creep, IsKeptByPositiveSplittingsImplicitMethodsAndTheExactMethod) {
     EXPECT_EQ(creeping_methods().size(), 5U + 2 + 1);
 }
 
-/// How much of the way that a creep of `b` goes a method may be wrong by. With ε = k·dt/b, and each
-/// kick with the drift after it taking its own part of ε, a step is Π(1 − aᵢ·ε) for e^(−ε):
-/// relative to ε, (Σ|aᵢ|)²·ε at most; 1/(1 + ε) for implicit Euler is off by ε/2. Implicit midpoint
-/// rings at k/b², for one part in b·dt·steps. And each move rounds a position of 1 m.
+/// The largest relative error of the creep distance with damping `b`. With ε = k·dt/b, a step of a
+/// splitting is Π(1 − aᵢ·ε) instead of e^(−ε): a relative error of at most (Σ|aᵢ|)²·ε. Implicit
+/// Euler, 1/(1 + ε), has an error of ε/2. Implicit midpoint rings at k/b², which adds
+/// 1/(b·dt·steps). Each move also rounds a position of 1 m.
 double creep_error(const Method& method, Precision precision, double b, int steps) {
     const auto kicks = coefficients(method, Move::kick);
     long double sum = 1;
@@ -109,8 +110,8 @@ double creep_error(const Method& method, Precision precision, double b, int step
            moves * round_off_of(precision) / epsilon;
 }
 
-/// −ln of what is left of the distance of the first of `steps` + 1 steps, in which half a kick may
-/// still be missing, after the others.
+/// −ln of the ratio of the distances after `steps` + 1 steps and after 1 step. The first step is
+/// left out because half a kick may be missing in it.
 long double creep(const Method& method, Precision precision, double b, int steps) {
     Bodies bodies = oscillator(precision, k, b, 1);
     bodies.step(method, {.rate = rate, .damping = Damping::in_drift});
@@ -119,9 +120,9 @@ long double creep(const Method& method, Precision precision, double b, int steps
     return -std::log1p((x_of(bodies) - before) / before);
 }
 
-// In double to 0.1 % at 1e12 N·s/m, where the mass goes 2.5e-13 m a step; in float only up to 1e6,
-// see below.
-TEST(Creep, GoesAsFarAsTheClosedForm) {
+// In double the error is 0.1 % at 1e12 N·s/m, where a step is 2.5e-13 m. Float is tested up to 1e6
+// only, because creep stops above 8.4e6 N·s/m.
+TEST(Creep, MatchesTheClosedForm) {
     constexpr int steps = 600;
     for (const Method* method : creeping_methods())
         for (const Precision precision : precisions)
@@ -135,14 +136,14 @@ TEST(Creep, GoesAsFarAsTheClosedForm) {
             }
 }
 
-/// The damping at which a step's way from 1 m is half the distance to the next smaller number.
+/// The damping at which a step from 1 m is half the distance to the next smaller number.
 double damping_that_stops(Precision precision) {
     return k * rate.dt() / (round_off_of(precision) / 2);
 }
 
-// What numbers cannot do: from 8.4e6 N·s/m on in float, and 4.5e15 in double, a mass at 1 m stands
-// for good, with the right velocity.
-TEST(Creep, StopsWhereAStepIsLessThanHalfTheDistanceBetweenNumbers) {
+// A limit of the number types: above 8.4e6 N·s/m in float, and 4.5e15 in double, a mass at 1 m
+// stands still, with the right velocity.
+TEST(Creep, StopsIfAStepIsLessThanHalfTheDistanceBetweenNumbers) {
     EXPECT_NEAR(damping_that_stops(Precision::single), 8.39e6, 1e4);
     EXPECT_NEAR(damping_that_stops(Precision::double_), 4.50e15, 1e13);
     for (const Method* method : creeping_methods())
@@ -157,9 +158,9 @@ TEST(Creep, StopsWhereAStepIsLessThanHalfTheDistanceBetweenNumbers) {
         }
 }
 
-// 0.9 of that damping takes a step 0.556 of the distance between numbers, which rounds to 1: 1.8
-// times as fast as it should.
-TEST(Creep, IsAlmostTwiceAsFastJustBelowThat) {
+// At 0.9 of the damping that stops creep, a step is 0.556 of the distance between numbers. It
+// rounds to 1, which is 1.8 times too fast.
+TEST(Creep, IsAlmostTwiceAsFastJustBelowTheDampingThatStopsIt) {
     for (const Precision precision : precisions) {
         Bodies bodies = oscillator(precision, k, 0.9 * damping_that_stops(precision), 1);
         bodies.step(find_method("exact"), {rate, 0, 1000});
@@ -167,10 +168,10 @@ TEST(Creep, IsAlmostTwiceAsFastJustBelowThat) {
     }
 }
 
-// A drift back in time undoes damping, by e^(c·|τ|): refused where that is no number, before
-// anything has changed, with what to do instead; and not earlier, but for the room above the
-// largest number that computing with twice the digits takes: in double from e^697 on, not e^709.
-TEST(Creep, IsRefusedWhereADriftBackwardsOverflows) {
+// A backward drift reverses damping, by the factor e^(c·|τ|). If the factor overflows, the step is
+// refused with a remedy, and nothing changes. Arithmetic with twice the digits needs some range, so
+// that in double the limit is e^697, not e^709.
+TEST(Creep, IsRefusedIfABackwardDriftOverflows) {
     int refused = 0;
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
@@ -183,7 +184,7 @@ TEST(Creep, IsRefusedWhereADriftBackwardsOverflows) {
             const std::string line = line_of_error(oiler::Exit::usage, [&] {
                 bodies.step(method, {rate, 0, 10});
             });
-            EXPECT_TRUE(holds(line, "backwards")) << line;
+            EXPECT_TRUE(holds(line, "backward drift")) << line;
             EXPECT_TRUE(holds(line, "implicit_euler")) << line;
             EXPECT_EQ(hash_of(bodies), before);
             Bodies just_less = oscillator(precision, k, 0.97 * most, 1);

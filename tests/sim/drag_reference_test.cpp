@@ -30,7 +30,7 @@ using Real = long double;
 
 constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 
-/// A projectile of 1 kg as a reference has it, with all digits. Its y axis points up.
+/// The projectile of 1 kg of a reference, in all digits. Its y axis points up.
 struct Flight {
     std::string name;
     Real g;
@@ -40,7 +40,7 @@ struct Flight {
     nlohmann::json run;
 
     [[nodiscard]] Real end() const { return number<Real>(run.at("states").back().at("t")); }
-    /// How far it would fly at its largest speed, m.
+    /// The distance at its largest speed over the whole time, m.
     [[nodiscard]] Real reach() const { return speed * end(); }
 };
 
@@ -111,7 +111,7 @@ Real distance(const State& state, const nlohmann::json& expected) {
     return largest;
 }
 
-/// The largest error at those times of the reference that are whole half-seconds.
+/// The largest error at the times of the reference that are multiples of 0.5 s.
 template <class Drag>
 Real flight_error(const Method& method, const Flight& flight, int steps_per_half,
                   Precision precision = Precision::extended) {
@@ -131,8 +131,7 @@ Real flight_error(const Method& method, const Flight& flight, int steps_per_half
 
 Real rounding_of(Real exact) { return std::abs(exact - static_cast<double>(exact)); }
 
-/// How far it is from the reference's last state, and from all before it, for having started with
-/// numbers of double.
+/// The largest distance from the reference's states caused by rounding the start to double.
 Real start_effect(const Flight& flight) {
     const Real t = flight.end();
     return (rounding_of(flight.start.v[0]) + rounding_of(flight.start.v[1])) * t +
@@ -140,9 +139,9 @@ Real start_effect(const Flight& flight) {
            rounding_of(flight.drag) * (flight.speed * t * t / 2 + flight.g * t * t * t / 6);
 }
 
-// Gravity, which kicks, and drag, in the drifts, do not commute: this is a test of their order. The
-// motion is a sum of 1, t and e^(−ct), so that it changes at the rate c. In three seconds, of which
-// order 8 needs one or two steps.
+// Gravity in the kicks and drag in the drifts do not commute: this tests the order. The motion is a
+// sum of 1, t and e^(−ct), so that it changes at the rate c. It lasts 3 s, in which order 8 needs
+// one or two steps.
 TEST(LinearDrag, MeetsTheReference) {
     const auto runs = reference("linear_drag");
     ASSERT_EQ(runs.size(), 2U);
@@ -165,8 +164,8 @@ TEST(LinearDrag, MeetsTheReference) {
     }
 }
 
-/// Every factor of a step of damping and gravity is rounded to the same side each time: steps ·
-/// factors · round_off, of what flies up to `reach` and of what falls.
+/// The largest round-off, with every factor of a step rounded to the same side: steps · factors ·
+/// round_off, relative to the reach plus the fall.
 Real worst_round_off(const Flight& flight, Real steps, int factors) {
     return steps * factors * round_off * (flight.reach() + flight.g * flight.end() * flight.end());
 }
@@ -188,7 +187,7 @@ TEST(LinearDrag, IsExactForTheExactMethod) {
         for (const int steps : {1, 64}) {
             const Flight flight = linear_flight(run);
             const Real start = start_effect(flight);
-            // Long double rounds 2048 times as finely as double.
+            // The round-off of long double is 2048 times smaller than that of double.
             const Real rounding = worst_round_off(flight, 6 * steps, 2);
             EXPECT_LE(flight_error<LinearDrag>(exact, flight, steps), start + rounding / 2048);
             EXPECT_LE(flight_error<LinearDrag>(exact, flight, steps, Precision::double_),
@@ -196,7 +195,7 @@ TEST(LinearDrag, IsExactForTheExactMethod) {
         }
 }
 
-/// Drag alone changes the speed as 1/(1 + κ·v·t), gravity and drag together in units of 1/√(gκ).
+/// Drag alone changes the speed by 1/(1 + κ·v·t); gravity and drag have the time scale 1/√(gκ).
 Scale quadratic_scale(const Flight& flight) {
     return {std::sqrt(flight.g * flight.drag) + flight.drag * flight.speed, 5 * flight.reach()};
 }
@@ -205,9 +204,9 @@ bool is_splitting(const Method& method) {
     return std::holds_alternative<oiler::Splitting>(method.rule);
 }
 
-// Of Runge and Kutta's methods all orders are left, but that of order 3 has so little of it that
-// where drag is faint too, the next one shows.
-TEST(QuadraticDrag, MeetsTheReferencesWithTheOrderThatIsLeft) {
+// Runge–Kutta methods keep their orders. The leading error of order 3 is so small that with weak
+// drag the next order dominates.
+TEST(QuadraticDrag, MeetsTheReferencesWithItsDraggedOrder) {
     const auto flights = quadratic_flights();
     ASSERT_EQ(flights.size(), 10U);
     for (const Flight& flight : flights)
@@ -238,7 +237,7 @@ FlightForces forces_of(const Flight& flight) {
     return {{.acceleration = {0, -flight.g}}, {flight.drag}};
 }
 
-/// At a time that no rate of integers has, with all digits of the start.
+/// Compares at the exact time of an event, which no integer rate has, from the start in all digits.
 void expect_event(const Method& method, const Flight& flight, const nlohmann::json& event) {
     const Real t = number<Real>(event.at("t"));
     const FlightForces forces = forces_of(flight);
@@ -251,7 +250,7 @@ void expect_event(const Method& method, const Flight& flight, const nlohmann::js
     expect_convergence(method, 4, error, 4, {t * scale.rate, scale.size}, 1e-12L * flight.reach());
 }
 
-TEST(QuadraticDrag, ApexAndLandingAreWhereTheReferencesHaveThem) {
+TEST(QuadraticDrag, ApexAndLandingMatchTheReferences) {
     const auto runs = reference("projectile_quadratic_drag");
     const auto ball = reference("vertical_quadratic_drag").at(1);
     for (const char* name : {"rk4", "rk4_38"}) {
@@ -279,8 +278,8 @@ State<Real, 2> strang_step(State<Real, 2> at, Real g, Real drag, Real dt) {
     return at;
 }
 
-// A splitting of order 2 is exact for constant gravity, and with drag around it one is like
-// another. They differ by the last of their 14 published digits or more.
+// Splittings of order 2 and above are exact for constant gravity, so that all take the same step
+// with drag around it. They differ by the last of their 14 or more published digits.
 TEST(QuadraticDrag, SplittingsTakeStrangsStep) {
     const Flight flight = quadratic_flight(reference("projectile_quadratic_drag").at(0));
     const Bodies start = bodies_of<QuadraticDrag>(flight, Precision::extended);

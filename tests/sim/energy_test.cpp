@@ -20,7 +20,7 @@ using oiler::QuadraticDrag;
 using oiler::Rate;
 using oiler::Spring;
 
-/// A quadratic form xx·x² + xv·x·v + vv·v² on the states of the spring.
+/// A quadratic form xx·x² + xv·x·v + vv·v² of the spring's state.
 struct Form {
     long double xx;
     long double xv;
@@ -38,8 +38,8 @@ struct StepMatrix {
     long double p, q, r, s;
 
     long double determinant() const { return p * s - q * r; }
-    /// For every 2×2 matrix M the area z ∧ Mz = x·(Mz)_v − v·(Mz)_x obeys Mz ∧ M²z = det M · z ∧
-    /// Mz, hence −(z ∧ Mz) = −r·x² + (p − s)·x·v + q·v² is a form with MᵀQM = det M · Q.
+    /// The form with MᵀQM = det M · Q. For every 2×2 matrix M the area z ∧ Mz = x·(Mz)_v − v·(Mz)_x
+    /// obeys Mz ∧ M²z = det M · z ∧ Mz, and −(z ∧ Mz) = −r·x² + (p − s)·x·v + q·v².
     Form form() const { return {-r, p - s, q}; }
 };
 
@@ -49,10 +49,10 @@ StepMatrix semi_implicit_matrix(long double dt, long double b) {
     return {1 - k * dt * dt, (1 - b * dt) * dt, -k * dt, 1 - b * dt};
 }
 
-/// In a step of semi-implicit Euler the velocity gathers the roundings of k·x, b·v, their
-/// difference, the product with dt and the sum, each but the last smaller by h or more; the
-/// position those of v·dt and the sum. Relative to the amplitude each is at most round_off, and a
-/// form of squares takes them twice.
+/// The relative error of a quadratic form per step of semi-implicit Euler. The velocity has the
+/// roundings of k·x, b·v, their difference, the product with dt and the sum; all but the last are
+/// smaller by h or more. The position has those of v·dt and the sum. Each is at most round_off of
+/// the amplitude, and a quadratic form doubles them.
 constexpr double step_error = 2 * (2 + 2) * round_off;
 
 /// The largest |form/(start·decay^n) − 1| over `steps` steps.
@@ -70,10 +70,10 @@ double largest_deviation(const Method& method, Rate rate, double b, int steps) {
     return static_cast<double>(largest);
 }
 
-// For b = 0 the form over dt is v² + ω²x² − ω²·dt·x·v. The worst case, all roundings to one side,
-// is steps · step_error = 9e-10; roundings to either side walk at random, √steps · step_error =
-// 9e-13. The latter is asserted: a bias is as much of a fault as a wrong formula.
-TEST(EnergyDrift, SemiImplicitEulerConservesItsOwnEnergy) {
+// For b = 0 the form over dt is v² + ω²x² − ω²·dt·x·v. If all roundings went to one side, the error
+// would be steps · step_error = 9e-10. Unbiased roundings are a random walk, √steps · step_error =
+// 9e-13. The test asserts the latter, because a bias is a fault too.
+TEST(EnergyDrift, SemiImplicitEulerConservesItsModifiedEnergy) {
     constexpr int steps = 1'000'000;
     const double deviation = largest_deviation(find_method("semi_implicit_euler"), {100}, 0, steps);
     RecordProperty("largest_deviation", std::to_string(deviation * 1e15) + "e-15");
@@ -81,7 +81,7 @@ TEST(EnergyDrift, SemiImplicitEulerConservesItsOwnEnergy) {
     EXPECT_GT(deviation, 0);
 }
 
-// It gains 1 + h² a step on energy, which differs from the form by a factor within 1 ± h/2.
+// The energy grows by 1 + h² per step. The energy and the form differ by a factor within 1 ± h/2.
 TEST(EnergyDrift, ExplicitEulerFailsTheSameCheck) {
     constexpr int steps = 1000;
     const double deviation = largest_deviation(find_method("explicit_euler"), {100}, 0, steps);
@@ -107,9 +107,9 @@ Band energy_band(Rate rate, int steps) {
     return band;
 }
 
-// The conserved form is 2E − h·(ωx)·v, and |ωx·v| ≤ E with equality at ωx = ±v, so that E stays
-// within form/(2 + h) and form/(2 − h): E0/(1 + h/2) and E0/(1 − h/2) from rest. 10⁶ phases, spread
-// over the circle less than 1e-4 apart, come within 1e-8 of both extremes, where E is stationary.
+// The conserved form is 2E − h·(ωx)·v, and |ωx·v| ≤ E with equality at ωx = ±v. E therefore stays
+// between form/(2 + h) and form/(2 − h), from rest between E0/(1 + h/2) and E0/(1 − h/2). 10⁶
+// phases less than 1e-4 apart come within 1e-8 of both extremes, where E is stationary.
 TEST(EnergyDrift, SemiImplicitEulersEnergyStaysInItsBand) {
     constexpr int steps = 1'000'000;
     for (const int rate : {4, 10, 100}) {
@@ -124,9 +124,10 @@ TEST(EnergyDrift, SemiImplicitEulersEnergyStaysInItsBand) {
     }
 }
 
-// v_n is exact under gravity alone. Explicit Euler drifts with the velocity before the kick, so
-// that its drop is g·dt²·n(n − 1)/2 and the body stands g·dt²·n/2 too high: m·g²·dt²/2 gained each
-// step. Semi-implicit Euler drifts with the one after it, n(n + 1)/2: as much lost.
+// Under gravity alone v_n is exact. Explicit Euler drifts with the velocity before the kick: its
+// drop is g·dt²·n(n − 1)/2, the body is g·dt²·n/2 too high, and each step gains m·g²·dt²/2.
+// Semi-implicit Euler drifts with the velocity after the kick, n(n + 1)/2, and loses the same
+// energy.
 void expect_projectile_error(const char* method, double sign) {
     constexpr double mass = 2.5;
     constexpr double g = 9.81;
@@ -146,15 +147,15 @@ void expect_projectile_error(const char* method, double sign) {
     }
 }
 
-TEST(EnergyDrift, ExplicitEulersProjectilesGainWhatTheoryGives) {
+TEST(EnergyDrift, ExplicitEulersProjectilesGainEnergyAsInTheory) {
     expect_projectile_error("explicit_euler", 1);
 }
 
-TEST(EnergyDrift, SemiImplicitEulersProjectilesLoseWhatTheoryGives) {
+TEST(EnergyDrift, SemiImplicitEulersProjectilesLoseEnergyAsInTheory) {
     expect_projectile_error("semi_implicit_euler", -1);
 }
 
-TEST(DampedEnergy, TheMethodsOwnEnergyDecaysAsItsStepMatrixSays) {
+TEST(DampedEnergy, TheModifiedEnergyDecaysByTheDeterminant) {
     for (const int rate : {60, 100}) {
         const int steps = 90 * rate;
         const double deviation =
@@ -170,8 +171,8 @@ std::pair<double, double> eigenvalues(double a, double c, double d) {
     return {middle + radius, middle - radius};
 }
 
-/// In (ωx, v), where twice the energy is the sum of squares: the largest factor that a step can put
-/// on the energy, the larger eigenvalue of MᵀM.
+/// The largest factor by which a step can change the energy: the larger eigenvalue of MᵀM in (ωx,
+/// v), where twice the energy is the sum of squares.
 double largest_energy_factor(const StepMatrix& matrix) {
     const auto p = static_cast<double>(matrix.p);
     const auto q = static_cast<double>(matrix.q) * omega;
@@ -180,8 +181,8 @@ double largest_energy_factor(const StepMatrix& matrix) {
     return eigenvalues(p * p + r * r, p * q + r * s, q * q + s * s).first;
 }
 
-/// How far the energy can stray from the method's own form: the ratio of the form's eigenvalues
-/// against the energy.
+/// The width of the energy's band around the method's form: the ratio of the form's eigenvalues
+/// relative to the energy.
 double band_of(const Form& form) {
     const auto xx = static_cast<double>(form.xx) / (omega * omega);
     const auto xv = static_cast<double>(form.xv) / omega / 2;
@@ -189,10 +190,10 @@ double band_of(const Form& form) {
     return larger / smaller;
 }
 
-/// The share of phases from which a step raises the energy. In coordinates in which the method's
-/// own form Q is a circle the phase turns by a constant angle a step. There the change of energy
-/// MᵀEM − E is a form with eigenvalues λ₁ > 0 > λ₂ (its trace and determinant are those of Q⁻¹(MᵀEM
-/// − E)), positive within ±atan √(λ₁/−λ₂) of an axis.
+/// The fraction of phases from which a step raises the energy. In coordinates in which the method's
+/// form Q is a circle, the phase turns by a constant angle per step. There the change of energy
+/// MᵀEM − E is a form with eigenvalues λ₁ > 0 > λ₂, which is positive within ±atan √(λ₁/−λ₂) of an
+/// axis. Its trace and determinant are those of Q⁻¹(MᵀEM − E).
 double rising_share(const StepMatrix& m) {
     const Form q = m.form();
     const long double k = stiffness;
@@ -211,7 +212,7 @@ double rising_share(const StepMatrix& m) {
 struct Rises {
     int count = 0;
     double largest_in_a_step = 0;
-    double largest_in_the_run = 0;  // against the decayed energy of any earlier step
+    double largest_in_the_run = 0;  // relative to the decayed energy of any earlier step
 };
 
 Rises measure_rises(Rate rate, int steps) {
@@ -233,10 +234,10 @@ Rises measure_rises(Rate rate, int steps) {
     return rises;
 }
 
-// Damping takes energy, yet semi-implicit Euler's energy rises now and then. By how much is bounded
-// by the step matrix, and how often is a share of phases; the phases of 5400 steps leave it
-// uncertain by a few steps for each of the four ends of its arcs, some 10/5400.
-TEST(DampedEnergy, RisesOnSomeStepsAndByNoMoreThanItsStepMatrixSays) {
+// Semi-implicit Euler's energy rises on some steps in spite of damping. The step matrix bounds the
+// rise. The fraction of such steps is a fraction of phases, with an uncertainty of about 10/5400
+// from the four ends of its arcs.
+TEST(DampedEnergy, RisesOnSomeStepsWithinTheBoundOfTheStepMatrix) {
     constexpr int steps = 90 * 60;
     const StepMatrix matrix = semi_implicit_matrix(1 / 60.0L, damping);
     const Rises rises = measure_rises({60}, steps);
@@ -261,13 +262,13 @@ oiler::Energy energy_of(const Body& body, const Force&... force) {
 constexpr Body heavy{.mass = 3, .position = {4, -2, 0}, .velocity = {1, 2, 0}};
 
 // ½·3·(1 + 4).
-TEST(Energy, KineticByHand) {
+TEST(Energy, OfMotionIsHalfMassTimesSpeedSquared) {
     EXPECT_EQ(energy_of(heavy).kinetic, 7.5);
     EXPECT_EQ(energy_of(heavy).potential, 0);
 }
 
 // −3·(0.5·4 + −8·−2).
-TEST(Energy, GravityByHand) {
+TEST(Energy, OfGravityIsMinusWeightTimesPosition) {
     Bodies bodies(2, Precision::double_);
     bodies.set_gravity({0.5, -8, 0});
     bodies.add(heavy);
@@ -276,8 +277,8 @@ TEST(Energy, GravityByHand) {
     EXPECT_EQ(bodies.energy().total(), -46.5);
 }
 
-// ½·6·(3² + 4²), from the anchor and whatever the mass; 6/3 is exact.
-TEST(Energy, SpringByHand) {
+// ½·6·(3² + 4²), measured from the anchor, for any mass; 6/3 is exact.
+TEST(Energy, OfASpringIsHalfStiffnessTimesStretchSquared) {
     const auto energy = energy_of(heavy, Spring{.anchor = {1, 2, 0}, .stiffness = 6, .damping = 9});
     EXPECT_EQ(energy.potential, 75);
     EXPECT_EQ(energy.kinetic, 7.5);
@@ -289,8 +290,9 @@ TEST(Energy, DragHasNoPotential) {
     EXPECT_EQ(energy_of(heavy, QuadraticDrag{2}).kinetic, 7.5);
 }
 
-// Body i of 20 has mass i + 1 and velocity 2: kinetic Σ 2(i + 1) = 420; height i over the origin
-// and g = 8: Σ 8·i(i + 1) = 21280; every fourth a spring of 2 N/m: Σ i² over 0, 4, …, 16 = 480.
+// Body i of 20 has mass i + 1, velocity 2 and height i; g is 8, and every fourth body has a spring
+// of 2 N/m. Kinetic: Σ 2(i + 1) = 420. Gravity: Σ 8·i(i + 1) = 21280. Springs: Σ i² over 0, 4, …,
+// 16 = 480.
 TEST(Energy, SumsOverBodies) {
     for (const Precision precision : {Precision::single, Precision::double_}) {
         Bodies bodies(1, precision);
@@ -302,7 +304,7 @@ TEST(Energy, SumsOverBodies) {
             else
                 bodies.add(body);
         }
-        // 2/(i + 1) and its product round, in the columns' precision.
+        // 2/(i + 1) and its product are rounded in the columns' precision.
         const double u = precision == Precision::single ? 6e-8 : 1.2e-16;
         EXPECT_EQ(bodies.energy().kinetic, 420);
         EXPECT_NEAR(bodies.energy().potential, 21280 + 480, 2 * u * 480 + 20 * 1.2e-16 * 21760);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stiffness, masses and timesteps far from what a game has.
+// Stiffness, masses and timesteps far outside the range of games.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ using oiler::Spring;
 
 constexpr double u = round_off_of(Precision::double_);
 
-/// From 1e-12 to 1e12 N/m; at 100 Hz ω·dt goes from 1e-8 to 1e4.
+/// Calls `f` for stiffness from 1e-12 to 1e12 N/m; at 100 Hz ω·dt goes from 1e-8 to 1e4.
 template <class F>
 void for_each_stiffness(F f) {
     for (int power = -12; power <= 12; power += 2) {
@@ -30,7 +30,7 @@ void for_each_stiffness(F f) {
     }
 }
 
-TEST(Stiffness, ImplicitMidpointConservesEnergyAtAny) {
+TEST(Stiffness, OfAnySizeConservesEnergyWithImplicitMidpoint) {
     const Method& method = find_method("implicit_midpoint");
     constexpr int steps = 1000;
     for_each_stiffness([&](double k, long double omega) {
@@ -42,9 +42,9 @@ TEST(Stiffness, ImplicitMidpointConservesEnergyAtAny) {
 }
 
 // (1 − h·J)⁻¹ of a quarter turn J shrinks every state by √(1 + h²) and turns it by atan h. For h ≫
-// 1 one of x' and v' is what is left of two large numbers, wrong by u·h of the state; but it lies
-// across the state, and of it no more than 1/h is turned along the state: u.
-TEST(Stiffness, ImplicitEulerShrinksBySoMuchAtAny) {
+// 1 one of x' and v' is a difference of two large numbers, with an error of u·h of the state. The
+// error is perpendicular to the state, and only 1/h of it is turned along the state: u.
+TEST(Stiffness, OfAnySizeShrinksByTheTheoreticalFactorWithImplicitEuler) {
     const Method& method = find_method("implicit_euler");
     constexpr int steps = 50;
     for_each_stiffness([&](double k, long double omega) {
@@ -56,9 +56,9 @@ TEST(Stiffness, ImplicitEulerShrinksBySoMuchAtAny) {
     });
 }
 
-// Each step's numbers are right to the last place, so that 1000 steps make 1000 errors of a
-// rounding and not of ω·dt roundings. The time is that of the double dt.
-TEST(Stiffness, TheExactMethodIsExactAtAny) {
+// The coefficients of a step are right to the last digit. The error of 1000 steps is therefore 1000
+// roundings, independent of ω·dt. The time is that of the double dt.
+TEST(Stiffness, OfAnySizeIsExactWithTheExactMethod) {
     const Method& method = find_method("exact");
     constexpr int steps = 1000;
     for_each_stiffness([&](double k, long double omega) {
@@ -77,10 +77,10 @@ TEST(Stiffness, TheExactMethodIsExactAtAny) {
 /// dt = 2⁻ⁿ/100 s.
 Rate rate_times_power_of_two(int n) { return n >= 0 ? Rate{100LL << n} : Rate{100, 1LL << -n}; }
 
-// Nothing but ω·dt and c·dt decides a trajectory in units of dt: k·4ⁿ, c·2ⁿ and dt/2ⁿ change no
-// digit of a position, and every velocity by 2ⁿ. So what holds of a method at one stiffness, its
-// limit too, holds at all of them.
-TEST(Stiffness, WithADtToMatchIsTheSameMotionToTheBit) {
+// In units of dt, a trajectory depends only on ω·dt and c·dt: k·4ⁿ, c·2ⁿ and dt/2ⁿ change no bit of
+// a position and multiply velocities by 2ⁿ. Results at one stiffness, such as limits, therefore
+// hold at all.
+TEST(Stiffness, ScaledWithDtGivesTheSameMotionToTheBit) {
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
             Bodies plain = oscillator(precision, 15, 0.1, 1000);
@@ -109,10 +109,10 @@ long double distance(const Bodies& bodies) { return x_of(bodies, 0) - x_of(bodie
 
 constexpr double mass_ratios[] = {1, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12};
 
-// The distance swings with k/μ, μ = m₁m₂/(m₁ + m₂); velocity Verlet's positions from rest are
-// cos(n·θ), sin(θ/2) = ω·dt/2. In float the stored numbers are right to a rounding, which turns θ
-// by as much.
-TEST(MassRatio, ALinkSwingsWithTheReducedMass) {
+// The distance oscillates with ω² = k/μ, μ = m₁m₂/(m₁ + m₂). Velocity Verlet's positions from rest
+// are cos(n·θ), sin(θ/2) = ω·dt/2. In float the stored numbers have one rounding, which changes θ
+// by the same fraction.
+TEST(MassRatio, ALinkOscillatesWithTheReducedMass) {
     constexpr int steps = 1000;
     const Method& method = find_method("velocity_verlet");
     for (const Precision precision : precisions)
@@ -127,9 +127,9 @@ TEST(MassRatio, ALinkSwingsWithTheReducedMass) {
         }
 }
 
-// The mass cancels from each step of the distance, whatever the method. The two velocities gather
-// what the other mass gives to within the roundings of each step, so that the momentum and the
-// centre of mass, at rest at 1/(1 + m), stay to within as many.
+// The mass cancels from each step of the distance, with any method. The impulses on the two bodies
+// are opposite to within the roundings of each step. Momentum and the centre of mass, at rest at
+// 1/(1 + m), therefore stay to within these roundings.
 TEST(MassRatio, EveryMethodMovesALinkAsASpringAndKeepsTheMomentum) {
     constexpr int steps = 300;
     for (const Method& method : methods()) {
@@ -150,8 +150,8 @@ TEST(MassRatio, EveryMethodMovesALinkAsASpringAndKeepsTheMomentum) {
     }
 }
 
-// 1e-6 to 1e6 kg, in powers of two for the quotients to be the same to the bit.
-TEST(MassRatio, TheSameStiffnessPerMassIsTheSameMotion) {
+// From 1e-6 to 1e6 kg, in powers of two, so that the quotients are equal to the bit.
+TEST(MassRatio, EqualStiffnessPerMassGivesEqualMotion) {
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
             Bodies bodies(1, precision);
@@ -171,9 +171,10 @@ TEST(MassRatio, TheSameStiffnessPerMassIsTheSameMotion) {
 
 constexpr Rate timesteps[] = {{1'000'000'000}, {1'000'000}, {1000}, {60}, {1}, {1, 10}};
 
-// From 1 ns to 10 s with ω·dt = 0.1 the positions are those at 1 s. k and dt are each a rounding
-// off, and ω·dt with them, of which 1000 steps make 1000 · 0.1 times as much in phase.
-TEST(Timestep, FromANanosecondToTenSecondsIsTheSameMotion) {
+// With ω·dt = 0.1, the positions for dt from 1 ns to 10 s are those for 1 s. k, dt and so ω·dt have
+// a relative error of a rounding, which becomes a phase error of 1000 · 0.1 roundings in 1000
+// steps.
+TEST(Timestep, FromANanosecondToTenSecondsGivesEqualMotion) {
     constexpr int steps = 1000;
     for (const Method& method : methods()) {
         Bodies plain = oscillator(Precision::double_, 0.01, 0, 1);
@@ -190,9 +191,9 @@ TEST(Timestep, FromANanosecondToTenSecondsIsTheSameMotion) {
     }
 }
 
-// Five thousand steps of 1 ns move the article's mass by 0.19 µm. A method of order 1 misses x by
-// up to dt·v, v = 0.075 m/s, and v by up to dt·t·a', a' = 0.1·15000 m/s³; to that come roundings of
-// 1000 m and of v.
+// 5000 steps of 1 ns move the article's mass by 0.19 µm. The error of a method of order 1 is up to
+// dt·v in x, v = 0.075 m/s, and up to dt·t·a' in v, a' = 0.1·15000 m/s³, plus roundings of 1000 m
+// and of v.
 TEST(Timestep, OfANanosecondIsNotLost) {
     constexpr int steps = 5000;
     constexpr Rate rate{1'000'000'000};
@@ -207,8 +208,8 @@ TEST(Timestep, OfANanosecondIsNotLost) {
     }
 }
 
-// 38 radians a step, and the damper takes e^(−0.5) of it.
-TEST(Timestep, OfTenSecondsIsExactWhereTheMethodIs) {
+// 38 rad per step; the damper reduces the amplitude by e^(−0.5) per step.
+TEST(Timestep, OfTenSecondsIsExactWithTheExactMethod) {
     Bodies bodies = oscillator(Precision::double_, 15, 0.1, 1000);
     for (int tick = 0; tick < 9; ++tick) {
         bodies.step(find_method("exact"), {{1, 10}, tick, 1});

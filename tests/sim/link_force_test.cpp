@@ -26,8 +26,8 @@ bool is_splitting(const Method& method) {
     return std::holds_alternative<oiler::Splitting>(method.rule);
 }
 
-/// The energy of bodies at (0, 0) and (3, 4) on a link of length L: ½k·(5 − L)².
-TEST(LinkForce, HaveAPotential) {
+// Bodies at (0, 0) and (3, 4) on a link of length L: ½k·(5 − L)².
+TEST(LinkForce, HasAPotential) {
     for (const auto& [length, potential] : {std::pair(0.0, 50.0), {3.0, 8.0}, {5.0, 0.0}}) {
         Bodies bodies(2, Precision::double_);
         bodies.add({});
@@ -47,8 +47,8 @@ void for_each_kind(F f) {
             }
 }
 
-/// Two bodies on a link with a length of 5 m that keep their places, bit by bit.
-void expect_rest(const Vec3& other, const Vec3& velocity) {
+/// Expects no force, to the bit, on two bodies on a link with a rest length of 5 m.
+void expect_no_force(const Vec3& other, const Vec3& velocity) {
     for_each_kind([&](const Method& method, Precision precision) {
         Bodies bodies(2, precision);
         bodies.add({.mass = 2, .velocity = velocity});
@@ -63,16 +63,16 @@ void expect_rest(const Vec3& other, const Vec3& velocity) {
     });
 }
 
-TEST(LinkForce, RestAtTheirLength) {
-    expect_rest({3, 4}, {});
-    expect_rest({5, 0}, {});
+TEST(LinkForce, IsZeroAtTheRestLength) {
+    expect_no_force({3, 4}, {});
+    expect_no_force({5, 0}, {});
 }
 
-// There a link with a length has no direction.
-TEST(LinkForce, DoNothingToBodiesInOnePlace) { expect_rest({0, 0}, {}); }
+// A link with a rest length has no direction there.
+TEST(LinkForce, IsZeroForCoincidentBodies) { expect_no_force({0, 0}, {}); }
 
-/// Velocities of 2 kg at (5, 0) and 4 kg at (0, 0) after 1/4 s, of which the first one started with
-/// (8, 16): by hand, in binary fractions.
+/// Velocities of 2 kg at (5, 0) and 4 kg at (0, 0) after 1/4 s, calculated by hand in binary
+/// fractions. The first body starts with (8, 16) m/s.
 void expect_damping(const Link& link, const Vec3& first, const Vec3& second) {
     for (const char* name : {"explicit_euler", "semi_implicit_euler"}) {
         Bodies bodies(2, Precision::single);
@@ -86,23 +86,23 @@ void expect_damping(const Link& link, const Vec3& first, const Vec3& second) {
 }
 
 // b·8 along the line: −4 m/s² and 2 m/s².
-TEST(LinkForce, WithALengthDampAlongTheirLine) {
+TEST(LinkForce, WithALengthDampsAlongItsLine) {
     expect_damping({.damping = 1, .rest_length = 5}, {7, 16}, {0.5, 0});
 }
-// And b·16 across: −8 m/s² and 4 m/s².
-TEST(LinkForce, WithoutALengthDampInAllDirections) {
+// b·8 along the line as above, and b·16 across it: −8 m/s² and 4 m/s².
+TEST(LinkForce, WithoutALengthDampsInAllDirections) {
     expect_damping({.damping = 1}, {7, 14}, {0.5, 1});
 }
 
 // −(k/m)·(5 − 3) = −8 m/s² and 4 m/s².
-TEST(LinkForce, PullTowardsTheirLength) {
+TEST(LinkForce, PullsTowardsItsRestLength) {
     expect_damping({.stiffness = 8, .rest_length = 3}, {6, 16}, {1, 0});
     expect_damping({.stiffness = 8, .rest_length = 7}, {10, 16}, {-1, 0});
 }
 
-// One link alone is damped exactly at any dt: by e^(−b·(1/m₁ + 1/m₂)·t). A half-step takes the loss
-// from the velocities with four roundings, that of a stiff damper all there is.
-TEST(LinkForce, LoseVelocityExactlyInTheDrifts) {
+// One link alone is damped exactly at any dt, by e^(−b·(1/m₁ + 1/m₂)·t). A half-step subtracts the
+// loss from the velocities with four roundings. A stiff damper removes the whole relative velocity.
+TEST(LinkForce, DampsVelocityExactlyInTheDrifts) {
     constexpr int steps = 64;
     for (const Method& method : methods())
         for (const double length : {0.0, 3.0})
@@ -121,8 +121,8 @@ TEST(LinkForce, LoseVelocityExactlyInTheDrifts) {
             }
 }
 
-// The same with an anchor in place of the second body: e^(−b/m·t).
-TEST(CoilSpring, LosesVelocityExactlyInTheDrifts) {
+// With an anchor in place of the second body the factor is e^(−b/m·t).
+TEST(CoilSpring, DampsVelocityExactlyInTheDrifts) {
     constexpr int steps = 64;
     for (const Method& method : methods())
         for (const double b : {0.1, 2.0, 1e6}) {

@@ -33,10 +33,10 @@ using oiler::Vec3;
 
 constexpr Rate rate{64};
 
-/// Of row `row`: a power of two, so that forces are shared out and put together without rounding.
+/// The mass of row `row`: a power of two, so that dividing by it does not round.
 double mass_of(std::size_t row) { return std::ldexp(1, static_cast<int>(row % 4) - 1); }
 
-/// Eight bodies apart from each other, with forces of all kinds.
+/// Eight separate bodies with forces of all kinds.
 Bodies assorted(Precision precision) {
     Bodies bodies(2, precision);
     bodies.set_gravity({0.25, -4});
@@ -53,7 +53,7 @@ Bodies assorted(Precision precision) {
     return bodies;
 }
 
-/// Of which rows 0 to 4 are linked.
+/// Bodies of which rows 0 to 4 are linked.
 Bodies linked(Precision precision) {
     Bodies bodies = assorted(precision);
     bodies.link(0, 1, {.stiffness = 12, .damping = 0.3});
@@ -63,7 +63,7 @@ Bodies linked(Precision precision) {
     return bodies;
 }
 
-/// New bodies of the same state, forces and links.
+/// New bodies with equal state, forces and links.
 Bodies rebuilt(const Bodies& from) {
     Bodies to(from.axes(), from.precision());
     for (std::size_t row = 0; row < from.size(); ++row) {
@@ -100,19 +100,19 @@ void for_each_kind(F f) {
         }
 }
 
-TEST(LinkedBodies, TakeManyStepsAtOnceAsOneByOne) {
+TEST(LinkedBodies, TakeManyStepsPerCallAsOneByOne) {
     for_each_kind([](const Method& method, Precision precision) {
-        Bodies at_once = linked(precision);
-        Bodies one_by_one = at_once;
-        const std::uint64_t start = hash_of(at_once);
-        at_once.step(method, {rate, 5, 33});
+        Bodies one_call = linked(precision);
+        Bodies one_by_one = one_call;
+        const std::uint64_t start = hash_of(one_call);
+        one_call.step(method, {rate, 5, 33});
         for (int i = 0; i < 33; ++i) one_by_one.step(method, {rate, 5 + i});
-        EXPECT_EQ(hash_of(at_once), hash_of(one_by_one));
-        EXPECT_NE(hash_of(at_once), start);
+        EXPECT_EQ(hash_of(one_call), hash_of(one_by_one));
+        EXPECT_NE(hash_of(one_call), start);
     });
 }
 
-// What a copy shares with the original must not change under it.
+// A copy must not change data that it shares with the original.
 TEST(LinkedBodies, AreCopiedInTheMiddleOfARun) {
     for_each_kind([](const Method& method, Precision precision) {
         Bodies original = linked(precision);
@@ -173,8 +173,7 @@ std::vector<Change> changes() {
     };
 }
 
-// What steps carry on from one to the next (accelerations, flows, factorised equations) must go
-// when it no longer holds.
+// Cached accelerations, flows and factorised equations must be discarded when they become invalid.
 TEST(LinkedBodies, StepAfterAChangeAsNewOnesDo) {
     for_each_kind([](const Method& method, Precision precision) {
         Bodies run = linked(precision);
@@ -198,7 +197,8 @@ void expect_as_new(Bodies bodies, const Method& method, const Steps& steps) {
     EXPECT_EQ(hash_of(bodies), hash_of(fresh)) << method.name;
 }
 
-/// Springs, linear drag and links alone: of implicit methods the equations stay factorised.
+/// Bodies with springs, linear drag and links only. Implicit methods keep their factorised
+/// equations.
 Bodies linear(Precision precision) {
     Bodies bodies(2, precision);
     bodies.set_gravity({0.25, -4});
@@ -225,7 +225,7 @@ void expect_other_ways_as_new(Bodies run, const Method& method) {
     }
 }
 
-TEST(LinkedBodies, StepInAnotherWayAsNewOnesDo) {
+TEST(LinkedBodies, StepWithAnotherSettingAsNewOnesDo) {
     for (const Method& method : methods()) {
         if (method.order == oiler::exact_order) continue;
         expect_other_ways_as_new(linked(Precision::single), method);
@@ -233,9 +233,9 @@ TEST(LinkedBodies, StepInAnotherWayAsNewOnesDo) {
     }
 }
 
-// An implicit method solves the equations of all rows at once, each time to a few units of
-// round-off of the fastest, below 8 m/s; these forces do not amplify that.
-TEST(LinkedBodies, LeaveOthersAlone) {
+// An implicit method solves the equations of all rows together, to a few units of round-off of the
+// largest speed, below 8 m/s. These forces do not amplify the error.
+TEST(LinkedBodies, DoNotAffectOthers) {
     constexpr int steps = 64;
     for_each_kind([](const Method& method, Precision precision) {
         Bodies with = linked(precision);
@@ -259,8 +259,8 @@ int kicks_of(const Method& method) {
     return kicks;
 }
 
-// The first kick of a step finds the acceleration that the last kick of the one before left behind,
-// unless somebody has moved a body. Other methods find nothing.
+// The first kick of a step reuses the acceleration of the last kick of the step before, unless a
+// body was moved. Other methods reuse nothing.
 TEST(LinkedBodies, EvaluateAsOftenAsTheMethodSaysAndOnceMore) {
     for (const Method& method : methods()) {
         if (method.evaluations == 0 || method.order == oiler::exact_order) continue;
@@ -290,7 +290,7 @@ std::vector<std::array<std::size_t, 2>> rows_of(const Bodies& bodies) {
 }
 
 // Row 7 moves to row 1; links keep their order and their numbers.
-TEST(LinkedBodies, TakeTheirLinksAlongWhenTheyGo) {
+TEST(LinkedBodies, AreRemovedWithTheirLinks) {
     Bodies bodies = linked(Precision::double_);
     bodies.link(7, 0, {.stiffness = 5, .damping = 6, .rest_length = 7});
     bodies.link(5, 7, {.stiffness = 8});

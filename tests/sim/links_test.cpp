@@ -26,8 +26,8 @@ using Real = long double;
 constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 
 bool is_exact(const Method& method) { return method.order == oiler::exact_order; }
-/// Six bodies of 0.3 to 13 kg in a ring of damped springs, every other one with a length, and one
-/// across.
+/// Six bodies of 0.3 to 13 kg in a ring of damped springs, every other one with a rest length, and
+/// one spring across the ring.
 Bodies ring(Precision precision) {
     Bodies bodies(2, precision);
     const std::array<double, 6> masses{1, 0.3, 2.5, 13, 0.7, 1.9};
@@ -61,8 +61,8 @@ Momentum momentum_of(const Bodies& bodies) {
     return total;
 }
 
-// What a spring gives to one body it takes from the other, but for roundings to either side: a kick
-// makes two of velocities no larger than the fastest, and two of what a link adds to each.
+// A link gives its two bodies opposite impulses, apart from unbiased roundings: per kick two of
+// velocities no larger than the fastest, and two of the changes by a link.
 TEST(Links, ConserveMomentum) {
     constexpr int steps = 200;
     for (const Method& method : methods())
@@ -84,8 +84,8 @@ TEST(Links, ConserveMomentum) {
         }
 }
 
-/// 1 kg and 4 kg on a link along a line, 1 m further apart than its length and separating, with a
-/// centre of mass that moves. The reciprocals of the masses are binary fractions.
+/// 1 kg and 4 kg on a link along a line, stretched by 1 m and separating, with a moving centre of
+/// mass. The reciprocals of the masses are binary fractions.
 struct Pair {
     double k;
     double b;
@@ -102,12 +102,12 @@ struct Pair {
     [[nodiscard]] oiler::Motion<Real> relative(Real t) const {
         return oiler::damped_oscillator<Real>(0.8L, k, b, {1, 0.5L}, t);
     }
-    /// ½·5·2.1² of the centre, and that of the relative motion.
+    /// The energy: ½·5·2.1² of the centre of mass plus that of the relative motion.
     [[nodiscard]] Real energy(Real t) const {
         const auto [x, v] = relative(t);
         return 2.5L * 2.1L * 2.1L + 0.4L * v * v + 0.5L * k * x * x;
     }
-    /// After 1 s.
+    /// The error after 1 s.
     [[nodiscard]] Real error(const Method& method, int steps_per_second) const {
         Bodies pair = bodies(Precision::extended);
         pair.step(method, {{steps_per_second}, 0, steps_per_second});
@@ -119,8 +119,9 @@ struct Pair {
     }
 };
 
-/// Small enough for the leading term of an error to show, which is slow to come out of drag around
-/// a method of a higher order, and not so small that methods which solve equations take seconds.
+/// The error below which the order is measured. It is small enough for the leading term to
+/// dominate, which is late with damping around a method of higher order, and large enough that
+/// implicit methods do not take seconds.
 Real ceiling_for(const Method& method, int order) {
     constexpr std::array<Real, 5> ceilings{0, 3e-2L, 1e-4L, 1e-7L, 1e-9L};
     if (order > 4) return 1e-12L;
@@ -134,7 +135,7 @@ void expect_pair(const Method& method, const Pair& pair, int order) {
     expect_convergence(method, order, error, 32, {omega, 50 * omega}, ceiling_for(method, order));
 }
 
-TEST(Links, MoveAPairAsItsRelativeMotionWithTheMethodsOrder) {
+TEST(Links, MoveAPairWithTheMethodsOrder) {
     for (const Method& method : methods())
         for (const double length : {0.0, 8.0}) {
             if (is_exact(method)) continue;
@@ -143,9 +144,9 @@ TEST(Links, MoveAPairAsItsRelativeMotionWithTheMethodsOrder) {
         }
 }
 
-// A step of RK4 leaves out (ω·dt)⁵/120 of the amplitude: with ω = 5/s and 1024 steps a
-// second 2.4e-11 in each, and of an energy of 11 J about the centre of mass twice as much.
-TEST(Links, KeepAPairsEnergyAndDampItAsItsRelativeMotionDoes) {
+// A step of RK4 has an error of (ω·dt)⁵/120 of the amplitude: 2.4e-11 with ω = 5/s and 1024 steps
+// per second. The relative error of the energy of 11 J about the centre of mass is twice that.
+TEST(Links, KeepAPairsEnergyAndDampItLikeTheRelativeMotion) {
     for (const double b : {0.0, 0.7})
         for (const double length : {0.0, 8.0}) {
             const Pair pair{20, b, length};
@@ -159,8 +160,7 @@ TEST(Links, KeepAPairsEnergyAndDampItAsItsRelativeMotionDoes) {
         }
 }
 
-/// Two bodies of 1 kg that a link of stiffness 3 and damping 0.2 couples; each is on a spring
-/// of 15.
+/// Two bodies of 1 kg on springs of 15 N/m, coupled by a link of 3 N/m and 0.2 N·s/m.
 Bodies coupled() {
     Bodies bodies(3, Precision::double_);
     bodies.add({.position = {1, 2, -3}, .velocity = {0, 1, 4}}, Spring{.stiffness = 15});
@@ -168,7 +168,7 @@ Bodies coupled() {
     bodies.link(0, 1, {.stiffness = 3, .damping = 0.2});
     return bodies;
 }
-/// Their sum and their difference, which do not know of each other.
+/// The normal modes: sum and difference of the two bodies, which are independent.
 Bodies modes_of(const Bodies& coupled) {
     Bodies modes(3, Precision::double_);
     const Vec3 a = coupled.position(0);
@@ -181,9 +181,9 @@ Bodies modes_of(const Bodies& coupled) {
     return modes;
 }
 
-// What steps linked bodies has little in common with what steps single ones. No number of this
-// motion gets beyond 30 (m or m/s), and a stage makes 8 roundings at most of it, to either side.
-// With the damping in the kicks a spring's is treated as a link's.
+// Linked and single bodies are stepped by different code. The numbers of this motion stay below 30
+// (m or m/s), and a stage makes at most 8 unbiased roundings of them. With damping in the kicks,
+// springs and links are damped alike.
 TEST(Links, MoveAsTheirNormalModesDo) {
     constexpr int steps = 640;
     for (const Method& method : methods()) {
@@ -202,10 +202,10 @@ TEST(Links, MoveAsTheirNormalModesDo) {
     }
 }
 
-// Dampers that meet in a body do not commute. Half a step of them before and, in the other order,
-// after all else leaves the second order, the wrong order of them only the first. RK4 with the
-// smallest dt below is off by less than 1e-9.
-TEST(Links, DampARingInTheSecondOrder) {
+// Dampers on a common body do not commute. Half-steps before the stages and, in reverse order,
+// after them have order 2; without the reversal the order is 1. The error of RK4 with the smallest
+// dt below is less than 1e-9.
+TEST(Links, DampARingWithOrder2) {
     Bodies truth = ring(Precision::double_);
     truth.step(find_method("rk4"), {{1024}, 0, 1024});
     for (const Method& method : methods()) {

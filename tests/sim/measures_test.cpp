@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures of bodies count every axis, the third alone too.
+// Measures of bodies include every axis.
 #include <gtest/gtest.h>
 
 #include "oiler/sim/bodies.hpp"
@@ -8,7 +8,7 @@
 namespace oiler::test {
 namespace {
 
-TEST(Apart, CountsEachAxisAlone) {
+TEST(Deviation, CountsEachAxisAlone) {
     for (const Precision precision : precisions)
         for (int axis = 0; axis < 3; ++axis) {
             Bodies bodies(3, precision);
@@ -17,30 +17,31 @@ TEST(Apart, CountsEachAxisAlone) {
             Vec3 by{};
             by[axis] = -0.25;
             moved.set_position(0, Vec3{1, 2, 3} + by);
-            EXPECT_EQ(bodies.apart_from(moved).distance, 0.25) << axis;
+            EXPECT_EQ(bodies.deviation_from(moved).distance, 0.25) << axis;
             for (int i = 0; i < 3; ++i)
-                EXPECT_EQ(bodies.apart_from(moved).along[i], i == axis ? 0.25 : 0) << axis;
+                EXPECT_EQ(bodies.deviation_from(moved).along[i], i == axis ? 0.25 : 0) << axis;
         }
 }
 
-// √(3² + 4² + 12²) = 13 in row 0; row 1 is farther along z and 12.5 m away in all.
-TEST(Apart, IsTheLargestOfAllRowsInDistanceAndAlongEachAxis) {
+// The deviation of row 0 is √(3² + 4² + 12²) = 13 m. That of row 1 is larger along z but 12.5 m in
+// total.
+TEST(Deviation, IsTheLargestOfAllRowsInDistanceAndAlongEachAxis) {
     Bodies bodies(3, Precision::double_);
     for (int i = 0; i < 3; ++i) bodies.add({.position = {1, 1, 1}});
     Bodies moved = bodies;
     moved.set_position(0, {4, 5, 13});
     moved.set_position(1, {1, 1, -11.5});
-    const Apart apart = bodies.apart_from(moved);
+    const Deviation apart = bodies.deviation_from(moved);
     EXPECT_EQ(apart.distance, 13);
     EXPECT_EQ(apart.along, (Vec3{3, 4, 12.5}));
 }
 
-TEST(Apart, IsNotZeroWhereTheSquareOfADifferenceIs) {
+TEST(Deviation, IsNotZeroIfTheSquareOfADifferenceUnderflows) {
     Bodies bodies(3, Precision::double_);
     bodies.add({});
     Bodies moved = bodies;
     moved.set_position(0, {0, 0, 1e-200});
-    EXPECT_EQ(bodies.apart_from(moved).distance, 1e-200);
+    EXPECT_EQ(bodies.deviation_from(moved).distance, 1e-200);
 }
 
 // ½·2·3² = 9 J along one axis; 2·10·5 = 100 J in gravity, ½·6·5² = 75 J on a spring.

@@ -10,7 +10,7 @@
 namespace oiler::test {
 namespace {
 
-/// Four damped bodies without links, no two alike.
+/// Four different damped bodies without links.
 Bodies damped(Precision precision, bool linear) {
     Bodies bodies(2, precision);
     for (std::size_t row = 0; row < 4; ++row) {
@@ -66,7 +66,7 @@ TEST(MethodChange, LeavesNoTraceOfTheFormerDamping) {
 }
 
 // Both methods have the same address, so an address must not identify a plan.
-TEST(MethodChange, IsSeenInAMethodThatIsNotOfTheList) {
+TEST(MethodChange, IsDetectedForMethodsOutsideTheList) {
     Method own = find_method("velocity_verlet");
     Bodies run = damped(Precision::double_, false);
     run.step(own, {Rate{64}, 0, 1});

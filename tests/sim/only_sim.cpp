@@ -3,8 +3,8 @@
 
 #include "oiler/sim/bodies.hpp"
 
-// The smallest program that simulates: the article's spring for 10 s at 100 Hz. A test looks at
-// what it prints, and that it links no window and no GL.
+// The smallest program that simulates: the article's spring for 10 s at 100 Hz. A test checks its
+// output, and that it links no window and no GL.
 int main() {
     oiler::Bodies bodies(1, oiler::Precision::double_);
     bodies.add({.position = {1000, 0, 0}}, oiler::Spring{.stiffness = 15, .damping = 0.1});

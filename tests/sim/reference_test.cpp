@@ -24,7 +24,7 @@ using Real = long double;
 
 constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 
-/// The largest difference of numbers from those of a reference.
+/// The largest difference between numbers and those of a reference.
 template <std::size_t N>
 Real distance(const std::array<Real, N>& numbers, const nlohmann::json& expected) {
     Real largest = 0;
@@ -33,11 +33,11 @@ Real distance(const std::array<Real, N>& numbers, const nlohmann::json& expected
     return largest;
 }
 
-/// √((k + 2kc)/m), 1/s: of the masses that swing against each other.
+/// √((k + 2kc)/m), 1/s: the frequency of the mode in which the masses move oppositely.
 const Real fastest = std::sqrt(18.0L);
 
-/// wall-k-m-kc-m-k-wall, with `apart` metres between the masses at rest, and as much is the length
-/// of the spring between them. The first one starts 1 m beside where it rests.
+/// wall-k-m-kc-m-k-wall. `apart` (m) is the distance between the masses at rest, and the rest
+/// length of the spring between them. The first mass starts 1 m from its rest position.
 Bodies coupled_springs(double apart, Precision precision) {
     Bodies bodies(1, precision);
     bodies.add({.position = {1}}, oiler::Spring{.stiffness = 15});
@@ -52,7 +52,7 @@ Real coupled_distance(const Bodies& bodies, double apart, const nlohmann::json& 
     return distance<4>({a.x[0], a.v[0], b.x[0] - apart, b.v[0]}, expected);
 }
 
-/// The largest error over all times of the reference but the last.
+/// The largest error over all times of the reference except the last.
 Real coupled_error(const Method& method, int steps_per_second, double apart,
                    const nlohmann::json& states) {
     Bodies bodies = coupled_springs(apart, Precision::extended);
@@ -81,8 +81,8 @@ TEST(CoupledSprings, MeetTheReference) {
         }
 }
 
-// With 128 steps a second methods of order 8 are off by less than 1e-14. What is left is round-off:
-// a kick and a drift round twice each, by ω·u at most, to either side.
+// With 128 steps per second the error of methods of order 8 is less than 1e-14. The rest is
+// unbiased round-off: a kick and a drift round twice each, by at most ω·u.
 TEST(CoupledSprings, MeetTheReferenceInDoubleAfter50Seconds) {
     constexpr int rate = 128;
     const auto states = reference("coupled_and_kepler").at("two_coupled_equal").at("states");
@@ -97,7 +97,7 @@ TEST(CoupledSprings, MeetTheReferenceInDoubleAfter50Seconds) {
     }
 }
 
-/// A planet with gm = 1 and half its axis 1, from its perihelion.
+/// A planet with gm = 1 and a semi-major axis of 1, from its perihelion.
 struct Orbit {
     explicit Orbit(const char* eccentricity) : e(std::strtold(eccentricity, nullptr)) {
         const auto run = reference("coupled_and_kepler")
@@ -108,7 +108,7 @@ struct Orbit {
         start = {{number<Real>(from.at("x")), 0}, {0, number<Real>(from.at("vy"))}};
         states = run.at("states (x,y,vx,vy)");
     }
-    /// The motion ends, in complex time, where the distance 1 − e·cos E is 0.
+    /// The rate at which the motion changes. Its singularity in complex time is at 1 − e·cos E = 0.
     [[nodiscard]] Real rate() const {
         return e > 0 ? std::max(1.0L, 1 / (std::acosh(1 / e) - std::sqrt(1 - e * e))) : 1;
     }
@@ -153,7 +153,7 @@ TEST(Kepler, OrbitsMeetTheReference) {
     }
 }
 
-// With order 6 it takes ten times as many steps, with order 4 a million.
+// Order 6 would need ten times as many steps, order 4 a million.
 TEST(Kepler, ACometsOrbitMeetsTheReference) {
     for (const Method* method : high_orders())
         if (method->order >= 8) expect_orbit(*method, Orbit("0.99"), 1, 4096, 1e-12L);
@@ -174,7 +174,7 @@ void expect_same_orbit(const Method& method, Precision precision) {
     }
 }
 
-// What was shown above of one state in long double holds for bodies.
+// The results above for one state in long double also hold for bodies.
 TEST(Kepler, BodiesTakeTheStepsOfAState) {
     for (const Method* method : high_orders()) {
         expect_same_orbit<float>(*method, Precision::single);
@@ -183,10 +183,10 @@ TEST(Kepler, BodiesTakeTheStepsOfAState) {
     }
 }
 
-/// How far round-off may carry an orbit in `roundings` of them. One of v by u·v changes the energy
-/// by u·v² and so the frequency by 3u·v², one of x by 3u/r; with either sign they add up to
-/// √roundings of these, and move the planet along its orbit by as much times t. The start counts as
-/// one more.
+/// The tolerance for an orbit after `roundings` roundings. A rounding of v by u·v changes the
+/// energy by u·v² and so the frequency by 3u·v²; a rounding of x changes it by 3u/r. Unbiased
+/// roundings add up to √roundings of these, and move the planet along its orbit in proportion to t.
+/// The start adds one rounding.
 Real orbit_round_off(const Orbit& orbit, const nlohmann::json& at, Real t, Real roundings) {
     const Real nearest = 1 - orbit.e;
     const Real speed = orbit.start.v[1];
@@ -196,7 +196,7 @@ Real orbit_round_off(const Orbit& orbit, const nlohmann::json& at, Real t, Real 
            fastest_change;
 }
 
-// With 256 steps a second methods of order 8 are off by less than 1e-14 in ten seconds.
+// With 256 steps per second the error of methods of order 8 is less than 1e-14 in 10 s.
 TEST(Kepler, BodiesMeetTheReferenceInDoubleFor100Seconds) {
     constexpr int rate = 256;
     const std::array<Orbit, 4> orbits{Orbit("0"), Orbit("0.2"), Orbit("0.5"), Orbit("0.6")};
@@ -222,8 +222,8 @@ TEST(Kepler, BodiesMeetTheReferenceInDoubleFor100Seconds) {
     }
 }
 
-/// π/2 over the arithmetic-geometric mean of 1 and b: the complete elliptic integral K for the
-/// modulus √(1 − b²).
+/// The complete elliptic integral K for the modulus √(1 − b²): π/2 over the arithmetic-geometric
+/// mean of 1 and b.
 Real elliptic_k(Real b) {
     Real a = 1;
     for (int i = 0; i < 8; ++i) {
@@ -234,31 +234,36 @@ Real elliptic_k(Real b) {
     return std::numbers::pi_v<Real> / (2 * a);
 }
 
-/// A swing that is a Jacobi function of time, from rest at `start`, through 0 with −`speed`.
-struct Swing {
-    Real start;    ///< where it starts from rest
-    Real speed;    ///< of its passing through 0, a quarter later
-    Real quarter;  ///< of its period, s
-    Real rate;     ///< in quarters: K/K′, as its poles are at iK′
-    Real size;     ///< of errors: its largest acceleration, say
+/// An oscillation that is a Jacobi function of time, from rest at `start`, through 0 with −`speed`.
+struct Oscillation {
+    Real start;    ///< the amplitude
+    Real speed;    ///< at 0, a quarter period later
+    Real quarter;  ///< quarter period, s
+    Real rate;     ///< per quarter period: K/K′, because its poles are at iK′
+    Real size;     ///< scale of errors: the largest acceleration
 };
 
-/// The larger error a quarter of a period and a period after the start.
+/// The larger of the errors after a quarter period and after a period.
 template <class Physics>
-Real swing_error(const Method& method, const Physics& physics, const Swing& swing, int steps) {
-    const Real dt = swing.quarter / steps;
-    const auto quarter = moved(method, State<Real, 1>{{swing.start}, {0}}, physics, dt, steps);
+Real oscillation_error(const Method& method, const Physics& physics, const Oscillation& oscillation,
+                       int steps) {
+    const Real dt = oscillation.quarter / steps;
+    const auto quarter =
+        moved(method, State<Real, 1>{{oscillation.start}, {0}}, physics, dt, steps);
     const auto period = moved(method, quarter, physics, dt, 3 * steps);
-    return std::max({std::abs(quarter.x[0]), std::abs(quarter.v[0] + swing.speed),
-                     std::abs(period.x[0] - swing.start), std::abs(period.v[0])});
+    return std::max({std::abs(quarter.x[0]), std::abs(quarter.v[0] + oscillation.speed),
+                     std::abs(period.x[0] - oscillation.start), std::abs(period.v[0])});
 }
 
 template <class Physics>
-void expect_swing(const Physics& physics, const Swing& swing) {
+void expect_oscillation(const Physics& physics, const Oscillation& oscillation) {
     for (const Method* method : high_orders()) {
         SCOPED_TRACE(method->name);
-        const auto error = [&](int n) { return swing_error(*method, physics, swing, n); };
-        expect_convergence(*method, method->order, error, 4, {swing.rate, 50 * swing.size},
+        const auto error = [&](int n) {
+            return oscillation_error(*method, physics, oscillation, n);
+        };
+        expect_convergence(*method, method->order, error, 4,
+                           {oscillation.rate, 50 * oscillation.size},
                            method->order == 4 ? 1e-11L : 1e-12L);
     }
 }
@@ -273,7 +278,7 @@ struct Pendulum {
 TEST(Pendulum, MeetsItsEllipticFunctions) {
     const Real k = std::sin(1.0L);
     const Real quarter = elliptic_k(std::cos(1.0L));
-    expect_swing(Pendulum{}, {2, 2 * k, quarter, quarter / elliptic_k(k), 1});
+    expect_oscillation(Pendulum{}, {2, 2 * k, quarter, quarter / elliptic_k(k), 1});
 }
 
 struct Duffing {
@@ -283,13 +288,13 @@ struct Duffing {
     }
 };
 
-// From 2 it is 2·cn(Ωt) with Ω² = 1 + 3·2² and the modulus² m = 3·2²/2Ω² = 6/13; v²/2 = 2²/2 +
-// 3·2⁴/4 at 0.
+// The motion from 2 is 2·cn(Ωt) with Ω² = 1 + 3·2² and the squared modulus m = 3·2²/2Ω² = 6/13. At
+// 0, v²/2 = 2²/2 + 3·2⁴/4.
 TEST(Duffing, MeetsItsEllipticFunction) {
     const Real m = 6 / 13.0L;
     const Real k = elliptic_k(std::sqrt(1 - m));
-    expect_swing(Duffing{},
-                 {2, std::sqrt(28.0L), k / std::sqrt(13.0L), k / elliptic_k(std::sqrt(m)), 26});
+    expect_oscillation(
+        Duffing{}, {2, std::sqrt(28.0L), k / std::sqrt(13.0L), k / elliptic_k(std::sqrt(m)), 26});
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ Bodies stiff_chain(int axes, double length) {
     return bodies;
 }
 
-// With ω·dt up to 2·√(1e8)/60 = 333. A step rounds v and, by dt·v, the positions, which
-// springs feel ω·dt times as much; what is at rest still trembles in its last bits, 10 m · 1e-16.
+// ω·dt is up to 2·√(1e8)/60 = 333. A step rounds v and, by dt·v, the positions; springs amplify
+// this by ω·dt. Bodies at rest also tremble in their last bits, 10 m · 1e-16.
 TEST(ImplicitMethods, HoldLinearStiffLinks) {
     constexpr int steps = 600;
     Bodies midpoint = stiff_chain(1, 0);
@@ -62,8 +62,8 @@ TEST(ImplicitMethods, HoldLinearStiffLinks) {
     EXPECT_LT(least, 1e-6 * start);
 }
 
-// Hung up by its first body, at most 250 N stretch a link by 3e-6 m.
-TEST(ImplicitMethods, EulersHoldsAStiffChainThatSwings) {
+// The chain hangs from its first body. At most 250 N stretch a link by 3e-6 m.
+TEST(ImplicitMethods, EulersHoldsASwingingStiffChain) {
     Bodies bodies = stiff_chain(2, 1);
     bodies.set_gravity({0, -9.81});
     bodies.attach(0, Spring{.stiffness = 1e8});
@@ -102,7 +102,8 @@ TEST(Links, AreRefusedByTheExactMethod) {
     EXPECT_NO_THROW(bodies.step(find_method("exact"), {{60}}));
 }
 
-// √(k/0.8 kg) = 25 s⁻¹ on 1 kg and 4 kg; velocity Verlet needs ω·dt < 2, or 12.5 steps a second.
+// 1 kg and 4 kg have ω = √(k/0.8 kg) = 25 s⁻¹. Velocity Verlet needs ω·dt < 2, or 12.5 steps per
+// second.
 TEST(Preflight, NamesALinkAndItsLimit) {
     const Bodies bodies = pair(500);
     const Method& verlet = find_method("velocity_verlet");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// However many threads step, and however many steps they take at once, the bits are the same.
+// Results do not depend on the number of threads or on the steps per call.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace oiler {
 namespace {
 
-/// Enough for every team to be worth calling.
+/// Enough bodies for every team to be used.
 constexpr int many = 9000;
 
 Bodies assorted(int count, bool linear) {
@@ -35,11 +35,11 @@ std::uint64_t hash_of(const Bodies& bodies) {
     return hash.value();
 }
 
-std::uint64_t hash_after(Bodies bodies, const Method& method, int threads, std::int64_t at_once) {
+std::uint64_t hash_after(Bodies bodies, const Method& method, int threads, std::int64_t per_call) {
     constexpr std::int64_t steps = 12;
     bodies.set_threads(threads);
-    for (std::int64_t tick = 0; tick < steps; tick += at_once)
-        bodies.step(method, {Rate{64}, tick, at_once});
+    for (std::int64_t tick = 0; tick < steps; tick += per_call)
+        bodies.step(method, {Rate{64}, tick, per_call});
     return hash_of(bodies);
 }
 
@@ -51,13 +51,13 @@ TEST(Threads, GiveTheSameBits) {
         const std::uint64_t alone = hash_after(bodies, method, 1, 1);
         EXPECT_NE(alone, hash_of(bodies)) << name;
         for (const int threads : {1, 2, 3, 8})
-            for (const std::int64_t at_once : {1, 3, 12})
-                EXPECT_EQ(hash_after(bodies, method, threads, at_once), alone)
-                    << name << ", " << threads << " threads, " << at_once << " steps at once";
+            for (const std::int64_t per_call : {1, 3, 12})
+                EXPECT_EQ(hash_after(bodies, method, threads, per_call), alone)
+                    << name << ", " << threads << " threads, " << per_call << " steps per call";
     }
 }
 
-/// The bodies of many, of which these are on springs of ω² in s⁻².
+/// The divergence of many bodies, of which those in `springs` are on springs of ω² in s⁻².
 std::optional<Divergence> divergence(const std::vector<std::pair<std::size_t, double>>& springs,
                                      int threads) {
     Bodies bodies = assorted(many, true);
@@ -67,11 +67,11 @@ std::optional<Divergence> divergence(const std::vector<std::pair<std::size_t, do
     return bodies.try_step(find_method("semi_implicit_euler"), {Rate{64}, 0, 100});
 }
 
-// A step at 64 Hz multiplies x by 1e8/64² − 2 = 2.44e4 (1e12/64² − 2 = 2.44e8) in size. A row
-// starts at row/8 m, and the force of step n + 1 is infinite once ω²·|x| is beyond 3.4e38 after n
-// steps: from 500 m, 750 m and 1000 m n = 7, since ω²·|x| is at most 2.1e37 after 6 and at
-// least 2.6e41 after 7; for 1e12 it is 3, since it is 6e31 after 2 and 1.5e40 after 3.
-TEST(Threads, NameTheFirstRowOfThoseThatDivergeInTheSameStep) {
+// A step at 64 Hz multiplies |x| by 1e8/64² − 2 = 2.44e4 (1e12/64² − 2 = 2.44e8). A row starts at
+// row/8 m. The force of step n + 1 is infinite if ω²·|x| exceeds 3.4e38 after n steps. From 500 m,
+// 750 m and 1000 m, n is 7, because ω²·|x| is at most 2.1e37 after 6 steps and at least 2.6e41
+// after 7. For 1e12, n is 3, because ω²·|x| is 6e31 after 2 steps and 1.5e40 after 3.
+TEST(Threads, NameTheFirstOfTheRowsThatDivergeInOneStep) {
     for (const int threads : {1, 2, 3, 8}) {
         const auto at = divergence({{8000, 1e8}, {4000, 1e8}, {6000, 1e8}}, threads);
         ASSERT_TRUE(at);
@@ -80,7 +80,7 @@ TEST(Threads, NameTheFirstRowOfThoseThatDivergeInTheSameStep) {
     }
 }
 
-TEST(Threads, NameTheRowThatDivergesFirstWhicheverThreadStepsIt) {
+TEST(Threads, NameTheRowThatDivergesFirstOnAnyThread) {
     for (const int threads : {1, 2, 3, 8})
         for (const std::size_t first : {4000, 6000, 8000}) {
             const auto at =
@@ -91,7 +91,7 @@ TEST(Threads, NameTheRowThatDivergesFirstWhicheverThreadStepsIt) {
         }
 }
 
-TEST(Threads, OfACopyStepItToo) {
+TEST(Threads, AreSharedWithCopies) {
     Bodies bodies = assorted(many, true);
     bodies.set_threads(2);
     Bodies copy = bodies;
@@ -111,7 +111,7 @@ TEST(Team, DoesEveryPartOnce) {
     }
 }
 
-// A team that has gone to sleep wakes up again.
+// A sleeping team wakes up for the next piece of work.
 TEST(Team, WakesUp) {
     Team team(2);
     std::atomic<int> done = 0;

@@ -29,8 +29,8 @@ class Precise : public testing::Test {};
 using Precisions = testing::Types<float, double, Real>;
 TYPED_TEST_SUITE(Precise, Precisions);
 
-// Also where |d|² is 0 though d is not.
-TYPED_TEST(Precise, DirectionsOfNothingAreNothing) {
+// Also for a d other than 0 whose |d|² underflows to 0.
+TYPED_TEST(Precise, DirectionsOfZeroAreZero) {
     for (const TypeParam x : {TypeParam(0), std::numeric_limits<TypeParam>::min() / 4}) {
         const Direction<TypeParam, 3> nowhere({x, -x, 0});
         EXPECT_EQ(nowhere.length, 0);
@@ -51,21 +51,21 @@ TYPED_TEST(Precise, ACoilSpringHasNoForceAtItsAnchor) {
     EXPECT_EQ(coil.potential(state), T(0.5) * 7 * 16);
     EXPECT_EQ(coil.jacobian(state).dx.row, (Matrix<T, 2>::scalar(-7).row));
     EXPECT_EQ(coil.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
-    coil.slow(state, T(0.5));
+    coil.damp(state, T(0.5));
     EXPECT_EQ(state.v, (Vec<T, 2>{5, 6}));
 }
 
-TYPED_TEST(Precise, QuadraticDragLeavesWhatRestsAtRest) {
+TYPED_TEST(Precise, QuadraticDragDoesNotMoveABodyAtRest) {
     using T = TypeParam;
     const QuadraticDragForce<T, 2> drag{3};
     State<T, 2> state{{1, 2}, {0, 0}};
     EXPECT_EQ(drag.accelerate(state, 0), (Vec<T, 2>{0, 0}));
     EXPECT_EQ(drag.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
-    drag.slow(state, 1);
+    drag.damp(state, 1);
     EXPECT_EQ(state.v, (Vec<T, 2>{0, 0}));
 }
 
-/// What the columns hold of a force that only other bodies have: zeros.
+/// Expects no effect of all-zero forces, which the columns hold for bodies that lack a force.
 template <class T>
 void expect_nothing(const State<T, 2>& state) {
     const auto expect_of = [&]<class Force>(const Force& force) {
@@ -74,25 +74,23 @@ void expect_nothing(const State<T, 2>& state) {
         EXPECT_EQ(force.potential(state), 0);
         EXPECT_EQ(force.jacobian(state).dx.row, (Matrix<T, 2>{}.row));
         EXPECT_EQ(force.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
-        State<T, 2> slowed = state;
-        if constexpr (requires { force.slow(slowed, T(0)); }) force.slow(slowed, T(0));
-        EXPECT_EQ(slowed.v, state.v);
+        State<T, 2> damped = state;
+        if constexpr (requires { force.damp(damped, T(0)); }) force.damp(damped, T(0));
+        EXPECT_EQ(damped.v, state.v);
     };
     std::apply([&](const auto&... force) { (expect_of(force), ...); }, ForceList<T, 2>{});
 }
 
-TYPED_TEST(Precise, ForcesWithoutNumbersDoNothing) {
+TYPED_TEST(Precise, ZeroForcesDoNothing) {
     expect_nothing<TypeParam>({{3, -4}, {1, 2}});
     expect_nothing<TypeParam>({{3, -4}, {0, 0}});
 }
 
-// The attractor's 0/|d|³ among them.
-TYPED_TEST(Precise, ForcesWithoutNumbersDoNothingAtTheOrigin) {
-    expect_nothing<TypeParam>({{0, 0}, {1, 2}});
-}
+// Includes the attractor's 0/|d|³.
+TYPED_TEST(Precise, ZeroForcesDoNothingAtTheOrigin) { expect_nothing<TypeParam>({{0, 0}, {1, 2}}); }
 
-// Nothing attracts the sun itself.
-TEST(Attractor, LeavesASunInItsCentreAlone) {
+// The sun itself has no attractor.
+TEST(Attractor, DoesNotMoveASunInItsCentre) {
     for (const char* name : {"velocity_verlet", "rk4", "implicit_midpoint"}) {
         Bodies bodies(2, Precision::double_);
         bodies.add({.position = {1}, .velocity = {0, 1}}, Attractor{.gm = 1});

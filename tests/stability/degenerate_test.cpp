@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No mass, no stiffness, no length, no number.
+// Zero mass, zero stiffness, zero length, numbers that are not finite.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Rate rate{64};
 
-/// Two linked bodies on springs, that have moved, so that a step has caches to rely on.
+/// Two linked bodies on springs, after steps that have filled the caches.
 Bodies moving(Precision precision) {
     Bodies bodies(2, precision);
     bodies.set_gravity({0, -1});
@@ -46,7 +46,7 @@ Bodies moving(Precision precision) {
     return bodies;
 }
 
-/// `change` throws with a remedy, and the bodies go on as if it had not been called.
+/// Expects `change` to throw with a remedy and to leave the bodies unchanged.
 template <class Change>
 void expect_refused(Change change) {
     for (const Precision precision : precisions) {
@@ -63,7 +63,7 @@ void expect_refused(Change change) {
     }
 }
 
-TEST(Refused, AMassThatCannotBeMoved) {
+TEST(Refused, AMassThatIsNotPositiveAndFinite) {
     for (const double mass : {0.0, -0.0, -1.0, -5e-324, -infinity, infinity, not_a_number}) {
         expect_refused([&](Bodies& bodies) { bodies.add({.mass = mass}); });
         expect_refused([&](Bodies& bodies) {
@@ -72,7 +72,7 @@ TEST(Refused, AMassThatCannotBeMoved) {
     }
 }
 
-TEST(Refused, AMotionThatIsNoNumber) {
+TEST(Refused, AMotionThatIsNotFinite) {
     for (const double bad : {infinity, -infinity, not_a_number})
         for (const Vec3& vector : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}}) {
             expect_refused([&](Bodies& bodies) { bodies.add({.position = vector}); });
@@ -89,7 +89,7 @@ void expect_forces_refused(const Force&... force) {
     (expect_refused([&](Bodies& bodies) { bodies.add({}, force); }), ...);
 }
 
-TEST(Refused, AForceThatIsNoNumber) {
+TEST(Refused, AForceThatIsNotFinite) {
     for (const double bad : {infinity, -infinity, not_a_number})
         expect_forces_refused(Spring{.anchor = {0, bad}}, Spring{.stiffness = bad}, LinearDrag{bad},
                               QuadraticDrag{bad}, CoilSpring{.anchor = {bad}},
@@ -97,14 +97,14 @@ TEST(Refused, AForceThatIsNoNumber) {
                               Attractor{.centre = {bad}}, Attractor{.gm = bad});
 }
 
-TEST(Refused, ALinkThatIsNoNumber) {
+TEST(Refused, ALinkThatIsNotFinite) {
     for (const double bad : {infinity, -infinity, not_a_number})
         for (const Link& link : {Link{.stiffness = bad}, {.damping = bad}, {.rest_length = bad}})
             expect_refused([&](Bodies& bodies) { bodies.link(0, 1, link); });
     expect_refused([](Bodies& bodies) { bodies.link(0, 1, {.rest_length = -1}); });
 }
 
-// Finite, but not per so little mass.
+// The force is finite, but the acceleration of the small mass is not.
 TEST(Refused, AForceThatOverflowsPerMass) {
     expect_refused([](Bodies& bodies) { bodies.add({.mass = 1e-300}, Spring{.stiffness = 1e10}); });
     expect_refused([](Bodies& bodies) { bodies.add({.mass = 1e-300}, LinearDrag{1e10}); });
@@ -117,7 +117,7 @@ Bodies flying(Precision precision, const Force&... force) {
     return bodies;
 }
 
-// 3 m/s · 100/64 s; a step's way, and half of it, are dyadic.
+// 3 m/s · 100/64 s. The displacement of a step, and half of it, are dyadic.
 TEST(NoStiffness, IsFreeFlight) {
     for (const Precision precision : precisions)
         for (const char* name :
@@ -131,8 +131,8 @@ TEST(NoStiffness, IsFreeFlight) {
         }
 }
 
-// Whatever the coefficients of the method: to the bit as without a force.
-TEST(NoStiffness, IsTheSameAsNoForce) {
+// Equal to the bit to motion without a force, for the coefficients of every method.
+TEST(NoStiffness, EqualsNoForce) {
     for (const Method& method : methods())
         for (const Precision precision : precisions) {
             SCOPED_TRACE(testing::Message() << method.name << " in " << name_of(precision));
@@ -171,8 +171,8 @@ Vec3 first_of(const Vec3& all, int axes) {
 
 constexpr double dampings[] = {0, 1, 1e12};
 
-// The force has no direction, so there is none. In float 1e-24 m has no square either, nor 1e-170 m
-// in double.
+// The force has no direction and is therefore 0. The squares of 1e-24 m in float and of 1e-170 m in
+// double underflow to 0 too.
 TEST(Coincident, ACoilSpringAtItsAnchorRests) {
     for_each_kind([](const Method& method, Precision precision, int axes) {
         const double short_of = precision == Precision::single ? 1e-24 : 1e-170;
@@ -188,7 +188,7 @@ TEST(Coincident, ACoilSpringAtItsAnchorRests) {
     });
 }
 
-// Two bodies of unlike mass fly together, as one without a link does.
+// Two bodies of different mass fly together like one body without a link.
 TEST(Coincident, LinkedBodiesFlyAsOne) {
     for_each_kind([](const Method& method, Precision precision, int axes) {
         for (const double damping : dampings) {
@@ -210,10 +210,10 @@ TEST(Coincident, LinkedBodiesFlyAsOne) {
     });
 }
 
-// Half-steps of a damper that lets nothing through make every step one from rest: the way that the
-// undamped method goes, h²/2 or so of the distance, however large the damping. That is far more
-// than the k·dt/b of a true creep: see creep_test for damping that belongs to the drift.
-TEST(HugeDamping, OfACoilSpringMakesEverySplittingStartFromRest) {
+// Half-steps of a huge damper make every step start from rest. The step is then that of the
+// undamped method, about h²/2 of the distance, for any large damping. That is far more than the
+// k·dt/b of true creep; creep_test covers damping in the drifts.
+TEST(HugeDamping, OfACoilSpringMakesEveryStepOfASplittingStartFromRest) {
     constexpr int steps = 60;
     const oiler::Oscillation swing{15 * rate.dt() * rate.dt(), 0};
     for (const Method& method : methods()) {
@@ -239,8 +239,8 @@ TEST(HugeDamping, OfACoilSpringLetsImplicitEulerCreep) {
     EXPECT_NEAR((2 - x_of(bodies)) / (15e-12 * steps / 64), 1, 1e-3);
 }
 
-// Of 4 m/s and 1 kg, and 3 kg at rest, one mass is left at 1 m/s: exactly as a splitting has it,
-// and to 1/(b·dt) as implicit Euler does.
+// 1 kg at 4 m/s and 3 kg at rest become one mass at 1 m/s: exactly with a splitting, and to
+// 1/(b·dt) with implicit Euler.
 TEST(HugeDamping, OfALinkMakesOneBodyOfTwo) {
     for (const Method& method : methods()) {
         if (!is_splitting(method) && method.name != "implicit_euler") continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When a run stops being finite, it says so, where and when theory has it.
+// A run that is no longer finite names the step and body that theory predicts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ using oiler::Vec3;
 
 constexpr Rate rate{60};
 
-/// Bodies of which the third is on a spring along z, from 1 m, with ω·dt = h.
+/// Bodies, the third of which is on a spring along z, from 1 m, with ω·dt = h.
 Bodies one_on_a_spring(Precision precision, double h) {
     const double omega = h * 60;
     Bodies bodies(3, precision);
@@ -42,23 +42,22 @@ Bodies one_on_a_spring(Precision precision, double h) {
     return bodies;
 }
 
-/// What stepping says in the end, `at_once` steps at a time.
-std::string end_of(Bodies bodies, const char* method, std::int64_t at_once) {
+/// The error message of the run, with `per_call` steps per call.
+std::string message_of(Bodies bodies, const char* method, std::int64_t per_call) {
     return line_of_error(Exit::diverged, [&] {
-        for (std::int64_t tick = 0; tick < 100'000; tick += at_once)
-            explained_step(bodies, find_method(method), {rate, tick, at_once});
+        for (std::int64_t tick = 0; tick < 100'000; tick += per_call)
+            explained_step(bodies, find_method(method), {rate, tick, per_call});
     });
 }
 
-/// n of "diverged at step n …".
+/// The n of "diverged at step n …".
 long step_in(const std::string& line) {
     const std::string start = "diverged at step ";
     EXPECT_TRUE(line.starts_with(start)) << line;
     return std::stol(line.substr(start.size()));
 }
 
-/// The first step whose force, k·|z| before it, is beyond what numbers hold. `ln_z` is ln|z| after
-/// n steps.
+/// The first step whose force, k·|z| before the step, overflows. `ln_z` is ln|z| after n steps.
 template <class F>
 long predicted_step(Precision precision, double h, F ln_z) {
     const double most = std::log(largest_of(precision)) - 2 * std::log(h * 60);
@@ -67,9 +66,9 @@ long predicted_step(Precision precision, double h, F ln_z) {
     return n + 1;
 }
 
-// z = (1 + h²)^(n/2)·cos(n·atan h). The force is infinite before anything else is, and the velocity
-// takes it in; the position has been given the velocity before.
-TEST(Diverging, ExplicitEulerDoesAtItsStep) {
+// z = (1 + h²)^(n/2)·cos(n·atan h). The force overflows first and makes the velocity infinite. The
+// position took the velocity before that, which is finite.
+TEST(Diverging, ExplicitEulerStopsAtTheStepOfTheory) {
     for (const Precision precision : precisions)
         for (const double h : {0.5, 1.25, 10.0, 1000.0}) {
             SCOPED_TRACE(testing::Message() << name_of(precision) << ", h = " << h);
@@ -77,7 +76,7 @@ TEST(Diverging, ExplicitEulerDoesAtItsStep) {
                 return n * std::log1p(h * h) / 2 + std::log(std::abs(std::cos(n * std::atan(h))));
             });
             const Bodies bodies = one_on_a_spring(precision, h);
-            const std::string line = end_of(bodies, "explicit_euler", 100'000);
+            const std::string line = message_of(bodies, "explicit_euler", 100'000);
             EXPECT_NEAR(step_in(line), step, 1) << line;
             EXPECT_TRUE(holds(line, ": velocity z of body 2 is no longer finite; ")) << line;
             EXPECT_TRUE(holds(line, "; spring of body 2: ω·dt = ")) << line;
@@ -85,10 +84,10 @@ TEST(Diverging, ExplicitEulerDoesAtItsStep) {
         }
 }
 
-// The eigenvalues of a step are λ and 1/λ, λ + 1/λ = 2 − h² < −2, and from (1, 0) to (1 − h², …) z
-// = A·λⁿ + B·λ⁻ⁿ, A = (1 − h² − 1/λ)/(λ − 1/λ). The position takes in the new velocity in the same
-// step, and is what is looked at first.
-TEST(Diverging, SemiImplicitEulerDoesAtItsStep) {
+// The eigenvalues of a step are λ and 1/λ, λ + 1/λ = 2 − h² < −2. From (1, 0) to (1 − h², …), z =
+// A·λⁿ + B·λ⁻ⁿ, A = (1 − h² − 1/λ)/(λ − 1/λ). The position takes the new velocity in the same step
+// and is checked first.
+TEST(Diverging, SemiImplicitEulerStopsAtTheStepOfTheory) {
     for (const Precision precision : precisions)
         for (const double h : {2.1, 2.4, 10.0, 1000.0}) {
             SCOPED_TRACE(testing::Message() << name_of(precision) << ", h = " << h);
@@ -99,31 +98,31 @@ TEST(Diverging, SemiImplicitEulerDoesAtItsStep) {
                 return std::log(std::abs(a)) + n * std::log(-lambda);
             });
             const Bodies bodies = one_on_a_spring(precision, h);
-            const std::string line = end_of(bodies, "semi_implicit_euler", 100'000);
+            const std::string line = message_of(bodies, "semi_implicit_euler", 100'000);
             EXPECT_NEAR(step_in(line), step, 1) << line;
             EXPECT_TRUE(holds(line, ": position z of body 2 is no longer finite; ")) << line;
             EXPECT_TRUE(holds(line, "semi_implicit_euler needs < 2: rate ≥ ")) << line;
         }
 }
 
-// In whole, as the user reads it: 144/s at 60 Hz is 2.4, and 72 Hz only just the limit. ln(max)/ln
-// λ less what ω² takes of the range, 709.8 − 9.9 e-folds at 1.2447 a step, is step 563.
-TEST(Diverging, SaysAllThatAUserNeeds) {
-    EXPECT_EQ(end_of(one_on_a_spring(Precision::double_, 2.4), "semi_implicit_euler", 1),
+// The whole message. 144/s at 60 Hz is ω·dt = 2.4, and 72 Hz is exactly the limit. The range is
+// 709.8 − 9.9 e-folds because of ω², and a step grows by 1.2447 e-folds: step 563.
+TEST(Diverging, NamesStepCauseAndRemedy) {
+    EXPECT_EQ(message_of(one_on_a_spring(Precision::double_, 2.4), "semi_implicit_euler", 1),
               "diverged at step 563 (t = 9.383333333333333 s): position z of body 2 is no longer "
               "finite; spring of body 2: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, "
               "or implicit_euler");
 }
 
-TEST(Diverging, SaysTheSameHoweverManyStepsAreTakenAtOnce) {
+TEST(Diverging, HasAMessageThatDoesNotDependOnTheStepsPerCall) {
     for (const char* name : {"explicit_euler", "semi_implicit_euler", "rk4"}) {
         const Bodies bodies = one_on_a_spring(Precision::single, 3);
-        EXPECT_EQ(end_of(bodies, name, 100'000), end_of(bodies, name, 7)) << name;
+        EXPECT_EQ(message_of(bodies, name, 100'000), message_of(bodies, name, 7)) << name;
     }
 }
 
-// What lasts is not at fault: the bodies around it are where they would be alone.
-TEST(Diverging, IsOfNoBodyThatIsStable) {
+// The stable bodies before the divergence are where they would be alone.
+TEST(Diverging, DoesNotAffectStableBodies) {
     const Bodies bodies = one_on_a_spring(Precision::double_, 1.9);
     for (const char* name : {"semi_implicit_euler", "velocity_verlet", "implicit_euler"}) {
         Bodies stable = bodies;
@@ -131,9 +130,9 @@ TEST(Diverging, IsOfNoBodyThatIsStable) {
     }
 }
 
-// A stiffness below 0 pushes, and the motion grows as cosh(ω·t) in any method; yet its run ends as
-// others do.
-TEST(Diverging, ASpringThatPushesDivergesLikeAnyOther) {
+// With negative stiffness the motion grows as cosh(ω·t) with any method. The run ends with the
+// usual message.
+TEST(Diverging, NegativeStiffnessIsReportedToo) {
     for (const char* name : {"semi_implicit_euler", "rk4"}) {
         Bodies bodies = oscillator(Precision::single, -15, 0, 1);
         const std::string line = line_of_error(Exit::diverged, [&] {
@@ -143,8 +142,8 @@ TEST(Diverging, ASpringThatPushesDivergesLikeAnyOther) {
     }
 }
 
-/// 1 kg each in rows 1 and 2, on a damper that makes their relative velocity w' = w − 2·1.5·w = −2w
-/// in a step of 1 s: after n steps each has 2^n m/s exactly.
+/// 1 kg each in rows 1 and 2. A step of 1 s of their damper makes the relative velocity
+/// w' = w − 2·1.5·w = −2w: after n steps each body has 2^n m/s exactly.
 Bodies doubling_pair(Precision precision) {
     Bodies bodies(1, precision);
     bodies.add({.position = {5}});
@@ -154,20 +153,19 @@ Bodies doubling_pair(Precision precision) {
     return bodies;
 }
 
-// After 127 (1023) steps each has 2^127 (2^1023) m/s, which float (double) holds, and the
-// difference of the two is twice that, which it does not hold: the force of step 128 (1024) is
-// infinite.
+// After 127 (1023) steps each body has 2^127 (2^1023) m/s, which is finite in float (double). Their
+// difference is twice that and overflows: the force of step 128 (1024) is infinite.
 TEST(DivergingNet, NamesTheStepOfTheFirstInfiniteVelocity) {
     for (const auto& [precision, last] :
          {std::pair(Precision::single, 128), {Precision::double_, 1024}})
         for (const std::int64_t first : {0, 1000})
-            for (const std::int64_t at_once : {1, 7, 2000}) {
+            for (const std::int64_t per_call : {1, 7, 2000}) {
                 SCOPED_TRACE(testing::Message() << name_of(precision) << " from " << first << ", "
-                                                << at_once << " per call");
+                                                << per_call << " per call");
                 Bodies bodies = doubling_pair(precision);
                 std::optional<oiler::Divergence> at;
-                for (std::int64_t tick = first; !at; tick += at_once)
-                    at = bodies.try_step(find_method("explicit_euler"), {{1}, tick, at_once});
+                for (std::int64_t tick = first; !at; tick += per_call)
+                    at = bodies.try_step(find_method("explicit_euler"), {{1}, tick, per_call});
                 EXPECT_EQ(at->tick, first + last);
                 EXPECT_EQ(at->row, 1U);
                 EXPECT_EQ(at->axis, 0);
@@ -175,8 +173,8 @@ TEST(DivergingNet, NamesTheStepOfTheFirstInfiniteVelocity) {
             }
 }
 
-/// A spring of ω·dt = 5 whose body rests on its anchor, and a link from row 2 to row 1 of
-/// ω² = 15552·(1 + 1/3) = 144² s⁻², ω·dt = 2.4, that is stretched.
+/// A spring of ω·dt = 5 whose body rests on its anchor, and a stretched link from row 2 to row 1 of
+/// ω² = 15552·(1 + 1/3) = 144² s⁻², ω·dt = 2.4.
 Bodies resting_spring_and_stretched_link() {
     Bodies bodies(1, Precision::double_);
     bodies.add({}, Spring{.stiffness = 300.0 * 300});
@@ -205,7 +203,7 @@ TEST(DivergingNet, BlamesTheLinkWhoseSecondEndDiverges) {
     EXPECT_TRUE(line.ends_with("; " + link_of_2_and_1)) << line;
 }
 
-TEST(DivergingNet, IsWarnedOfByBothEndsOfTheLink) {
+TEST(DivergingNet, IsWarnedOfWithBothEndsOfTheLink) {
     const oiler::Steps steps{.rate = rate};
     const Method& method = find_method("semi_implicit_euler");
     const auto risks = preflight(resting_spring_and_stretched_link(), method, steps);
@@ -216,15 +214,15 @@ TEST(DivergingNet, IsWarnedOfByBothEndsOfTheLink) {
               link_of_2_and_1);
 }
 
-/// From 25 cm straight at the centre with 25 cm a step.
+/// A body 25 cm from the centre that moves straight at it with 25 cm per step.
 Bodies falling_in(Precision precision) {
     Bodies bodies(1, precision);
     bodies.add({.position = {0.25}, .velocity = {-1}}, Attractor{.gm = 1});
     return bodies;
 }
 
-// Explicit Euler is there after one step, in which it looks only at where it was; the others look
-// there within the first. 0/0 is no force.
+// Explicit Euler evaluates the force at the centre in its second step, the others in their first.
+// The force is 0/0 there.
 TEST(Attractor, HitHeadOnIsReported) {
     const std::map<std::string_view, int> ticks{
         {"explicit_euler", 2}, {"semi_implicit_euler_drift_kick", 1}, {"rk2_heun", 1}};
@@ -240,13 +238,13 @@ TEST(Attractor, HitHeadOnIsReported) {
         }
 }
 
-// Newton's iteration cannot go on from there, which is another thing to say.
+// Newton's iteration does not converge from there, which has its own message.
 TEST(Attractor, HitByAnImplicitStepHasNoSolution) {
     for (const char* name : {"implicit_euler", "implicit_midpoint"}) {
         Bodies bodies(1, Precision::double_);
         bodies.add({}, Attractor{.gm = 1});
-        const std::string line =
-            line_of_error(Exit::diverged, [&] { explained_step(bodies, find_method(name), {{4}}); });
+        const std::string line = line_of_error(
+            Exit::diverged, [&] { explained_step(bodies, find_method(name), {{4}}); });
         EXPECT_EQ(step_in(line), 1);
         EXPECT_TRUE(holds(line, "found no solution")) << line;
         EXPECT_TRUE(holds(line, "body 0; take a higher rate")) << line;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One part in a million on either side of where a method stops being stable, on the undamped
-// spring, of which ω·dt alone matters: dt = 1 s, ω = h.
+// 10⁻⁶ on either side of the stability limit of each method, on the undamped spring. Only ω·dt
+// matters: dt = 1 s, ω = h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using oiler::StepMatrix;
 constexpr double u = round_off_of(Precision::double_);
 constexpr double near_limit = 1e-6;
 
-/// Each measured once: it takes some tens of milliseconds.
+/// The stability limit; each is measured once, because it takes some tens of milliseconds.
 double limit_of(const Method& method) {
     static std::map<std::string_view, double> known;
     const auto [at, is_new] = known.try_emplace(method.name);
@@ -40,7 +40,7 @@ StepMatrix matrix_of(const Method& method, double h) {
     return step_matrices(method, method.damping, std::span(&swing, 1)).front();
 }
 
-/// From x = 1 and, in row 1, from as much energy in v.
+/// Row 0 starts with x = 1, row 1 with equal energy in v.
 Bodies swinging(double h) {
     Bodies bodies = oscillator(Precision::double_, h * h, 0, 1, 0);
     bodies.add({.velocity = {h}}, Spring{.stiffness = h * h});
@@ -52,24 +52,24 @@ struct Size {
     long double v_over_h = 0;
 };
 
-/// The largest that steps of det = 1 lead to from (x, v). The form Q = (−vx, xx − vv, xv) of the
-/// step matrix obeys MᵀQM = det·Q (see energy_test). Where the eigenvalues are complex its level
-/// sets are ellipses that extend by √(Q_vv·Q(x, v)/D) along x and by √(Q_xx·Q(x, v)/D) along v, D =
-/// det − (trace/2)². At the limit of a symplectic method D → 0, and they grow as 1/√(distance).
+/// The largest x and v in steps of det = 1 from (x, v). The form Q = (−vx, xx − vv, xv) of the step
+/// matrix obeys MᵀQM = det·Q (see energy_test). If the eigenvalues are complex, its level sets are
+/// ellipses that extend by √(Q_vv·Q(x, v)/D) along x and by √(Q_xx·Q(x, v)/D) along v, where
+/// D = det − (trace/2)². At the limit of a symplectic method D → 0, and the ellipses grow as
+/// 1/√(distance from the limit).
 Size extent(const StepMatrix& m, double h, long double x, long double v) {
     const long double d = m.determinant() - m.trace() * m.trace() / 4;
     const long double q = -m.vx * x * x + (m.xx - m.vv) * x * v + m.xv * v * v;
     return {std::sqrt(m.xv * q / d), std::sqrt(-m.vx * q / d) / h};
 }
 
-/// Of what each of the two shows a thousand times, at intervals that are prime so that no phase
-/// recurs.
+/// The largest x and v of each row in 1000 samples, at prime intervals so that no phase recurs.
 std::array<Size, 2> largest_seen(const Method& method, double h) {
-    constexpr int at_once = long_run / 1000 - 3;
+    constexpr int per_call = long_run / 1000 - 3;
     Bodies bodies = swinging(h);
     std::array<Size, 2> seen;
-    for (int tick = 0; tick < long_run; tick += at_once) {
-        bodies.step(method, {{1}, tick, at_once});
+    for (int tick = 0; tick < long_run; tick += per_call) {
+        bodies.step(method, {{1}, tick, per_call});
         for (const std::size_t row : {0, 1}) {
             seen[row].x = std::max(seen[row].x, std::abs(x_of(bodies, row)));
             seen[row].v_over_h = std::max(seen[row].v_over_h, std::abs(v_of(bodies, row)) / h);
@@ -92,11 +92,11 @@ bool has_finite_limit(const Method& method) {
     return limit_of(method) > 0 && std::isfinite(limit_of(method));
 }
 
-// Every rounding may start an ellipse of its own, as long compared with what was rounded, the
-// extent of the motion, as that is with its start; within a step of many stages numbers may be some
-// ten times larger. A thousand phases come so close to the ends of the ellipse that the bound is
-// not just an upper one: (π/1000)²/2.
-TEST(StabilityLimit, JustBelowItMotionFillsTheMethodsOwnEllipse) {
+// Every rounding may start another ellipse, larger than the rounding by the ratio of the motion's
+// extent to its start. Within a step of many stages, numbers may be about ten times larger. A
+// thousand phases come within (π/1000)²/2 of the ends of the ellipse, so that the bound is also a
+// lower one.
+TEST(StabilityLimit, JustBelowItMotionFillsTheMethodsEllipse) {
     int symplectic = 0;
     for (const Method& method : methods()) {
         if (!method.symplectic || !has_finite_limit(method)) continue;
@@ -110,8 +110,8 @@ TEST(StabilityLimit, JustBelowItMotionFillsTheMethodsOwnEllipse) {
     EXPECT_GE(symplectic, 27);
 }
 
-// (−1)ⁿ·(2n + 1) and (−1)ⁿ·4n, all integers.
-TEST(StabilityLimit, AtItSemiImplicitEulerGrowsByAsMuchEveryStep) {
+// x is (−1)ⁿ·(2n + 1) and v is (−1)ⁿ·4n, all integers.
+TEST(StabilityLimit, AtItSemiImplicitEulerGrowsLinearly) {
     Bodies bodies = swinging(2);
     bodies.step(oiler::find_method("semi_implicit_euler"), {{1}, 0, 1000});
     EXPECT_EQ(x_of(bodies), 2001);
@@ -127,14 +127,14 @@ long double growth(const Method& method, double h, int first) {
     return std::log(amplitude(bodies, h) / before) / first;
 }
 
-/// Where e^`exponent` is reached by growing `rate` a step.
+/// The number of steps to grow by e^`exponent` at `rate` per step.
 int steps_to(double exponent, long double rate) {
     return static_cast<int>(std::min(long_run / 2.0L, exponent / std::abs(rate)));
 }
 
-// A symplectic method has grown by e^20 from where it is measured, and the part that shrinks has
-// gone by as much; the others turn and grow every state alike. The roundings of a step turn up in
-// its growth, and those of the coefficients also in the distance from the limit.
+// A symplectic method has grown by e^20 when it is measured, and its shrinking part has shrunk by
+// as much. The other methods turn and grow every state alike. The roundings of a step appear in its
+// growth, and those of the coefficients also in the distance from the limit.
 void expect_growth_at(const Method& method, double h) {
     const long double expected = std::log(spectral_radius(matrix_of(method, h)));
     const double tolerance =
@@ -151,14 +151,14 @@ TEST(StabilityLimit, JustAboveItMotionGrowsByTheSpectralRadius) {
         if (has_finite_limit(method)) expect_growth_at(method, limit_of(method) * (1 + near_limit));
 }
 
-TEST(StabilityLimit, JustBelowItWhatIsNotSymplecticShrinksByTheSpectralRadius) {
+TEST(StabilityLimit, JustBelowItOtherMethodsShrinkByTheSpectralRadius) {
     for (const Method& method : methods())
         if (has_finite_limit(method) && !method.symplectic)
             expect_growth_at(method, limit_of(method) * (1 - near_limit));
 }
 
-// |1 + ih|² = 1 + h² and |1 + ih − h²/2|² = 1 + h⁴/4: at h = 1e-3 1.2e-13 a step.
-TEST(StabilityLimit, WhereThereIsNoneEnergyGrowsAtAnyRate) {
+// |1 + ih|² = 1 + h² and |1 + ih − h²/2|² = 1 + h⁴/4: 1.2e-13 per step at h = 1e-3.
+TEST(StabilityLimit, OfZeroMeansThatEnergyGrowsAtAnyRate) {
     int unlimited = 0;
     for (const Method& method : methods()) {
         if (limit_of(method) != 0) continue;
@@ -173,9 +173,8 @@ TEST(StabilityLimit, WhereThereIsNoneEnergyGrowsAtAnyRate) {
     EXPECT_EQ(unlimited, 4);
 }
 
-// At h = 1000 implicit Euler leaves a thousandth of the amplitude after each step; fifty of them
-// leave 1e-150.
-TEST(StabilityLimit, WhereItIsInfiniteAThousandRadiansAStepAreBounded) {
+// At h = 1000 implicit Euler reduces the amplitude to 10⁻³ per step, and to 1e-150 in 50 steps.
+TEST(StabilityLimit, OfInfinityMeansThatAThousandRadiansPerStepAreBounded) {
     constexpr double h = 1000;
     int boundless = 0;
     for (const Method& method : methods()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What adds up over a million and a hundred million steps of the undamped spring.
+// Errors that accumulate over 10⁶ and 10⁸ steps of the undamped spring.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,13 +54,13 @@ long double slope_of(const std::vector<long double>& values) {
     return sum * 12 / (n * (n * n - 1));
 }
 
-/// The method's own energy over that of the start, at the ends of 200 blocks of a long run.
+/// The number of blocks of a long run. Energies are sampled at their ends, relative to the start.
 constexpr int blocks = 200;
 constexpr std::int64_t block = long_run / blocks;
 
 struct Course {
     std::vector<long double> own;
-    std::vector<long double> energy;  // the true one, likewise
+    std::vector<long double> energy;  // the true energy, sampled likewise
 };
 Course course_of(const Method& method, const Form& form, double h) {
     Bodies bodies = oscillator(Precision::double_, h * h, 0, 1);
@@ -74,24 +74,25 @@ Course course_of(const Method& method, const Form& form, double h) {
     return course;
 }
 
-/// How many times the largest of equal values of the form are the smallest, by true energy: the
-/// ratio of its eigenvalues over (h·x, v).
+/// The ratio of the largest to the smallest true energy on a level set of the form: the ratio of
+/// its eigenvalues over (h·x, v).
 long double width_of(const Form& form, long double h) {
     const long double middle = (form.xx / (h * h) + form.vv) / 2;
     const long double radius = std::hypot((form.xx / (h * h) - form.vv) / 2, form.xv / (2 * h));
     return (middle + radius) / (middle - radius);
 }
 
-/// The slope of a line through a random walk of n steps of √r roundings of up to u each, and twice
-/// that in squares, is 0 ± 2·√(r/3)·u·√(6/5n); four times that happens to no method in practice. A
-/// bias of one rounding a step would be a slope of 2·u, some √n times as steep.
+/// The largest slope that random roundings explain. The line through a random walk of n steps, each
+/// of r roundings of up to u and doubled by the squares, has the slope 0 ± 2·√(r/3)·u·√(6/5n). The
+/// limit is four times that. A bias of one rounding per step would be a slope of 2·u, about √n
+/// times as steep.
 double random_slope(const Method& method) {
     return 4 * 2 * std::sqrt(roundings(method) / 3.0 * 1.2 / long_run) * u;
 }
 
-// Kicks and drifts conserve area whatever their coefficients round to, and so does a step of
-// implicit midpoint: what they gain is roundings that come and go. The true energy stays in the
-// band that this leaves it, and swings, but has no trend of its own.
+// Kicks and drifts conserve area for any rounding of their coefficients, and so does a step of
+// implicit midpoint: their energy errors are random. The true energy oscillates within the band of
+// the modified energy, without a trend.
 TEST(LongRun, NoSymplecticMethodsEnergyHasATrend) {
     constexpr double h = 0.1;
     int symplectic = 0;
@@ -109,9 +110,9 @@ TEST(LongRun, NoSymplecticMethodsEnergyHasATrend) {
     EXPECT_GE(symplectic, 28);
 }
 
-// The four numbers of its step are right to the last place, and what they miss of det = 1, a
-// rounding or two, is gained in every step alike.
-TEST(LongRun, TheExactMethodsEnergyHasATrendOfARoundingAStep) {
+// The four coefficients of its step are right to the last digit. Their determinant differs from 1
+// by a rounding or two, which every step adds to the energy.
+TEST(LongRun, TheExactMethodsEnergyHasATrendOfARoundingPerStep) {
     const Method& method = find_method("exact");
     const Course course = course_of(method, Form(matrix_of(method, 0.1)), 0.1);
     const auto slope = static_cast<double>(slope_of(course.own) / block);
@@ -119,8 +120,8 @@ TEST(LongRun, TheExactMethodsEnergyHasATrendOfARoundingAStep) {
     EXPECT_LT(std::abs(slope), 2 * u);
 }
 
-// |R(ih)|² < 1 for RK4: every step takes its part, which is no round-off.
-TEST(LongRun, RK4LosesWhatTheArticleHasItLose) {
+// |R(ih)|² < 1 for RK4: every step loses energy, and not by round-off.
+TEST(LongRun, RK4LosesTheEnergyOfTheReference) {
     for (const auto& [rate, run] :
          {std::pair(Rate{10}, "undamped_90s_dt_0.1"), {Rate{4}, "undamped_90s_dt_0.25"}}) {
         const int steps = static_cast<int>(90 * rate.steps);
@@ -141,12 +142,11 @@ constexpr std::int64_t hundred_million = 100'000'000;
 constexpr std::int64_t hundred_million = 100'000;
 #endif
 
-/// 1 m at rest after 10⁸ steps of the article's spring, eleven and a half days at 100 Hz, in one
-/// call.
+/// The article's spring, from 1 m at rest, after 10⁸ steps in one call: 11.6 days at 100 Hz.
 struct Far {
     long double x;
     long double v;
-    double energy;  // over that of the start
+    double energy;  // relative to the start
 };
 Far hundred_million_steps(const char* method) {
     Bodies bodies = oscillator(Precision::double_, k, 0, 1);
@@ -154,20 +154,21 @@ Far hundred_million_steps(const char* method) {
     return {x_of(bodies), v_of(bodies), bodies.energy().total() / (k / 2)};
 }
 
-/// sin(θ/2) = ω·dt/2 of the double dt.
+/// sin(θ/2) = ω·dt/2, with dt rounded to double.
 const long double half_h = std::sqrt(15.0L) * Rate{100}.dt<double>() / 2;
 const long double theta = 2 * std::asin(half_h);
 
-/// As in energy_test: the velocity gathers a sum and smaller roundings in each kick, the position
-/// those of a drift, and squares take them twice. Up or down, they walk at random.
+/// The random walk of the relative energy error, see energy_test. Each kick rounds the velocity,
+/// each drift the position, and a quadratic form doubles the roundings.
 double walk(int moves) { return std::sqrt(static_cast<double>(hundred_million)) * 4 * moves * u; }
 
-/// No form keeps account of the phase, and the least bias of the roundings adds up. A rounding a
-/// step to one side is allowed; measured is 6e-11 rad, 0.006 of that.
+/// The tolerance of the phase, rad. No conserved form bounds the phase, so that a bias of the
+/// roundings accumulates. One rounding per step to one side is allowed; the measured error is 6e-11
+/// rad, 0.006 of that.
 constexpr double phase = hundred_million * u;
 
-// From rest x = cos((n + ½)·θ)/cos(θ/2) and v = −2·tan(θ/2)·sin(n·θ)/dt, as the reference has it.
-TEST(HundredMillionSteps, OfSemiImplicitEulerAreWhereTheyShouldBe) {
+// From rest x = cos((n + ½)·θ)/cos(θ/2) and v = −2·tan(θ/2)·sin(n·θ)/dt, as in the reference.
+TEST(HundredMillionSteps, OfSemiImplicitEulerEndAtTheReference) {
     const Far far = hundred_million_steps("semi_implicit_euler");
     const long double dt = Rate{100}.dt<double>();
     const long double form = far.v * far.v + k * far.x * far.x - k * dt * far.x * far.v;
@@ -179,8 +180,8 @@ TEST(HundredMillionSteps, OfSemiImplicitEulerAreWhereTheyShouldBe) {
     EXPECT_NEAR(far.v, -2 * std::tan(theta / 2) * std::sin(n * theta) / dt, phase * 4);
 }
 
-// x = cos(n·θ), and v² + ω²·(1 − h²/4)·x² stays.
-TEST(HundredMillionSteps, OfVelocityVerletAreWhereTheyShouldBe) {
+// x = cos(n·θ), and v² + ω²·(1 − h²/4)·x² is constant.
+TEST(HundredMillionSteps, OfVelocityVerletEndAtTheReference) {
     const Far far = hundred_million_steps("velocity_verlet");
     const long double part = 1 - half_h * half_h;
     EXPECT_NEAR((far.v * far.v + k * part * far.x * far.x) / (k * part), 1, walk(3));
@@ -189,8 +190,8 @@ TEST(HundredMillionSteps, OfVelocityVerletAreWhereTheyShouldBe) {
     EXPECT_NEAR(far.x, std::cos(static_cast<long double>(hundred_million) * theta), phase);
 }
 
-// The quotient of two integers; n times a rounded sixtieth of a second is another number for some.
-TEST(HundredMillionSteps, TakeTheirTimeToTheLastDigit) {
+// Time is a quotient of two integers. n times a rounded 1/60 s differs from it for some n.
+TEST(HundredMillionSteps, HaveTheirTimeToTheLastDigit) {
     for (std::int64_t n = 99'999'900; n <= 100'000'000; ++n) {
         EXPECT_EQ(Rate{60}.time(n), static_cast<double>(n) / 60);
         EXPECT_EQ(Rate{100}.time(n), static_cast<double>(n) / 100);

@@ -17,14 +17,14 @@ using oiler::spectral_radius;
 using oiler::stability_limit;
 using oiler::StepMatrix;
 
-// Ten digits, also of instabilities 3·10⁻⁴ wide and no faster than 4·10⁻⁴ a step, as
-// blanes_moan_srkn11b has one from 3.14143 on.
+// The limit has ten digits, also for an instability 3·10⁻⁴ wide that grows by at most 4·10⁻⁴ per
+// step, such as that of blanes_moan_srkn11b from 3.14143 on.
 TEST(StabilityLimit, IsWhereTheTraceLeavesItsInterval) {
     const auto limits = reference("stability_limits");
     EXPECT_GE(limits.size(), 30U);
     for (const auto& [name, limit] : limits.items()) {
         const Method& method = find_method(method_named(name));
-        // The one published table that was not used as published.
+        // The only table whose coefficients differ from the published ones.
         const double tolerance = name == "calvo_sanz_serna4" ? 1e-9 : 1e-10;
         EXPECT_NEAR(stability_limit(method, method.damping, {1, 0}), number(limit),
                     tolerance * number(limit))
@@ -38,8 +38,8 @@ TEST(StabilityLimit, ScalesWithTheSpring) {
     EXPECT_NEAR(stability_limit(method, method.damping, {1e-6, 0}), std::sqrt(8.0) * 1000, 1e-7);
 }
 
-// Damping alone: explicit methods of order p are stable while their truncated exponential is within
-// ±1: z < 2 for p = 1 and 2, and 2.7853 for p = 4 (Hairer & Wanner II, IV.2).
+// With damping alone, explicit methods of order p are stable while their truncated exponential is
+// within ±1: z < 2 for p = 1 and 2, and 2.7853 for p = 4 (Hairer & Wanner II, IV.2).
 TEST(StabilityLimit, OfDampingAlone) {
     const auto limit = [](const char* name) {
         return stability_limit(find_method(name), Damping::in_kick, {0, 1});
@@ -51,7 +51,8 @@ TEST(StabilityLimit, OfDampingAlone) {
     EXPECT_TRUE(std::isinf(limit("implicit_euler")));
 }
 
-// Explicit Euler on the article's spring: every dt up to b/k = 1/150 s is stable, and none beyond.
+// Explicit Euler on the article's spring is stable for every dt up to b/k = 1/150 s, and for no
+// larger one.
 TEST(StabilityLimit, OfExplicitEulerOnTheArticlesSpring) {
     EXPECT_NEAR(stability_limit(find_method("explicit_euler"), Damping::in_kick, {15, 0.1}),
                 0.1 / 15, 1e-12);
@@ -63,7 +64,8 @@ TEST(SpectralRadius, IsThatOfTheLargerEigenvalue) {
     EXPECT_NEAR(static_cast<double>(spectral_radius(StepMatrix{0, 2, -2, 0})), 2, 1e-18);
 }
 
-// Unlike the radius, which where both eigenvalues meet is off by the root of round-off.
+// The spectral radius has an error of the square root of round-off where both eigenvalues meet;
+// is_stable does not.
 TEST(Stable, IncludesTheEdge) {
     EXPECT_TRUE(oiler::is_stable({1, 0, 0, 1}));
     EXPECT_TRUE(oiler::is_stable({-1, 1, 0, -1}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What preflight says before a run, held against the run.
+// Preflight's warnings before a run, compared with the run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ using oiler::Steps;
 
 constexpr Rate rate{60};
 
-/// The lines for a method with its own damping.
+/// The warnings for a method with its default damping.
 std::vector<std::string> warnings(const Bodies& bodies, const Method& method, const Rate& at) {
     const Steps steps{.rate = at};
     std::vector<std::string> lines;
@@ -43,7 +43,7 @@ std::vector<std::string> warnings(const Bodies& bodies, const Method& method, co
     return lines;
 }
 
-/// n of "… rate ≥ n Hz …".
+/// The n of "… rate ≥ n Hz …".
 std::int64_t rate_in(const std::string& line) {
     const std::string before = "rate ≥ ";
     const std::size_t at = line.find(before);
@@ -54,7 +54,7 @@ std::int64_t rate_in(const std::string& line) {
 /// 1 kg at 1 m on a spring of ω·dt = h, 60 Hz.
 Bodies swinging(double h) { return oscillator(Precision::double_, h * h * 3600, 0, 1); }
 
-/// The amplitude after two thousand steps over that of the start; infinite where it diverges.
+/// The amplitude after 2000 steps relative to the start; infinite if the run diverges.
 double growth(Bodies bodies, const Method& method, std::int64_t steps_per_second) {
     const long double before = std::abs(x_of(bodies)) + std::abs(v_of(bodies)) / 60;
     if (bodies.try_step(method, {{steps_per_second}, 0, 2000}))
@@ -62,8 +62,8 @@ double growth(Bodies bodies, const Method& method, std::int64_t steps_per_second
     return static_cast<double>((std::abs(x_of(bodies)) + std::abs(v_of(bodies)) / 60) / before);
 }
 
-// At 144/s and 73 Hz x stays below 1/√(1 − h²/4) = 6.1; at 72 Hz h = 2, where semi-implicit Euler
-// adds twice the start to it every step.
+// At 144/s and 73 Hz, x stays below 1/√(1 − h²/4) = 6.1. At 72 Hz h = 2, and semi-implicit Euler
+// adds twice the start to x every step.
 TEST(Warning, NamesLimitAndLowestRate) {
     const Method& method = find_method("semi_implicit_euler");
     const auto lines = warnings(swinging(2.4), method, rate);
@@ -75,7 +75,7 @@ TEST(Warning, NamesLimitAndLowestRate) {
     EXPECT_GT(growth(swinging(2.4), method, 72), 3900);
 }
 
-// Where half of ω is a whole number, that rate is the limit itself, and too low.
+// If ω/2 is an integer, that rate is the limit itself, and too low.
 TEST(Warning, NamesNoRateAtTheLimit) {
     std::vector<int> at_the_limit;
     for (int omega = 126; omega <= 240; omega += 6) {
@@ -87,15 +87,14 @@ TEST(Warning, NamesNoRateAtTheLimit) {
     EXPECT_EQ(at_the_limit, std::vector<int>());
 }
 
-/// Whether a step of ω·dt = h is.
 bool is_stable_at(const Method& method, double h) {
     const oiler::Oscillation swing{h * h, 0};
     return is_stable(step_matrices(method, method.damping, std::span(&swing, 1)).front());
 }
 
-// 60.5 Hz are needed. Half a hertz above, motion stays within the method's ellipse, some 100 times
-// as long as wide; half a hertz below, two thousand steps grow by at least e^12; but for the
-// three methods that are stable again there, and are not warned of.
+// The limit is 60.5 Hz. At 61 Hz, motion stays within the method's ellipse, about 100 times as long
+// as wide. At 60 Hz, 2000 steps grow by at least e^12, except for the three methods that are stable
+// again there and have no warning.
 TEST(Warning, NamesARateThatIsStableForEveryMethodAndOneBelowIsNot) {
     int warned = 0;
     for (const Method& method : methods()) {
@@ -114,8 +113,8 @@ TEST(Warning, NamesARateThatIsStableForEveryMethodAndOneBelowIsNot) {
     EXPECT_GE(warned, 27);
 }
 
-// v' = v·(1 − c·dt): −1.983 at 60 Hz, −1.011 at 89 Hz, −0.989 at 90 Hz.
-TEST(Warning, IsOfDragAloneToo) {
+// v' = v·(1 − c·dt): the factor is −1.983 at 60 Hz, −1.011 at 89 Hz and −0.989 at 90 Hz.
+TEST(Warning, IsGivenForDragAloneToo) {
     Bodies bodies(1, Precision::double_);
     bodies.add({.velocity = {1}}, LinearDrag{179});
     const Method& method = find_method("explicit_euler");
@@ -133,8 +132,10 @@ TEST(Warning, SaysThatNoRateHelps) {
     for (const char* name : {"explicit_euler", "rk2_midpoint", "rk2_heun", "rk2_ralston"}) {
         const auto lines = warnings(swinging(0.1), find_method(name), rate);
         ASSERT_EQ(lines.size(), 1U) << name;
-        EXPECT_EQ(lines[0], "spring of body 0: ω·dt = 0.1, " + std::string(name) +
-                                " gains energy at any rate: take another, say velocity_verlet");
+        EXPECT_EQ(
+            lines[0],
+            "spring of body 0: ω·dt = 0.1, " + std::string(name) +
+                " gains energy at any rate: take another method, for example velocity_verlet");
     }
 }
 
@@ -165,7 +166,7 @@ TEST(Warning, ChangesNothing) {
     }
 }
 
-TEST(Warning, IsNotGivenOfWhatIsStable) {
+TEST(Warning, IsNotGivenForStableBodies) {
     for (const Method& method : methods()) {
         const double limit = stability_limit(method, method.damping, {1, 0});
         const double h = std::min(0.95 * limit, 1000.0);
@@ -177,7 +178,7 @@ TEST(Warning, IsNotGivenOfWhatIsStable) {
     }
 }
 
-TEST(Warning, IsNeverGivenOfTheImplicitAndTheExact) {
+TEST(Warning, IsNeverGivenForImplicitAndExactMethods) {
     for (const char* name : {"implicit_euler", "implicit_midpoint", "exact"})
         for (const double k : {0.0, 1e-300, 15.0, 1e12, 1e40})
             for (const double damping : {0.0, 1e-300, 0.1, 1e12, 1e290})
@@ -187,8 +188,8 @@ TEST(Warning, IsNeverGivenOfTheImplicitAndTheExact) {
                     << name << k << " " << damping;
 }
 
-/// On a coil spring or a link, a damper is stepped in halves around a splitting's step, in which it
-/// takes what it takes exactly, and no drift runs it backwards.
+/// Bodies on a coil spring. A splitting applies its damper in exact half-steps around the step, and
+/// no drift runs it backwards.
 Bodies on_a_coil(double stiffness, double damping) {
     Bodies bodies(1, Precision::double_);
     bodies.add({.position = {2}}, CoilSpring{{}, stiffness, damping, 0});
@@ -202,7 +203,7 @@ Bodies on_a_link(double stiffness, double damping) {
     return bodies;
 }
 
-/// How many lines preflight has, or what it throws.
+/// The number of warnings, or the message that preflight throws.
 std::string outcome(const Bodies& bodies, const Method& method, const Steps& steps) {
     try {
         return std::to_string(preflight(bodies, method, steps).size()) + " lines";
@@ -211,8 +212,8 @@ std::string outcome(const Bodies& bodies, const Method& method, const Steps& ste
     }
 }
 
-// These run, and there is nothing to warn of; let alone to refuse.
-TEST(WarningOfADamperBetween, IsNotGivenWhereTheRunIsStable) {
+// These runs are stable: they have no warning and are not refused.
+TEST(WarningOfADamperBetween, IsNotGivenIfTheRunIsStable) {
     for (const double damping : {1e3, 1e6, 1e12})
         for (const Bodies& bodies : {on_a_coil(15, damping), on_a_link(15, damping)})
             for (const char* name : {"velocity_verlet", "forest_ruth4", "yoshida4_kdk"}) {
@@ -224,8 +225,8 @@ TEST(WarningOfADamperBetween, IsNotGivenWhereTheRunIsStable) {
             }
 }
 
-// Where each step starts from rest, x' = (1 − h²/2)·x in velocity Verlet: at h = 3 times −3.5.
-TEST(WarningOfADamperBetween, IsGivenWhereTheRunDiverges) {
+// If each step starts from rest, velocity Verlet has x' = (1 − h²/2)·x: −3.5·x at h = 3.
+TEST(WarningOfADamperBetween, IsGivenIfTheRunDiverges) {
     for (const Bodies& bodies : {on_a_coil(9 * 3600, 1200), on_a_link(9 * 3600, 1200)}) {
         const Method& method = find_method("velocity_verlet");
         Bodies run = bodies;
@@ -234,8 +235,8 @@ TEST(WarningOfADamperBetween, IsGivenWhereTheRunDiverges) {
     }
 }
 
-// And the run's end is told as a divergence, not as wrong usage.
-TEST(WarningOfADamperBetween, DoesNotStandInForADivergence) {
+// The run ends with a divergence, not with a usage error.
+TEST(WarningOfADamperBetween, DoesNotReplaceADivergence) {
     for (Bodies bodies : {on_a_coil(9 * 3600, 1e7), on_a_link(9 * 3600, 1e7)}) {
         const std::string line = line_of_error(Exit::diverged, [&] {
             explained_step(bodies, find_method("forest_ruth4"), {rate, 0, 10'000});
@@ -244,8 +245,8 @@ TEST(WarningOfADamperBetween, DoesNotStandInForADivergence) {
     }
 }
 
-// Whatever a step can be taken with, preflight can be asked of.
-TEST(Warning, CanBeAskedForWhateverTheNumbers) {
+// Preflight accepts all numbers that a step accepts.
+TEST(Warning, IsComputedForAnyNumbers) {
     const Method& method = find_method("velocity_verlet");
     for (const Rate at : {Rate{1'000'000'000}, Rate{1, 10}})
         for (const double k : {-15.0, 5e-324, 1e12, 1.7e308})
@@ -254,8 +255,8 @@ TEST(Warning, CanBeAskedForWhateverTheNumbers) {
                 << "k = " << k << ", dt = " << at.dt();
 }
 
-// 5e19 Hz is more than a rate can hold.
-TEST(Warning, NamesNoRateThatIsNone) {
+// 5e19 Hz is too large for a rate.
+TEST(Warning, NamesNoInvalidRate) {
     for (const std::string& line : warnings(swinging(1e18), find_method("velocity_verlet"), rate))
         EXPECT_FALSE(holds(line, "rate ≥ -")) << line;
 }

@@ -11,16 +11,16 @@
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/methods/methods.hpp"
 
-/// Errors of order p are held against size·(rate·dt)^p.
+/// The scale of errors: an error of order p is compared with size·(rate·dt)^p.
 struct Scale {
     long double rate;  ///< how fast the motion changes: its Taylor series has terms (rate·t)^n
     long double size;  ///< in the unit of the error
 };
 
-/// What a halving of dt must do to an error: 2^−order, but for the next term of the error, which is
-/// small by now. That term is two orders higher where the method is symmetric; else it is the next
-/// order's, and where the leading term is small beside it the error may still fall faster than
-/// 2^−order, or, where the two have opposite signs, a little slower.
+/// Expects that halving dt divides an error by 2^order, apart from the next term of the error,
+/// which is small by now. That term is two orders higher for a symmetric method, otherwise one. If
+/// the leading term is small beside it, the error may fall faster, or, with opposite signs, a
+/// little slower.
 inline void expect_fall(long double coarse, long double fine, const oiler::Method& method,
                         int order) {
     const long double slope = std::log2(coarse / fine);
@@ -30,10 +30,10 @@ inline void expect_fall(long double coarse, long double fine, const oiler::Metho
     }
 }
 
-/// Doubles the number of steps in a second (or in whatever rate and `error` count by) until the
-/// error is below `ceiling`. On the way it stays within size·(rate·dt)^order, so that this comes to
-/// pass; and the last halving of dt divides it by 2^order. An error that tended to a tenth of
-/// `ceiling` instead of 0 would not.
+/// Doubles the number of steps per second (or per unit of `error`) until the error is below
+/// `ceiling`. Every error must be within size·(rate·dt)^order, so that the loop ends. The last
+/// halving of dt must divide it by 2^order. An error that tended to a tenth of `ceiling` instead of
+/// 0 would fail.
 template <class Error>
 void expect_convergence(const oiler::Method& method, int order, Error error, int steps, Scale scale,
                         long double ceiling) {
@@ -44,11 +44,11 @@ void expect_convergence(const oiler::Method& method, int order, Error error, int
         steps *= 2;
         coarse = std::exchange(fine, error(steps));
     }
-    ASSERT_GT(coarse, 0) << "met with the first dt";
+    ASSERT_GT(coarse, 0) << "the first dt has no error";
     expect_fall(coarse, fine, method, order);
 }
 
-/// The methods of order 4 and above, but for the exact one.
+/// The methods of order 4 and above, except the exact one.
 inline std::vector<const oiler::Method*> high_orders() {
     std::vector<const oiler::Method*> found;
     for (const oiler::Method& method : oiler::methods())
@@ -56,7 +56,7 @@ inline std::vector<const oiler::Method*> high_orders() {
     return found;
 }
 
-/// A state that one force moves for `steps` steps of `dt`.
+/// The state after `steps` steps of `dt` with one force.
 template <class T, int Axes, class Physics>
 oiler::State<T, Axes> moved(const oiler::Method& method, oiler::State<T, Axes> state,
                             const Physics& physics, T dt, std::int64_t steps) {

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <new>
 
-// Replaces the global allocation functions of the program that includes it, once, with counting
-// ones; what is not defined here calls these. Not inlined, since g++ then takes the free for a
-// mistake.
+// Replaces the global allocation functions of a program with counting ones; include it in one file.
+// The functions that are not defined here call these. They are not inlined, because g++ then warns
+// of the free.
 
 inline long allocations = 0;
 

@@ -13,7 +13,7 @@
 
 namespace oiler::test {
 
-/// A fresh folder of a test's own, removed with what is in it.
+/// A new temporary folder of a test, removed with its contents.
 class Folder {
 public:
     Folder() {
@@ -34,7 +34,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// The names in a folder, hidden ones too, sorted.
+/// The sorted names in a folder, including hidden ones.
 inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder))

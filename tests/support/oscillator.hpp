@@ -14,8 +14,8 @@
 
 namespace oiler::test {
 
-/// A run so long that a trend of one rounding a step would show; a hundredth of it where the build
-/// is neither optimised nor free of sanitizers.
+/// The steps of a run in which a trend of one rounding per step is visible; a hundredth of them in
+/// unoptimised builds and with sanitizers.
 #ifdef NDEBUG
 inline constexpr int long_run = 1'000'000;
 #else
@@ -24,7 +24,7 @@ inline constexpr int long_run = 10'000;
 
 inline constexpr std::array precisions{Precision::single, Precision::double_};
 
-/// The most that a rounding changes a number by, relatively.
+/// The largest relative change of a number by a rounding.
 constexpr double round_off_of(Precision precision) {
     return precision == Precision::single ? std::numeric_limits<float>::epsilon() / 2.0
                                           : std::numeric_limits<double>::epsilon() / 2;
@@ -39,9 +39,9 @@ inline bool is_splitting(const Method& method) {
     return std::holds_alternative<Splitting>(method.rule);
 }
 
-/// The most roundings of numbers of the size of the motion that a step makes: a move of a splitting
-/// forms a force, a product and a sum; each of a tableau's stages, and its end, sums up to `count`
-/// products in x and in v; an implicit step's last iteration and the exact step by counting.
+/// The most roundings of numbers of the motion's size per step. A move of a splitting computes a
+/// force, a product and a sum. Each stage of a tableau, and its end, sums up to `count` products in
+/// x and v. The last iteration of an implicit step and the exact step are counted.
 inline int roundings(const Method& method) {
     if (const auto* splitting = std::get_if<Splitting>(&method.rule))
         return 4 * static_cast<int>(splitting->stages().size());
@@ -63,7 +63,7 @@ inline long double x_of(const Bodies& bodies, std::size_t row = 0) {
 inline long double v_of(const Bodies& bodies, std::size_t row = 0) {
     return bodies.state(row).v[0];
 }
-/// √(ω²x² + v²), the root of twice the energy per mass.
+/// The amplitude √(ω²x² + v²): the square root of twice the energy per mass.
 inline long double amplitude(const Bodies& bodies, long double omega) {
     return std::hypot(omega * x_of(bodies), v_of(bodies));
 }
@@ -74,7 +74,7 @@ inline std::uint64_t hash_of(const Bodies& bodies) {
     return hash.value();
 }
 
-/// What `f` throws, which must be an Error with this exit.
+/// The message that `f` throws in an Error with this exit code.
 template <class F>
 std::string line_of_error(Exit exit, F f) {
     try {

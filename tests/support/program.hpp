@@ -10,14 +10,14 @@
 
 namespace oiler::test {
 
-/// How a program ended, and what it said.
+/// The exit code and the output of a program.
 struct Outcome {
     int exit = -1;
     std::string out;
     std::string err;
 };
 
-/// Runs a line of shell in which the built programs are on the PATH and no display is known.
+/// Runs a line of shell with the built programs on the PATH and without a display.
 inline Outcome shell(const std::string& line) {
     const Folder folder;
     const std::string whole =

@@ -12,13 +12,13 @@ inline nlohmann::json reference(const std::string& name) {
     return nlohmann::json::parse(file).at("values");
 }
 
-/// A number that the reference files hold as text, to keep all of its digits.
+/// A number of the reference files, which store text to keep all digits.
 template <class T = double>
 T number(const nlohmann::json& text) {
     return static_cast<T>(std::strtold(text.get_ref<const std::string&>().c_str(), nullptr));
 }
 
-/// The engine's name of a splitting that the reference files name.
+/// The engine's name for a splitting of the reference files.
 inline std::string method_named(const std::string& reference_name) {
     if (reference_name == "semi_implicit_euler_kd") return "semi_implicit_euler";
     if (reference_name == "semi_implicit_euler_dk") return "semi_implicit_euler_drift_kick";

@@ -20,9 +20,9 @@ inline oiler::Bodies article_spring(double b,
     return bodies;
 }
 
-/// How far round-off may carry the spring's position (m) in `steps` steps: a step makes at most
-/// `operations` roundings, each of a number not larger than the motion's `amplitude` (m; velocities
-/// over ω), and the step matrix carries them on without growing them beyond the motion itself.
+/// The largest error of the spring's position (m) by round-off in `steps` steps. A step makes at
+/// most `operations` roundings of numbers up to the `amplitude` (m; velocities over ω), and later
+/// steps do not amplify them.
 inline double drift_of_rounding(int steps, int operations, double amplitude) {
     return steps * operations * round_off * amplitude;
 }

@@ -34,16 +34,16 @@ TEST(Allocations, AreCounted) {
 TEST(Allocations, StepsMakeNone) {
     for (const Method& method : oiler::methods())
         for (const Precision precision : {Precision::single, Precision::double_})
-            for (const int at_once : {1, 10}) {
+            for (const int per_call : {1, 10}) {
                 World world = busy_world(method, precision);
-                world.step(at_once);
+                world.step(per_call);
                 const long before = allocations;
-                for (int i = 0; i < 1000; ++i) world.step(at_once);
+                for (int i = 0; i < 1000; ++i) world.step(per_call);
                 EXPECT_EQ(allocations, before) << method.name << ", " << name_of(precision);
             }
 }
 
-TEST(Allocations, LookingAtAWorldMakesNone) {
+TEST(Allocations, ReadingAWorldMakesNone) {
     const World world = busy_world(oiler::methods().front(), Precision::single);
     const long before = allocations;
     const std::uint64_t hash = world.state_hash();

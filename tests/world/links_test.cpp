@@ -38,7 +38,7 @@ TEST(WorldLinks, PullTheirBodiesTogether) {
     EXPECT_LT(chain.world.velocity(chain.third)[0], 0);
 }
 
-TEST(WorldLinks, GoWithTheirEntities) {
+TEST(WorldLinks, AreRemovedWithTheirEntities) {
     Chain chain;
     chain.world.destroy(chain.first);
     EXPECT_EQ(chain.world.bodies().link_count(), 1U);
@@ -60,8 +60,8 @@ TEST(WorldLinks, AreCopiedWithTheirWorld) {
     EXPECT_EQ(copy.state_hash(), chain.world.state_hash());
 }
 
-// A teleport between two steps must not be answered with the acceleration of before.
-TEST(WorldLinks, FeelATeleportAtOnce) {
+// A step after a teleport must not use the acceleration from before it.
+TEST(WorldLinks, ReactToATeleportInTheNextStep) {
     Chain chain;
     chain.world.step(1);
     chain.world.teleport(chain.first, {1.5, 0, 0});
@@ -73,7 +73,7 @@ TEST(WorldLinks, FeelATeleportAtOnce) {
     EXPECT_NEAR(chain.world.velocity(chain.first)[0], before[0], 0.1);
 }
 
-/// Bodies are named by their entities, also where rows have moved.
+// Bodies are named by their entities, also after rows have moved.
 TEST(Preflight, NamesEntities) {
     World world(1, {.rate = Rate{60}});
     const Entity gone = world.spawn(Body{});
@@ -88,7 +88,7 @@ TEST(Preflight, NamesEntities) {
               "implicit_euler");
 }
 
-TEST(Preflight, CountsWhatItDoesNotName) {
+TEST(Preflight, CountsTheBodiesThatItDoesNotName) {
     World world(1, {.rate = Rate{10}});
     for (int i = 0; i < 9; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});
     const auto lines = world.preflight(2);
@@ -97,7 +97,7 @@ TEST(Preflight, CountsWhatItDoesNotName) {
     EXPECT_EQ(lines[2], "and 7 more");
 }
 
-// The last row takes the place of each that goes: entities 3 and 2 stay, in rows 0 and 1.
+// The last row moves to the place of each removed row: entities 3 and 2 stay, in rows 0 and 1.
 // ω² = 10368·(1 + 1) = 144² s⁻².
 TEST(Preflight, NamesBothEndsOfALinkByTheirEntities) {
     World world(1, {.rate = Rate{60}});
@@ -115,7 +115,7 @@ TEST(Preflight, NamesBothEndsOfALinkByTheirEntities) {
     EXPECT_TRUE(lines[0].starts_with("link of bodies 3 and 2: ω·dt up to 2.4, ")) << lines[0];
 }
 
-TEST(Preflight, CountsNoneWhereAllAreNamed) {
+TEST(Preflight, CountsNoneIfAllAreNamed) {
     World world(1, {.rate = Rate{10}});
     for (int i = 0; i < 5; ++i) world.spawn(Body{}, Spring{.stiffness = 1000.0 + i});
     EXPECT_EQ(world.preflight(5).size(), 5U);
@@ -126,7 +126,7 @@ TEST(Preflight, CountsNoneWhereAllAreNamed) {
     EXPECT_EQ(world.preflight(4).back(), "and 1 more");
 }
 
-TEST(Preflight, KnowsWhereDampingIsPut) {
+TEST(Preflight, DependsOnTheDampingOfTheSetting) {
     const auto warnings = [](Damping damping) {
         World world(1, {.rate = Rate{10}, .damping = damping});
         world.spawn(Body{}, Spring{.stiffness = 100, .damping = 18});
@@ -137,7 +137,7 @@ TEST(Preflight, KnowsWhereDampingIsPut) {
     EXPECT_EQ(warnings(Damping::in_drift), 0U);
 }
 
-TEST(WorldMethods, ThatCannotStepItAreRefusedBeforeAnyStep) {
+TEST(WorldMethods, ThatCannotStepTheBodiesAreRefusedBeforeAnyStep) {
     Chain chain;
     World world = chain.world;
     EXPECT_NO_THROW(world.require_applicable());

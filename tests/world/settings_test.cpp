@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings reach the step.
+// The settings of a world affect its steps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +38,8 @@ double position_after_a_step(const Stepping& stepping) {
     return world.position(body)[0];
 }
 
-// Explicit Euler moves with the old velocity, semi-implicit Euler with 1 − (1 + 1)/2 = 0 m/s; with
-// the damper in the drift with 1 − ½ = ½ m/s, which fades as e^(−t): ½·(1 − e^(−½)) m.
+// Explicit Euler moves with the old velocity, semi-implicit Euler with 1 − (1 + 1)/2 = 0 m/s. With
+// the damper in the drift, it moves with 1 − ½ = ½ m/s, which fades as e^(−t): ½·(1 − e^(−½)) m.
 TEST(WorldSettings, MethodAndDamping) {
     EXPECT_EQ(position_after_a_step({.method = &find_method("explicit_euler"), .rate = {2}}), 1.5);
     EXPECT_EQ(position_after_a_step({.rate = {2}}), 1);

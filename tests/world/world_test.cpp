@@ -53,7 +53,7 @@ TEST(Entities, NoneIsAliveByDefault) {
     EXPECT_EQ(world.jumps(Entity{}), 0U);
 }
 
-TEST(Entities, StaleHandlesAreKnownAlsoWhenTheSlotIsUsedAgain) {
+TEST(Entities, StaleHandlesAreRecognisedAlsoWhenTheSlotIsUsedAgain) {
     World world(1);
     const Entity old = world.spawn({});
     world.add(old, Health{3});
@@ -76,7 +76,7 @@ TEST(Entities, HaveIdsThatAreNeverZero) {
     EXPECT_NE(world.create().id(), 0U);
 }
 
-TEST(Entities, ComeWithoutWhatTheSlotHadBefore) {
+TEST(Entities, DoNotInheritComponentsOfTheirSlot) {
     World world(1);
     const Entity old = world.spawn({});
     world.add(old, Health{3});
@@ -128,7 +128,7 @@ TEST(Components, MayBeMoveOnly) {
     EXPECT_THROW(World{moved}, std::logic_error);
 }
 
-// Counted in moves of components, which a search or a shift would make many of.
+// Counts the moves of components. A search or a shift would make many.
 struct Counted {
     static inline int moves = 0;
     Counted() = default;
@@ -163,7 +163,7 @@ std::vector<std::uint32_t> order(World& world) {
     return indices;
 }
 
-TEST(Each, GoesInTheOrderOfAddingWithTheLastInTheHole) {
+TEST(Each, VisitsInTheOrderOfAddingWithTheLastInTheHole) {
     World world(1);
     std::vector<Entity> entities;
     for (int i = 0; i < 6; ++i) entities.push_back(world.create());
@@ -176,7 +176,7 @@ TEST(Each, GoesInTheOrderOfAddingWithTheLastInTheHole) {
     EXPECT_EQ(order<Health>(world), (std::vector<std::uint32_t>{3, 4, 5, 2}));
 }
 
-TEST(Each, VisitsThoseThatHaveAll) {
+TEST(Each, VisitsEntitiesWithAllComponents) {
     World world(1);
     std::vector<Entity> entities;
     for (int i = 0; i < 30; ++i) {
@@ -193,8 +193,8 @@ TEST(Each, VisitsThoseThatHaveAll) {
     });
 }
 
-/// Adds and removes Health by a fixed sequence; with `noise` other components and bodies come and
-/// go in between, and their pools exist first.
+/// Adds and removes Health in a fixed sequence. With `noise`, other components and bodies are added
+/// and removed in between, and their pools are created first.
 World with_history(bool noise) {
     World world(1);
     std::mt19937_64 random(7);
@@ -219,14 +219,14 @@ World with_history(bool noise) {
     return world;
 }
 
-TEST(Each, HasAnOrderThatDependsOnItsOwnAddsAndRemovesAlone) {
+TEST(Each, HasAnOrderThatDependsOnTheAddsAndRemovesOfItsTypeAlone) {
     World quiet = with_history(false);
     World noisy = with_history(true);
     EXPECT_GT(order<Health>(quiet).size(), 10U);
     EXPECT_EQ(order<Health>(quiet), order<Health>(noisy));
 }
 
-TEST(Each, MayDestroyTheEntityItIsAt) {
+TEST(Each, MayDestroyTheVisitedEntity) {
     for (const int keep : {0, 1, 2, 3}) {
         World world(1);
         for (int i = 0; i < 20; ++i) world.add(world.spawn({}), Health{i});
@@ -243,7 +243,7 @@ TEST(Each, MayDestroyTheEntityItIsAt) {
     }
 }
 
-TEST(Each, MayCreateOthersAndVisitsNoneOfThem) {
+TEST(Each, MayCreateOthersAndDoesNotVisitThem) {
     World world(1);
     for (int i = 0; i < 20; ++i) world.add(world.create(), Health{i});
     std::map<int, int> visits;
@@ -265,7 +265,7 @@ TEST(World, ARefusedBodyLeavesNoEntity) {
     EXPECT_EQ(world.bodies().size(), 0U);
 }
 
-/// What a world should hold, the simple way.
+/// A simple model of the expected content of a world.
 struct Model {
     Vec3 position;
     int points;
@@ -278,7 +278,7 @@ bool agrees(const World& world, Entity entity, const Model& model) {
            world.get<Health>(entity).points == model.points;
 }
 
-TEST(World, AgreesWithASimpleModelWhateverComesAndGoes) {
+TEST(World, AgreesWithASimpleModelAfterRandomChanges) {
     std::mt19937_64 random(20240229);
     World world(2);
     std::map<std::uint64_t, std::pair<Entity, Model>> model;
@@ -311,7 +311,7 @@ TEST(World, AgreesWithASimpleModelWhateverComesAndGoes) {
     for (const Entity entity : gone) ASSERT_FALSE(world.alive(entity));
 }
 
-/// A swarm with forces, components and a few holes in its history.
+/// A swarm with forces, components and some removed entities.
 World swarm() {
     World world(2, {.rate = {100}});
     world.set_gravity({0, -9.81, 0});
@@ -345,7 +345,7 @@ TEST(World, ACopyIsASnapshot) {
     EXPECT_EQ(world.tick(), 10);
 }
 
-TEST(World, ACopysComponentsAndEntitiesAreItsOwn) {
+TEST(World, ACopyHasItsOwnComponentsAndEntities) {
     World world(1);
     world.destroy(world.create());
     const Entity entity = world.create();
@@ -359,20 +359,20 @@ TEST(World, ACopysComponentsAndEntitiesAreItsOwn) {
     EXPECT_FALSE(world.alive(later));
     copy.destroy(entity);
     EXPECT_TRUE(world.alive(entity));
-    // Both go on handing out the same handles.
+    // Both continue with equal handles.
     EXPECT_EQ(world.create(), later);
 }
 
-TEST(World, StepsAtOnceAreSingleSteps) {
-    World at_once = swarm();
-    World one_by_one = at_once;
-    at_once.step(25);
+TEST(World, ManyStepsPerCallEqualSingleSteps) {
+    World one_call = swarm();
+    World one_by_one = one_call;
+    one_call.step(25);
     for (int i = 0; i < 25; ++i) one_by_one.step();
-    EXPECT_EQ(at_once.state_hash(), one_by_one.state_hash());
-    EXPECT_EQ(at_once.tick(), 25);
+    EXPECT_EQ(one_call.state_hash(), one_by_one.state_hash());
+    EXPECT_EQ(one_call.tick(), 25);
 }
 
-TEST(World, SettingsSayHowItSteps) {
+TEST(World, StepsWithItsSettings) {
     World world(1, {.method = &oiler::find_method("explicit_euler"),
                     .rate = {1},
                     .precision = Precision::single});
@@ -398,7 +398,7 @@ TEST(World, TimeComesFromTheTick) {
     EXPECT_EQ(thirds.time(), 15);
 }
 
-TEST(World, TeleportsPutABodyElsewhereAndCount) {
+TEST(World, TeleportsMoveABodyAndAreCounted) {
     World world(2);
     const Entity entity = world.spawn({.velocity = {1, 2, 0}});
     const Entity other = world.spawn({});
@@ -426,7 +426,7 @@ TEST(World, ForcesAreAttachedToTheRightBody) {
     EXPECT_EQ(world.velocity(third), (Vec3{}));
 }
 
-TEST(StateHash, ShowsASingleBitOfOneVelocity) {
+TEST(StateHash, DependsOnEveryBitOfAVelocity) {
     World world = swarm();
     const std::uint64_t hash = world.state_hash();
     const Entity entity = world.entity_of_row(96);
@@ -440,14 +440,14 @@ TEST(StateHash, ShowsASingleBitOfOneVelocity) {
     EXPECT_NE(world.state_hash(), hash);
 }
 
-TEST(StateHash, ShowsTheTick) {
+TEST(StateHash, DependsOnTheTick) {
     World world(1);
     const std::uint64_t hash = world.state_hash();
     world.step();
     EXPECT_NE(world.state_hash(), hash);
 }
 
-TEST(StateHash, IsOfTickAndBodiesAlone) {
+TEST(StateHash, DependsOnTickAndBodiesAlone) {
     World world = swarm();
     const std::uint64_t hash = world.state_hash();
     world.set_gravity({1, 2, 0});
@@ -456,7 +456,7 @@ TEST(StateHash, IsOfTickAndBodiesAlone) {
     EXPECT_EQ(world.state_hash(), hash);
 }
 
-TEST(World, ARunThatDivergesSaysSo) {
+TEST(World, ADivergingRunThrows) {
     World world(1, {.rate = {1}, .precision = Precision::single});
     world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});
     try {
@@ -468,7 +468,7 @@ TEST(World, ARunThatDivergesSaysSo) {
     }
 }
 
-TEST(World, ARunThatMayDivergeTellsWhere) {
+TEST(World, TryStepReturnsTheDivergence) {
     World world(1, {.rate = {1}, .precision = Precision::single});
     world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});
     EXPECT_FALSE(world.try_step(100));
@@ -480,8 +480,8 @@ TEST(World, ARunThatMayDivergeTellsWhere) {
     EXPECT_EQ(world.tick(), 100);
 }
 
-// Carrying on would change the entity that lives in the slot now, so these hold in every build.
-TEST(WorldDeathTest, MistakesEndTheProgramAndSayWhich) {
+// Checked in every build, because continuing would change the entity that uses the slot now.
+TEST(WorldDeathTest, MistakesEndTheProgramWithAMessage) {
     World world(2);
     const Entity gone = world.spawn({});
     world.destroy(gone);

@@ -24,7 +24,7 @@ std::int64_t steps_of(const Scene& scene) {
 }
 
 Json to_json(const LedgerColumn& column) {
-    return {{"of", column.of},         {"nth", column.nth},
+    return {{"of", column.of},         {"nth", column.index},
             {"number", column.number}, {"stored", column.shared ? "shared" : "own"},
             {"bytes", column.bytes},   {"bodies", column.bodies}};
 }

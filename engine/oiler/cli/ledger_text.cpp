@@ -31,7 +31,7 @@ public:
     explicit ColumnGroup(const LedgerColumn& first) : first_(first) {}
 
     [[nodiscard]] bool has(const LedgerColumn& column) const {
-        return column.of == first_.of && column.nth == first_.nth;
+        return column.of == first_.of && column.index == first_.index;
     }
     void add(const LedgerColumn& column) {
         (column.shared ? shared_ : own_).push_back(column.number);
@@ -46,7 +46,7 @@ public:
         if (first_.bodies < bodies)
             where += fmt::format("; {} of {} bodies have it", first_.bodies, bodies);
         const std::string name =
-            first_.nth == 0 ? first_.of : fmt::format("{} {}", first_.of, first_.nth + 1);
+            first_.index == 0 ? first_.of : fmt::format("{} {}", first_.of, first_.index + 1);
         return fmt::format("  {:<15} {:>6}  {}\n", name, bytes_, where);
     }
 

@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// What a program tells the shell that started it.
+/// The exit code of a program.
 enum class Exit : int {
     done = 0,
     comparison_failed = 1,
@@ -20,9 +20,9 @@ enum class Exit : int {
     interrupted = 130,
 };
 
-/// The one thing that Oiler throws for what a user can mend: an option, a file, a machine. Its
-/// message is one line that says what is wrong, where, and what to do about it; `run` and `main`
-/// print it and leave with the exit code. Mistakes of the programmer assert instead.
+/// The one type that Oiler throws, for errors that a user can mend: in an option, in a file or on
+/// the machine. The message is one line with the place, the error and the remedy. `run` and `main`
+/// print it and return the exit code. A programmer's mistakes assert instead.
 class Error : public std::runtime_error {
 public:
     Error(Exit exit, const std::string& line) : std::runtime_error(line), exit_(exit) {}
@@ -33,13 +33,13 @@ private:
     Exit exit_;
 };
 
-/// Throws an Error with a line formatted as by fmt.
+/// Throws an Error whose line fmt formats.
 template <class... Args>
 [[noreturn]] void fail(Exit exit, fmt::format_string<Args...> line, Args&&... args) {
     throw Error(exit, fmt::format(line, std::forward<Args>(args)...));
 }
 
-/// errno as text, "No space left on device".
+/// The text of an errno value, for example "No space left on device".
 [[nodiscard]] std::string system_reason(int error_number);
 
 }  // namespace oiler

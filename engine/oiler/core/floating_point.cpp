@@ -46,8 +46,8 @@ void require_ieee_arithmetic() {
     if (!keeps_subnormals())
         fail(Exit::usage,
              "floating point: subnormal numbers are flushed to zero in this process, which changes "
-             "results; find the linked or preloaded library built with -ffast-math and rebuild it "
-             "without");
+             "results; find the linked or preloaded library that was built with -ffast-math and "
+             "rebuild it without");
     if (!rounds_to_nearest())
         fail(Exit::usage,
              "floating point: rounding is not to nearest in this process, which changes results; "

@@ -5,8 +5,8 @@
 
 namespace oiler {
 
-/// The keys that a game can ask for; a surface translates its own codes to these. P, Q, Escape,
-/// period, minus and equals also control the loop.
+/// The keys of a game. A surface translates its own codes to these. P, Q, Escape, period, minus and
+/// equals also control the loop.
 enum class Key : std::uint8_t {
     space,
     enter,
@@ -26,13 +26,13 @@ enum class Key : std::uint8_t {
     equals,
 };
 
-/// The keyboard as one fixed step sees it: a plain value, so that a step is a pure function of the
-/// state and of this, and a recording is a list of these.
+/// The keyboard during one fixed step. It is a plain value: a step is a pure function of state and
+/// input, and a recording is a list of inputs.
 class Input {
 public:
-    /// The key is down during this step.
+    /// True while the key is down.
     [[nodiscard]] bool held(Key key) const { return (held_ & bit(key)) != 0; }
-    /// The key went down since the step before; true for one step however long it is held.
+    /// True for the one step after the key went down, however long it is held.
     [[nodiscard]] bool pressed(Key key) const { return (pressed_ & bit(key)) != 0; }
 
     void press(Key key) {
@@ -40,12 +40,12 @@ public:
         pressed_ |= bit(key);
     }
     void release(Key key) { held_ &= ~bit(key); }
-    /// Takes over what is held in `frame`, and adds its presses to those that no step has seen yet.
+    /// Copies the held keys of `frame` and adds its presses to those that no step has seen yet.
     void gather(const Input& frame) {
         held_ = frame.held_;
         pressed_ |= frame.pressed_;
     }
-    /// To be called when a step has seen the presses.
+    /// Call this after a step has seen the presses.
     void forget_presses() { pressed_ = 0; }
 
     friend bool operator==(const Input&, const Input&) = default;

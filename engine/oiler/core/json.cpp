@@ -39,7 +39,7 @@ void append_utf8(std::string& text, char32_t code) {
     }
 }
 
-/// As one or, beyond U+FFFF, two units of UTF-16.
+/// Appends one unit of UTF-16, or two beyond U+FFFF.
 void append_escape(std::string& text, char32_t code) {
     if (code > 0xFFFF) {
         append_escape(text, 0xD7C0 + (code >> 10));
@@ -84,7 +84,7 @@ Json Json::array(std::initializer_list<Json> items) {
 }
 
 void Json::push_back(Json item) {
-    require(kind_ == Kind::array, "items are added to a JSON array");
+    require(kind_ == Kind::array, "only a JSON array takes items");
     items_.push_back(std::move(item));
 }
 

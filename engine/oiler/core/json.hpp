@@ -11,19 +11,18 @@
 
 namespace oiler {
 
-/// A JSON value (RFC 8259) that is built and written, never read. Objects keep their members in the
-/// order in which they were added.
+/// A JSON value (RFC 8259) for writing; there is no reader. Objects keep the order in which members
+/// were added.
 class Json {
 public:
-    /// A member of an object.
     struct Member;
 
     /// null
     Json();
     Json(std::nullptr_t);
     Json(bool value);
-    /// The shortest digits that read back to the same bits; null for infinities and NaN, which JSON
-    /// lacks.
+    /// Writes the shortest digits that read back to the same bits. Infinities and NaN, which JSON
+    /// lacks, become null.
     Json(double value);
     template <std::integral Integer>
     Json(Integer value) : text_(std::to_string(value)) {}
@@ -38,7 +37,7 @@ public:
     [[nodiscard]] static Json array(std::initializer_list<Json> items = {});
 
     void push_back(Json item);
-    /// The member of that name, null where the object lacked it.
+    /// The member of that name; a new member is null.
     Json& operator[](std::string_view name);
 
     /// The number of items or members.
@@ -47,10 +46,10 @@ public:
 
     enum class Characters {
         utf8,
-        ascii,  ///< all others as \uXXXX
+        ascii,  ///< other characters as \uXXXX
     };
-    /// The text, `indent` spaces more on each level, or on one line if negative. Bytes that are not
-    /// UTF-8 become U+FFFD.
+    /// The text, indented by `indent` spaces per level, or on one line if `indent` is negative.
+    /// Bytes that are not UTF-8 become U+FFFD.
     [[nodiscard]] std::string dump(int indent, Characters characters = Characters::utf8) const;
 
 private:
@@ -59,9 +58,9 @@ private:
     void append_to(std::string& text, int indent, int level, Characters characters) const;
 
     Kind kind_ = Kind::literal;
-    std::string text_;                ///< of a literal, or a string without its quotes
-    std::vector<std::string> names_;  ///< of an object's members
-    std::vector<Json> items_;         ///< of an array, or the members' values
+    std::string text_;                ///< a literal, or a string without its quotes
+    std::vector<std::string> names_;  ///< names of an object's members
+    std::vector<Json> items_;         ///< items of an array, or values of the members
 };
 
 struct Json::Member {

@@ -3,11 +3,11 @@
 
 namespace oiler {
 
-/// Says what the program did wrong and aborts, so that a debugger shows who did it.
+/// Prints the programmer's mistake and aborts, so that a debugger shows the caller.
 [[noreturn]] void abort_on_mistake(const char* what);
 
-/// What a program must not do to a world, such as using a handle whose entity is gone: checked in
-/// every build, because carrying on would change some other entity.
+/// Aborts unless `holds`. It guards the rules of the API, such as not using the handle of a
+/// destroyed entity. It is checked in every build, because continuing would change another entity.
 inline void require(bool holds, const char* what) {
     if (!holds) [[unlikely]]
         abort_on_mistake(what);

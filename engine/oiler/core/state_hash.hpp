@@ -9,11 +9,10 @@
 
 namespace oiler {
 
-/// The fingerprint by which runs on different compilers and machines are held against each other:
-/// XXH3 (64 bits, seed 0) over values in little-endian byte order, in the order they were added,
-/// with nothing in between. Add a count before columns whose lengths vary, since how the bytes were
-/// cut into calls does not show. Bits are hashed, so -0.0 differs from 0.0. A value; a copy goes on
-/// independently.
+/// A fingerprint for comparing runs on different compilers and machines: XXH3 (64 bits, seed 0)
+/// over the added values in order, little-endian, without separators. Add a count before columns
+/// whose lengths vary, because the hash does not depend on how the bytes are split into calls. It
+/// hashes bits, so -0.0 differs from 0.0. It is a value: a copy continues independently.
 class StateHash {
 public:
     StateHash();
@@ -23,15 +22,15 @@ public:
     void add(std::span<const double> column);
     void add(std::span<const std::byte> bytes);
 
-    /// The hash of all that was added; adding may go on afterwards.
+    /// The hash of all values added so far; more may follow.
     [[nodiscard]] std::uint64_t value() const;
 
 private:
-    // Holds xxHash's own state, whose header stays out of everybody else's.
+    // Holds xxHash's state without including its header here.
     alignas(64) std::array<std::byte, 576> state_;
 };
 
-/// Sixteen lower-case hexadecimal digits, the most significant first.
+/// The hash as 16 lower-case hexadecimal digits, most significant first.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
 }  // namespace oiler

@@ -15,7 +15,7 @@ using std::chrono::nanoseconds;
 constexpr std::int64_t per_second = 1'000'000'000;
 constexpr std::int64_t largest_whole = per_second * StepClock::largest_scale;
 
-static_assert(StepClock::longest_longest_frame.count() <=
+static_assert(StepClock::longest_frame_limit.count() <=
                   (std::numeric_limits<std::int64_t>::max() - largest_whole) /
                       StepClock::largest_rate / StepClock::largest_scale,
               "the longest frame at the largest rate and scale overflows the accumulator");
@@ -29,7 +29,7 @@ static_assert(largest_whole < std::int64_t{1} << std::numeric_limits<double>::di
 StepClock::StepClock(int rate, nanoseconds longest_frame)
     : rate_(rate), longest_frame_(longest_frame) {
     assert(rate >= 1 && rate <= largest_rate);
-    assert(longest_frame > nanoseconds{0} && longest_frame <= longest_longest_frame);
+    assert(longest_frame > nanoseconds{0} && longest_frame <= longest_frame_limit);
 }
 
 StepClock::Frame StepClock::advance(nanoseconds now) {
@@ -96,7 +96,7 @@ void StepClock::set_time_scale(int numerator, int denominator) {
 
 HeadlessFrame headless_frame(std::int64_t frame, int rate, int fps) {
     assert(frame >= 0 && rate >= 1 && fps >= 1);
-    // Whole seconds apart, so that frame · rate cannot overflow.
+    // Splitting off whole seconds keeps frame · rate from overflowing.
     const std::int64_t rest = frame % fps * rate;
     return {frame / fps * rate + rest / fps, static_cast<double>(rest % fps) / fps};
 }

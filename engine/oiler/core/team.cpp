@@ -16,7 +16,7 @@ void pause() {
 #endif
 }
 
-/// Until the number is another than `old`.
+/// Waits until the number differs from `old` and returns it.
 std::uint32_t await_change(const std::atomic<std::uint32_t>& number, std::uint32_t old) {
     for (int i = 0; i < spins; ++i) {
         const std::uint32_t now = number.load(std::memory_order_acquire);
@@ -32,7 +32,7 @@ std::uint32_t await_change(const std::atomic<std::uint32_t>& number, std::uint32
 Team::Team(std::size_t size) {
     try {
         for (std::size_t part = 1; part < size; ++part)
-            threads_.emplace_back([this, part] { stand_ready(part); });
+            threads_.emplace_back([this, part] { wait_for_work(part); });
     } catch (const std::system_error&) {
         const std::size_t had = threads_.size() + 1;
         run_parts(nullptr, nullptr);
@@ -59,7 +59,7 @@ void Team::run_parts(Part call, const void* work) {
         left = await_change(unfinished_, left);
 }
 
-void Team::stand_ready(std::size_t part) {
+void Team::wait_for_work(std::size_t part) {
     for (std::uint32_t seen = 0;;) {
         seen = await_change(started_, seen);
         if (call_ == nullptr) return;

@@ -10,13 +10,13 @@
 
 namespace oiler {
 
-/// Threads that stand ready for short pieces of work. Between two pieces they spin for some tens of
-/// microseconds, since waking a sleeper takes longer than most pieces, and then sleep: an idle team
-/// burns no core.
+/// Threads for short pieces of work. Between two pieces they spin for some tens of microseconds,
+/// because waking a thread takes longer than most pieces. Then they sleep, so that an idle team
+/// uses no core.
 class Team {
 public:
-    /// `size` threads, of which the caller of `run` is one. Throws Error{usage} where the machine
-    /// gives fewer.
+    /// `size` threads, including the caller of `run`. Throws Error{usage} if the machine gives
+    /// fewer.
     explicit Team(std::size_t size);
     ~Team();
     Team(const Team&) = delete;
@@ -24,11 +24,11 @@ public:
 
     [[nodiscard]] std::size_t size() const { return threads_.size() + 1; }
 
-    /// Calls work(part) once for each part from 0 to size() − 1, each on a thread of its own, and
-    /// returns when all are done. `work` must not throw.
+    /// Calls work(part) for each part from 0 to size() − 1, each on its own thread, and returns
+    /// when all are done. `work` must not throw.
     template <class Work>
     void run(const Work& work) {
-        run_parts([](const void* of, std::size_t part) { (*static_cast<const Work*>(of))(part); },
+        run_parts([](const void* it, std::size_t part) { (*static_cast<const Work*>(it))(part); },
                   &work);
     }
 
@@ -36,13 +36,13 @@ private:
     using Part = void (*)(const void* work, std::size_t part);
 
     void run_parts(Part call, const void* work);
-    void stand_ready(std::size_t part);
+    void wait_for_work(std::size_t part);
 
     std::mutex one_at_a_time_;
     Part call_ = nullptr;
     const void* work_ = nullptr;
-    alignas(64) std::atomic<std::uint32_t> started_{0};     ///< how many pieces
-    alignas(64) std::atomic<std::uint32_t> unfinished_{0};  ///< parts of the piece
+    alignas(64) std::atomic<std::uint32_t> started_{0};     ///< number of pieces
+    alignas(64) std::atomic<std::uint32_t> unfinished_{0};  ///< parts of the current piece
     std::vector<std::thread> threads_;
 };
 

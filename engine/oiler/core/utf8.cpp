@@ -6,7 +6,7 @@ namespace {
 
 constexpr char32_t replacement = 0xFFFD;
 
-/// Bytes that follow a lead byte; -1 for a byte that cannot lead.
+/// The number of bytes that follow a lead byte; -1 for a byte that cannot lead.
 int continuation_bytes(unsigned char lead) {
     if (lead < 0x80) return 0;
     if (lead >= 0xC2 && lead < 0xE0) return 1;
@@ -21,7 +21,7 @@ bool well_formed(char32_t code, int continuations) {
     return code >= least[continuations] && code <= 0x10FFFF && !surrogate;
 }
 
-/// Takes the first code point off `text`.
+/// Removes the first code point from `text` and returns it.
 char32_t take(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text.front());
     const int more = continuation_bytes(lead);

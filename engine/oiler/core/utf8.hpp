@@ -6,8 +6,8 @@
 
 namespace oiler {
 
-/// The code points of UTF-8 text (RFC 3629); every byte that is not part of a well-formed sequence
-/// becomes U+FFFD, so that a label with foreign bytes shows where they are.
+/// Decodes UTF-8 (RFC 3629). Every byte outside a well-formed sequence becomes U+FFFD, so that a
+/// label shows where its bad bytes are.
 [[nodiscard]] std::u32string decode_utf8(std::string_view text);
 
 }  // namespace oiler

@@ -6,10 +6,10 @@
 
 namespace oiler {
 
-/// The version of Oiler that the library was built as, "0.1.0".
+/// The version of the library, for example "0.1.0".
 [[nodiscard]] std::string_view version();
 
-/// The compiler that the library was built by, "g++ 12.2.0".
+/// The compiler that built the library, for example "g++ 12.2.0".
 [[nodiscard]] std::string compiler();
 
 }  // namespace oiler

@@ -6,8 +6,9 @@
 
 namespace oiler {
 
-/// Several bodies' numbers as one Number: a few SIMD registers of one width, so that the additions
-/// of one hide the latency of the others'. No result depends on width or number: lanes never meet.
+/// One Number for several bodies: a few SIMD registers of one width. With several registers, the
+/// arithmetic of one hides the latency of the others. Results do not depend on the width or the
+/// number of registers, because lanes never interact.
 template <class PackOfNumbers, std::size_t Packs>
 class Batch {
 public:
@@ -20,7 +21,7 @@ public:
     [[gnu::always_inline]] Batch(T everywhere)
         : pack_(generate<packs>([&](auto) { return Pack(everywhere); })) {}
 
-    /// `lanes` numbers from any address.
+    /// Loads `lanes` numbers; the address needs no alignment.
     [[gnu::always_inline]] static Batch load(const T* from) {
         return Batch(generate<packs>([&](auto i) { return Pack::load(from + i * Pack::lanes); }));
     }
@@ -46,32 +47,34 @@ public:
     [[gnu::always_inline]] friend Batch sqrt(const Batch& a) {
         return Batch(generate<packs>([&](auto i) { return sqrt(a.pack_[i]); }));
     }
-    /// a/b, and 0 in the lanes where b is 0.
+    /// a/b; 0 in lanes where b is 0.
     [[gnu::always_inline]] friend Batch quotient_or_zero(const Batch& a, const Batch& b) {
-        return quotient_where_not(b, a, b);
+        return masked_quotient(b, a, b);
     }
-    /// a/b, and 0 in the lanes where a is 0.
-    [[gnu::always_inline]] friend Batch quotient_unless_nothing(const Batch& a, const Batch& b) {
-        return quotient_where_not(a, a, b);
+    /// a/b; 0 in lanes where a is 0, whatever b is.
+    [[gnu::always_inline]] friend Batch quotient_of_nonzero(const Batch& a, const Batch& b) {
+        return masked_quotient(a, a, b);
     }
-    /// `instead` in the lanes where `v` is less than `limit` in size but not 0, each of `sizes` is
-    /// less too, and `rate` is positive.
+    /// `instead` in lanes where 0 < |v| < limit, all |sizes| < limit and rate > 0; elsewhere
+    /// `value`.
     template <class... Sizes>
-    [[gnu::always_inline]] friend Batch where_creeping(const Batch& value, const Batch& instead,
-                                                       const Batch& rate, T limit, const Batch& v,
-                                                       const Sizes&... sizes) {
+    [[gnu::always_inline]] friend Batch replace_where_sleeping(const Batch& value,
+                                                               const Batch& instead,
+                                                               const Batch& rate, T limit,
+                                                               const Batch& v,
+                                                               const Sizes&... sizes) {
         return Batch(generate<packs>([&](auto i) {
-            const auto less = ((abs(sizes.pack_[i]) < Pack(limit)) & ... &
-                               creeps(v.pack_[i], limit));
+            const auto less =
+                ((abs(sizes.pack_[i]) < Pack(limit)) & ... & nonzero_below(v.pack_[i], limit));
             const auto positive = rate.pack_[i] > Pack(T(0));
             return Pack::select(less & positive, instead.pack_[i], value.pack_[i]);
         }));
     }
-    /// Whether `v` is less than `limit` in size but not 0 in any lane.
-    [[gnu::always_inline]] friend bool any_creeps(const Batch& v, T limit) {
-        auto any = creeps(v.pack_[0], limit);
+    /// Whether 0 < |v| < limit in any lane.
+    [[gnu::always_inline]] friend bool any_nonzero_below(const Batch& v, T limit) {
+        auto any = nonzero_below(v.pack_[0], limit);
         for_each_index<packs - 1>([&](auto i) __attribute__((always_inline)) {
-            any |= creeps(v.pack_[i + 1], limit);
+            any |= nonzero_below(v.pack_[i + 1], limit);
         });
         return Pack::any(any);
     }
@@ -80,7 +83,7 @@ public:
         for_each_index<packs>([&](auto i) { any = any || Pack::any(a.pack_[i] > Pack(T(0))); });
         return any;
     }
-    /// Whether the sum over the registers is finite in all lanes: where it is, all numbers are.
+    /// Whether the sum of the registers is finite in all lanes; then all numbers are finite.
     [[gnu::always_inline]] friend bool is_finite(const Batch& a) {
         Pack total = a.pack_[0];
         for_each_index<packs - 1>([&](auto i) { total = total + a.pack_[i + 1]; });
@@ -88,11 +91,11 @@ public:
     }
 
 private:
-    [[gnu::always_inline]] static auto creeps(const Pack& v, T limit) {
+    [[gnu::always_inline]] static auto nonzero_below(const Pack& v, T limit) {
         return (abs(v) < Pack(limit)) & (v != Pack(T(0)));
     }
-    [[gnu::always_inline]] static Batch quotient_where_not(const Batch& zero, const Batch& a,
-                                                           const Batch& b) {
+    [[gnu::always_inline]] static Batch masked_quotient(const Batch& zero, const Batch& a,
+                                                        const Batch& b) {
         return Batch(generate<packs>([&](auto i) {
             return Pack::select(zero.pack_[i] == Pack(T(0)), Pack(T(0)), a.pack_[i] / b.pack_[i]);
         }));

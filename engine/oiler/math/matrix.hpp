@@ -5,7 +5,7 @@
 
 namespace oiler {
 
-/// A square matrix over the axes, by rows.
+/// A square matrix over the axes, stored by rows.
 template <Number V, int Axes>
 struct Matrix {
     std::array<Vec<V, Axes>, Axes> row{};
@@ -36,7 +36,7 @@ struct Matrix {
     }
 };
 
-/// Solves m·x = b by elimination with the largest pivots; not finite where m is singular.
+/// Solves m·x = b by Gaussian elimination with partial pivoting. Not finite if m is singular.
 template <std::floating_point T, int Axes>
 [[nodiscard]] Vec<T, Axes> solve(Matrix<T, Axes> m, Vec<T, Axes> b) {
     for (int column = 0; column < Axes; ++column) {

@@ -9,22 +9,21 @@
 
 namespace oiler {
 
-/// The vector type of g++ and clang; of a class of its own, since g++ takes an alias of a dependent
-/// vector type for its element's type.
+/// The vector type of g++ and clang. It is a class because g++ mistakes an alias of a dependent
+/// vector type for the element type.
 template <class T, std::size_t Bytes>
 struct VectorOf {
     using type [[gnu::vector_size(Bytes)]] = T;
 };
 
-/// One SIMD register of `Bytes` bytes as numbers of type T, through the vector types of g++ and
-/// clang: std::experimental::simd does the same, takes several times as long to compile, and is
-/// missing from libc++.
+/// One SIMD register of `Bytes` bytes with numbers of type T. It uses the vector types of g++ and
+/// clang, because std::experimental::simd compiles several times slower and is missing from libc++.
 template <class T, std::size_t Bytes>
 class Pack {
 public:
     using value_type = T;
     using Register = typename VectorOf<T, Bytes>::type;
-    /// All bits of a lane are set where a comparison holds.
+    /// The result of a comparison: all bits of a lane are set if it holds there.
     using Mask = decltype(Register{} < Register{});
 
     static constexpr std::size_t lanes = Bytes / sizeof(T);
@@ -33,7 +32,7 @@ public:
     [[gnu::always_inline]] Pack(Register lanes_given) : register_(lanes_given) {}
     [[gnu::always_inline]] explicit Pack(T everywhere) : register_(everywhere - Register{}) {}
 
-    /// From any address; an aligned one costs no more.
+    /// The address needs no alignment, and aligned loads cost no more.
     [[gnu::always_inline]] static Pack load(const T* from) {
         Register lanes_read;
         std::memcpy(&lanes_read, from, Bytes);
@@ -67,7 +66,7 @@ public:
     [[gnu::always_inline]] friend Mask operator!=(Pack a, Pack b) {
         return a.register_ != b.register_;
     }
-    /// `a` in the lanes where the mask holds, `b` in the others.
+    /// `a` in lanes where the mask holds, `b` in the others.
     [[gnu::always_inline]] static Pack select(Mask mask, Pack a, Pack b) {
         return mask ? a.register_ : b.register_;
     }

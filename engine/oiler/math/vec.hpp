@@ -12,8 +12,8 @@
 
 namespace oiler {
 
-/// What the physics is written over: float and double for a reader, long double for a reference, a
-/// Batch of bodies for the run. One text serves them all.
+/// The number type of the physics: float or double for a single body, long double for a reference,
+/// a Batch of bodies for a run. The same text serves all.
 template <class V>
 concept Number = requires(V a, V b) {
     { a + b } -> std::convertible_to<V>;
@@ -23,7 +23,7 @@ concept Number = requires(V a, V b) {
     { -a } -> std::convertible_to<V>;
 };
 
-/// What a Number is made of: the type that the time step and a method's coefficients have.
+/// The element type of a Number: the type of the time step and of a method's coefficients.
 template <class V>
 struct ScalarOf {
     using type = V;
@@ -31,8 +31,9 @@ struct ScalarOf {
 template <class V>
 using Scalar = typename ScalarOf<V>::type;
 
-/// Calls `f` with 0, 1, … N−1 as compile-time constants and gathers what it returns. Unlike a loop
-/// it leaves no indexed array behind, so that optimisers keep the elements in registers.
+/// Calls `f` with the compile-time constants 0, 1, … N−1 and returns an array of the results.
+/// Unlike a loop it indexes no array at run time, so that optimisers keep the elements in
+/// registers.
 template <std::size_t N, class F>
 [[gnu::always_inline]] constexpr auto generate(F f) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
@@ -41,7 +42,7 @@ template <std::size_t N, class F>
     (std::make_index_sequence<N>{});
 }
 
-/// Calls `f` with 0, 1, … N−1 as compile-time constants.
+/// Calls `f` with the compile-time constants 0, 1, … N−1.
 template <std::size_t N, class F>
 [[gnu::always_inline]] constexpr void for_each_index(F f) {
     [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
@@ -50,7 +51,8 @@ template <std::size_t N, class F>
     (std::make_index_sequence<N>{});
 }
 
-/// The same for a number of times that is a compile-time constant, and a loop for one that is not.
+/// Calls `f` with 0, 1, … count−1: unrolled if the count is a compile-time constant, else in a
+/// loop.
 template <std::size_t N, class F>
 [[gnu::always_inline]] constexpr void repeat(std::integral_constant<std::size_t, N>, F f) {
     for_each_index<N>(f);
@@ -60,7 +62,7 @@ template <class F>
     for (std::size_t i = 0; i < count; ++i) f(i);
 }
 
-/// A position, velocity or acceleration with one Number for each axis.
+/// A position, velocity or acceleration: one Number per axis.
 template <Number V, int Axes>
 struct Vec {
     std::array<V, Axes> axis;
@@ -85,11 +87,11 @@ struct Vec {
 
 inline constexpr std::string_view axis_names = "xyz";
 
-/// What a user hands over and gets back, whatever the axes and the precision of the columns; axes
-/// that a world does not have are zero.
+/// The vector of the public API, for all axes and precisions of the columns. Axes that a world
+/// lacks are zero.
 using Vec3 = Vec<double, 3>;
 
-/// Summed from the first axis to the last.
+/// The dot product, summed from the first axis to the last.
 template <Number V, int Axes>
 [[gnu::always_inline]] constexpr V dot(const Vec<V, Axes>& a, const Vec<V, Axes>& b) {
     V sum = a[0] * b[0];
@@ -103,19 +105,20 @@ template <Number V, int Axes>
     return dot(a, a);
 }
 
-/// to += what·s: all that a kick or a drift does.
+/// to += what·s: the arithmetic of a kick or a drift.
 template <Number V, int Axes>
 [[gnu::always_inline]] constexpr void add_scaled(Vec<V, Axes>& to, const Vec<V, Axes>& what,
                                                  Scalar<V> s) {
     to = to + what * V(s);
 }
 
-/// The larger one, and NaN where either is.
+/// The larger number; NaN if either is NaN.
 template <std::floating_point T>
 [[nodiscard]] constexpr T larger(T a, T b) {
     return b > a || b != b ? b : a;
 }
 
+/// The largest |coordinate|; NaN if any is NaN.
 template <std::floating_point T, int Axes>
 [[nodiscard]] T largest(const Vec<T, Axes>& a) {
     T size = 0;
@@ -123,15 +126,15 @@ template <std::floating_point T, int Axes>
     return size;
 }
 
-/// a/b, and 0 where b is 0.
+/// a/b; 0 if b is 0.
 template <std::floating_point T>
 [[gnu::always_inline]] constexpr T quotient_or_zero(T a, T b) {
     return b == 0 ? T(0) : a / b;
 }
 
-/// a/b, and 0 where a is 0, whatever b is.
+/// a/b; 0 if a is 0, whatever b is.
 template <std::floating_point T>
-[[gnu::always_inline]] constexpr T quotient_unless_nothing(T a, T b) {
+[[gnu::always_inline]] constexpr T quotient_of_nonzero(T a, T b) {
     return a == 0 ? T(0) : a / b;
 }
 
@@ -145,16 +148,17 @@ template <std::floating_point T>
     return number > 0;
 }
 
+/// Whether 0 < |v| < limit.
 template <std::floating_point T>
-[[nodiscard]] bool any_creeps(T v, T limit) {
+[[nodiscard]] bool any_nonzero_below(T v, T limit) {
     return std::abs(v) < limit && v != 0;
 }
 
-/// `instead` where `v` is less than `limit` in size but not 0, each of `sizes` is less too, and
-/// `rate` is positive.
+/// `instead` if 0 < |v| < limit, all |sizes| < limit and rate > 0; otherwise `value`.
 template <std::floating_point T, class... Sizes>
-[[nodiscard]] T where_creeping(T value, T instead, T rate, T limit, T v, Sizes... sizes) {
-    return (any_creeps(v, limit) && ... && (std::abs(sizes) < limit)) && rate > 0 ? instead : value;
+[[nodiscard]] T replace_where_sleeping(T value, T instead, T rate, T limit, T v, Sizes... sizes) {
+    const bool slow = (any_nonzero_below(v, limit) && ... && (std::abs(sizes) < limit));
+    return slow && rate > 0 ? instead : value;
 }
 
 }  // namespace oiler

@@ -10,43 +10,44 @@
 
 namespace oiler {
 
-// The methods, each written once: over one body or a batch of them (State and RowPhysics), or over
-// all bodies that links couple (MotionColumns and LinkedRows). A reader or a test hands over any
-// type with `accelerate(state, t)`; the engine's two add what their methods need beyond that.
+// Each method is written once. It steps one body or a batch of bodies (State and RowPhysics), or
+// all bodies of a world with links (MotionColumns and LinkedRows). A test may pass any type that
+// has `accelerate(state, t)`. RowPhysics and LinkedRows add the functions that some methods need
+// beyond it.
 
-/// What treats damping apart from the kicks.
+/// A physics that applies damping outside the kicks.
 template <class Physics, class State>
-concept Flowing = requires(Physics& physics, State& state, double t) {
+concept SplitsDamping = requires(Physics& physics, State& state, double t) {
     physics.kick(state, t);
 };
 
 /// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
-/// whatever drag is not linear.
+/// the damping that is not linear.
 template <SplitsSteps Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
-    constexpr bool flowing = Flowing<Physics, State>;
-    if constexpr (flowing) physics.slow_before(state, plan);
+    constexpr bool splits_damping = SplitsDamping<Physics, State>;
+    if constexpr (splits_damping) physics.damp_before(state, plan);
     repeat(
         plan.count, [&](auto i) __attribute__((always_inline)) {
             const auto& stage = plan.stages[i];
             if (stage.move == Move::kick) {
-                if constexpr (flowing)
+                if constexpr (splits_damping)
                     add_scaled(state.v, physics.kick(state, t), stage.tau);
                 else
                     add_scaled(state.v, physics.accelerate(state, t), stage.tau);
             } else {
-                if constexpr (flowing)
+                if constexpr (splits_damping)
                     physics.drift(state, stage.flow, stage.tau);
                 else
                     add_scaled(state.x, state.v, stage.tau);
                 t += static_cast<double>(stage.tau);
             }
         });
-    if constexpr (flowing) physics.slow_after(state, plan);
+    if constexpr (splits_damping) physics.damp_after(state, plan);
 }
 
-/// The rates of change at some state: the article's Derivative.
+/// The rates of change at a state: the article's Derivative.
 template <class State>
 struct Derivative {
     decltype(State::v) dx;
@@ -54,8 +55,8 @@ struct Derivative {
 };
 
 /// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
-/// any tableau. Each stage is where the rates of change before it lead, each for its own part of
-/// dt.
+/// any tableau. Each stage starts from the initial state plus the weighted rates of the stages
+/// before it.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
@@ -80,8 +81,8 @@ template <IsTableau Plan, class State, class Physics>
 inline constexpr int most_iterations = 64;
 
 /// One step of an implicit method from time `t` (s): Newton's iteration for the velocity w of the
-/// stage, w = v + τ·a(x + τ·w, w). It ends where a change is lost in the roundings of w, or, once
-/// small, no longer halves. Returns whether it did.
+/// stage, w = v + τ·a(x + τ·w, w). It has converged when a change is below the round-off of w, or
+/// is small and no longer halves. Returns whether it converged.
 template <std::floating_point T, class State, class Physics>
 [[nodiscard]] bool advance(const ImplicitPlan<T>& plan, State& state, Physics& physics, double t) {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -111,14 +112,14 @@ template <std::floating_point T, class State, class Physics>
     return false;
 }
 
-/// One step along the exact motion under forces that are linear.
+/// One step along the exact motion under linear forces.
 template <std::floating_point T, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const ExactPlan<T>&, State& state, Physics& physics,
                                            double t) {
     physics.respond(state, t);
 }
 
-/// One step of any explicit method over one state: what a reader or a test calls.
+/// One step of any explicit method over one state; for readers and tests.
 template <std::floating_point T, int Axes, class Physics>
 void advance(const Plan<T>& plan, State<T, Axes>& state, Physics& physics, double t) {
     if (const auto* splitting = std::get_if<SplittingPlan<T>>(&plan))

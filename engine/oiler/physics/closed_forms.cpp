@@ -16,8 +16,8 @@ Motion<T> underdamped(T gamma, T stiffness, T omega, Motion<T> start, T t) {
             decay * (start.v * c - (stiffness * start.x + gamma * start.v) * s)};
 }
 
-/// γ ≥ ω0, with δ = √(γ² − ω0²) and the rates of decay fast = γ + δ and slow = ω0²/fast, which
-/// unlike γ − δ does not cancel: x = x0·e^(−slow·t) + (v0 + slow·x0)·(e^(−slow·t) −
+/// γ ≥ ω0, with δ = √(γ² − ω0²) and the rates of decay fast = γ + δ and slow = ω0²/fast. This form
+/// of slow does not cancel as γ − δ does. x = x0·e^(−slow·t) + (v0 + slow·x0)·(e^(−slow·t) −
 /// e^(−fast·t))/2δ.
 template <class T>
 Motion<T> overdamped(T gamma, T stiffness, T delta, Motion<T> start, T t) {
@@ -38,7 +38,7 @@ T phi1(T z) {
     return z == 0 ? T(1) : -std::expm1(-z) / z;
 }
 
-/// (z − 1 + e^(−z))/z², ½ at 0; by its series where the formula would cancel.
+/// (z − 1 + e^(−z))/z², ½ at 0. For |z| ≤ 1, where the formula cancels, by its series.
 template <class T>
 T phi2(T z) {
     if (std::abs(z) > T(1)) return (z + std::expm1(-z)) / (z * z);
@@ -99,7 +99,7 @@ State<T, 2> orbit(T gm, T distance, T speed, T t) {
 }
 
 template <class T>
-bool circles(T gm, const State<T, 3>& state) {
+bool is_elliptic(T gm, const State<T, 3>& state) {
     const T distance = std::sqrt(squared_length(state.x));
     const T inverse_a = 2 / distance - squared_length(state.v) / gm;
     const T along = dot(state.x, state.v);
@@ -115,8 +115,8 @@ State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
     const T n = std::sqrt(gm / a) / a;
     const T shape = 1 - distance / a;
     const T slant = dot(start.x, start.v) / std::sqrt(gm * a);
-    // How far the eccentric anomaly went, within 3 of the mean one: Newton's iteration, and
-    // bisection where that leaves what is known.
+    // The change of the eccentric anomaly, within 3 of the change of the mean anomaly: Newton's
+    // iteration, with bisection where a step leaves the bracket.
     T low = n * t - 3;
     T high = n * t + 3;
     T turned = n * t;
@@ -136,7 +136,7 @@ State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
     return {x, start.x * f_rate + start.v * (1 - a / now * versine)};
 }
 
-template bool circles(long double, const State<long double, 3>&);
+template bool is_elliptic(long double, const State<long double, 3>&);
 template State<long double, 3> kepler(long double, const State<long double, 3>&, long double);
 template Motion<double> constant_acceleration(Motion<double>, double, double);
 template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);

@@ -14,10 +14,10 @@ template <std::floating_point T>
 struct ScaledStage {
     Move move = Move::kick;
     T tau = 0;             ///< s
-    std::size_t flow = 0;  ///< of a drift, its place in the plan's `drifts`
+    std::size_t flow = 0;  ///< index of a drift in the plan's `drifts`
 };
 
-/// A splitting's stages times dt, in T.
+/// The stages of a splitting, scaled by dt, in T.
 template <std::floating_point T>
 struct SplittingPlan {
     SplittingPlan(const Splitting& rule, T dt, Damping given) : damping(given), half_step(dt / 2) {
@@ -31,7 +31,7 @@ struct SplittingPlan {
     T half_step;
     std::array<ScaledStage<T>, Splitting::most_stages> stages;
     std::size_t count = 0;
-    /// The lengths of the drifts, each once, s.
+    /// The distinct lengths of the drifts, s.
     std::array<T, Splitting::most_stages> drifts;
     std::size_t drift_count = 0;
 
@@ -44,7 +44,7 @@ private:
     }
 };
 
-/// A splitting of which a compiler sees the stages, so that it can keep them all in registers.
+/// A splitting whose stages are compile-time constants, so that they all stay in registers.
 template <std::floating_point T, Damping Treatment, Move... Moves>
 struct FixedSplittingPlan {
     [[nodiscard]] static bool fits(const SplittingPlan<T>& plan) {
@@ -64,7 +64,7 @@ struct FixedSplittingPlan {
     std::array<ScaledStage<T>, count> stages;
 };
 
-/// The methods that most runs take: the article's, with damping in the kick, and velocity Verlet.
+/// The most common methods: the article's, with damping in the kick, and velocity Verlet.
 template <std::floating_point T>
 using KickDriftPlan = FixedSplittingPlan<T, Damping::in_kick, Move::kick, Move::drift>;
 template <std::floating_point T>
@@ -77,7 +77,7 @@ concept SplitsSteps = requires(const Plan& plan) {
     plan.damping;
 };
 
-/// A tableau's coefficients times dt, in T.
+/// The coefficients of a tableau, scaled by dt, in T.
 template <std::floating_point T>
 struct TableauPlan {
     TableauPlan(const Tableau& rule, T dt) : count(rule.count) {
@@ -87,7 +87,7 @@ struct TableauPlan {
             c[i] = static_cast<double>(rule.c[i]) * static_cast<double>(dt);
         }
     }
-    /// Whether stage i starts from stage j, too.
+    /// Whether stage i uses the rates of stage j.
     [[nodiscard]] bool uses(std::size_t i, std::size_t j) const { return a[i][j] != 0; }
 
     std::array<std::array<T, Tableau::most_stages>, Tableau::most_stages> a;
@@ -96,8 +96,7 @@ struct TableauPlan {
     std::size_t count;
 };
 
-/// A tableau of which a compiler sees how many stages it has, and that each needs no more than the
-/// one before it.
+/// A tableau with a compile-time number of stages, where each stage uses only the one before it.
 template <std::floating_point T, std::size_t Stages>
 struct ChainTableauPlan : TableauPlan<T> {
     [[nodiscard]] static bool fits(const TableauPlan<T>& plan) {
@@ -120,7 +119,7 @@ concept IsTableau = requires(const Plan& plan) {
 
 template <std::floating_point T>
 struct ImplicitPlan {
-    T a;    ///< of the stage
+    T a;    ///< coefficient of the stage
     T tau;  ///< a·dt, s
     T dt;   ///< s
 };
@@ -130,7 +129,7 @@ struct ExactPlan {
     T dt;  ///< s
 };
 
-/// A method made ready for one dt.
+/// A method prepared for one dt.
 template <std::floating_point T>
 using Plan = std::variant<SplittingPlan<T>, TableauPlan<T>, ImplicitPlan<T>, ExactPlan<T>>;
 

@@ -8,10 +8,10 @@ namespace oiler {
 enum class Precision {
     single,
     double_,
-    extended,  ///< long double: to measure the others against, not to play in
+    extended,  ///< long double: for references, not for games
 };
 
-/// "float" or "double", as the options and files say it, or "long double".
+/// "float" or "double", as in options and files, or "long double".
 [[nodiscard]] std::string_view name_of(Precision precision);
 
 }  // namespace oiler

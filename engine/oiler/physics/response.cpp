@@ -10,8 +10,9 @@
 namespace oiler {
 namespace {
 
-/// A number with twice the digits of T, the unevaluated sum of two. Sums and products: Dekker, A
-/// floating-point technique for extending the available precision, 1971; two_sum: Knuth.
+/// A number with twice the digits of T: the unevaluated sum of two. Sums and products are from
+/// Dekker, A floating-point technique for extending the available precision, 1971; two_sum is
+/// Knuth's.
 template <std::floating_point T>
 struct Double {
     T high = 0;
@@ -53,7 +54,7 @@ struct Double {
         const Double rest = a - two_product(quotient, b);
         return two_sum(quotient, rest.high / b);
     }
-    /// Times a power of two.
+    /// The product with a power of two, which is exact.
     [[nodiscard]] constexpr Double times(T power) const { return {high * power, low * power}; }
 };
 
@@ -65,8 +66,8 @@ struct Shape {
     Double<T> decay;
 };
 
-/// With u = Σ uₙ/n!, uₙ₊₂ = −ct·uₙ₊₁ − kt²·uₙ. For ct, √(kt²) ≤ 1/2 |uₙ| stays below 1, and 1/n!
-/// below 2⁻¹²⁸ from n = 35 on.
+/// The Taylor series u = Σ uₙ/n!, uₙ₊₂ = −ct·uₙ₊₁ − kt²·uₙ. For ct and √(kt²) ≤ 1/2, |uₙ| stays
+/// below 1, and 1/n! is below 2⁻¹²⁸ from n = 35 on.
 template <class T>
 Shape<T> taylor(Double<T> ct, Double<T> kt2) {
     Double<T> u{0};
@@ -84,8 +85,8 @@ Shape<T> taylor(Double<T> ct, Double<T> kt2) {
     return sum;
 }
 
-/// Twice as long: the second half starts from u = v·reach + a·sway, where what is left of the
-/// acceleration a is a − k·u.
+/// The shape over twice the time. The second half starts from u = v·reach + a·sway, where the
+/// acceleration is a − k·u.
 template <class T>
 Shape<T> doubled(const Shape<T>& s, Double<T> kt2) {
     const Double<T> one{1};

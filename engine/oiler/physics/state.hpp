@@ -5,7 +5,7 @@
 
 namespace oiler {
 
-/// Where a body is (m) and how fast it goes (m/s): the article's State.
+/// The position (m) and velocity (m/s) of a body: the article's State.
 template <Number V, int Axes>
 struct State {
     Vec<V, Axes> x;

@@ -9,12 +9,13 @@
 
 namespace oiler {
 
-/// How a run is stepped, wherever it is kept: in games, scenes, options, manifests and advice.
+/// The setting of a run (method, rate, precision, damping), in games, scenes, options, manifests
+/// and advice.
 struct Stepping {
     const Method* method = &find_method("semi_implicit_euler");
     Rate rate{100};
     Precision precision = Precision::double_;
-    std::optional<Damping> damping{};  ///< the method's own if absent
+    std::optional<Damping> damping{};  ///< the method's default if absent
 
     friend bool operator==(const Stepping&, const Stepping&) = default;
 };

@@ -42,8 +42,8 @@ private:
     }
     Entity spawn(const Body& body, const GivenForces& forces) {
         const Entity entity = world_.spawn(body, forces);
-        for (std::size_t i = 1; i < scene_.attractors.size(); ++i)
-            world_.attach_nth(i, entity, to_force(scene_.attractors[i]));
+        for (std::size_t index = 1; index < scene_.attractors.size(); ++index)
+            world_.attach_at(index, entity, to_force(scene_.attractors[index]));
         return entity;
     }
 
@@ -61,12 +61,12 @@ private:
                 world_.link(entity, entities[*spring.to],
                             {spring.stiffness, spring.damping, spring.rest_length});
             else if (spring.rest_length > 0)
-                world_.attach_nth(coils[spring.body]++, entity,
-                                  CoilSpring{spring.anchor, spring.stiffness, spring.damping,
-                                             spring.rest_length});
+                world_.attach_at(coils[spring.body]++, entity,
+                                 CoilSpring{spring.anchor, spring.stiffness, spring.damping,
+                                            spring.rest_length});
             else
-                world_.attach_nth(springs[spring.body]++, entity,
-                                  Spring{spring.anchor, spring.stiffness, spring.damping});
+                world_.attach_at(springs[spring.body]++, entity,
+                                 Spring{spring.anchor, spring.stiffness, spring.damping});
         }
     }
 

@@ -8,8 +8,8 @@
 
 namespace oiler {
 
-/// The columns of all bodies, in each precision and number of axes that there is. Only the files
-/// that define Bodies include this: it takes seconds to compile.
+/// The columns of all bodies, for each precision and number of axes. Only the files that define
+/// Bodies include this, because it takes seconds to compile.
 struct AnyColumns {
     std::variant<Columns<float, 1>, Columns<float, 2>, Columns<float, 3>, Columns<double, 1>,
                  Columns<double, 2>, Columns<double, 3>, Columns<long double, 1>,

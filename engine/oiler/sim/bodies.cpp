@@ -22,7 +22,7 @@ Vec<T, Axes> narrow_field(const Vec3& given, const Vec<T, Axes>&) {
     return narrow<T, Axes>(given);
 }
 
-/// The user's force per unit mass in the columns' precision and axes.
+/// The user's force per unit mass, in the precision and axes of the columns.
 template <class To, class T, int Axes, class From>
 To stored_form(const From& given, double mass) {
     const From specific = given.per_unit_mass(mass);
@@ -38,7 +38,7 @@ To stored_form(const From& given, double mass) {
     return force;
 }
 
-/// Columns for `count` forces of a kind, of which those that are new act on nothing.
+/// Adds columns up to `count` forces of a kind; new forces are zero for all rows.
 template <class Numbers>
 void make_room(std::vector<Numbers>& stored, std::size_t count, std::size_t rows) {
     while (stored.size() < count)
@@ -51,21 +51,21 @@ void set_force(Numbers& stored, std::size_t row, Force force) {
     for_each_number(force, [&](auto number) { stored[next++].set(row, number); });
 }
 
-/// A force's numbers for a new row: what everybody has, what was given, or nothing.
+/// Adds a force's numbers for a new row: those that all rows share, the given ones, or zeros.
 template <class Numbers, class Force>
 void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given) {
-    for (std::size_t nth = 0; nth < stored.size(); ++nth) {
-        Force force = nth == 0 ? given.value_or(Force{}) : Force{};
+    for (std::size_t index = 0; index < stored.size(); ++index) {
+        Force force = index == 0 ? given.value_or(Force{}) : Force{};
         std::size_t next = 0;
         for_each_number(force, [&](auto number) {
-            auto& parameter = stored[nth][next++];
+            auto& parameter = stored[index][next++];
             parameter.push(Force::everywhere ? parameter[0] : number);
         });
     }
 }
 
-/// Calls f(the stored columns, the force in their form) for every kind of force; the latter is
-/// empty where none is given.
+/// Calls f(stored columns, force in the form of the columns) for every kind of force. The force is
+/// empty if none is given.
 template <class T, int Axes, class F>
 void for_each_force(Columns<T, Axes>& columns, const GivenForces& forces, double mass, F f) {
     for_each_index<force_count>([&](auto i) {
@@ -96,7 +96,7 @@ void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec<V, 
     for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
 }
 
-/// Without those of `row`; `last` has moved there.
+/// Removes the links of `row`, to which row `last` has moved.
 template <class T>
 void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t last) {
     std::erase_if(links, [&](const LinkRow<T>& link) { return link.a == row || link.b == row; });
@@ -172,15 +172,15 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
         columns_->of);
 }
 
-void Bodies::attach_given(std::size_t row, std::size_t nth, const GivenForces& forces) {
+void Bodies::attach_given(std::size_t row, std::size_t index, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
     std::visit(
         [&](auto& columns) {
             for_each_force(columns, forces, columns.mass[row],
                            [&](auto& stored, const auto& force) {
                                if (!force) return;
-                               make_room(stored, nth + 1, columns.size);
-                               set_force(stored[nth], row, *force);
+                               make_room(stored, index + 1, columns.size);
+                               set_force(stored[index], row, *force);
                            });
             columns.forces_changed();
         },
@@ -267,12 +267,14 @@ double Bodies::mass(std::size_t row) const {
 
 Vec3 Bodies::position(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); }, columns_->of);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); },
+                      columns_->of);
 }
 
 Vec3 Bodies::velocity(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); }, columns_->of);
+    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); },
+                      columns_->of);
 }
 
 void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {

@@ -25,7 +25,7 @@ Vec3 to_double(const Vec<double, Axes>& vector) {
     return to_three<double>(vector);
 }
 
-/// With three axes, as a user gives it.
+/// The force with three axes, as in the public API.
 template <class To, int Axes, class From>
 To given_form(const From& from) {
     To to;
@@ -37,24 +37,24 @@ To given_form(const From& from) {
 }
 
 template <class T, std::size_t Count>
-Stored account_of(std::string_view name, std::size_t nth,
+Stored storage_of(std::string_view name, std::size_t index,
                   const std::array<Parameter<T>, Count>& numbers, std::size_t rows) {
-    Stored account{.of = name, .nth = nth};
+    Stored stored{.of = name, .index = index};
     for (const Parameter<T>& number : numbers) {
-        account.shared.push_back(number.shared());
-        if (!number.shared()) account.bytes += sizeof(T);
+        stored.shared.push_back(number.shared());
+        if (!number.shared()) stored.bytes += sizeof(T);
     }
     for (std::size_t row = 0; row < rows; ++row)
-        account.rows += std::any_of(numbers.begin(), numbers.end(),
-                                    [&](const auto& number) { return number[row] != 0; });
-    return account;
+        stored.rows += std::any_of(numbers.begin(), numbers.end(),
+                                   [&](const auto& number) { return number[row] != 0; });
+    return stored;
 }
 
 template <class T>
 void hash_column(const Column<T>& column, StateHash& hash) {
     hash.add(std::span<const T>(column.data(), column.size()));
 }
-/// Its numbers have bytes that mean nothing.
+/// Hashes a long double as two doubles, because it has padding bytes.
 void hash_column(const Column<long double>& column, StateHash& hash) {
     for (std::size_t row = 0; row < column.size(); ++row) {
         const auto high = static_cast<double>(column[row]);
@@ -76,7 +76,7 @@ State<long double, 3> Bodies::state(std::size_t row) const {
         columns_->of);
 }
 
-GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t nth) const {
+GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t index) const {
     require_row(row);
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
@@ -85,15 +85,15 @@ GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t nth) const {
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
                 using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
-                if (nth < forces.template count<Force>())
-                    std::get<i>(given) = given_form<Given, Axes>(forces.template get<Force>(nth));
+                if (index < forces.template count<Force>())
+                    std::get<i>(given) = given_form<Given, Axes>(forces.template get<Force>(index));
             });
             return given;
         },
         columns_->of);
 }
 
-std::size_t Bodies::most_of_a_kind() const {
+std::size_t Bodies::most_forces_of_a_kind() const {
     return std::visit(
         [](const auto& columns) {
             return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
@@ -119,16 +119,16 @@ double Bodies::link_potential(std::size_t i) const {
 std::vector<Stored> Bodies::stored() const {
     return std::visit(
         []<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const std::vector<bool> own(Axes, false);
+            const std::vector<bool> not_shared(Axes, false);
             std::vector<Stored> all;
             for (const std::string_view name : {"position", "velocity"})
-                all.push_back({name, 0, own, Axes * sizeof(T), columns.size});
-            all.push_back(account_of("mass", 0, std::array{columns.mass}, columns.size));
+                all.push_back({name, 0, not_shared, Axes * sizeof(T), columns.size});
+            all.push_back(storage_of("mass", 0, std::array{columns.mass}, columns.size));
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
                 const auto& forces = std::get<i>(columns.forces);
-                for (std::size_t nth = 0; nth < forces.size(); ++nth)
-                    all.push_back(account_of(Force::name, nth, forces[nth], columns.size));
+                for (std::size_t index = 0; index < forces.size(); ++index)
+                    all.push_back(storage_of(Force::name, index, forces[index], columns.size));
             });
             return all;
         },
@@ -140,24 +140,24 @@ std::size_t Bodies::bytes_per_link() const {
                       columns_->of);
 }
 
-Apart Bodies::apart_from(const Bodies& other) const {
+Deviation Bodies::deviation_from(const Bodies& other) const {
     require(size() == other.size() && columns_->of.index() == other.columns_->of.index(),
-            "bodies are compared with as many in the same precision and axes");
+            "compared bodies have the same number, precision and axes");
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
             const auto& others = std::get<Columns<T, Axes>>(other.columns_->of);
-            Apart apart;
+            Deviation largest;
             for (std::size_t row = 0; row < columns.size; ++row) {
                 Vec3 d{};
                 for (std::size_t i = 0; i < Axes; ++i) {
                     d.axis[i] = static_cast<double>(
                         std::abs(columns.motion.x[i][row] - others.motion.x[i][row]));
-                    apart.along.axis[i] = larger(apart.along.axis[i], d.axis[i]);
+                    largest.along.axis[i] = larger(largest.along.axis[i], d.axis[i]);
                 }
-                // The square of a difference may be 0 where the difference is not.
-                apart.distance = larger(apart.distance, std::hypot(d[0], d[1], d[2]));
+                // hypot, because the square of a small difference underflows to 0.
+                largest.distance = larger(largest.distance, std::hypot(d[0], d[1], d[2]));
             }
-            return apart;
+            return largest;
         },
         columns_->of);
 }

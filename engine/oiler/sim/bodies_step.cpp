@@ -21,7 +21,7 @@ bool is_listed(const Method& method) {
            std::less<>{}(&method, methods().data() + methods().size());
 }
 
-/// Made anew only where it is another than that of the step before.
+/// The cached plan, renewed if method, rate or damping differ from those of the step before.
 template <class T>
 const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& steps) {
     const Damping damping = steps.damping.value_or(method.damping);
@@ -34,7 +34,7 @@ const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& 
 }  // namespace
 
 void Bodies::set_threads(int threads) {
-    require(threads >= 1, "a step is taken by one thread at least");
+    require(threads >= 1, "stepping needs at least one thread");
     team_ = threads == 1 ? nullptr : std::make_shared<Team>(static_cast<std::size_t>(threads));
 }
 
@@ -73,8 +73,7 @@ void Bodies::require_forces_for(const Method& method) const {
     if (!std::holds_alternative<ExactFlow>(method.rule)) return;
     constexpr std::string_view remedy = "choose another method, such as rk4 or velocity_verlet";
     if (link_count() > 0)
-        fail(Exit::usage, "method {}: it steps bodies one by one, and these are linked; {}",
-             method.name, remedy);
+        fail(Exit::usage, "method {}: it cannot step linked bodies; {}", method.name, remedy);
     std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
             for_each_index<force_count>([&](auto i) {

@@ -10,16 +10,16 @@
 
 namespace oiler {
 
-/// A body as a user describes it. Axes that the world does not have must be zero.
+/// A body in the public API. Axes that the world lacks must be zero.
 struct Body {
     double mass = 1;  ///< kg, positive
     Vec3 position{};  ///< m
     Vec3 velocity{};  ///< m/s
 };
 
-/// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and the
-/// opposite on the second; nothing at d = 0. Without a rest length it is damped in all directions:
-/// −k·d − b·ḋ.
+/// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and
+/// the opposite on the second; 0 at d = 0. Without a rest length it is damped in all directions:
+/// force −k·d − b·ḋ.
 struct Link {
     double stiffness = 0;    ///< k, N/m
     double damping = 0;      ///< b, N·s/m
@@ -32,26 +32,26 @@ template <class... Force>
 struct OptionalOf<std::tuple<Force...>> {
     using type = std::tuple<std::optional<Force>...>;
 };
-/// At most one force of each kind, as a user writes them.
+/// At most one force of each kind.
 using GivenForces = OptionalOf<ForceList<double, 3>>::type;
 
-/// A force that acts on a body of its own: Spring, LinearDrag, QuadraticDrag, CoilSpring,
-/// Attractor.
+/// A force of a single body: Spring, LinearDrag, QuadraticDrag, CoilSpring or Attractor.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);
 };
 
-/// What columns of a precision and a number of axes can hold. What is refused is refused before
-/// anything is stored; all throw Error{usage}.
+/// Checks whether columns of a precision and a number of axes can hold a value. The checks run
+/// before anything is stored and throw Error{usage}.
 class Limits {
 public:
     Limits(Precision precision, int axes);
 
-    /// Finite numbers for the axes that there are, 0 for the others; `what` is for the message.
+    /// Requires finite numbers on the axes of the world and 0 on the others. The message names
+    /// `what`.
     void check(const Vec3& vector, std::string_view what) const;
     void check(const Body& body) const;
-    /// Per unit mass, as they are stored.
+    /// Checks the forces per unit mass, as they are stored.
     void check(const GivenForces& forces, double mass) const;
     void check(const Link& link) const;
 

@@ -9,8 +9,8 @@
 
 namespace oiler {
 
-/// Columns end on a multiple of this many rows, so that whole batches can be loaded, whatever the
-/// machine's registers hold. The rows beyond the last body are scratch.
+/// Columns end on a multiple of this many rows, so that whole batches can be loaded for any
+/// register width. The rows after the last body are scratch.
 inline constexpr std::size_t row_padding = 64;
 inline constexpr std::size_t column_alignment = 64;
 
@@ -18,8 +18,8 @@ inline constexpr std::size_t column_alignment = 64;
     return (rows + row_padding - 1) / row_padding * row_padding;
 }
 
-/// Aligned memory that begins `lines` cache lines behind where it would: large columns would begin
-/// at the same place of their pages otherwise, and get in each other's way in the caches.
+/// Aligned memory, shifted by `lines` cache lines. Without the shift, large columns would all begin
+/// at the same offset of their pages and compete for the same cache sets.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -50,8 +50,8 @@ template <class T>
 class Column {
 public:
     Column() = default;
-    /// The nth of columns that are read together.
-    explicit Column(std::size_t nth) : values_(AlignedAllocator<T>(5 * nth)) {}
+    /// `index` is the column's index among columns that are read together.
+    explicit Column(std::size_t index) : values_(AlignedAllocator<T>(5 * index)) {}
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] T* data() { return values_.data(); }
@@ -64,7 +64,7 @@ public:
         if (size_ == values_.size()) grow();
         values_[size_++] = value;
     }
-    /// The last row takes the place of `row`.
+    /// Removes `row`; the last row moves to its place.
     void swap_remove(std::size_t row) {
         values_[row] = values_[--size_];
         values_[size_] = T(0);
@@ -80,18 +80,18 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A number that belongs to each row, stored once while all rows agree on it and as a column from
-/// the first that differs: a scene pays for what varies. What is stored once fills as many rows as
-/// a batch may load.
+/// One number per row. It is stored once while all rows agree, and as a column after the first
+/// difference, so that a scene pays only for numbers that vary. A shared number fills as many rows
+/// as a batch may load.
 template <class T>
 class Parameter {
 public:
     Parameter() = default;
-    /// `rows` rows that agree on `value`.
+    /// `rows` rows with the same value.
     Parameter(T value, std::size_t rows) : size_(rows) { share(value); }
 
     [[nodiscard]] bool shared() const { return shared_; }
-    /// From row `row` on.
+    /// The numbers from row `row` on.
     [[nodiscard]] const T* data(std::size_t row) const {
         return column_.data() + (shared_ ? 0 : row);
     }
@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    /// 0 and −0 do: a body's bits do not depend on which of them a neighbour has.
+    /// 0 and −0 differ, so that the bits of a body do not depend on its neighbours.
     static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
 
     void share(T value) {

@@ -14,7 +14,7 @@
 
 namespace oiler {
 
-/// One force's numbers for all rows.
+/// The numbers of one force for all rows.
 template <class Force, class T>
 using ForceColumns = std::array<Parameter<T>, number_count<Force>()>;
 
@@ -25,7 +25,7 @@ struct ForceColumnsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
 };
 
-/// A vector for each row.
+/// One vector per row.
 template <class T, int Axes>
 using VecColumns = std::array<Column<T>, Axes>;
 
@@ -38,14 +38,14 @@ template <class T, std::size_t Axes>
     return size;
 }
 
-/// The states of all rows: what a step changes.
+/// The states of all rows: the numbers that a step changes.
 template <std::floating_point T, int Axes>
 struct MotionColumns {
     VecColumns<T, Axes> x{generate<Axes>([](auto i) { return Column<T>(i); })};         ///< m
     VecColumns<T, Axes> v{generate<Axes>([](auto i) { return Column<T>(Axes + i); })};  ///< m/s
 };
 
-/// A spring between two rows, per the user's units: it is shared by two masses.
+/// A spring between two rows. Its numbers are not per unit mass, because it acts on two masses.
 template <std::floating_point T>
 struct LinkRow {
     std::size_t a;
@@ -55,7 +55,7 @@ struct LinkRow {
     T rest_length;  ///< m
 };
 
-/// What the exact flows of one length do to each row, see Response.
+/// The Response of each row over one duration.
 template <class T>
 struct FlowColumns {
     Parameter<T> reach;
@@ -63,47 +63,47 @@ struct FlowColumns {
     Parameter<T> decay;
 };
 
-/// Which part of an acceleration is asked for: that which position alone decides, or all.
+/// The part of an acceleration to evaluate: the part that depends on position alone, or all.
 enum class Evaluate { field, all };
 
-/// `count` links with the numbers of `of`, the next of which joins the rows after those of the one
-/// before.
+/// `count` links with the same numbers between consecutive rows; `of` is the first. Each link joins
+/// the rows after those of the link before it.
 template <std::floating_point T>
 struct LinkRun {
     LinkRow<T> of;
     std::size_t count;
 };
 
-/// The exact flows that a plan needs, computed once for all steps with it.
+/// The exact flows of a plan, computed once for all its steps.
 template <class T>
 struct Flows {
     bool valid = false;
-    bool damped = false;                  ///< else drifts are straight
+    bool damped = false;                  ///< otherwise drifts are x += τ·v
     std::vector<T> durations;             ///< s
-    std::vector<FlowColumns<T>> of;       ///< each duration
+    std::vector<FlowColumns<T>> of;       ///< per duration
     T half_step = 0;                      ///< s
-    std::vector<Parameter<T>> coil_loss;  ///< of each coil, 1 − e^(−b·τ) over a half-step
+    std::vector<Parameter<T>> coil_loss;  ///< per coil spring: 1 − e^(−b·τ) over a half-step
 };
 
 template <class T>
 class LinkSolver;
 
-/// What steps of linked rows carry on from one to the next.
+/// The data that steps of linked rows reuse in the next step.
 template <class T, int Axes>
 struct LinkCache {
-    bool valid = false;  ///< until bodies, masses, forces or links change
+    bool valid = false;  ///< false after a change of bodies, masses, forces or links
     std::vector<LinkRun<T>> runs;
-    Parameter<T> inverse_mass;  ///< 1/kg, of each row
+    Parameter<T> inverse_mass;  ///< 1/kg, per row
     T half_step = 0;            ///< s
-    std::vector<T> loss;  ///< of each link, 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
+    std::vector<T> loss;  ///< per link: 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
-    bool field_valid = false;                     ///< until positions change, too
-    std::shared_ptr<const LinkSolver<T>> solver;  ///< where the equations are linear
+    bool field_valid = false;                     ///< also false after a change of positions
+    std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
     T solver_tau = 0;                             ///< s
 };
 
-/// The plan of the last step with a method of the list: the next step mostly takes the same.
+/// The plan of the last step with a method of the list; most steps reuse it.
 template <class T>
 struct PlanCache {
     const Method* method = nullptr;
@@ -112,20 +112,20 @@ struct PlanCache {
     Plan<T> plan = ExactPlan<T>{0};
 };
 
-/// All bodies of a world: what every step touches in columns of their own, what it does not
-/// (masses) apart.
+/// All bodies of a world. Numbers that every step needs are in separate columns from those that it
+/// does not need (masses).
 template <std::floating_point T, int Axes>
 struct Columns {
     std::size_t size = 0;
     MotionColumns<T, Axes> motion;
     Parameter<double> mass;  ///< kg
-    /// As many of each kind as the body has that has the most.
+    /// The number of forces of each kind is that of the body with the most.
     typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
     std::vector<LinkRow<T>> links;
-    /// How often the forces on the first row were evaluated.
+    /// The number of evaluations of the forces on the first row.
     std::int64_t evaluations = 0;
     PlanCache<T> plan_cache;
-    /// What a step makes of the forces, as long as they stay as they are.
+    /// Caches that are valid until the forces change.
     Flows<T> flows;
     LinkCache<T, Axes> link_cache;
 
@@ -137,14 +137,14 @@ struct Columns {
     void state_changed() { link_cache.field_valid = false; }
 };
 
-/// Row `row` as a value of the Number `V` (double for measuring, T for reading).
+/// The state of row `row` in the Number `V`.
 template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] State<V, Axes> state_of(const Columns<T, Axes>& columns, std::size_t row) {
     return {{generate<Axes>([&](auto i) { return V(columns.motion.x[i][row]); })},
             {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
 }
 
-/// One row's number, or those of a batch of rows from `row` on.
+/// The number of one row, or of a batch of rows from `row` on.
 template <Number V, std::floating_point T>
 [[nodiscard]] [[gnu::always_inline]] inline V load(const Parameter<T>& parameter, std::size_t row) {
     if constexpr (requires { V::load(parameter.data(row)); })
@@ -153,7 +153,7 @@ template <Number V, std::floating_point T>
         return V(parameter[row]);
 }
 
-/// A Source of Forces: those on row `row`, or on a batch of rows from there on, per unit mass.
+/// A Source of Forces: the forces per unit mass on row `row`, or on a batch of rows from `row` on.
 template <Number V, std::floating_point T, int Axes>
 class ForcesOfRow {
 public:
@@ -164,8 +164,8 @@ public:
         return stored<Force>().size();
     }
     template <class Force>
-    [[gnu::always_inline]] Force get(std::size_t nth) const {
-        const auto& numbers = stored<Force>()[nth];
+    [[gnu::always_inline]] Force get(std::size_t index) const {
+        const auto& numbers = stored<Force>()[index];
         Force force;
         std::size_t next = 0;
         for_each_number(
@@ -185,7 +185,7 @@ private:
     std::size_t row_;
 };
 
-/// The forces on row `row` as a value of the Number `V`.
+/// The forces on row `row` in the Number `V`.
 template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] auto forces_of(const Columns<T, Axes>& columns, std::size_t row) {
     return Forces<V, Axes, ForcesOfRow<V, T, Axes>>(ForcesOfRow<V, T, Axes>(columns, row));

@@ -19,18 +19,18 @@ struct Oscillator {
     auto operator<=>(const Oscillator&) const = default;
 };
 
-/// Of what acts on row `row`; `k` where springs belong to the flow.
+/// The oscillator of row `row`; `k` is 0 unless springs belong to the flow.
 template <class T, int Axes>
 Oscillator<T> oscillator_of(const Columns<T, Axes>& columns, std::size_t row, bool with_springs) {
     const auto forces = forces_of<T>(columns, row);
     Oscillator<T> oscillator{T(0), forces.damping_rate()};
     if (with_springs)
-        for (std::size_t nth = 0; nth < forces.template count<SpringForce>(); ++nth)
-            oscillator.k = oscillator.k + forces.template get<SpringForce>(nth).stiffness;
+        for (std::size_t index = 0; index < forces.template count<SpringForce>(); ++index)
+            oscillator.k = oscillator.k + forces.template get<SpringForce>(index).stiffness;
     return oscillator;
 }
 
-/// Whether all rows have the same numbers in all forces that damp linearly or pull on springs.
+/// Whether all rows have the same numbers in all forces with a damping rate, including springs.
 template <class T, int Axes>
 bool rows_agree(const Columns<T, Axes>& columns) {
     bool agree = true;
@@ -43,7 +43,7 @@ bool rows_agree(const Columns<T, Axes>& columns) {
     return agree;
 }
 
-/// How many rows speak for all.
+/// The number of rows whose flows must be computed: one if all rows agree.
 template <class T, int Axes>
 std::size_t distinct_rows(const Columns<T, Axes>& columns) {
     return rows_agree(columns) ? std::min<std::size_t>(columns.size, 1) : columns.size;
@@ -53,12 +53,11 @@ template <class T>
 void require_finite(const Response<T>& response, const Oscillator<T>& of, T duration) {
     if (std::isfinite(response.reach) && std::isfinite(response.decay)) return;
     fail(Exit::usage,
-         "damping of {} 1/s cannot flow for {} s{}: {}; take a higher rate, or implicit_euler",
-         of.c, duration, duration < 0 ? ", backwards as a stage of the method has it" : "",
-         duration < 0 ? "it overflows" : "its numbers overflow");
+         "damping of {} 1/s overflows over {} s{}; take a higher rate, or implicit_euler", of.c,
+         duration, duration < 0 ? ", a backward drift of the method" : "");
 }
 
-/// Calls f(response) for each row in order, computing each distinct one once.
+/// Calls f(response) for each row in order and computes each distinct response once.
 template <class T, int Axes, class F>
 void for_each_response(const Columns<T, Axes>& columns, T duration, bool with_springs, F f) {
     std::map<Oscillator<T>, Response<T>> known;
@@ -85,16 +84,16 @@ FlowColumns<T> flow_columns(const Columns<T, Axes>& columns, T duration, bool wi
     return flow;
 }
 
-/// Of each coil spring that a body may have.
+/// The losses over `duration` of each coil spring.
 template <class T, int Axes>
 std::vector<Parameter<T>> coil_losses(const Columns<T, Axes>& columns, T duration) {
     using Coil = CoilSpringForce<T, Axes>;
     const ForcesOfRow<T, T, Axes> first(columns, 0);
     std::vector<Parameter<T>> losses(first.template count<Coil>());
-    for (std::size_t nth = 0; nth < losses.size(); ++nth)
+    for (std::size_t index = 0; index < losses.size(); ++index)
         for (std::size_t row = 0; row < columns.size; ++row) {
-            const T c = ForcesOfRow<T, T, Axes>(columns, row).template get<Coil>(nth).damping;
-            losses[nth].push(c * oscillator_response(T(0), c, duration).reach);
+            const T c = ForcesOfRow<T, T, Axes>(columns, row).template get<Coil>(index).damping;
+            losses[index].push(c * oscillator_response(T(0), c, duration).reach);
         }
     return losses;
 }

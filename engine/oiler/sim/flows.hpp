@@ -6,7 +6,7 @@
 
 namespace oiler {
 
-/// Whether steps with the plan follow flows at all.
+/// Whether steps with the plan use exact flows.
 template <std::floating_point T>
 [[nodiscard]] bool needs_flows(const Plan<T>& plan) {
     const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
@@ -14,9 +14,9 @@ template <std::floating_point T>
                      : std::holds_alternative<ExactPlan<T>>(plan);
 }
 
-/// Computes the exact flows that the plan needs, unless the columns have them: one response for
-/// each distinct damping (and stiffness) and length. Throws Error{usage} where one overflows, since
-/// a negative drift runs damping backwards.
+/// Computes the exact flows of the plan, unless the columns have them: one response per distinct
+/// damping (and stiffness) and duration. Throws Error{usage} if one overflows, which may happen in
+/// a negative drift, because it runs damping backwards.
 template <std::floating_point T, int Axes>
 void prepare_flows(Columns<T, Axes>& columns, const Plan<T>& plan);
 

@@ -6,8 +6,8 @@
 
 namespace oiler {
 
-/// A line for a user whose machine lacks every set of instructions that this build has kernels for,
-/// so that steps take several times as long.
+/// A remark for a user whose machine lacks all instruction sets of this build's kernels, so that
+/// steps take several times as long. Empty if the machine has one.
 [[nodiscard]] std::optional<std::string> missing_instructions();
 
 }  // namespace oiler

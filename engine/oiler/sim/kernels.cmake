@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The kernels of the step, for each set of instructions in OILER_KERNELS and each precision. Always
-# optimised: without inlining, the sets would share functions of the standard library.
+# The kernels of the step, for each instruction set in OILER_KERNELS and each precision. They are
+# always optimised: without inlining, the sets would share functions of the standard library.
 set(OILER_KERNELS native CACHE STRING
     "Instruction sets to compile kernels for: native (this machine's widest), all, or a list of baseline, avx2, avx512")
 
@@ -21,7 +21,7 @@ elseif(sets STREQUAL native)
     if(NOT DEFINED OILER_NATIVE_KERNELS)
       try_run(OILER_NATIVE_RAN OILER_NATIVE_COMPILED SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/native.c
               RUN_OUTPUT_VARIABLE native)
-      set(OILER_NATIVE_KERNELS ${native} CACHE INTERNAL "This machine's widest set of instructions")
+      set(OILER_NATIVE_KERNELS ${native} CACHE INTERNAL "This machine's widest instruction set")
     endif()
     set(sets ${OILER_NATIVE_KERNELS})
   endif()
@@ -37,7 +37,7 @@ foreach(name IN LISTS sets)
     target_link_libraries(${kernels} PRIVATE oiler::options oiler_warnings fmt::fmt)
     target_compile_definitions(${kernels} PRIVATE
       OILER_INSTRUCTIONS=${name} OILER_PRECISION=${precision} NDEBUG)
-    # gcc takes its own _mm512_undefined_ps() for a mistake of ours.
+    # gcc warns of its own _mm512_undefined_ps().
     target_compile_options(${kernels} PRIVATE -O2 -fno-math-errno -fno-trapping-math
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> ${flags_${name}})
     target_sources(oiler_sim PRIVATE $<TARGET_OBJECTS:${kernels}>)

@@ -26,7 +26,7 @@ const Kernels<T, Axes>& kernels();
 
 namespace {
 
-/// A set of instructions, and whether this build has kernels for it.
+/// An instruction set, and whether this build has kernels for it.
 struct InstructionSet {
     std::string_view name;
     bool built;
@@ -49,7 +49,7 @@ constexpr bool avx512_built = true;
 constexpr bool avx512_built = false;
 #endif
 
-/// From the plainest, which every machine runs, to the widest.
+/// From the baseline, which every machine runs, to the widest.
 constexpr std::array sets{
     InstructionSet{"baseline", baseline_built, [] { return true; }},
 #ifdef __x86_64__
@@ -77,7 +77,7 @@ const Kernels<T, Axes>* kernels_of(std::string_view set) {
 
 constexpr const char* variable = "OILER_INSTRUCTIONS";
 
-/// Null where no kernels of this build run here.
+/// Null if no kernels of this build run here.
 const InstructionSet* widest_set() {
     const auto found = std::find_if(sets.rbegin(), sets.rend(), [](const InstructionSet& set) {
         return set.built && set.runs_here();
@@ -97,7 +97,8 @@ std::string_view chosen_set() {
         if (set.name == wanted) return set.name;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", set.name);
     }
-    fail(Exit::usage, "{}={}: this build on this machine runs {}", variable, wanted, names);
+    fail(Exit::usage, "{}={}: expected one of {}, which this build and machine have", variable,
+         wanted, names);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// What steps of linked rows do to all of them, see link_rows.hpp.
+/// The operations on all rows in steps of linked rows, see link_rows.hpp.
 template <std::floating_point T, int Axes>
 struct LinkedKernels {
     void (*accelerate)(const Columns<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate, double t,
@@ -20,9 +20,9 @@ struct LinkedKernels {
     bool (*may_be_infinite)(const MotionColumns<T, Axes>&);
 };
 
-/// What steps rows in batches. Each takes rows from `begin`, a multiple of row_padding, to `end`,
-/// and returns the first row of a batch that it left as it was because a number in it may have
-/// stopped being finite, or `end`.
+/// The functions that step rows in batches. Each steps the rows from `begin`, a multiple of
+/// row_padding, to `end`. It returns `end`, or the first row of a batch that it did not store
+/// because a number in it may no longer be finite.
 template <std::floating_point T, int Axes>
 struct Kernels {
     template <class Rule>
@@ -35,10 +35,10 @@ struct Kernels {
     LinkedKernels<T, Axes> linked;
 };
 
-/// The kernels for the widest registers of this machine that this build has (OILER_KERNELS), or for
-/// those that the environment variable OILER_INSTRUCTIONS names. Null for the baseline of a build
-/// without kernels for it: rows are then stepped one at a time, to the same bits. Throws
-/// Error{usage} for a name that is none of these.
+/// The kernels for the widest registers that this machine and this build (OILER_KERNELS) have, or
+/// for the instruction set in the environment variable OILER_INSTRUCTIONS. Null for the baseline of
+/// a build without kernels for it; rows are then stepped one at a time, with the same bits. Throws
+/// Error{usage} for an unknown or missing instruction set.
 template <std::floating_point T, int Axes>
 [[nodiscard]] const Kernels<T, Axes>* kernels();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernels for one set of instructions and one precision, OILER_INSTRUCTIONS and OILER_PRECISION:
-// this file is compiled once for each pair. Every function here is a template over the registers of
-// its set, or always inlined, so that no two sets share one.
+// The kernels for one instruction set and one precision, OILER_INSTRUCTIONS and OILER_PRECISION.
+// This file is compiled once for each pair. Every function here is a template over the registers of
+// its set, or always inlined, so that no two sets share a function.
 #include "oiler/math/batch.hpp"
 #include "oiler/sim/kernels.hpp"
 #include "oiler/sim/link_rows.hpp"
@@ -20,8 +20,8 @@ constexpr std::size_t register_bytes = 16;
 template <class T>
 using Register = Pack<T, register_bytes>;
 
-/// As many registers as leave room beside the state for what is computed, and as a batch may have.
-/// The plain splittings hold nothing but the state; Runge–Kutta methods hold several.
+/// The largest number of registers per batch that leaves registers free for intermediate results,
+/// and that row_padding allows. Splittings hold one state; Runge–Kutta methods hold several.
 template <class T, int Axes>
 constexpr std::size_t most_packs() {
     constexpr std::size_t room = register_bytes == 64 ? 24 : 12;
@@ -34,8 +34,8 @@ using Wide = Batch<Register<T>, most_packs<T, Axes>()>;
 template <class T, int Axes>
 using Narrow = Batch<Register<T>, (most_packs<T, Axes>() + 1) / 2>;
 
-/// A Source of Forces that are one each of the kinds in `Kinds` (bits, in the order of ForceList),
-/// with the same numbers for all rows: a compiler can keep these in registers.
+/// A Source of Forces with one force of each kind in `Kinds` (bits, in the order of ForceList) and
+/// the same numbers for all rows. Compilers keep these numbers in registers.
 template <Number V, int Axes, unsigned Kinds>
 class SharedForces {
 public:
@@ -128,7 +128,7 @@ template <class V, class Rule, class T, int Axes>
     return step_batches<V, ForcesOfRow<V, T, Axes>>(columns, rule, steps, begin, end);
 }
 
-/// With the sets of forces that most scenes have: gravity, a spring.
+/// Has fast paths for the forces of most scenes: gravity alone, or springs alone.
 template <class V, class Fixed, class T, int Axes, class Rule>
 std::size_t step_fixed(Columns<T, Axes>& columns, const Rule& rule, const Steps& steps,
                        std::size_t begin, std::size_t end) {

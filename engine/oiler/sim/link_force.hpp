@@ -6,8 +6,8 @@
 namespace oiler {
 
 /// The force (N) of a link on its first body; its second has the opposite one. A link with a rest
-/// length is a CoilSpringForce to the other body, one without is damped in all directions: force
-/// −k·d − b·ḋ, d = x₁ − x₂.
+/// length is a CoilSpringForce to the other body. A link without one is damped in all directions:
+/// force −k·d − b·ḋ, d = x₁ − x₂.
 template <Number V, int Axes>
 struct LinkForce {
     CoilSpringForce<V, Axes> coil;
@@ -18,7 +18,7 @@ struct LinkForce {
                V(link.damping), V(link.rest_length)},
           without_length(link.rest_length == 0) {}
 
-    /// `between` is the state of the first as seen from the second.
+    /// `between` is the state of the first body relative to the second.
     [[nodiscard]] [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& between) const {
         return without_length ? between * -coil.stiffness : coil.field(between, 0);
     }
@@ -33,11 +33,11 @@ struct LinkForce {
                    ? Jacobian<V, Axes>{M::scalar(-coil.stiffness), M::scalar(-coil.damping)}
                    : coil.jacobian(between);
     }
-    /// How much of the relative velocity the damper takes when it takes `loss` of what it sees.
-    [[nodiscard]] Vec<V, Axes> lost(State<V, Axes> between, V loss) const {
+    /// The relative velocity that the damper removes; `loss` is its fraction along the damper.
+    [[nodiscard]] Vec<V, Axes> velocity_loss(State<V, Axes> between, V loss) const {
         if (without_length) return between.v * loss;
         const Vec<V, Axes> before = between.v;
-        coil.slow(between, loss);
+        coil.damp(between, loss);
         return before - between.v;
     }
     [[nodiscard]] V potential(const State<V, Axes>& between) const {

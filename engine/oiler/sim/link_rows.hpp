@@ -7,8 +7,8 @@
 
 namespace oiler {
 
-// What steps of linked rows do to all of them at once, each written once over a Number that may be
-// a batch of rows or of links.
+// The operations on all rows in steps of linked rows, each written once over a Number that may be a
+// batch of rows or of links.
 
 template <class V>
 constexpr std::size_t lanes_of = 1;
@@ -30,7 +30,7 @@ template <class V, class T>
         value.store(to);
 }
 
-/// The forces on each row but for its links.
+/// The accelerations of each row, without its links.
 template <class V, class T, int Axes>
 void accelerate_rows(const Columns<T, Axes>& columns, const MotionColumns<T, Axes>& motion,
                      Evaluate what, double t, VecColumns<T, Axes>& out) {
@@ -43,7 +43,7 @@ void accelerate_rows(const Columns<T, Axes>& columns, const MotionColumns<T, Axe
     }
 }
 
-/// Calls f(V{}, i) for batches of V from 0 on and f(T{}, i) for what they leave of `count`.
+/// Calls f(V{}, i) for whole batches of V from 0 on, then f(T{}, i) for the remainder of `count`.
 template <class V, class T, class F>
 [[gnu::always_inline]] inline void for_lanes(std::size_t count, F f) {
     std::size_t i = 0;
@@ -51,9 +51,10 @@ template <class V, class T, class F>
     for (; i < count; ++i) f(T(0), i);
 }
 
-/// The same where doing an index twice does no harm: the last batch overlaps the one before it.
+/// Like for_lanes, for an `f` that may handle an index twice: the last batch may overlap the one
+/// before it.
 template <class V, class T, class F>
-[[gnu::always_inline]] inline void for_lanes_anyhow(std::size_t count, F f) {
+[[gnu::always_inline]] inline void for_overlapping_lanes(std::size_t count, F f) {
     if (count < lanes_of<V>) {
         for (std::size_t i = 0; i < count; ++i) f(T(0), i);
         return;
@@ -62,11 +63,11 @@ template <class V, class T, class F>
     f(V(T(0)), count - lanes_of<V>);
 }
 
-/// Adds the forces on `count` rows from `row` on over their masses, or takes them away.
+/// Adds the accelerations by forces on `count` rows from `row` on, or subtracts them.
 template <class V, class T, std::size_t Axes>
 [[gnu::always_inline]] inline void push_rows(const std::array<const T*, Axes>& force,
                                              std::size_t count, const Parameter<T>& inverse_mass,
-                                             bool away, std::array<Column<T>, Axes>& to,
+                                             bool subtract, std::array<Column<T>, Axes>& to,
                                              std::size_t row) {
     for_lanes<V, T>(
         count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
@@ -75,22 +76,21 @@ template <class V, class T, std::size_t Axes>
                 T* const at = to[axis].data() + row + i;
                 const N push = load_from<N>(force[axis] + i) * inverse;
                 const N was = load_from<N>(at);
-                store_to<N>(away ? N(was - push) : N(was + push), at);
+                store_to<N>(subtract ? N(was - push) : N(was + push), at);
             });
         });
 }
 
-/// How many links' forces are kept before they push: fixed, since the order of sums depends on it.
-inline constexpr std::size_t links_at_once = 512;
+/// The most links in a run. It is fixed because the order of sums depends on it.
+inline constexpr std::size_t most_links_per_run = 512;
 
-/// Links that join consecutive rows to consecutive rows and agree in all numbers: all first ends
-/// are pushed, then all second ones.
+/// Applies a run of links: first to all their first rows, then to all their second rows.
 template <class V, class T, int Axes>
 [[gnu::always_inline]] inline void push_run(const LinkRun<T>& run,
                                             const MotionColumns<T, Axes>& motion, Evaluate what,
                                             const Parameter<T>& inverse_mass,
                                             VecColumns<T, Axes>& to) {
-    alignas(column_alignment) std::array<std::array<T, links_at_once>, Axes> force;
+    alignas(column_alignment) std::array<std::array<T, most_links_per_run>, Axes> force;
     const auto ends = [&]<class N>(N, const VecColumns<T, Axes>& columns, std::size_t i)
         __attribute__((always_inline)) {
         return Vec<N, Axes>{generate<Axes>([&](auto axis) __attribute__((always_inline)) {
@@ -98,7 +98,7 @@ template <class V, class T, int Axes>
                      load_from<N>(columns[axis].data() + run.of.b + i));
         })};
     };
-    for_lanes_anyhow<V, T>(
+    for_overlapping_lanes<V, T>(
         run.count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
             const LinkForce<N, Axes> link(run.of);
             const Vec<N, Axes> d = ends(N(T(0)), motion.x, i);
@@ -115,7 +115,7 @@ template <class V, class T, int Axes>
     push_rows<V>(from, run.count, inverse_mass, true, to, run.of.b);
 }
 
-/// The same for one link, without keeping its force: it is the same sum.
+/// Applies one link, without storing its force; the sum is that of push_run.
 template <class T, int Axes>
 [[gnu::always_inline]] inline void push_link(const LinkRow<T>& link,
                                              const MotionColumns<T, Axes>& motion, Evaluate what,
@@ -156,7 +156,7 @@ void add_scaled_rows(std::array<Column<T>, Axes>& to, const std::array<Column<T>
             store(V(load<V>(to[axis], row) + load<V>(what[axis], row) * V(s)), to[axis], row);
 }
 
-/// Whether a number of some rows may have stopped being finite.
+/// Whether a number of any row may no longer be finite.
 template <class V, class T, int Axes>
 bool motion_may_be_infinite(const MotionColumns<T, Axes>& motion) {
     V total(T(0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same sums in the same order, whatever the file is compiled for.
+// Without vectorisation, Eigen sums in the same order on every target.
 #define EIGEN_DONT_VECTORIZE
 
 #include "oiler/sim/link_solver.hpp"

@@ -8,7 +8,7 @@
 
 namespace oiler {
 
-/// An entry of a sparse matrix; those of one place add up.
+/// An entry of a sparse matrix. Entries at the same row and column add up.
 template <std::floating_point T>
 struct MatrixEntry {
     std::size_t row;
@@ -16,7 +16,7 @@ struct MatrixEntry {
     T value;
 };
 
-/// A square sparse matrix, factorised once and solved with as often as it holds.
+/// A square sparse matrix, factorised once for many solutions.
 template <class T>
 class LinkSolver {
 public:
@@ -25,7 +25,7 @@ public:
     LinkSolver(const LinkSolver&) = delete;
     LinkSolver& operator=(const LinkSolver&) = delete;
 
-    /// Not finite where the matrix is singular.
+    /// The solution is not finite if the matrix is singular.
     [[nodiscard]] std::vector<T> solve(const std::vector<T>& right) const;
 
 private:

@@ -47,37 +47,36 @@ template <Number V, class T, int Axes>
     store(state.v, motion.v, row);
 }
 
-/// Ticks that are multiples of this are those after which what damping has stopped is put at rest.
-inline constexpr std::int64_t rest_interval = 64;
+/// Damped bodies are put to sleep after ticks that are multiples of this.
+inline constexpr std::int64_t sleep_interval = 64;
 
-/// What a velocity (m/s), an acceleration (m/s²) and a distance from the anchor (m) are below where
-/// a body is at rest. Far above the subnormal numbers, which cost a hundred times as
-/// much: 7.9·10⁻³¹ in float and 1.5·10⁻³⁰⁰ in double; where speeds are squared, 8.7·10⁻¹⁹
-/// and 4.8·10⁻¹⁵³.
+/// The threshold of sleep for velocity (m/s), acceleration (m/s²) and distance from the anchor (m):
+/// 7.9·10⁻³¹ in float and 1.5·10⁻³⁰⁰ in double; if speeds are squared, 8.7·10⁻¹⁹ and 4.8·10⁻¹⁵³. It
+/// is far above the subnormal numbers, which cost a hundred times as much as normal numbers.
 template <std::floating_point T>
-[[nodiscard]] constexpr T rest_limit(bool squared) {
+[[nodiscard]] constexpr T sleep_limit(bool squared) {
     constexpr int smallest = std::numeric_limits<T>::min_exponent - 1;
     T limit = 1;
     for (int i = squared ? smallest / 2 + 3 : smallest + 26; i < 0; ++i) limit /= 2;
     return limit;
 }
 
-/// Puts at rest what linear damping has brought below the limit of rest in velocity and
-/// acceleration, on its anchor where it has one: it would go on towards 0 through subnormal
-/// numbers otherwise, for nobody to see. Returns whether anything was so slow. Never inlined: all
-/// methods share it, and few steps need it.
+/// Puts bodies with linear damping to sleep, axis by axis, if velocity and acceleration are below
+/// sleep_limit: the velocity becomes 0, and a body close to its anchor moves onto it. Without
+/// sleep, their numbers would become subnormal. Returns whether any velocity was below the limit.
+/// Never inlined, because all methods share it and few steps need it.
 template <Number V, class T, int Axes>
-[[gnu::noinline]] bool settle_row(const Columns<T, Axes>& columns, std::size_t row,
-                                  State<V, Axes>& state, double t) {
+[[gnu::noinline]] bool put_row_to_sleep(const Columns<T, Axes>& columns, std::size_t row,
+                                        State<V, Axes>& state, double t) {
     const auto forces = forces_of<V>(columns, row);
     const std::size_t springs = forces.template count<SpringForce>();
     if (springs + forces.template count<LinearDragForce>() == 0) return false;
-    const T limit = rest_limit<T>(forces.template count<QuadraticDragForce>() > 0);
-    bool creeps = false;
+    const T limit = sleep_limit<T>(forces.template count<QuadraticDragForce>() > 0);
+    bool slow = false;
     for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
-        creeps = creeps || any_creeps(state.v.axis[i], limit);
+        slow = slow || any_nonzero_below(state.v.axis[i], limit);
     });
-    if (!creeps) return false;
+    if (!slow) return false;
     const V rate = forces.damping_rate();
     if (!any_positive(rate)) return false;
     const Vec<V, Axes> a = forces.accelerate(state, t);
@@ -87,14 +86,15 @@ template <Number V, class T, int Axes>
         if (springs > 0) {
             const V anchor = forces.template get<SpringForce>(0).anchor.axis[i];
             const V& x = was.x.axis[i];
-            state.x.axis[i] = where_creeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
+            state.x.axis[i] =
+                replace_where_sleeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
         }
-        state.v.axis[i] = where_creeping(v, V(T(0)), rate, limit, v, a.axis[i]);
+        state.v.axis[i] = replace_where_sleeping(v, V(T(0)), rate, limit, v, a.axis[i]);
     });
     return true;
 }
 
-/// Where a plan has the forces that depend on velocity.
+/// Where a plan applies forces that depend on velocity.
 template <class Plan>
 [[gnu::always_inline]] constexpr Damping damping_of(const Plan& plan) {
     if constexpr (SplitsSteps<Plan>)
@@ -103,7 +103,7 @@ template <class Plan>
         return Damping::in_kick;
 }
 
-/// All that a method asks of the forces on one row, or on a batch of rows from `row` on.
+/// The physics that a method steps: one row, or a batch of rows from `row` on.
 template <Number V, int Axes, class Source = ForcesOfRow<V, Scalar<V>, Axes>>
 class RowPhysics {
 public:
@@ -122,7 +122,8 @@ public:
         return forces_.accelerate(state, t);
     }
 
-    /// The acceleration of a kick. One that depends on position alone holds until the next drift.
+    /// The acceleration of a kick. If it depends on position alone, it is valid until the next
+    /// drift.
     [[gnu::always_inline]] Vec<V, Axes> kick(const State<V, Axes>& state, double t) {
         if (damping_ == Damping::in_kick) return accelerate(state, t);
         if (!field_valid_) {
@@ -144,35 +145,35 @@ public:
         state.v = state.v * load<V>(of.decay, row_);
     }
 
-    /// A half-step of drag, before the stages and, in the other order, after them.
+    /// Half-steps of damping before the stages and, in reverse order, after them.
     template <class Plan>
-    [[gnu::always_inline]] void slow_before(State<V, Axes>& state, const Plan& plan) {
+    [[gnu::always_inline]] void damp_before(State<V, Axes>& state, const Plan& plan) {
         if (damping_ == Damping::in_kick) return;
-        slow_quadratic(state, plan.half_step);
-        for (std::size_t nth = 0; nth < coils(); ++nth) slow_coil(state, nth);
+        damp_quadratic(state, plan.half_step);
+        for (std::size_t index = 0; index < coils(); ++index) damp_coil(state, index);
     }
     template <class Plan>
-    [[gnu::always_inline]] void slow_after(State<V, Axes>& state, const Plan& plan) {
+    [[gnu::always_inline]] void damp_after(State<V, Axes>& state, const Plan& plan) {
         if (damping_ == Damping::in_kick) return;
-        for (std::size_t nth = coils(); nth-- > 0;) slow_coil(state, nth);
-        slow_quadratic(state, plan.half_step);
+        for (std::size_t index = coils(); index-- > 0;) damp_coil(state, index);
+        damp_quadratic(state, plan.half_step);
     }
 
-    /// See settle_row.
-    [[gnu::always_inline]] void settle(State<V, Axes>& state, double t) {
-        State<V, Axes> settled = state;
-        if (!settle_row(columns_, row_, settled, t)) return;
-        state = settled;
+    /// Puts the row to sleep, see put_row_to_sleep.
+    [[gnu::always_inline]] void put_to_sleep(State<V, Axes>& state, double t) {
+        State<V, Axes> asleep = state;
+        if (!put_row_to_sleep(columns_, row_, asleep, t)) return;
+        state = asleep;
         field_valid_ = false;
     }
 
-    /// The change of velocity that takes `residual` away from w − v − τ·a(x + τ·w, w).
+    /// Newton's change of w for the residual of w − v − τ·a(x + τ·w, w).
     [[nodiscard]] Vec<V, Axes> solve(const State<V, Axes>& at, T tau,
                                      const Vec<V, Axes>& residual) {
         return oiler::solve(velocity_matrix(forces_.jacobian(at), V(1), tau), residual);
     }
 
-    /// The exact motion under linear forces: see Response.
+    /// The exact motion under linear forces, see Response.
     [[gnu::always_inline]] void respond(State<V, Axes>& state, double t) {
         ++evaluations_;
         const Vec<V, Axes> a = forces_.field(state.x, t);
@@ -189,13 +190,13 @@ private:
     [[gnu::always_inline]] std::size_t coils() const {
         return forces_.template count<CoilSpringForce>();
     }
-    [[gnu::always_inline]] void slow_quadratic(State<V, Axes>& state, T half_step) {
-        for (std::size_t nth = 0; nth < forces_.template count<QuadraticDragForce>(); ++nth)
-            forces_.template get<QuadraticDragForce>(nth).slow(state, V(half_step));
+    [[gnu::always_inline]] void damp_quadratic(State<V, Axes>& state, T half_step) {
+        for (std::size_t index = 0; index < forces_.template count<QuadraticDragForce>(); ++index)
+            forces_.template get<QuadraticDragForce>(index).damp(state, V(half_step));
     }
-    [[gnu::always_inline]] void slow_coil(State<V, Axes>& state, std::size_t nth) {
-        forces_.template get<CoilSpringForce>(nth).slow(state,
-                                                        load<V>(flows_.coil_loss[nth], row_));
+    [[gnu::always_inline]] void damp_coil(State<V, Axes>& state, std::size_t index) {
+        forces_.template get<CoilSpringForce>(index).damp(state,
+                                                          load<V>(flows_.coil_loss[index], row_));
     }
 
     const Columns<T, Axes>& columns_;
@@ -208,7 +209,7 @@ private:
     std::int64_t evaluations_ = 0;
 };
 
-/// m·1 − τ·(τ·∂a/∂x + ∂a/∂v), of accelerations, or of forces for a mass m.
+/// m·1 − τ·(τ·∂a/∂x + ∂a/∂v), for accelerations (m = 1) or forces.
 template <Number V, int Axes>
 [[nodiscard]] Matrix<V, Axes> velocity_matrix(const Jacobian<V, Axes>& jacobian, const V& mass,
                                               const V& tau) {

@@ -23,7 +23,7 @@ const LinkedKernels<T, Axes>& linked_kernels_of() {
 
 }  // namespace
 
-/// What the text of the methods does to all rows at once.
+/// The overload that the methods call on all rows together.
 template <std::floating_point T, std::size_t Axes>
 static void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what,
                        T s) {
@@ -32,7 +32,7 @@ static void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<
 
 namespace {
 
-/// All that a method asks of the forces on all rows and the links between them.
+/// The physics that a method steps: all rows and the links between them.
 template <std::floating_point T, int Axes>
 class LinkedRows {
 public:
@@ -52,7 +52,7 @@ public:
         return cache_.acceleration;
     }
 
-    /// Where position alone decides it, the acceleration of the last kick holds until the next
+    /// The acceleration of a kick. If it depends on position alone, it is valid until the next
     /// drift, also in a later step.
     const Vectors& kick(const MotionColumns<T, Axes>& motion, double t) {
         if (damping_ == Damping::in_kick) return accelerate(motion, t);
@@ -70,35 +70,35 @@ public:
             });
     }
 
-    void slow_before(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+    void damp_before(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
         if (damping_ == Damping::in_kick) return;
         change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
-            physics.slow_before(state, plan);
+            physics.damp_before(state, plan);
         });
-        for (std::size_t i = 0; i < columns_.links.size(); ++i) slow(motion, i);
+        for (std::size_t i = 0; i < columns_.links.size(); ++i) damp(motion, i);
     }
-    void slow_after(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+    void damp_after(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
         if (damping_ == Damping::in_kick) return;
-        for (std::size_t i = columns_.links.size(); i-- > 0;) slow(motion, i);
+        for (std::size_t i = columns_.links.size(); i-- > 0;) damp(motion, i);
         change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
-            physics.slow_after(state, plan);
+            physics.damp_after(state, plan);
         });
     }
 
-    /// Puts at rest what damping has brought so near to it, see RowPhysics.
-    void settle(MotionColumns<T, Axes>& motion, double t) {
-        if (!damped()) return;
+    /// Puts rows to sleep if any link is damped, see RowPhysics.
+    void put_to_sleep(MotionColumns<T, Axes>& motion, double t) {
+        if (!any_link_damped()) return;
         evaluate(motion, Evaluate::all, t, cache_.acceleration);
-        constexpr T limit = rest_limit<T>(true);
+        constexpr T limit = sleep_limit<T>(true);
         for (std::size_t axis = 0; axis < Axes; ++axis)
             for (std::size_t row = 0; row < columns_.size; ++row) {
                 T& v = motion.v[axis][row];
-                v = where_creeping(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
+                v = replace_where_sleeping(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
             }
     }
 
-    /// The changes of velocity that take `residual` away from w − v − τ·a(x + τ·w, w). Where all
-    /// forces are linear the matrix stays as it is.
+    /// Newton's changes of w for the residual of w − v − τ·a(x + τ·w, w). The matrix is kept while
+    /// all forces are linear.
     [[nodiscard]] Vectors solve(const MotionColumns<T, Axes>& at, T tau, const Vectors& residual) {
         if (!cache_.solver || cache_.solver_tau != tau || !linear()) {
             cache_.solver =
@@ -114,14 +114,14 @@ public:
     }
 
 private:
-    /// What holds as long as bodies, forces and links do.
+    /// Fills the cache for the current bodies, forces and links.
     void prepare(T half_step) {
         if (cache_.valid && cache_.half_step == half_step) return;
         cache_ = {};
         cache_.half_step = half_step;
         for (std::size_t row = 0; row < columns_.size; ++row)
             cache_.inverse_mass.push(static_cast<T>(1 / columns_.mass[row]));
-        // Most links are like the one before.
+        // Most links have the numbers of the link before them.
         T rate = 0;
         T reach = oscillator_response(T(0), rate, half_step).reach;
         for (const LinkRow<T>& link : columns_.links) {
@@ -137,7 +137,7 @@ private:
         cache_.valid = true;
     }
     static bool continues(const LinkRun<T>& run, const LinkRow<T>& link) {
-        return run.count < links_at_once && link.a == run.of.a + run.count &&
+        return run.count < most_links_per_run && link.a == run.of.a + run.count &&
                link.b == run.of.b + run.count && link.stiffness == run.of.stiffness &&
                link.damping == run.of.damping && link.rest_length == run.of.rest_length;
     }
@@ -165,7 +165,8 @@ private:
         return {between(motion.x, link), between(motion.v, link)};
     }
 
-    /// Adds what a force on the link's first body and its opposite on the second do to `to`.
+    /// Adds to `to` the accelerations by a force on the link's first body and its opposite on the
+    /// second.
     void push(const LinkRow<T>& link, const Vec<T, Axes>& force, Vectors& to) {
         for (std::size_t i = 0; i < Axes; ++i) {
             to[i][link.a] += force.axis[i] * cache_.inverse_mass[link.a];
@@ -183,17 +184,17 @@ private:
         cache_.field_valid = true;
     }
 
-    /// A half-step of the damper of link `i` while nothing moves: exact for this one link.
-    void slow(MotionColumns<T, Axes>& motion, std::size_t i) {
+    /// A half-step of the damper of link `i` at fixed positions: exact for one link alone.
+    void damp(MotionColumns<T, Axes>& motion, std::size_t i) {
         const LinkRow<T>& link = columns_.links[i];
         if (link.damping == 0) return;
-        const auto lost = LinkForce<T, Axes>(link).lost(between(motion, link), cache_.loss[i]);
+        const auto lost =
+            LinkForce<T, Axes>(link).velocity_loss(between(motion, link), cache_.loss[i]);
         const T both = cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b];
         push(link, -lost * (1 / both), motion.v);
     }
 
-    /// Whether any link is.
-    [[nodiscard]] bool damped() const {
+    [[nodiscard]] bool any_link_damped() const {
         return std::any_of(cache_.runs.begin(), cache_.runs.end(),
                            [](const LinkRun<T>& run) { return run.of.damping > 0; });
     }
@@ -267,7 +268,8 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns, const Plan
                 } else if constexpr (!std::is_same_v<Rule, ExactPlan<T>>) {
                     advance(rule, columns.motion, physics, t);
                 }
-                if (settles(tick)) physics.settle(columns.motion, steps.rate.time(tick));
+                if (is_sleep_tick(tick))
+                    physics.put_to_sleep(columns.motion, steps.rate.time(tick));
                 if (const auto found = find_divergence(columns.motion, tick)) return found;
             }
             return std::nullopt;

@@ -29,7 +29,7 @@ std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size
     return std::nullopt;
 }
 
-/// Never inlined: it is large, and both callers have it for each type and rule.
+/// Never inlined: it is large, and both callers instantiate it for each type and rule.
 template <std::floating_point T, int Axes, class Rule>
 [[gnu::noinline]] bool take_steps_of_row(const Columns<T, Axes>& columns, const Rule& rule,
                                          const Steps& steps, std::size_t row,
@@ -40,7 +40,7 @@ template <std::floating_point T, int Axes, class Rule>
     return found;
 }
 
-/// Of a row that diverges in these steps, one step at a time to see in which.
+/// Repeats the steps of a diverged row one at a time to find the step of the divergence.
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Rule& rule, Steps steps,
                                  std::size_t row) {
@@ -69,7 +69,7 @@ std::optional<Divergence> step_row(Columns<T, Axes>& columns, const Rule& rule, 
     return std::nullopt;
 }
 
-/// Whichever comes first: in time, then in rows.
+/// Keeps the divergence with the smaller tick, then the smaller row.
 void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other) {
     if (!other) return;
     if (!first || std::pair(other->tick, other->row) < std::pair(first->tick, first->row))
@@ -85,14 +85,14 @@ std::optional<Divergence> step_one_by_one(Columns<T, Axes>& columns, const Rule&
     return first;
 }
 
-/// Rows beyond the last body are stepped along; what they come to must not add up to infinity.
+/// Rows after the last body are stepped too; their numbers must not overflow.
 template <class T, int Axes>
 void clear_padding(MotionColumns<T, Axes>& motion) {
     for (auto* vector : {&motion.x, &motion.v})
         for (Column<T>& column : *vector) column.clear_padding();
 }
 
-/// In batches, and one by one in those in which a number may have stopped being finite.
+/// Steps in batches. Batches in which a number may no longer be finite are stepped row by row.
 template <std::floating_point T, int Axes, class Rule>
 std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule& rule,
                                           const Steps& steps, std::size_t begin, std::size_t end,
@@ -125,34 +125,35 @@ std::optional<Divergence> step_range(Columns<T, Axes>& columns, const Rule& rule
     return step_one_by_one(columns, rule, steps, begin, end);
 }
 
-/// Below as many steps of rows a team takes longer to call than to do without.
-constexpr std::size_t worth_a_team = 16384;
+/// With fewer row-steps, calling a team takes longer than stepping on one thread.
+constexpr std::size_t team_threshold = 16384;
 
-bool is_worth_a_team(std::size_t rows, const Steps& steps) {
+bool pays_for_team(std::size_t rows, const Steps& steps) {
     return rows > row_padding &&
-           rows >= worth_a_team / static_cast<std::size_t>(std::max<std::int64_t>(1, steps.count));
+           rows >=
+               team_threshold / static_cast<std::size_t>(std::max<std::int64_t>(1, steps.count));
 }
 
-/// Where part `part` of `parts` begins: on a row at which batches begin.
+/// The first row of part `part` of `parts`; it begins a batch.
 std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
     return std::min(rows, padded(rows) / row_padding * part / parts * row_padding);
 }
 
 template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule& rule,
-                                          const Steps& steps, Team* team) {
-    // Here, since what it throws would end a thread of the team and the program with it.
+std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns, const Rule& rule,
+                                           const Steps& steps, Team* team) {
+    // Choose the kernels on this thread: an error in a thread of the team would end the program.
     if constexpr (!std::is_same_v<T, long double>) static_cast<void>(kernels<T, Axes>());
-    if (!team || !is_worth_a_team(columns.size, steps))
+    if (!team || !pays_for_team(columns.size, steps))
         return step_range(columns, rule, steps, 0, columns.size);
-    std::mutex at_first;
+    std::mutex first_mutex;
     std::optional<Divergence> first;
     team->run([&](std::size_t part) {
         const auto found =
             step_range(columns, rule, steps, begin_of(part, team->size(), columns.size),
                        begin_of(part + 1, team->size(), columns.size));
         if (!found) return;
-        const std::lock_guard lock(at_first);
+        const std::lock_guard lock(first_mutex);
         keep_earlier(first, found);
     });
     return first;
@@ -163,8 +164,8 @@ std::optional<Divergence> step_shared_out(Columns<T, Axes>& columns, const Rule&
 template <std::floating_point T, int Axes>
 std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
                                     const Steps& steps, Team* team) {
-    return std::visit([&](const auto& rule) { return step_shared_out(columns, rule, steps, team); },
-                      plan);
+    return std::visit(
+        [&](const auto& rule) { return step_in_parallel(columns, rule, steps, team); }, plan);
 }
 
 template std::optional<Divergence> step_rows(Columns<float, 1>&, const Plan<float>&, const Steps&,

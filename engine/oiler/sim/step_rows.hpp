@@ -10,15 +10,15 @@
 
 namespace oiler {
 
-/// Steps all rows; their flows are prepared. Each block of rows is loaded into registers, stepped
-/// `count` times and stored, so that a run nobody looks into pays for memory once; one step at a
-/// time gives the same bits, and so does any `team`, among which the rows are shared out; null for
-/// this thread alone. Returns the earliest divergence, after which the columns are of no use.
+/// Steps all rows; prepare_flows must have been called. Each block of rows is loaded into
+/// registers, stepped `count` times and stored, so that a call accesses memory once. The bits do
+/// not depend on the steps per call or on the `team`, whose threads share the rows; a null team
+/// means this thread alone. Returns the earliest divergence, after which the columns are unusable.
 template <std::floating_point T, int Axes>
 [[nodiscard]] std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
                                                   const Steps& steps, Team* team);
 
-/// The same for rows of which some are linked: all rows go stage by stage.
+/// Like step_rows, for rows with links: all rows are stepped together, stage by stage.
 template <std::floating_point T, int Axes>
 [[nodiscard]] std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
                                                          const Plan<T>& plan, const Steps& steps);

@@ -12,26 +12,26 @@
 
 namespace oiler {
 
-/// Which steps to take: `count` of them from tick `first` on.
+/// The steps of a call: `count` steps from tick `first` on.
 struct Steps {
     Rate rate;
     std::int64_t first = 0;
     std::int64_t count = 1;
-    /// The method's own where there is none.
+    /// The method's default if absent.
     std::optional<Damping> damping{};
 };
 
-/// Where a run stopped being finite, or an implicit step found no solution.
+/// The place where a run was no longer finite, or an implicit step found no solution.
 struct Divergence {
     enum class Of { position, velocity, solution };
 
-    std::int64_t tick;  ///< the first after which it was not
+    std::int64_t tick;  ///< the first tick whose state is not finite
     std::size_t row;
     int axis;
     Of of;
 };
 
-/// How a body is called that stands in a row.
+/// Returns the number by which messages name the body in a row.
 using NameOfRow = std::function<std::size_t(std::size_t)>;
 
 /// "diverged at step 41 (t = 0.41 s): velocity x of body 0 is no longer finite"

@@ -9,7 +9,8 @@
 
 namespace oiler {
 
-/// One step of a row or a batch from time `t` (s); whether there was one to be found.
+/// One step of a row or a batch from time `t` (s). Returns false if an implicit method found no
+/// solution.
 template <class Rule, class V, int Axes, class Physics>
 [[gnu::always_inline]] inline bool step_once(const Rule& rule, State<V, Axes>& state,
                                              Physics& physics, double t) {
@@ -21,20 +22,20 @@ template <class Rule, class V, int Axes, class Physics>
     }
 }
 
-/// Whether what is at rest is put there after tick `tick`: a matter of the tick alone, so that many
-/// steps at once do as one at a time.
-[[nodiscard]] constexpr bool settles(std::int64_t tick) { return tick % rest_interval == 0; }
+/// Whether bodies are put to sleep after tick `tick`. It depends on the tick alone, so that results
+/// do not depend on the number of steps per call.
+[[nodiscard]] constexpr bool is_sleep_tick(std::int64_t tick) { return tick % sleep_interval == 0; }
 
-/// All steps of a row or a batch; whether there were some to be found.
+/// All steps of a row or a batch. Returns false if an implicit method found no solution.
 template <class Rule, class V, int Axes, class Physics>
 [[gnu::always_inline]] inline bool take_steps(const Rule& rule, State<V, Axes>& state,
                                               Physics& physics, const Steps& steps) {
     const std::int64_t end = steps.first + steps.count;
     for (std::int64_t tick = steps.first; tick < end;) {
-        const std::int64_t stop = std::min(end, (tick / rest_interval + 1) * rest_interval);
+        const std::int64_t stop = std::min(end, (tick / sleep_interval + 1) * sleep_interval);
         for (; tick < stop; ++tick)
             if (!step_once(rule, state, physics, steps.rate.time(tick))) return false;
-        if (settles(tick)) physics.settle(state, steps.rate.time(tick));
+        if (is_sleep_tick(tick)) physics.put_to_sleep(state, steps.rate.time(tick));
     }
     return true;
 }

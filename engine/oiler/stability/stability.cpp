@@ -13,8 +13,8 @@ namespace {
 constexpr long double round_off = 1e-14L;
 constexpr double farthest = 40;  // of max(ω, c)·dt
 
-/// How far the trace is from where one eigenvalue leaves the unit circle at 1 or −1. Unlike the
-/// eigenvalues it stays smooth where two of these meet.
+/// The distance of the trace from the point where an eigenvalue leaves the unit circle at 1 or −1.
+/// Unlike the eigenvalues it is smooth where two eigenvalues meet.
 long double trace_margin(const StepMatrix& matrix) {
     return 1 + matrix.determinant() - std::abs(matrix.trace());
 }
@@ -33,7 +33,7 @@ public:
     }
     [[nodiscard]] StepMatrix at(double factor) const { return at(std::vector{factor}).front(); }
 
-    /// Where the margin of the trace is least between two factors, by golden sections.
+    /// Finds the factor between two with the smallest trace margin by golden-section search.
     [[nodiscard]] double least_between(double low, double high) const {
         constexpr double golden = 0.6180339887498949;
         while (high - low > 1e-8 * high) {
@@ -46,7 +46,7 @@ public:
         }
         return (low + high) / 2;
     }
-    /// Where steps become unstable between two factors, of which the second is so.
+    /// Finds the edge of stability between a stable and an unstable factor by bisection.
     [[nodiscard]] double edge_between(double low, double high) const {
         while (high - low > 1e-14 * high) {
             const double middle = (low + high) / 2;

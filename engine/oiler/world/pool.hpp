@@ -12,15 +12,15 @@
 
 namespace oiler {
 
-/// A set of slots in the order of adding, where the last takes the place of one that is removed:
-/// add, remove and look-up in O(1), and an order that depends on the adds and removes alone.
+/// A set of slots in the order of adding. The last slot moves to the place of a removed one. Add,
+/// remove and look-up take O(1); the order depends only on the adds and removes.
 class SlotSet {
 public:
     static constexpr std::uint32_t absent = ~std::uint32_t{0};
 
     [[nodiscard]] std::size_t size() const { return dense_.size(); }
     [[nodiscard]] std::uint32_t operator[](std::size_t place) const { return dense_[place]; }
-    /// Where `slot` stands in the order, or `absent`.
+    /// The place of `slot` in the order, or `absent`.
     [[nodiscard]] std::uint32_t place(std::uint32_t slot) const {
         return slot < places_.size() ? places_[slot] : absent;
     }
@@ -47,7 +47,7 @@ private:
     std::vector<std::uint32_t> places_;
 };
 
-/// What a world needs of a pool whose components' type it does not know.
+/// The interface of a pool without the type of its components.
 class AnyPool {
 public:
     virtual ~AnyPool() = default;
@@ -65,10 +65,10 @@ protected:
     SlotSet slots_;
 };
 
-/// The components of one type, side by side in the order of `slots()`.
+/// The components of one type, contiguous, in the order of `slots()`.
 template <class T>
 class Pool final : public AnyPool {
-    static_assert(!std::is_same_v<T, bool>, "wrap a bool in a struct that says what is true");
+    static_assert(!std::is_same_v<T, bool>, "wrap a bool in a struct with a descriptive name");
 
 public:
     [[nodiscard]] std::unique_ptr<AnyPool> clone() const override {
@@ -89,9 +89,9 @@ public:
         slots_.add(slot);
         return items_.back();
     }
-    /// In the order of `slots()`.
+    /// The component of slot `slots()[place]`.
     [[nodiscard]] T& operator[](std::size_t place) { return items_[place]; }
-    /// Null where `slot` has none.
+    /// Null if `slot` has none.
     [[nodiscard]] T* find(std::uint32_t slot) {
         const std::uint32_t place = slots_.place(slot);
         return place == SlotSet::absent ? nullptr : &items_[place];

@@ -9,7 +9,7 @@
 namespace oiler {
 namespace {
 
-/// The component of a body that was teleported; others do not pay for it.
+/// The number of teleports of a body; only teleported bodies have this component.
 struct Jumps {
     std::uint32_t count = 0;
 };
@@ -110,7 +110,7 @@ void World::step(std::int64_t count) {
 }
 
 std::optional<Divergence> World::try_step(std::int64_t count) {
-    require(count >= 0, "steps only go forward");
+    require(count >= 0, "the number of steps is not negative");
     const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
     if (!divergence) tick_ += count;
     return divergence;

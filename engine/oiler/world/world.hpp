@@ -18,18 +18,18 @@
 
 namespace oiler {
 
-/// What a world is made with.
+/// The settings of a world.
 struct Settings {
     Stepping stepping{};
-    std::uint64_t seed = 0;  ///< of the game's own random numbers
-    int threads = 1;         ///< number of threads that step; no bit depends on it
+    std::uint64_t seed = 0;  ///< seed of the game's random numbers
+    int threads = 1;         ///< number of threads; results do not depend on it
 };
 
-/// Entities, their components and the moving bodies among them. A value: a copy is a snapshot, and
-/// stepping the copy gives what stepping the original gives.
+/// Entities, their components and their moving bodies. It is a value: a copy is a snapshot, and the
+/// copy and the original step to the same bits.
 ///
-/// A handle whose entity is gone is known to be: `alive` and `find` say so, and everything else
-/// ends the program with a line that says what it did.
+/// `alive` and `find` accept handles of destroyed entities. Any other use of such a handle ends the
+/// program with a line that names the mistake.
 class World {
 public:
     explicit World(int axes, const Settings& settings = {});
@@ -41,16 +41,16 @@ public:
     ~World() = default;
 
     [[nodiscard]] Entity create();
-    /// With all its components and its body.
+    /// Destroys the entity with its components and its body.
     void destroy(Entity entity);
     [[nodiscard]] bool alive(Entity entity) const;
     [[nodiscard]] std::size_t entity_count() const;
 
-    /// Gives the entity a component of a type that it does not have yet. The reference holds until
+    /// Adds a component of a type that the entity does not have yet. The reference is valid until
     /// the next add or remove of this type.
     template <class T>
     T& add(Entity entity, T component) {
-        static_assert(std::movable<T>, "a component can be moved");
+        static_assert(std::movable<T>, "a component must be movable");
         require(alive(entity), gone);
         require(!find<T>(entity), "the entity has a component of this type already");
         return pool<T>().add(entity.index, std::move(component));
@@ -60,7 +60,7 @@ public:
         require(find<T>(entity), "the entity has no component of this type");
         pool<T>().erase(entity.index);
     }
-    /// Null where the entity has none, or is no more.
+    /// Null if the entity has none, or is destroyed.
     template <class T>
     [[nodiscard]] T* find(Entity entity) {
         Pool<T>* const found = find_pool<T>();
@@ -81,10 +81,10 @@ public:
         return const_cast<World*>(this)->get<T>(entity);
     }
 
-    /// Calls f(entity, first, rest...) for each entity that has all of these components, backwards
-    /// in the order of `First`: that of adding, where the last takes the place of one that is
-    /// removed. Backwards, so that `f` may destroy the entity that it is given and create others,
-    /// which are not visited; it must not destroy others or use its references after adding.
+    /// Calls f(entity, first, rest...) for each entity that has all of these components. The order
+    /// is the reverse of that in which `First` was added, except that the last one moves to the
+    /// place of a removed one. `f` may destroy its entity and create others, which are not visited.
+    /// It must neither destroy other entities nor use its references after adding components.
     template <class First, class... Rest, class F>
     void each(F&& f) {
         Pool<First>* const first = find_pool<First>();
@@ -106,7 +106,7 @@ public:
             });
     }
 
-    /// Makes the entity a moving body, with at most one force of each kind.
+    /// Gives the entity a moving body with at most one force of each kind.
     template <BodyForce... Force>
     void add_body(Entity entity, const Body& body, const Force&... force) {
         require(alive(entity), gone);
@@ -114,7 +114,7 @@ public:
         bodies_.add(body, force...);
         rows_.add(entity.index);
     }
-    /// A new entity that is a moving body.
+    /// Creates an entity with a moving body.
     template <BodyForce... Force>
     Entity spawn(const Body& body, const Force&... force) {
         bodies_.add(body, force...);
@@ -123,24 +123,24 @@ public:
         return entity;
     }
     Entity spawn(const Body& body, const GivenForces& forces);
-    /// Gives the body a force, or other numbers for the one that it has.
+    /// Adds a force to the body, or replaces the numbers of the one that it has.
     template <BodyForce... Force>
     void attach(Entity entity, const Force&... force) {
         bodies_.attach(row(entity), force...);
     }
-    /// The same for the nth of several forces of a kind, counted from 0.
+    /// Adds or replaces the force of that index among several of one kind, counted from 0.
     template <BodyForce... Force>
-    void attach_nth(std::size_t nth, Entity entity, const Force&... force) {
-        bodies_.attach_nth(nth, row(entity), force...);
+    void attach_at(std::size_t index, Entity entity, const Force&... force) {
+        bodies_.attach_at(index, row(entity), force...);
     }
-    /// Room for that many bodies in all, so that spawning them copies none.
+    /// Reserves memory for `bodies` bodies in total, so that spawning them copies none.
     void reserve(std::size_t bodies);
-    /// A spring between the bodies of two entities; it goes with either body.
+    /// Adds a spring between the bodies of two entities; it is removed with either body.
     void link(Entity a, Entity b, const Link& link);
     void remove_body(Entity entity);
     [[nodiscard]] bool has_body(Entity entity) const;
-    /// The row of the entity's body; rows are in the order of adding, where the last
-    /// takes the place of one that is removed.
+    /// The row of the entity's body. Rows are in the order of adding; the last row moves to the
+    /// place of a removed one.
     [[nodiscard]] std::size_t row(Entity entity) const;
     [[nodiscard]] Entity entity_of_row(std::size_t row) const;
 
@@ -149,38 +149,39 @@ public:
     void set_velocity(Entity entity, const Vec3& velocity) {
         bodies_.set_velocity(row(entity), velocity);
     }
-    /// Puts the body elsewhere, and tells pictures not to draw it in between.
+    /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
-    /// How often the body was teleported: the `jump` of a picture's element.
+    /// The number of teleports of the body: the `jump` of a picture's element.
     [[nodiscard]] std::uint32_t jumps(Entity entity) const;
 
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
     void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
 
-    /// Throws Error{usage} where the method cannot step these bodies, before anything is stepped.
+    /// Throws Error{usage} if the method cannot step these bodies; it steps nothing.
     void require_applicable() const;
-    /// A line for each spring and damper that the method cannot follow at the rate, with what would
-    /// cure it; the worst first, and after `most` only how many more.
+    /// Describes each spring and damper that is unstable with the method at the rate, with a
+    /// remedy, one per line and the worst first. After `most` lines, the last one counts the
+    /// others.
     [[nodiscard]] std::vector<std::string> preflight(std::size_t most = 5) const;
 
-    /// Steps all bodies `count` times. One call with `count` and as many calls with 1 give the same
-    /// bits. Throws Error{diverged}.
+    /// Steps all bodies `count` times. Results do not depend on the number of steps per call.
+    /// Throws Error{diverged}.
     void step(std::int64_t count = 1);
-    /// The same, which tells where the first body diverges instead of looking for the cause; of no
-    /// use after that.
+    /// Like step, but returns the first divergence without searching for its cause. The world is
+    /// unusable after a divergence.
     [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
     [[nodiscard]] std::int64_t tick() const { return tick_; }
-    /// In s, from the tick.
+    /// The time in s, computed from the tick.
     [[nodiscard]] double time() const { return settings_.stepping.rate.time(tick_); }
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
-    /// Of the tick and of all bodies, see Bodies::hash_into.
+    /// The hash of the tick and of all bodies, see Bodies::hash_into.
     [[nodiscard]] std::uint64_t state_hash() const;
 
 private:
     static constexpr const char* gone = "the entity is gone";
 
-    /// Its address is a type's identity.
+    /// The address identifies the type.
     template <class T>
     static constexpr char tag = 0;
     struct TaggedPool {
@@ -206,8 +207,8 @@ private:
 
     Settings settings_;
     std::int64_t tick_ = 0;
-    /// Odd while an entity lives in the slot, even while it is free: no handle, not even one from
-    /// another copy of the world, fits a free slot.
+    /// Odd while an entity uses the slot, even while it is free. No handle matches a free slot, not
+    /// even one from another copy of the world.
     std::vector<std::uint32_t> generations_;
     std::vector<std::uint32_t> free_;
     std::vector<TaggedPool> pools_;

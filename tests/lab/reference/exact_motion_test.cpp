@@ -95,7 +95,7 @@ Bodies tied(double mass, double drag) {
     Bodies bodies = in_space();
     bodies.set_gravity(gravity);
     bodies.add({.mass = mass, .position = from, .velocity = with}, first, LinearDrag{drag});
-    bodies.attach_nth(1, 0, second);
+    bodies.attach_at(1, 0, second);
     return bodies;
 }
 
@@ -347,26 +347,26 @@ TEST(NoExactMotion, OfOneAmongOthers) {
     expect_none(bodies);
     Bodies nth = tied(1, 0);
     nth.attach(0, CoilSpring{});
-    nth.attach_nth(1, 0, CoilSpring{.stiffness = 1, .rest_length = 2});
+    nth.attach_at(1, 0, CoilSpring{.stiffness = 1, .rest_length = 2});
     expect_none(nth);
     Bodies before = tied(1, 0);
     before.attach(0, CoilSpring{.stiffness = 1, .rest_length = 2}, QuadraticDrag{0.25});
-    before.attach_nth(1, 0, CoilSpring{}, QuadraticDrag{});
+    before.attach_at(1, 0, CoilSpring{}, QuadraticDrag{});
     expect_none(before);
     Bodies coil = tied(1, 0);
     coil.attach(0, CoilSpring{.stiffness = 1, .rest_length = 2});
-    coil.attach_nth(1, 0, CoilSpring{});
+    coil.attach_at(1, 0, CoilSpring{});
     expect_none(coil);
     Bodies drag = tied(1, 0);
     drag.attach(0, QuadraticDrag{0.25}, CoilSpring{});
-    drag.attach_nth(1, 0, QuadraticDrag{});
+    drag.attach_at(1, 0, QuadraticDrag{});
     expect_none(drag);
 }
 
 TEST(NoExactMotion, AroundAnAttractorThatIsNotAlone) {
     EXPECT_TRUE(exact_motions(planet(2.5)));
     Bodies two = planet(2.5);
-    two.attach_nth(1, 0, Attractor{.centre = {9, 9, 9}, .gm = 0.01});
+    two.attach_at(1, 0, Attractor{.centre = {9, 9, 9}, .gm = 0.01});
     expect_none(two);
     Bodies heavy = planet(2.5);
     heavy.set_gravity({0, 0, -1e-9});

@@ -36,7 +36,7 @@ void add_columns(Ledger& ledger, const Stored& stored) {
     for (std::size_t i = 0; i < names.size(); ++i)
         ledger.columns.push_back(
             {.of = std::string(stored.of),
-             .nth = stored.nth,
+             .index = stored.index,
              .number = names[i],
              .shared = stored.shared[i],
              .bytes = stored.shared[i] ? 0 : stored.bytes / static_cast<std::size_t>(own),

@@ -15,7 +15,7 @@ namespace oiler::lab {
 /// A number of each body and where it is: in a column, or stored once because all bodies agree.
 struct LedgerColumn {
     std::string of;           ///< "position", "velocity", "mass", a force or "handle"
-    std::size_t nth = 0;      ///< of several forces of a kind
+    std::size_t index = 0;    ///< of several forces of a kind
     std::string number;       ///< "x", "stiffness", "anchor.y"
     bool shared = false;      ///< stored once
     std::size_t bytes = 0;    ///< of each body; 0 where shared

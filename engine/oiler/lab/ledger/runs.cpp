@@ -101,7 +101,7 @@ private:
         result_.steps += count;
         if (whole_.diverged()) return;
         ++result_.looks;
-        const Vec3 along = whole_.bodies().apart_from(start_).along;
+        const Vec3 along = whole_.bodies().deviation_from(start_).along;
         for (int axis = 0; axis < 3; ++axis)
             result_.moved[axis] = std::max(result_.moved[axis], along[axis]);
         for (std::size_t i = 0; i < rivals_.size(); ++i) advance(rivals_[i], i, count);
@@ -110,7 +110,7 @@ private:
         rival.step(count);
         if (rival.diverged()) return;
         double& change = result_.without[i].change;
-        change = std::max(change, whole_.bodies().apart_from(rival.bodies()).distance);
+        change = std::max(change, whole_.bodies().deviation_from(rival.bodies()).distance);
     }
 
     Rival whole_;

@@ -81,7 +81,7 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State<
     const Real gm = influence.attractors[0].gm;
     const Real3 centre = to_real(influence.attractors[0].centre);
     const State<Real, 3> from{start.x - centre, start.v};
-    if (!circles(gm, from)) return std::nullopt;
+    if (!is_elliptic(gm, from)) return std::nullopt;
     return [=](Real t) {
         State<Real, 3> state = kepler(gm, from, t);
         state.x = state.x + centre;
@@ -91,8 +91,8 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State<
 
 std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row) {
     Influence influence;
-    for (std::size_t nth = 0; nth < bodies.most_of_a_kind(); ++nth)
-        add(influence, bodies.forces_per_mass(row, nth));
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        add(influence, bodies.forces_per_mass(row, index));
     if (influence.other) return std::nullopt;
     const State<Real, 3> start = bodies.state(row);
     if (!influence.attractors.empty()) return orbit_motion(influence, start);

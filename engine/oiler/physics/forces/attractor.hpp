@@ -10,8 +10,9 @@
 
 namespace oiler {
 
-/// A point that attracts like a planet: acceleration −gm·d/|d|³, d = x − centre, whatever the
-/// body's mass. Not a number at the centre. |d|³ must be one: 10⁻¹² < |d| < 10¹² m in float.
+/// A point that attracts like a planet: acceleration −gm·d/|d|³, d = x − centre, independent of the
+/// body's mass, and NaN at the centre. |d|³ must neither underflow nor overflow:
+/// 10⁻¹² < |d| < 10¹² m in float.
 template <Number V, int Axes>
 struct AttractorForce {
     Vec<V, Axes> centre{};  ///< m
@@ -30,8 +31,8 @@ struct AttractorForce {
         const Vec<V, Axes> d = x - centre;
         const V squared = squared_length(d);
         const V cubed = squared * sqrt(squared);
-        // Not a number where the cube is none, instead of no attraction.
-        return d * ((cubed - cubed) - quotient_unless_nothing(gm, cubed));
+        // NaN where the cube is not finite, instead of no attraction.
+        return d * ((cubed - cubed) - quotient_of_nonzero(gm, cubed));
     }
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
                                                              double t) const {
@@ -40,11 +41,11 @@ struct AttractorForce {
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         using M = Matrix<V, Axes>;
         const Direction<V, Axes> d(state.x - centre);
-        const V pull = quotient_unless_nothing(gm, d.length * d.length * d.length);
+        const V pull = quotient_of_nonzero(gm, d.length * d.length * d.length);
         return {M::outer(d.unit, d.unit * (V(3) * pull)) - M::scalar(pull), {}};
     }
     constexpr V potential(const State<V, Axes>& state) const {
-        return -quotient_unless_nothing(gm, Direction<V, Axes>(state.x - centre).length);
+        return -quotient_of_nonzero(gm, Direction<V, Axes>(state.x - centre).length);
     }
 };
 

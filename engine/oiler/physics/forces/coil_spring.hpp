@@ -10,9 +10,9 @@
 
 namespace oiler {
 
-/// A spring with a length of its own, from the body to a fixed anchor, that is damped along its
-/// line: force −k·(d − L·d̂) − b·(v·d̂)·d̂, d = x − anchor, and nothing at d = 0. |d| stays below
-/// 1.8·10¹⁹ m in float.
+/// A spring with a rest length from the body to a fixed anchor, damped along its line: force
+/// −k·(d − L·d̂) − b·(v·d̂)·d̂, d = x − anchor, and 0 at d = 0. |d| must stay below 1.8·10¹⁹ m in
+/// float.
 template <Number V, int Axes>
 struct CoilSpringForce {
     Vec<V, Axes> anchor{};  ///< m
@@ -40,8 +40,8 @@ struct CoilSpringForce {
         const Direction<V, Axes> d(state.x - anchor);
         return d.unit * (stiffness * (rest_length - d.length) - damping * dot(state.v, d.unit));
     }
-    /// `loss` is 1 − e^(−b·τ).
-    [[gnu::always_inline]] constexpr void slow(State<V, Axes>& state, const V& loss) const {
+    /// The exact flow of the damper for τ s on a fixed position; `loss` is 1 − e^(−b·τ).
+    [[gnu::always_inline]] constexpr void damp(State<V, Axes>& state, const V& loss) const {
         const Direction<V, Axes> d(state.x - anchor);
         state.v = state.v - d.unit * (dot(state.v, d.unit) * loss);
     }

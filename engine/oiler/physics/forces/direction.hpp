@@ -5,12 +5,12 @@
 
 namespace oiler {
 
-/// The direction of `d`, and nothing for a d so short that |d|² is 0: below 10⁻²³ m in float and
-/// 10⁻¹⁶² m in double.
+/// The length and the unit vector of `d`. Both are 0 if |d|² underflows to 0: below 10⁻²³ m in
+/// float and 10⁻¹⁶² m in double.
 template <Number V, int Axes>
 struct Direction {
     V length;
-    V inverse_length;  ///< 0 for 0
+    V inverse_length;  ///< 0 for length 0
     Vec<V, Axes> unit;
 
     [[gnu::always_inline]] explicit constexpr Direction(const Vec<V, Axes>& d) {

@@ -15,24 +15,26 @@
 
 namespace oiler {
 
-// A force is one type: its numbers, the acceleration that it gives, the potential that it has, if
-// any, and how it changes with state. A user gives the numbers in the units below; what the columns
-// hold and the methods evaluate is the force per unit mass, so that no mass is loaded in a step.
+// A force is one type: its numbers, its acceleration, its potential and its Jacobian. A user gives
+// the numbers in the units of the fields. The columns hold the force per unit mass, so that a step
+// loads no mass.
 //
-// Every force has: `name`; `everywhere`, whether all bodies have the same one; `linear`, whether in
-// position and velocity; `fields()`, its numbers in the order in which columns hold them;
+// Every force has: `name`; `everywhere`, whether all bodies share one; `linear`, whether it is
+// linear in position and velocity; `fields()`, its numbers in the order of the columns;
 // `per_unit_mass(m)`; `accelerate(state, t)` in m/s²; `jacobian(state)`; `potential(state)` in
-// J/kg. `t` is in seconds. In addition, as far as it has them: `field(x, t)`, the part of the
-// acceleration that position alone decides, and for the rest of it either `damping_rate()`, the c
-// of −c·v in 1/s, or `slow(state, …)`, its exact flow on velocity while the body stays where it is.
+// J/kg. `t` is in seconds.
+//
+// Some forces also have: `field(x, t)`, the part of the acceleration that depends on position
+// alone; and for the part that depends on velocity either `damping_rate()`, the c of −c·v in 1/s,
+// or `damp(state, …)`, its exact flow on velocity at a fixed position.
 
-/// Every force there is; the order is the order in which accelerations are summed.
+/// All forces. Accelerations are summed in this order.
 template <Number V, int Axes>
 using ForceList =
     std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
                QuadraticDragForce<V, Axes>, CoilSpringForce<V, Axes>, AttractorForce<V, Axes>>;
 
-/// Where a type stands in a list of types.
+/// The index of a type in a list of types.
 template <class Type, class... All>
 constexpr std::size_t index_of(const std::tuple<All...>*) {
     const std::array<bool, sizeof...(All)> same{std::is_same_v<Type, All>...};
@@ -41,14 +43,14 @@ constexpr std::size_t index_of(const std::tuple<All...>*) {
 
 inline constexpr std::size_t force_count = std::tuple_size_v<ForceList<double, 1>>;
 
-/// How a user writes a force on a body, with as many axes of the vectors as the world has.
+/// The forces of the public API. Axes that the world lacks are zero.
 using Spring = SpringForce<double, 3>;
 using LinearDrag = LinearDragForce<double, 3>;
 using QuadraticDrag = QuadraticDragForce<double, 3>;
 using CoilSpring = CoilSpringForce<double, 3>;
 using Attractor = AttractorForce<double, 3>;
 
-/// Calls `f` with each number of a force, in the order of its fields, vectors axis by axis.
+/// Calls `f` with each number of a force in the order of its fields; vectors axis by axis.
 template <class Force, class F>
 [[gnu::always_inline]] constexpr void for_each_number(Force& force, F f) {
     const auto visit = [&]<class Field>(Field & field) __attribute__((always_inline)) {
@@ -60,7 +62,7 @@ template <class Force, class F>
     std::apply([&](auto... member) { (visit(force.*member), ...); }, Force::fields());
 }
 
-/// How many numbers a force has.
+/// The number of numbers in a force.
 template <class Force>
 constexpr std::size_t number_count() {
     std::size_t count = 0;
@@ -69,8 +71,8 @@ constexpr std::size_t number_count() {
     return count;
 }
 
-/// The forces on one body, or on a batch of bodies: those that the scene names, and no others.
-/// `Source` has them: `count<Force>()` says how many of a kind, `get<Force>(n)` what the nth is.
+/// The forces on one body or a batch of bodies. The cost is that of the forces in use. `Source` has
+/// `count<Force>()`, the number of forces of a kind, and `get<Force>(index)`.
 template <Number V, int Axes, class Source>
 class Forces {
 public:
@@ -81,7 +83,7 @@ public:
         return sum([&](const auto& force)
                        __attribute__((always_inline)) { return force.accelerate(state, t); });
     }
-    /// The part of it that position alone decides.
+    /// The part of the acceleration that depends on position alone, m/s².
     [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& x, double t) const {
         return sum([&](const auto& force) __attribute__((always_inline)) {
             if constexpr (requires { force.field(x, t); }) return force.field(x, t);
@@ -95,7 +97,7 @@ public:
         });
         return total;
     }
-    /// The c of −c·v, 1/s.
+    /// The c of the linear damping −c·v, 1/s.
     [[nodiscard]] [[gnu::always_inline]] V damping_rate() const {
         V total = V(0);
         for_each([&](const auto& force) __attribute__((always_inline)) {
@@ -115,8 +117,8 @@ public:
         return source_.template count<Force<V, Axes>>();
     }
     template <template <class, int> class Force>
-    [[nodiscard]] [[gnu::always_inline]] Force<V, Axes> get(std::size_t nth) const {
-        return source_.template get<Force<V, Axes>>(nth);
+    [[nodiscard]] [[gnu::always_inline]] Force<V, Axes> get(std::size_t index) const {
+        return source_.template get<Force<V, Axes>>(index);
     }
 
 private:
@@ -124,11 +126,11 @@ private:
     [[gnu::always_inline]] void for_each(F f) const {
         for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
             using Force = std::tuple_element_t<i, ForceList<V, Axes>>;
-            for (std::size_t nth = 0; nth < source_.template count<Force>(); ++nth)
-                f(source_.template get<Force>(nth));
+            for (std::size_t index = 0; index < source_.template count<Force>(); ++index)
+                f(source_.template get<Force>(index));
         });
     }
-    /// Of what `f` returns for each force; void is nothing.
+    /// Sums the results of `f` for each force; void counts as zero.
     template <class F>
     [[gnu::always_inline]] Vec<V, Axes> sum(F f) const {
         Vec<V, Axes> total{generate<Axes>([](auto) { return V(0); })};

@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// The same acceleration for every body. Potential −g·x, zero at the origin.
+/// One acceleration for all bodies. The potential is −g·x, zero at the origin.
 template <Number V, int Axes>
 struct GravityForce {
     Vec<V, Axes> acceleration{};  ///< m/s²

@@ -5,7 +5,7 @@
 
 namespace oiler {
 
-/// How an acceleration changes with position (1/s²) and velocity (1/s).
+/// The derivatives of an acceleration by position (1/s²) and velocity (1/s).
 template <Number V, int Axes>
 struct Jacobian {
     Matrix<V, Axes> dx{};

@@ -9,8 +9,8 @@
 
 namespace oiler {
 
-/// Drag of fast motion through air: force −c·|v|·v. Where any body has it, |v|² of all must be a
-/// number: speeds stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
+/// Drag of fast motion through air: force −c·|v|·v. If any body has it, |v|² of all bodies must not
+/// overflow: speeds must stay below 1.8·10¹⁹ m/s in float and 1.3·10¹⁵⁴ m/s in double.
 template <Number V, int Axes>
 struct QuadraticDragForce {
     V coefficient{};  ///< c, N·s²/m²
@@ -26,13 +26,13 @@ struct QuadraticDragForce {
         using std::sqrt;
         return state.v * (-coefficient * sqrt(squared_length(state.v)));
     }
-    /// v' = −c·|v|·v for `tau` s: v/(1 + c·|v|·τ).
-    [[gnu::always_inline]] constexpr void slow(State<V, Axes>& state, const V& tau) const {
+    /// The exact flow of v' = −c·|v|·v for `tau` s: v/(1 + c·|v|·τ).
+    [[gnu::always_inline]] constexpr void damp(State<V, Axes>& state, const V& tau) const {
         using std::sqrt;
         const V speed = sqrt(squared_length(state.v));
-        // Not a number where the speed is none, instead of rest.
-        const V nothing = speed - speed;
-        state.v = state.v * (V(1) / (V(1) + coefficient * speed * tau) + nothing);
+        // NaN where the speed is not finite, instead of 0.
+        const V zero_or_nan = speed - speed;
+        state.v = state.v * (V(1) / (V(1) + coefficient * speed * tau) + zero_or_nan);
     }
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         using std::sqrt;

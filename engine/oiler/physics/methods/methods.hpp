@@ -12,7 +12,7 @@
 
 namespace oiler {
 
-/// A kick changes velocities by the acceleration, a drift changes positions by the velocity.
+/// A kick changes velocities by accelerations; a drift changes positions by velocities.
 enum class Move { kick, drift };
 
 /// One move of a splitting method, by `coefficient` · dt.
@@ -21,7 +21,7 @@ struct Stage {
     long double coefficient = 0;
 };
 
-/// A method that moves positions and velocities in turn.
+/// A method that changes positions and velocities in turn.
 class Splitting {
 public:
     static constexpr std::size_t most_stages = 40;
@@ -29,7 +29,7 @@ public:
     constexpr Splitting(std::initializer_list<Stage> stages) {
         for (const Stage& stage : stages) add(stage);
     }
-    /// The same stages there and back, the last one once.
+    /// The stages forwards, then backwards without repeating the last.
     [[nodiscard]] static constexpr Splitting palindrome(std::initializer_list<Stage> half) {
         Splitting whole(half);
         for (std::size_t i = half.size() - 1; i-- > 0;) whole.add(whole.stages_[i]);
@@ -46,8 +46,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// An explicit Runge–Kutta method: for each stage its row of `a`, below the diagonal, then `b` and
-/// `c`.
+/// An explicit Runge–Kutta method: the rows of `a` below the diagonal, the weights `b` and the
+/// nodes `c`.
 class Tableau {
 public:
     static constexpr std::size_t most_stages = 4;
@@ -65,58 +65,58 @@ public:
     std::size_t count;
 };
 
-/// y' = y + dt·f(s) from a stage s = y + dt·a·f(s) that solves its own equation.
+/// y' = y + dt·f(s), where the stage s solves s = y + dt·a·f(s).
 struct ImplicitStage {
     long double a;
 };
 
-/// The exact motion, where all forces are linear in position and velocity.
+/// The exact motion; it needs forces that are linear in position and velocity.
 struct ExactFlow {};
 
-/// Where a splitting puts the forces that depend on velocity.
+/// Where a splitting applies forces that depend on velocity.
 enum class Damping {
-    in_kick,  ///< into the kicks, explicitly, as the article does; costs all orders above the first
-    in_drift,  ///< linear damping exactly into the drifts, any other in half-steps around the step
+    in_kick,   ///< explicitly in the kicks, as in the article; reduces the order to 1
+    in_drift,  ///< linear damping exactly in the drifts, other kinds in half-steps around the step
 };
 
-/// "kick" or "drift", as the options say it.
+/// "kick" or "drift", as in the options.
 [[nodiscard]] std::string_view name_of(Damping damping);
 
 /// The order of a method whose only error is round-off.
 inline constexpr int exact_order = std::numeric_limits<int>::max();
 
-/// A way to step, and all that the rest of Oiler knows of it. To add one, add it to the list in
-/// methods.cpp: the kernels, the options, the certificates and the tests iterate that list.
+/// An integration method with everything that the rest of Oiler uses. To add a method, add it to
+/// the list in methods.cpp. The kernels, the options, the certificates and the tests iterate that
+/// list.
 struct Method {
     std::string_view name;
-    int order = 1;        ///< where forces are smooth and depend on position alone
-    int evaluations = 1;  ///< of the forces in a step, where the last kick's serves the next step's
-                          ///< first; 0: as many as an equation takes to solve
-    bool symplectic = false;  ///< on forces that have a potential
-    bool symmetric = false;   ///< stepping back retraces the way
+    int order = 1;        ///< for smooth forces that depend on position alone
+    int evaluations = 1;  ///< of the forces per step; the last kick shares its evaluation with the
+                          ///< first kick of the next step; 0: as many as solving an equation takes
+    bool symplectic = false;  ///< for forces that have a potential
+    bool symmetric = false;   ///< a step back returns to the start
     std::variant<Splitting, Tableau, ImplicitStage, ExactFlow> rule = ExactFlow{};
     std::string_view source;
-    Damping damping = Damping::in_drift;  ///< unless the user chooses; of splittings only
+    Damping damping = Damping::in_drift;  ///< the default; for splittings only
 };
 
-/// The one list.
+/// All methods.
 [[nodiscard]] std::span<const Method> methods();
 
-/// Throws Error{usage} that names the choices.
+/// Throws Error{usage} that lists the choices.
 [[nodiscard]] const Method& find_method(std::string_view name);
 
-/// "explicit_euler, semi_implicit_euler"
+/// All names with commas between them: "explicit_euler, semi_implicit_euler, …".
 [[nodiscard]] std::string method_names();
 
-/// How often a step evaluates the forces in a run of many: once more than the method says where
-/// velocities have a say in its last kick, so that the next step's first needs another.
+/// The evaluations of the forces per step of a long run. With damping in the kicks, a method that
+/// starts and ends with a kick needs one more, because the two kicks cannot share an evaluation.
 [[nodiscard]] int evaluations_with(const Method& method, Damping damping);
 
-/// The order that is left with linear damping: what a splitting loses with it in the kicks, and no
-/// other method does.
+/// The order with linear damping. Only a splitting with damping in the kicks loses order.
 [[nodiscard]] int damped_order(const Method& method, Damping damping);
-/// The order that is left with quadratic drag, or with damping along a spring or between bodies.
-/// Half-steps of its flow around a splitting's step leave two.
+/// The order with quadratic drag, or with damping along a spring or between bodies. It is at most 2
+/// for a splitting, because half-steps of damping around its step have order 2.
 [[nodiscard]] int dragged_order(const Method& method, Damping damping);
 
 }  // namespace oiler
