@@ -46,7 +46,7 @@ std::string to_junit(const std::vector<Checked>& all) {
             ++tests;
             failures += line.kept ? 0 : 1;
             cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", file, line.name);
-            const std::string words = for_xml(words_of(line));
+            const std::string words = for_xml(describe(line));
             cases += line.kept ? fmt::format("><system-out>{}</system-out></testcase>\n", words)
                                : fmt::format("><failure message=\"{}\"/></testcase>\n", words);
         }
@@ -105,7 +105,7 @@ std::string text_of(const std::vector<Checked>& all) {
         if (checked.lines.empty() && checked.error.empty())
             text += fmt::format("{}: no [budget]\n", checked.file);
         for (const BudgetLine& line : checked.lines)
-            text += fmt::format("{}: {}\n", checked.file, words_of(line));
+            text += fmt::format("{}: {}\n", checked.file, describe(line));
     }
     return text;
 }

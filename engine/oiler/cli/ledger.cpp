@@ -120,7 +120,7 @@ std::string passes_text(const Ledger& ledger) {
     return text + fmt::format(
                       " Times are of the first {} steps, in one go;\npositions were "
                       "compared {} times in {} steps.\n",
-                      ledger.timed_steps, ledger.looks, ledger.steps);
+                      ledger.timed_steps, ledger.samples, ledger.steps);
 }
 
 std::string flags_text(const Ledger& ledger) {
@@ -171,7 +171,7 @@ Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) 
             {"bodies", ledger.bodies},
             {"links", ledger.links},
             {"steps", ledger.steps},
-            {"looks", ledger.looks},
+            {"looks", ledger.samples},
             {"timed_steps", ledger.timed_steps},
             {"bytes_per_body", ledger.bytes_per_body()},
             {"bytes_per_link", ledger.bytes_per_link},

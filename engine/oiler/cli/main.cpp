@@ -192,7 +192,7 @@ private:
         add_json(command, measured.json);
         add_quiet(command, measured.quiet);
     }
-    void declare_wish(CLI::App& command, std::optional<double>& position,
+    void declare_requirements(CLI::App& command, std::optional<double>& position,
                       std::optional<double>& energy) {
         add_positive(command, "--position-error", position, "M",
                      "largest distance from where bodies should be, at most");
@@ -234,7 +234,7 @@ private:
             "Exit 1 where nothing is good enough. With --budget-us alone: the most accurate that\n"
             "fits.");
         declare_measured(*command, advise_.measured);
-        declare_wish(*command, advise_.position_error, advise_.energy_drift);
+        declare_requirements(*command, advise_.position_error, advise_.energy_drift);
         add_positive(*command, "--budget-us", advise_.budget_us, "US",
                      "of computing for a frame of 1/60 s, at most");
         add_whole<std::int64_t>(*command, "--min-rate", advise_.min_rate, 1, 1'000'000,
@@ -270,7 +270,7 @@ private:
             add_command(app_, "report", "Put all of it on one page for a browser",
                         " assets/scenes/orbit.toml --out orbit.html");
         declare_measured(*command, report_.measured);
-        declare_wish(*command, report_.position_error, report_.energy_drift);
+        declare_requirements(*command, report_.position_error, report_.energy_drift);
         report_.out = "report.html";
         command->add_option("--out", report_.out, "file to write")
             ->type_name("FILE")

@@ -59,12 +59,13 @@ std::string read_text(const std::filesystem::path& path) {
 
 void print(const std::string& text) { write_file("-", std::as_bytes(std::span(text))); }
 
-Reference measure_reference(const Scene& scene, const Looks& looks, double wanted, bool quiet) {
+Reference measure_reference(const Scene& scene, const SampleTimes& samples, double wanted,
+                            bool quiet) {
     Percent percent(quiet, "of the work that a reference may take");
     ReferenceEffort effort{.wanted = wanted};
     effort.progress = [&](double share) { percent(share); };
     effort.stopped = Interrupt::requested;
-    return make_reference(scene, looks, effort);
+    return make_reference(scene, samples, effort);
 }
 
 void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,

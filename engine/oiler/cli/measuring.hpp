@@ -46,7 +46,7 @@ void measure_tradeoff(
     bool quiet, const std::function<void(const Tradeoff&)>& ladder_done = [](const auto&) {});
 
 /// Makes the reference of a scene.
-[[nodiscard]] Reference measure_reference(const Scene& scene, const Looks& looks, double wanted,
-                                          bool quiet);
+[[nodiscard]] Reference measure_reference(const Scene& scene, const SampleTimes& samples,
+                                          double wanted, bool quiet);
 
 }  // namespace oiler::cli

@@ -68,7 +68,7 @@ Exit run_play(int argc, char** argv) {
         for (const BudgetLine& budget :
              check_budget(scene, line.options.settings, Interrupt::requested))
             entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
-                               fmt::format("over {:g} s: {}", scene.duration, words_of(budget))});
+                               fmt::format("over {:g} s: {}", scene.duration, describe(budget))});
         return entries;
     };
     return run_game(line.options, line.about, make, measure_budget);

@@ -43,7 +43,7 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
 Exit RatesCommand::run() const {
     const Interrupt interrupt;
     const Scene scene = read_measured(measured);
-    const Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
+    const Reference reference = measure_reference(scene, sample_times_of(scene), 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
     if (!reference.why_no_longer.empty())
         remark(measured.quiet, "of {:.4g} s only the first {:.4g} are measured: {}", scene.duration,

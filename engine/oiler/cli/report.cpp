@@ -99,17 +99,19 @@ std::string frame_of(const Scene& scene) {
     return address_of(stills.png(draw_scene(scene, world, camera_of(scene, world))));
 }
 
-Wish wish_of(const ReportCommand& command, const Scene& scene, const Reference& reference) {
-    Wish wish{.position_error = command.position_error, .energy_drift = command.energy_drift};
-    if (!wish.has_tolerance()) {
-        wish.position_error = scene.budget.position_error;
-        wish.energy_drift = scene.budget.energy_drift;
+Requirements requirements_of(const ReportCommand& command, const Scene& scene,
+                             const Reference& reference) {
+    Requirements requirements{.position_error = command.position_error,
+                              .energy_drift = command.energy_drift};
+    if (!requirements.has_tolerance()) {
+        requirements.position_error = scene.budget.position_error;
+        requirements.energy_drift = scene.budget.energy_drift;
     }
-    if (!wish.has_tolerance())
-        wish.position_error =
+    if (!requirements.has_tolerance())
+        requirements.position_error =
             std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
-    wish.methods = parse_methods("all");
-    return wish;
+    requirements.methods = parse_methods("all");
+    return requirements;
 }
 
 /// What is measured of a scene for its page.
@@ -120,18 +122,19 @@ struct Found {
 };
 
 Found measure(const ReportCommand& command, const Scene& scene, const Reference& reference,
-              const Wish& wish) {
-    const Looks& looks = reference.looks;
-    const SweepPlan plan{.methods = parse_methods("all"),
-                         .max_rate = std::min<std::int64_t>(
-                             1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
-                         .most_work = most_work};
-    Found found{start_tradeoff(scene, looks, reference, plan), {}, {}};
+              const Requirements& requirements) {
+    const SampleTimes& samples = reference.samples;
+    const SweepPlan plan{
+        .methods = parse_methods("all"),
+        .max_rate = std::min<std::int64_t>(
+            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * samples.per_second)),
+        .most_work = most_work};
+    Found found{start_tradeoff(scene, samples, reference, plan), {}, {}};
     found.tradeoff.scene = name_of(command.measured);
     measure_tradeoff(found.tradeoff, scene, reference, plan, command.measured.quiet);
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
-    found.advice = advise(scene, reference, wish, watch);
+    found.advice = advise(scene, reference, requirements, watch);
     found.rates = measure_rates(scene, reference, most_oscillating_row(reference),
                                 RatesCommand{}.rates, usual_methods(scene), Interrupt::requested);
     return found;
@@ -148,21 +151,21 @@ Json obvious_names() {
 Exit ReportCommand::run() const {
     const Interrupt interrupt;
     Scene scene = read_measured(measured);
-    Reference reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
+    Reference reference = measure_reference(scene, sample_times_of(scene), 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
     if (!reference.why_no_longer.empty()) {
         remark(measured.quiet, "the page is about the first {:.4g} s: {}",
                reference.meaningful_until(), reference.why_no_longer);
         scene.duration = reference.meaningful_until();
-        reference = measure_reference(scene, looks_of(scene), 0, measured.quiet);
+        reference = measure_reference(scene, sample_times_of(scene), 0, measured.quiet);
     }
-    const Wish wish = wish_of(*this, scene, reference);
-    require_judgeable(scene, reference, wish);
+    const Requirements requirements = requirements_of(*this, scene, reference);
+    require_judgeable(scene, reference, requirements);
     File page(out);
-    const auto [tradeoff, advice, rates] = measure(*this, scene, reference, wish);
+    const auto [tradeoff, advice, rates] = measure(*this, scene, reference, requirements);
     if (Interrupt::requested()) return Exit::interrupted;
     const Json data{{"tradeoff", json_of(tradeoff)},
-                    {"advice", json_of(advice, scene, reference, wish)},
+                    {"advice", json_of(advice, scene, reference, requirements)},
                     {"stability", stability_json(scene, notable_methods(tradeoff))},
                     {"rates", rates.quantities.empty() ? Json(nullptr) : json_of(rates)},
                     {"ledger", ledger_json(scene)},

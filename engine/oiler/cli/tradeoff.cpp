@@ -21,7 +21,7 @@ std::string head(const Tradeoff& tradeoff) {
     std::string text =
         fmt::format("{}\n  {:.4g} s, looked at {} times a second; measured against {}\n",
                     tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
-                    reference.meaningful_until, tradeoff.looks.per_second, reference.words);
+                    reference.meaningful_until, tradeoff.samples.per_second, reference.words);
     text += fmt::format(
         "  errors below {:.2g} m are not told: a hundred times the reference's own {:.2g} m\n",
         reference.floor.position, reference.position_error);
@@ -83,7 +83,7 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
     };
     for (const Method* method : notable_methods(tradeoff))
         for (const TradeoffRow* row : cheapest_of(tradeoff, method)) add(row);
-    add(tradeoff.find(tradeoff.today));
+    add(tradeoff.find(tradeoff.current));
     std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
         return a->ns_per_second < b->ns_per_second;
     });
@@ -99,7 +99,7 @@ std::string text_of(const Tradeoff& tradeoff, bool all) {
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {
         const bool best = std::find(front.begin(), front.end(), row) != front.end();
-        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
+        const char mark = row->stepping == tradeoff.current ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
     text += fmt::format(
@@ -169,7 +169,7 @@ void publish_whole(const Tradeoff& tradeoff, const Scene& scene, const Reference
     publish(tradeoff, places, stills);
     std::vector<Stepping> choices;
     for (const Method* method : notable_methods(tradeoff))
-        choices.push_back({method, tradeoff.today.rate, Precision::double_});
+        choices.push_back({method, tradeoff.current.rate, Precision::double_});
     if (!choices.empty())
         stills.write(energy_over_time(scene, tradeoff, reference, choices),
                      places.out / "energy_over_time.png");
@@ -180,18 +180,18 @@ void publish_whole(const Tradeoff& tradeoff, const Scene& scene, const Reference
 Exit TradeoffCommand::run() const {
     const Interrupt interrupt;
     const Scene scene = read_measured(measured);
-    const Looks looks = looks_of(scene);
+    const SampleTimes samples = sample_times_of(scene);
     const SweepPlan plan{
         .methods = parse_methods(methods), .max_rate = max_rate, .shard = shard, .shards = shards};
     const bool whole = shards == 1;
     const std::filesystem::path part =
         out / (whole ? "tradeoff.json" : fmt::format("part-{}-of-{}.json", shard, shards));
-    const std::string mark = fingerprint(read_text(measured.scene), scene, looks, plan);
+    const std::string mark = fingerprint(read_text(measured.scene), scene, samples, plan);
     const std::optional<Tradeoff> unfinished = find_unfinished(part, mark, measured.quiet);
-    const Reference reference = measure_reference(scene, looks, 0, measured.quiet);
+    const Reference reference = measure_reference(scene, samples, 0, measured.quiet);
     if (Interrupt::requested()) return Exit::interrupted;
 
-    Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene, looks, reference, plan));
+    Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene, samples, reference, plan));
     tradeoff.scene = name_of(measured);
     tradeoff.fingerprint = mark;
     tradeoff.machines = {this_machine()};
