@@ -248,9 +248,9 @@ std::string semi_implicit_euler_keeps_energy(const Runs& runs) {
     const double percent = 100 / runs[0].samples[0].energy;
     const double h = radians_a_step(runs[0]);
     return fmt::format(
-        "The energy does not drift: it oscillates between {:.0f} % and {:.0f} % of the true one. "
-        "On average it is {:.1f} % too large, by the factor 1/(1 − h²/4) with h = dt·√(k/m) = "
-        "{:.3f}. Straight lines join the steps.",
+        "The energy oscillates between {:.0f} % and {:.0f} % of the true one, without drift. Its "
+        "mean is {:.1f} % too large, by the factor 1/(1 − h²/4) with h = dt·√(k/m) = {:.3f}. "
+        "Straight lines join the steps.",
         percent * least.energy, percent * most.energy, 100 * energy_excess(h), h);
 }
 

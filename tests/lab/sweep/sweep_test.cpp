@@ -241,7 +241,7 @@ TEST(Ladder, EndsBelowTheFloorOfTheReference) {
         {.wanted = 1e-9});
     const Tradeoff tradeoff = swept(rough, plan);
     const Ladder& ladder = ladder_of(tradeoff, "kahan_li8_kdk", Precision::double_);
-    EXPECT_EQ(ladder.end, "the reference cannot tell smaller errors");
+    EXPECT_EQ(ladder.end, "smaller errors are below the reference's floor");
     ASSERT_GT(ladder.rows.size(), 1U);
     for (std::size_t i = 0; i < ladder.rows.size(); ++i)
         EXPECT_EQ(ladder.rows[i].judgement.below_floor(), i + 1 == ladder.rows.size()) << i;
