@@ -14,10 +14,10 @@
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/scene/read.hpp"
 
-// Whether advice holds: for each scene and tolerance the advice is run again and held against a
-// motion that nothing of the engine computes; and what it costs and how long it took is held
-// against a full sweep. With --full more scenes, with --cloth a net without a sweep, with
-// --cloth-sweep a second of it. Exit 1 where an advice does not meet its tolerance.
+// Checks advice. For each scene and tolerance, the advice is run again and compared with a motion
+// that is computed without the engine. Its cost and search time are compared with a full sweep.
+// --full takes more scenes, --cloth a net without a sweep, --cloth-sweep 1 s of it. Exits with 1 if
+// an advice misses its tolerance.
 
 using namespace oiler;
 
@@ -25,19 +25,19 @@ namespace {
 
 using Real = long double;
 using Point2 = std::array<Real, 2>;
-/// Where a body is at a time, s.
+/// The exact position of a body at time t, s.
 using Truth = std::function<Point2(std::size_t row, Real t)>;
 
 struct Case {
     const char* name;
     Scene scene;
     Truth truth;
-    double looked = 0;       ///< times per second; 0: at every step
+    double samples_per_second = 0;  ///< 0 for a sample at every step
     double most_work = 1e9;  ///< see SweepPlan
     std::int64_t max_rate = 1'000'000;
 };
 
-// The motions, written out from textbooks.
+// Exact motions, from textbooks.
 
 Truth spring_truth(Real damping) {
     return [damping](std::size_t, Real t) -> Point2 {
@@ -49,7 +49,7 @@ Truth spring_truth(Real damping) {
     };
 }
 
-/// Of semi-axis 1 m and eccentricity 0.6 around gm = 1, from its nearest point.
+/// An orbit of semi-axis 1 m and eccentricity 0.6 around gm = 1, from the perihelion.
 Point2 orbit_truth(std::size_t, Real t) {
     constexpr Real e = 0.6L;
     Real turned = t;
@@ -58,7 +58,7 @@ Point2 orbit_truth(std::size_t, Real t) {
     return {std::cos(turned) - e, std::sqrt(1 - e * e) * std::sin(turned)};
 }
 
-/// Two unit masses that rest at −2 m and 2 m, on springs of 15, 1.5 and 15 N/m: both modes.
+/// Two unit masses that rest at −2 m and 2 m on springs of 15, 1.5 and 15 N/m: both modes.
 Point2 chain_truth(std::size_t row, Real t) {
     const Real together = std::sqrt(Real(15)) * t;
     const Real apart = std::sqrt(Real(18)) * t;
@@ -67,7 +67,7 @@ Point2 chain_truth(std::size_t row, Real t) {
     return {row == 0 ? sum - 2 : difference + 2, 0};
 }
 
-/// Runge and Kutta's method over numbers, in steps of 1/rate s; `record` sees all of them.
+/// RK4 over plain numbers, in steps of 1/rate s; calls `record` at each.
 template <class Change>
 void integrate(std::vector<Real>& y, Change change, std::int64_t steps, Real h,
                const std::function<void(std::int64_t)>& record) {
@@ -94,7 +94,8 @@ void integrate(std::vector<Real>& y, Change change, std::int64_t steps, Real h,
 
 constexpr Real drag = 0.00816666666666666667L;
 
-/// From recorded points at 1/rate s; two runs, of which the second has half the step, extrapolated.
+/// A motion from points recorded every 1/rate s, extrapolated from two runs, the second at half the
+/// step.
 template <class Change>
 Truth recorded(std::vector<Real> start, Change change, Real duration, std::int64_t per_second,
                std::int64_t steps_between) {
@@ -132,7 +133,7 @@ Truth projectile_truth(const Scene& scene) {
         scene.duration, 3600, 2);
 }
 
-/// The net of assets/scenes/cloth.toml, spring by spring.
+/// The springs of the net of assets/scenes/cloth.toml.
 Truth cloth_truth(const Scene& scene) {
     struct Spring {
         std::size_t a, b;
@@ -203,7 +204,7 @@ std::vector<Case> cases(bool full) {
     std::vector<Case> all{{"projectile", projectile, projectile_truth(projectile)},
                           {"orbit", asset("orbit"), orbit_truth}};
     if (!full) {
-        // A test has no time for the highest.
+        // The highest rates take too long for a test.
         for (Case& one : all) one.max_rate = 4000;
         return all;
     }
@@ -221,7 +222,8 @@ double independent_error(const Case& one, const Stepping& choice) {
     const auto steps = static_cast<std::int64_t>(
         std::floor(one.scene.duration * static_cast<double>(choice.rate) * (1 + 1e-12)));
     const std::int64_t stride =
-        one.looked > 0 ? choice.rate / static_cast<std::int64_t>(one.looked) : 1;
+        one.samples_per_second > 0 ? choice.rate / static_cast<std::int64_t>(one.samples_per_second)
+                                   : 1;
     Real most = 0;
     for (std::int64_t tick = 0; tick <= steps; tick += stride) {
         if (tick > 0) world.step(stride);
@@ -244,14 +246,14 @@ struct Sweep {
     double seconds = 0;
 };
 
-Sweep sweep_all(const Scene& scene, const Wish& wish) {
+Sweep sweep_all(const Scene& scene, const Requirements& requirements) {
     const auto start = std::chrono::steady_clock::now();
-    const Looks looks = looks_of(scene);
-    const Reference reference = make_reference(scene, looks, {});
-    const SweepPlan plan{.methods = wish.methods,
-                         .max_rate = std::min(wish.max_rate, 1024 * looks.per_second),
-                         .most_work = wish.most_work};
-    Sweep sweep_of{start_tradeoff(scene, looks, reference, plan), 0};
+    const SampleTimes samples = sample_times_of(scene);
+    const Reference reference = make_reference(scene, samples, {});
+    const SweepPlan plan{.methods = requirements.methods,
+                         .max_rate = std::min(requirements.max_rate, 1024 * samples.per_second),
+                         .most_work = requirements.most_work};
+    Sweep sweep_of{start_tradeoff(scene, samples, reference, plan), 0};
     SweepWatch watch;
     watch.progress = [shown = -1](double share) mutable {
         const int percent = static_cast<int>(100 * share);
@@ -267,12 +269,13 @@ Sweep sweep_all(const Scene& scene, const Wish& wish) {
     return sweep_of;
 }
 
-/// How many times the best row of the sweep the advice costs, timed side by side.
-double cost_ratio(const Scene& scene, const Tradeoff& tradeoff, const Wish& wish,
+/// The cost of the advice over that of the sweep's best row, timed side by side.
+double cost_ratio(const Scene& scene, const Tradeoff& tradeoff, const Requirements& requirements,
                   const TradeoffRow& advised) {
     const TradeoffRow* best = nullptr;
     for (const TradeoffRow* row : tradeoff.rows())
-        if (meets(row->judgement, wish) && (!best || row->ns_per_second < best->ns_per_second))
+        if (meets(row->judgement, requirements) &&
+            (!best || row->ns_per_second < best->ns_per_second))
             best = row;
     if (!best) return unknown;
     TradeoffRow a = advised;
@@ -281,31 +284,33 @@ double cost_ratio(const Scene& scene, const Tradeoff& tradeoff, const Wish& wish
     return a.ns_per_second / b.ns_per_second;
 }
 
-/// What the advice costs and took, beside the sweep.
-std::string beside(const Case& one, const Sweep& swept, const Wish& wish, const TradeoffRow& best,
-                   double seconds) {
+/// The cost and the search time of the advice beside the sweep's.
+std::string beside(const Case& one, const Sweep& swept, const Requirements& requirements,
+                   const TradeoffRow& best, double seconds) {
     return fmt::format("cost of the sweep's best × {:.2f}  {:.3f} of its time",
-                       cost_ratio(one.scene, swept.tradeoff, wish, best), seconds / swept.seconds);
+                       cost_ratio(one.scene, swept.tradeoff, requirements, best),
+                       seconds / swept.seconds);
 }
 
 bool run(const Case& one, const std::vector<double>& tolerances, bool sweeps) {
-    Wish wish;
-    for (const Method& method : methods()) wish.methods.push_back(&method);
-    wish.most_work = one.most_work;
-    wish.max_rate = one.max_rate;
+    Requirements requirements;
+    for (const Method& method : methods()) requirements.methods.push_back(&method);
+    requirements.most_work = one.most_work;
+    requirements.max_rate = one.max_rate;
     Sweep swept;
-    if (sweeps) swept = sweep_all(one.scene, wish);
+    if (sweeps) swept = sweep_all(one.scene, requirements);
     fmt::print("{}{}\n", one.name,
                sweeps ? fmt::format(": a sweep of {} rows takes {:.1f} s",
                                     swept.tradeoff.rows().size(), swept.seconds)
                       : "");
     bool all_meet = true;
     for (const double tolerance : tolerances) {
-        wish.position_error = tolerance;
+        requirements.position_error = tolerance;
         const auto start = std::chrono::steady_clock::now();
         const Reference reference =
-            make_reference(one.scene, looks_of(one.scene), {.wanted = wanted_of(wish) / 2});
-        const Advice advice = advise(one.scene, reference, wish, {});
+            make_reference(one.scene, sample_times_of(one.scene),
+                           {.wanted = required_reference_error(requirements) / 2});
+        const Advice advice = advise(one.scene, reference, requirements, {});
         const double seconds = seconds_since(start);
         if (!advice.best || !advice.meets) {
             fmt::print("  {:<7g} no advice\n", tolerance);
@@ -316,8 +321,8 @@ bool run(const Case& one, const std::vector<double>& tolerances, bool sweeps) {
         const bool met = error <= tolerance;
         all_meet = all_meet && met;
         fmt::print("  {:<7g} {:<42} independent error {:<9.3g} {}  {}\n", tolerance,
-                   words_of(advice.best->stepping), error, met ? "met" : "MISSED",
-                   sweeps ? beside(one, swept, wish, *advice.best, seconds)
+                   describe(advice.best->stepping), error, met ? "met" : "MISSED",
+                   sweeps ? beside(one, swept, requirements, *advice.best, seconds)
                           : fmt::format("{:.1f} s", seconds));
         std::fflush(stdout);
     }
@@ -331,7 +336,7 @@ int main(int argc, char** argv) try {
     const bool cloth = mode == "--cloth" || mode == "--cloth-sweep";
     std::vector<Case> chosen;
     if (cloth) {
-        // A sweep of all its 8 s would take hours.
+        // A sweep over all 8 s takes hours.
         Scene scene = asset("cloth");
         scene.duration = mode == "--cloth" ? 8 : 1;
         chosen.push_back({"cloth", scene, cloth_truth(scene), 30, mode == "--cloth" ? 1e9 : 1e8});

@@ -11,9 +11,9 @@
 namespace oiler::bench {
 namespace {
 
-constexpr int at_once = 256;
+constexpr int per_call = 256;
 
-/// The largest difference between the engine and the loops by hand, over the largest number.
+/// The largest difference between the engine and the hand-written loops, over the largest number.
 template <class T>
 double disagreement(const Bodies& bodies, const HandScene<T>& hand) {
     double difference = 0;
@@ -39,14 +39,14 @@ void agree(Bench& bench, Scene scene) {
     const HandLoops<T>& loops = bench.limits.loops<T>();
     const bool falls = scene == Scene::projectiles;
     for (int round = 0; round < rounds; ++round) {
-        world.step(at_once);
-        for (int i = 0; i < at_once; ++i) (falls ? loops.fall : loops.spring)(one.scene());
-        (falls ? loops.fall_many : loops.spring_many)(many.scene(), at_once);
+        world.step(per_call);
+        for (int i = 0; i < per_call; ++i) (falls ? loops.fall : loops.spring)(one.scene());
+        (falls ? loops.fall_many : loops.spring_many)(many.scene(), per_call);
     }
     const double apart = disagreement(world.bodies(), one.scene());
     const double far_apart = disagreement(world.bodies(), many.scene());
     if (!(std::max(apart, far_apart) < 1e-3))
-        fail(Exit::comparison_failed, "the loops by hand do not what the engine does to {}",
+        fail(Exit::comparison_failed, "the hand-written loops and the engine differ on {}",
              name_of(scene));
     bench.report.add("Agreement after 1024 steps: largest difference over largest number",
                      {fmt::format("{}, {}", name_of(scene), name_of(precision_of<T>)),

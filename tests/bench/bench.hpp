@@ -11,21 +11,21 @@
 
 namespace oiler::bench {
 
-/// One run of the benchmark: what it is to measure, how thoroughly, and what came of it.
+/// One run of the benchmark: its options and its report.
 struct Bench {
-    bool full = false;         ///< the campaign, minutes; else a minute
-    bool all_methods = false;  ///< else some that stand for the others
+    bool full = false;         ///< the campaign, some minutes instead of one
+    bool all_methods = false;  ///< otherwise a representative few
     bool quiet = false;
-    std::string only{};  ///< regular expression; empty: everything
+    std::string only{};  ///< regular expression; empty for everything
     Limits limits{};
     Effort effort{};
     Report report{};
 
-    /// Whether something of this name is to be measured; tells the terminal that it is.
+    /// Whether to measure something of this name; if so, shows it on the terminal.
     [[nodiscard]] bool wants(std::string_view name) const;
-    /// ns each of `per` parts of a piece of work, from seconds of all.
+    /// Converts the seconds of some work to ns for each of its `per` parts.
     [[nodiscard]] static double ns(double seconds, double per) { return seconds / per * 1e9; }
-    /// As many bodies as no cache holds.
+    /// A number of bodies that exceeds every cache.
     [[nodiscard]] std::size_t memory_bodies() const { return full ? 10'000'000 : 4'000'000; }
 };
 

@@ -20,10 +20,10 @@ struct Shield {
     int strength;
 };
 
-/// What is done once to a world of its own, timed as a whole.
+/// An operation on a fresh world, timed as a whole.
 struct Deed {
     std::string name;
-    /// Does it to each of the entities that `prepare` has made.
+    /// Applies it to each entity that `prepare` has made.
     void (*act)(World& world, std::vector<Entity>& entities);
     void (*prepare)(World& world, std::vector<Entity>& entities);
 };
@@ -115,14 +115,14 @@ double seconds_of(const Deed& deed, std::size_t count, int repetitions) {
     return least;
 }
 
-/// ns at 10⁴ and at 10⁶.
+/// Limits in ns, at 10⁴ and at 10⁶ entities.
 struct Limit {
     std::string_view deed;
     double few;
     double many;
 };
-/// A body's row is as much as an entity's slot, so that bodies have the same limits. In
-/// any order memory is gone through at random, which no store can help.
+/// A body's row costs as much as an entity's slot, so bodies have the same limits. Operations in
+/// any order have none, because they access memory at random in any design.
 constexpr Limit limits[]{
     {"create", 10, 20},      {"spawn", 10, 20},          {"iterate one component", 0.5, 1},
     {"destroy", 20, 60},     {"destroy bodies", 20, 60}, {"churn", 20, 60},
@@ -138,7 +138,7 @@ void add_target(Bench& bench, const Deed& deed, std::size_t count, double cost) 
                          .limit = count == 10'000 ? limit->few : limit->many});
 }
 
-/// All that malloc has given out.
+/// The bytes in use by malloc.
 double bytes_in_use() {
     const struct mallinfo2 use = mallinfo2();
     return static_cast<double>(use.uordblks + use.hblkhd);
@@ -152,7 +152,7 @@ double bytes_of(int axes, std::size_t bodies) {
     return bytes_in_use() - before;
 }
 
-/// What another body takes: a world itself takes some kilobytes.
+/// The bytes of one more body, without the kilobytes of a world.
 void measure_memory(Bench& bench, int axes, double most) {
     constexpr std::size_t few = 1 << 20;
     const double more = bytes_of(axes, 2 * few) - bytes_of(axes, few);

@@ -7,7 +7,7 @@
 
 namespace oiler::bench {
 
-/// A scene by hand: columns for `axes` axes, `rows` long, and the numbers that all rows share.
+/// The data of a hand-written loop: columns for `axes` axes of `rows` rows, and shared numbers.
 template <class T>
 struct HandScene {
     std::size_t rows = 0;
@@ -21,18 +21,17 @@ struct HandScene {
     T* v[3]{};
 };
 
-/// The least that this machine can take for the engine's work: loops for one force and one method,
-/// semi-implicit Euler, with the literal formulas and without any of the engine's generality.
-/// `rows` is a multiple of row_multiple.
+/// The least time that this machine can take for the engine's work: hand-written loops for one
+/// force and semi-implicit Euler, with literal formulas. `rows` is a multiple of row_multiple.
 template <class T>
 struct HandLoops {
     static constexpr std::size_t row_multiple = 128;
 
-    /// Reads and writes each column once: what a step cannot do without.
+    /// Reads and writes each column once, the minimum of a step.
     void (*sweep)(const HandScene<T>& scene, T factor);
     void (*fall)(const HandScene<T>& scene);
     void (*spring)(const HandScene<T>& scene);
-    /// Many steps of rows that stay in registers.
+    /// Many steps per call, with rows that stay in registers.
     void (*fall_many)(const HandScene<T>& scene, int steps);
     void (*spring_many)(const HandScene<T>& scene, int steps);
     /// The sum of `count` numbers, a multiple of row_multiple.
@@ -54,7 +53,7 @@ struct Limits {
     }
 };
 
-/// Those that this processor can run, the widest last.
+/// The sets that this processor supports, the widest last.
 [[nodiscard]] std::vector<Limits> supported_limits();
 
 }  // namespace oiler::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiled once for each instruction set, OILER_BENCH_ISA, with registers of OILER_BENCH_BYTES.
-// What is compiled here must not be what the linker takes for the rest of the program, so that all
-// of it is in a namespace of the set's own and nothing inline of anybody else's is called.
+// The linker must not use this code for the rest of the program: everything is in a namespace of
+// the instruction set, and no inline function from elsewhere is called.
 #include "bench/limits.hpp"
 
 namespace oiler::bench::OILER_BENCH_ISA {
@@ -16,14 +16,14 @@ using Pack = typename PackOf<T>::type;
 template <class T>
 constexpr std::size_t lanes = OILER_BENCH_BYTES / sizeof(T);
 
-// How many registers of positions, and as many of velocities, are stepped at once: so many that
-// additions that wait for one another leave room for others. Measured; some are spilled.
+// The number of registers of positions, and of velocities, that are stepped together: enough to
+// hide the latency of dependent additions. Measured; some are spilled.
 constexpr int fall_packs = OILER_BENCH_FALL_PACKS;
 constexpr int spring_packs = OILER_BENCH_SPRING_PACKS;
 constexpr int rest_packs = 4;
 
-// Only parameters keep the promise of __restrict: with local pointers g++ leaves such loops scalar.
-// `T...` is a number for each axis.
+// __restrict works on parameters only: with local pointers, g++ does not vectorise these loops.
+// `T...` has one number per axis.
 
 template <class T, class... Column>
 [[gnu::noinline]] void sweep_columns(std::size_t rows, T factor, Column* __restrict... column) {
@@ -50,8 +50,8 @@ struct Loops {
     }
 };
 
-/// Loads registers of positions and of velocities, steps them, stores them, from row `i` on until
-/// fewer are left than fill them; returns the next row.
+/// Loads, steps and stores registers of positions and velocities, from row `i` on, while full
+/// registers remain. Returns the next row.
 template <int packs, class T, class Step>
 [[gnu::always_inline]] inline std::size_t in_blocks(std::size_t i, std::size_t rows, int steps,
                                                     T* x, T* v, Step step) {

@@ -7,7 +7,7 @@
 namespace oiler::bench {
 namespace {
 
-/// What one place of memory gives, in bytes per ns, which is GB/s.
+/// The bandwidth of one level of memory, in bytes per ns = GB/s.
 void measure_place(Bench& bench, const std::string& place, std::size_t rows) {
     const HandBodies<float> swept(3, rows);
     const std::vector<float> numbers(swept.scene().rows * 6);

@@ -36,7 +36,7 @@ void choose_isa(Bench& bench, const std::string& isa) {
     bench.limits = supported.back();
     if (isa.empty()) return;
     const auto found = std::ranges::find(supported, isa, &Limits::isa);
-    if (found == supported.end()) fail(Exit::usage, "--isa {}: this machine has no such", isa);
+    if (found == supported.end()) fail(Exit::usage, "--isa {}: not supported by this machine", isa);
     bench.limits = *found;
     const std::string kernels = isa == "SSE2" ? "baseline" : isa == "AVX2" ? "avx2" : "avx512";
     setenv("OILER_INSTRUCTIONS", kernels.c_str(), 1);
@@ -45,11 +45,11 @@ void choose_isa(Bench& bench, const std::string& isa) {
 void declare(CLI::App& app, Bench& bench, Words& words) {
     app.add_flag("--full", bench.full, "the campaign: all sizes up to 10⁷, longer measurements");
     app.add_flag("--all", bench.all_methods, "all methods instead of some");
-    app.add_option("--only", bench.only, "measure only what this regular expression finds")
+    app.add_option("--only", bench.only, "measure only names that match this regular expression")
         ->type_name("REGEX");
-    app.add_flag("--quiet", bench.quiet, "do not say on standard error what is being measured");
+    app.add_flag("--quiet", bench.quiet, "do not show progress on standard error");
     app.add_option("--isa", words.isa,
-                   "of Oiler and the loops by hand: SSE2, AVX2 or AVX-512; the widest")
+                   "of Oiler and the hand-written loops: SSE2, AVX2 or AVX-512; the widest")
         ->type_name("NAME");
     app.add_option("--json", words.json, "write all numbers, - for stdout")->type_name("FILE");
     app.add_option("--plot", words.plot, "draw cost over the number of bodies")->type_name("DIR");
@@ -80,7 +80,7 @@ void measure(Bench& bench) {
 }
 
 Exit run(int argc, char** argv) {
-    CLI::App app("What a step costs, beside what this machine could do", "oiler_bench");
+    CLI::App app("The cost of a step beside the limits of this machine", "oiler_bench");
     Bench bench;
     Words words;
     declare(app, bench, words);
@@ -93,7 +93,7 @@ Exit run(int argc, char** argv) {
     if (bench.full) bench.effort = {.repetitions = 30, .seconds = 0.01, .patience = 4};
     state_facts(bench);
     measure(bench);
-    if (bench.report.empty()) fail(Exit::usage, "--only {}: nothing has such a name", bench.only);
+    if (bench.report.empty()) fail(Exit::usage, "--only {}: no name matches", bench.only);
     const std::string text = bench.report.text();
     if (words.json != "-") write_file("-", std::as_bytes(std::span(text)));
     const std::string json = bench.report.json();

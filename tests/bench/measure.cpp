@@ -14,7 +14,7 @@ double seconds_of(const Work& work, long times) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// How many times make a repetition; also warms up.
+/// The number of times that make a repetition; also warms up.
 long times_for(const Work& work, double seconds) {
     long times = 1;
     for (;;) {

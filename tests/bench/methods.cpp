@@ -10,9 +10,9 @@
 namespace oiler::bench {
 namespace {
 
-constexpr int at_once = 256;
+constexpr int per_call = 256;
 
-/// From memory, over semi_implicit_euler.
+/// The largest ratio of a method's cost to that of semi_implicit_euler, from memory.
 struct Limit {
     std::string_view method;
     double most;
@@ -20,8 +20,8 @@ struct Limit {
 constexpr std::array limits{Limit{"rk4", 1.3}, Limit{"velocity_verlet", 1.1},
                             Limit{"rk2_midpoint", 1.1}, Limit{"exact", 1.1}};
 
-/// semi_implicit_euler first. A method that solves takes so long that it is measured over few
-/// bodies only, unless there is time.
+/// The measured methods, semi_implicit_euler first. Implicit methods are slow and are measured over
+/// few bodies only, except with --full.
 std::vector<const Method*> chosen(const Bench& bench, std::size_t count) {
     std::vector<const Method*> all;
     for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk2_midpoint", "rk4",
@@ -35,7 +35,7 @@ std::vector<const Method*> chosen(const Bench& bench, std::size_t count) {
     return all;
 }
 
-/// ns per body and step of each method over the same bodies, `count` steps at a time.
+/// ns per body and step of each method over the same bodies, `count` steps per call.
 std::vector<double> race_methods(const Bench& bench, const std::vector<const Method*>& all,
                                  Bodies& bodies, int count) {
     std::vector<Work> work;
@@ -44,7 +44,7 @@ std::vector<double> race_methods(const Bench& bench, const std::vector<const Met
             for (long i = 0; i < times; ++i) bodies.step(*method, {.rate = rate, .count = count});
         });
     Effort effort = bench.effort;
-    effort.prepared = true;  // the bodies keep what one method needs, until the next
+    effort.prepared = true;  // bodies keep a method's data until the next method
     std::vector<double> costs = race(work, effort);
     for (double& cost : costs) cost = Bench::ns(cost, static_cast<double>(bodies.size()) * count);
     return costs;
@@ -71,12 +71,12 @@ void measure(Bench& bench, Scene scene, Precision precision, int axes, std::size
     const std::vector<const Method*> all = chosen(bench, count);
     Bodies bodies = make_bodies(scene, axes, count, precision);
     const std::vector<double> one = race_methods(bench, all, bodies, 1);
-    const bool looks = count <= 100'000 || bench.full;
+    const bool races = count <= 100'000 || bench.full;
     const std::vector<double> many =
-        looks ? race_methods(bench, all, bodies, at_once) : std::vector<double>();
+        races ? race_methods(bench, all, bodies, per_call) : std::vector<double>();
     for (std::size_t i = 0; i < all.size(); ++i) {
         Row row{std::string(all[i]->name), {{"one step", one[i]}}};
-        if (looks) row.numbers.emplace_back("256 at once", many[i]);
+        if (races) row.numbers.emplace_back("256 at once", many[i]);
         bench.report.add("Methods, ns per body and step: " + name, std::move(row));
     }
     if (precision == Precision::single && axes == 3 && count == bench.memory_bodies())

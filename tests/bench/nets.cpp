@@ -24,7 +24,7 @@ double cost(const Bench& bench, const Net& net, const Links& links, const Link& 
 constexpr Link damped{.stiffness = 50, .damping = 0.5, .rest_length = 1};
 constexpr Link undamped{.stiffness = 50, .rest_length = 1};
 constexpr Link no_length{.stiffness = 5, .damping = 0.1};
-/// Between bodies that are far apart and have four springs on average, some many more.
+/// Links between random bodies: four springs per body on average, some have many more.
 constexpr Link gentle{.stiffness = 5, .damping = 0.1, .rest_length = 1};
 
 void measure(Bench& bench, std::size_t side, double most) {

@@ -17,11 +17,11 @@ struct Net {
     std::size_t side;
 
     [[nodiscard]] std::size_t bodies() const { return side * side; }
-    /// Stretched and bent a little, so that every spring pulls.
+    /// Stretches and bends the net a little, so that every spring pulls.
     [[nodiscard]] Vec3 position(std::size_t i) const;
     /// All horizontal ones row by row, then all vertical ones row by row.
     [[nodiscard]] Links links() const;
-    /// As many, between any two bodies.
+    /// As many links as the net has, between random pairs of bodies.
     [[nodiscard]] Links random_links() const;
 };
 

@@ -10,7 +10,7 @@
 namespace oiler::bench {
 namespace {
 
-/// What Bullet needs to step anything, and what it steps.
+/// Bullet's world and the bodies that it steps.
 struct Falling {
     btSoftBodyRigidBodyCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
@@ -32,7 +32,7 @@ struct Falling {
     }
 };
 
-/// Collides with nothing: its group is empty.
+/// Adds a body without collisions: its group is empty.
 void add_body(Falling& falling, std::size_t i) {
     const btVector3 at(static_cast<float>(i % 1000) * 4, 0, static_cast<float>(i / 1000) * 4);
     btVector3 inertia;
@@ -45,7 +45,7 @@ void add_body(Falling& falling, std::size_t i) {
     falling.bodies.push_back(std::move(body));
 }
 
-/// Springs that are solved once a step, and nothing else.
+/// A soft body whose springs are solved once per step.
 btSoftBody* make_net(btSoftBodyWorldInfo& info, const Net& net) {
     std::vector<btVector3> places;
     for (std::size_t i = 0; i < net.bodies(); ++i) {

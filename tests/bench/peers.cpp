@@ -13,7 +13,7 @@ namespace {
 
 enum class Task { fall, oscillate };
 
-/// What a peer is compared with, in its own precision and axes.
+/// A peer, its task, and its precision and axes.
 struct Peer {
     std::string_view name;
     std::string_view package;  ///< of Debian
@@ -22,11 +22,11 @@ struct Peer {
     int axes;
     Precision precision;
     std::string_view method;
-    double least;  ///< times as fast Oiler is to be
+    double least;  ///< the wanted speed of Oiler, as a multiple of the peer's
     std::string_view besides;
 };
 
-/// Null where the peer was not found.
+/// Null if the peer was not found.
 template <bool has, PeerWork (*make)(std::size_t)>
 constexpr PeerWork (*if_found())(std::size_t) {
     if constexpr (has)
@@ -58,7 +58,7 @@ const std::vector<Peer>& peers() {
     return all;
 }
 
-/// Those that fall share gravity; oscillators are not damped.
+/// Falling bodies share gravity; oscillators are undamped.
 World our_world(const Peer& peer, std::size_t bodies) {
     World world(peer.axes,
                 {.method = &find_method(peer.method), .rate = rate, .precision = peer.precision});
@@ -79,9 +79,9 @@ struct Costs {
     double many;
 };
 
-/// ns per body and step; none where the peer does not do its work.
+/// ns per body and step; none if the peer does not do its work.
 std::optional<Costs> race_with(const Bench& bench, const Peer& peer, std::size_t bodies) {
-    constexpr int at_once = 256;
+    constexpr int per_call = 256;
     World world = our_world(peer, bodies);
     World far = world;
     const PeerWork work = peer.make(bodies);
@@ -92,13 +92,13 @@ std::optional<Costs> race_with(const Bench& bench, const Peer& peer, std::size_t
                                               },
                                               [&](long times) {
                                                   for (long i = 0; i < times; ++i)
-                                                      far.step(at_once);
+                                                      far.step(per_call);
                                               }},
                                              bench.effort);
     if (work.measure() == before) return std::nullopt;
     const auto each = static_cast<double>(bodies);
     return Costs{Bench::ns(seconds[0], each), Bench::ns(seconds[1], each),
-                 Bench::ns(seconds[2], each * at_once)};
+                 Bench::ns(seconds[2], each * per_call)};
 }
 
 void measure(Bench& bench, const Peer& peer) {
@@ -107,14 +107,15 @@ void measure(Bench& bench, const Peer& peer) {
     const std::string name = fmt::format("{}, {}", peer.name, in_powers(bodies));
     if (!bench.wants("peers: " + name)) return;
     if (!peer.make)
-        return bench.report.missing(fmt::format("{}: {} is not there", peer.name, peer.package));
+        return bench.report.missing(
+            fmt::format("{}: {} is not installed", peer.name, peer.package));
     const std::optional<Costs> c = race_with(bench, peer, bodies);
-    if (!c) return bench.report.missing(fmt::format("{}: nothing moves", peer.name));
+    if (!c) return bench.report.missing(fmt::format("{}: no body moves", peer.name));
     bench.report.add("Peers, ns per body and step",
                      {name, {{"peer", c->theirs}, {"one step", c->one}, {"256 at once", c->many}}});
     const double ours = falls ? c->one : c->many;
     bench.report.target({.id = "T4",
-                         .what = name + (falls ? ", one step at a time" : ", 256 steps at once"),
+                         .what = name + (falls ? ", one step per call" : ", 256 steps per call"),
                          .measured = c->theirs / ours,
                          .unit = "×",
                          .wanted = Wanted::at_least,
@@ -127,7 +128,7 @@ void measure_net(Bench& bench) {
     const Net net{100};
     if (!bench.wants("peers: Bullet soft body, 100 × 100")) return;
     if constexpr (!OILER_BENCH_BULLET) {
-        bench.report.missing("Bullet soft body: libbullet-dev is not there");
+        bench.report.missing("Bullet soft body: libbullet-dev is not installed");
         return;
     } else {
         World world =

@@ -8,10 +8,10 @@
 
 namespace oiler::bench {
 
-/// Another library at the same work.
+/// Another library that does the same work.
 struct PeerWork {
     Work step;                        ///< of all bodies, `times` times
-    std::function<double()> measure;  ///< a number that changes when it is done
+    std::function<double()> measure;  ///< a number that changes with the work
 };
 
 /// s
@@ -21,9 +21,9 @@ inline constexpr double peer_stiffness = 0.01;
 
 // Bodies that fall, each on its own, under gravity of −9.81 m/s², collisions off.
 [[nodiscard]] PeerWork bullet_fall(std::size_t bodies);
-/// With mass alone, which is the least that it can do.
+/// With mass alone, its cheapest body.
 [[nodiscard]] PeerWork box2d_fall(std::size_t bodies);
-/// With a circle each, from which mass is usually computed, in the broad phase.
+/// With a circle each, the usual source of mass, in the broad phase.
 [[nodiscard]] PeerWork box2d_fall_fixtures(std::size_t bodies);
 [[nodiscard]] PeerWork ode_fall(std::size_t bodies);
 

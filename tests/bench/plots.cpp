@@ -26,12 +26,12 @@ struct Curve {
 };
 constexpr std::array curves{
     Curve{"sweep", "sweep", palette::black, Mark::none},
-    Curve{"by hand", "by hand", palette::sky_blue, Mark::ring},
+    Curve{"by hand", "hand-written loop", palette::sky_blue, Mark::ring},
     Curve{"one step", "Oiler", palette::blue, Mark::disc},
-    Curve{"by hand, in registers", "by hand, 256 at once", palette::orange, Mark::ring},
-    Curve{"256 at once", "Oiler, 256 at once", palette::vermilion, Mark::disc}};
+    Curve{"by hand, in registers", "hand-written, 256 per call", palette::orange, Mark::ring},
+    Curve{"256 at once", "Oiler, 256 per call", palette::vermilion, Mark::disc}};
 
-/// In decades, on both axes.
+/// The curve of a column, in decades on both axes.
 Series series_of(const Section& section, const std::string& scene, const Curve& curve) {
     Series series{.name = std::string(curve.name), .colour = curve.colour, .mark = curve.mark};
     for (const double bodies : sizes) {
@@ -56,7 +56,8 @@ void add_number(Picture& picture, Point at, std::string words, Align align) {
         {.at = at, .text = std::move(words), .size = 9, .colour = palette::ink, .align = align});
 }
 
-/// Lines at 1, 2 and 5 times the powers of ten: plots know linear axes only.
+/// Draws grid lines and numbers, because the plot's own axes are linear: at powers of ten across,
+/// at 1, 2 and 5 times these upwards.
 void draw_grid(Picture& picture, const Plot& plot) {
     for (double power = std::ceil(plot.x.low); power <= plot.x.high; ++power) {
         const float x = plot.to_canvas({power, plot.y.low}).x;
@@ -74,7 +75,7 @@ void draw_grid(Picture& picture, const Plot& plot) {
     }
 }
 
-/// Around all points, with a little room.
+/// The range of all points, with a margin.
 void set_ranges(Plot& plot) {
     plot.x = {3, 6};
     plot.y = {INFINITY, -INFINITY};
@@ -89,12 +90,12 @@ void set_ranges(Plot& plot) {
 
 Picture picture_of(const Section& section, const std::string& scene) {
     Plot plot{.box = box,
-              .title = fmt::format("What a step of {} costs", scene),
+              .title = fmt::format("The cost of a step of {}", scene),
               .remark = "semi_implicit_euler, float, 3 axes",
               .caption =
-                  "The sweep reads and writes each body once, in place: the least that a step at a "
-                  "time can take. By hand: a loop for this force and this method alone. "
-                  "256 at once: steps of bodies that stay in registers.",
+                  "The sweep reads and writes each body once, in place: the least time of one step "
+                  "per call. Hand-written loops serve this force and this method only. With 256 "
+                  "steps per call, bodies stay in registers.",
               .x_label = "bodies",
               .y_label = "ns per body and step",
               .x_ticks = 0,

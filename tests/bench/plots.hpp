@@ -7,8 +7,8 @@
 
 namespace oiler::bench {
 
-/// What a step costs over how many bodies there are, beside the limits of this machine: a PNG for
-/// each scene that was measured, in float and three axes.
+/// Draws the cost of a step over the number of bodies, beside the limits of this machine: one PNG
+/// per measured scene, in float and three axes.
 void draw_plots(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace oiler::bench

@@ -11,27 +11,27 @@
 namespace oiler::bench {
 namespace {
 
-/// What each group of targets is about.
+/// The subject of each group of targets.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> groups{
-    {{"T1", "one step at a time: the in-place sweep over the same bytes, or the loop by hand"},
-     {"T2", "256 steps at once: the same by hand, in registers"},
-     {"T3", "methods from memory over semi_implicit_euler; threads"},
-     {"T4", "peers on the same work, over Oiler"},
+    {{"T1", "one step per call: the in-place sweep over the same bytes, or the hand-written loop"},
+     {"T2", "256 steps per call: the hand-written loop in registers"},
+     {"T3", "methods from memory, relative to semi_implicit_euler; threads"},
+     {"T4", "peers on the same work, relative to Oiler"},
      {"T5", "nets of springs, ns per spring and step"},
      {"T6", "entities, ns each; bytes for a body and its handle"},
-     {"T7", "settled springs over moving ones"}}};
+     {"T7", "sleeping springs, relative to moving ones"}}};
 
 std::size_t width(std::string_view words) {
     return static_cast<std::size_t>(
         std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Padded by letters, not by bytes.
+/// Text padded to a number of letters, not bytes.
 std::string padded(const std::string& words, std::size_t to) {
     return words + std::string(to > width(words) ? to - width(words) : 0, ' ');
 }
 
-/// Three digits that count.
+/// A number with three significant digits.
 std::string number(double value) {
     const double size = std::abs(value);
     if (size == 0) return "0";
@@ -101,7 +101,7 @@ std::string Report::text() const {
 }
 
 std::string Report::targets_text() const {
-    std::string text = "\nWhat is wanted, and what is reached here\n";
+    std::string text = "\nTargets and measurements\n";
     std::size_t names = 0;
     for (const Target& target : targets_) names = std::max(names, width(target.what));
     for (const auto& [id, about] : groups) {

@@ -11,15 +11,15 @@ namespace oiler::bench {
 
 enum class Wanted { at_least, at_most };
 
-/// A figure that the engine is to reach, beside what it reaches here.
+/// A target and its measurement.
 struct Target {
     std::string id;      ///< "T1"
-    std::string what{};  ///< of what, at which size
+    std::string what{};  ///< the subject and its size
     double measured = 0;
-    std::string unit{};  ///< "", of a ratio, or "ns"
+    std::string unit{};  ///< "ns"; empty for a ratio
     Wanted wanted = Wanted::at_most;
     double limit = 0;
-    std::string remark{};  ///< the figures that a ratio is of, what a peer does besides
+    std::string remark{};  ///< the terms of a ratio, or a peer's additional work
 
     [[nodiscard]] bool met() const {
         return wanted == Wanted::at_least ? measured >= limit : measured <= limit;
@@ -37,12 +37,12 @@ struct Section {
     std::vector<Row> rows;
 };
 
-/// All that was measured.
+/// All measurements of a run.
 class Report {
 public:
     /// A fact about the machine or this run.
     void fact(const std::string& name, const std::string& value);
-    /// What could not be measured, and why.
+    /// Adds a missing measurement and its reason.
     void missing(const std::string& line);
     void add(const std::string& section, Row row);
     void target(Target target);
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] const std::vector<Section>& sections() const { return sections_; }
     [[nodiscard]] bool empty() const { return sections_.empty() && targets_.empty(); }
 
-    /// Tables, and last what was wanted and what is reached.
+    /// The tables, then targets and measurements.
     [[nodiscard]] std::string text() const;
     [[nodiscard]] std::string json() const;
 
@@ -63,7 +63,7 @@ private:
     std::vector<Target> targets_;
 };
 
-/// "10⁴", and "4·10⁶"; 300 as it is.
+/// "10⁴", "4·10⁶"; 300 stays "300".
 [[nodiscard]] std::string in_powers(std::size_t count);
 
 }  // namespace oiler::bench

@@ -12,8 +12,8 @@ constexpr std::size_t line = 64;  // bytes that memory moves in
 
 constexpr std::size_t stagger = 5 * line;
 
-/// Where column `i` starts: not at the same place of a page as the others, where they would be in
-/// one another's way in the caches.
+/// The start of column `i`. Columns start at different offsets within a page, so that they do not
+/// compete for the same cache sets.
 template <class T>
 T* place(std::vector<T>& column, std::size_t i) {
     const auto address = reinterpret_cast<std::uintptr_t>(column.data());

@@ -10,7 +10,7 @@
 
 namespace oiler::bench {
 
-/// Bodies that fall, or that swing on springs of the same anchor, stiffness and damping.
+/// Bodies that fall, or oscillate on springs of equal anchor, stiffness and damping.
 enum class Scene { projectiles, springs };
 
 [[nodiscard]] std::string_view name_of(Scene scene);
@@ -20,22 +20,22 @@ enum class Scene { projectiles, springs };
 
 inline constexpr Rate rate{60};
 
-/// So soft and so little damped that no method of the list has let them explode or settle after the
-/// millions of steps of a long measurement: infinite and subnormal numbers take other times.
+/// Springs so soft and lightly damped that no method diverges or comes to rest in the millions of
+/// steps of a long measurement: infinite and subnormal numbers change step times.
 inline constexpr Spring soft_spring{.anchor = {1, 2, 3}, .stiffness = 0.01, .damping = 0.01 / 60};
 inline constexpr Vec3 gravity{0.25, -9.81, 0.5};
 
-/// With 0 for the axes that a world does not have.
+/// A vector with 0 for the axes that a world does not have.
 [[nodiscard]] Vec3 within(const Vec3& vector, int axes);
 
-/// Where body `i` starts, and how fast; no two of a few thousand alike.
+/// The initial position and velocity of body `i`, different for a few thousand bodies.
 [[nodiscard]] Body start_of(std::size_t i, int axes);
 
 template <class T>
 inline constexpr Precision precision_of = sizeof(T) == sizeof(float) ? Precision::single
                                                                      : Precision::double_;
 
-/// Makes room for so many bodies, where the world knows how to.
+/// Reserves memory for `count` bodies if the world supports it.
 template <class W>
 void reserve(W& world, std::size_t bodies) {
     if constexpr (requires { world.reserve(bodies); }) world.reserve(bodies);
@@ -46,7 +46,7 @@ constexpr bool has_threads = requires(S settings) {
     settings.threads;
 };
 
-/// Where settings know of threads, with so many.
+/// Sets the number of threads if settings have it.
 template <class S>
 S with_threads(S settings, int threads) {
     if constexpr (has_threads<S>) settings.threads = threads;
@@ -56,7 +56,7 @@ S with_threads(S settings, int threads) {
 [[nodiscard]] World make_world(Scene scene, int axes, std::size_t bodies, const Settings& settings);
 [[nodiscard]] Bodies make_bodies(Scene scene, int axes, std::size_t count, Precision precision);
 
-/// The same scene in columns for the loops by hand.
+/// The scene in columns for the hand-written loops.
 template <class T>
 class HandBodies {
 public:

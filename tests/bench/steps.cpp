@@ -9,15 +9,15 @@
 namespace oiler::bench {
 namespace {
 
-constexpr int at_once = 256;
+constexpr int per_call = 256;
 
 /// ns per body and step.
 struct Costs {
-    double one;        ///< the engine, one step at a time
+    double one;        ///< the engine, one step per call
     double sweep;      ///< one in-place sweep over the same bytes
-    double hand_one;   ///< by hand, one step at a time
-    double many;       ///< the engine, 256 steps at once; 0 where that was not measured
-    double hand_many;  ///< by hand, steps in registers; likewise
+    double hand_one;   ///< hand-written loop, one step per call
+    double many;       ///< the engine, 256 steps per call; 0 if not measured
+    double hand_many;  ///< hand-written loop in registers; 0 if not measured
 };
 
 template <class T>
@@ -43,15 +43,15 @@ Costs race_steps(const Bench& bench, Scene scene, int axes, std::size_t bodies, 
                            }),
                            repeat([&] { step(hand.scene()); })};
     if (with_many) {
-        work.push_back(repeat([&] { far.step(at_once); }));
-        work.push_back(repeat([&] { steps(held.scene(), at_once); }));
+        work.push_back(repeat([&] { far.step(per_call); }));
+        work.push_back(repeat([&] { steps(held.scene(), per_call); }));
     }
     const std::vector<double> seconds = race(work, bench.effort);
     const auto each = [&](std::size_t i, int count) {
         return Bench::ns(seconds[i], static_cast<double>(bodies) * count);
     };
-    return {each(0, 1), each(1, 1), each(2, 1), with_many ? each(3, at_once) : 0,
-            with_many ? each(4, at_once) : 0};
+    return {each(0, 1), each(1, 1), each(2, 1), with_many ? each(3, per_call) : 0,
+            with_many ? each(4, per_call) : 0};
 }
 
 std::string beside(double ours, std::string_view other, double theirs) {
@@ -62,37 +62,37 @@ void add_targets(Bench& bench, Scene scene, std::size_t bodies, const Costs& c) 
     const std::string what = fmt::format("{}, {}", name_of(scene), in_powers(bodies));
     if (bodies < 10'000)
         bench.report.target({.id = "T1",
-                             .what = what + ": cost over the hand's",
+                             .what = what + ": cost / hand-written loop",
                              .measured = c.one / c.hand_one,
                              .limit = 1.5,
-                             .remark = beside(c.one, "by hand", c.hand_one)});
+                             .remark = beside(c.one, "hand-written", c.hand_one)});
     else
         bench.report.target({.id = "T1",
-                             .what = what + ": speed over the sweep's",
+                             .what = what + ": speed / sweep",
                              .measured = c.sweep / c.one,
                              .wanted = Wanted::at_least,
                              .limit = 0.9,
                              .remark = beside(c.one, "sweep", c.sweep)});
     if (bodies <= 1'000'000)
         bench.report.target({.id = "T2",
-                             .what = what + ": cost over the hand's",
+                             .what = what + ": cost / hand-written loop",
                              .measured = c.many / c.hand_many,
                              .limit = 1.3,
-                             .remark = beside(c.many, "by hand", c.hand_many)});
+                             .remark = beside(c.many, "hand-written", c.hand_many)});
 }
 
-/// That the cost of many steps at once does not depend on how many bodies there are.
+/// Targets that the cost of many steps per call does not depend on the number of bodies.
 void add_flatness(Bench& bench, Scene scene, const std::vector<double>& many) {
     if (many.empty()) return;
     const auto [least, most] = std::ranges::minmax(many);
     const double goal = scene == Scene::projectiles ? 1e10 : 4e9;
     bench.report.target({.id = "T2",
-                         .what = fmt::format("{}: dearest N over cheapest", name_of(scene)),
+                         .what = fmt::format("{}: most expensive N / cheapest", name_of(scene)),
                          .measured = most / least,
                          .limit = 1.15,
                          .remark = "10³ to 10⁶ bodies; 1.15 allows for the machine's noise"});
     bench.report.target({.id = "T2",
-                         .what = fmt::format("{}: body-steps a second (goal)", name_of(scene)),
+                         .what = fmt::format("{}: body-steps per second (goal)", name_of(scene)),
                          .measured = 1e9 / least,
                          .wanted = Wanted::at_least,
                          .limit = goal});
@@ -108,7 +108,7 @@ void measure(Bench& bench, Scene scene, int axes, const std::vector<std::size_t>
         if (!bench.wants("steps: " + name)) continue;
         const bool with_many = bodies <= 1'000'000 || bench.full;
         const Costs c = race_steps<T>(bench, scene, axes, bodies, with_many);
-        Row row{name, {{"one step", c.one}, {"sweep", c.sweep}, {"by hand", c.hand_one}}};
+        Row row{name, {{"one step", c.one}, {"sweep", c.sweep}, {"hand-written", c.hand_one}}};
         if (with_many) {
             row.numbers.emplace_back("256 at once", c.many);
             row.numbers.emplace_back("by hand, in registers", c.hand_many);

@@ -15,7 +15,7 @@ Work steps_of(World& world) {
 
 Settings in_float() { return {.rate = rate, .precision = Precision::single}; }
 
-/// Springs as stiff and as damped as a game's, from 1 m.
+/// Springs with the stiffness and damping of a game, from 1 m.
 World swinging(std::size_t bodies) {
     World world(3, in_float());
     reserve(world, bodies);
@@ -25,7 +25,7 @@ World swinging(std::size_t bodies) {
     return world;
 }
 
-/// The same, where each of a few that have gone on for long comes many times.
+/// Those springs after many steps: copies of a few that were stepped.
 World settled(std::size_t bodies, std::int64_t steps) {
     World few = swinging(64);
     few.step(steps);

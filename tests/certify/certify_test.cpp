@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Certificate, EachMethod,
                          testing::ValuesIn(oiler::methods().begin(), oiler::methods().end()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// With damping in the kicks all splittings are claimed to have order 1 on it, and do.
+// With damping in the kicks, all splittings claim order 1 on the damped spring.
 TEST(Certificate, HoldsForDampingInTheKicks) {
     for (const char* name : {"velocity_verlet", "forest_ruth4", "kahan_li8_kdk"}) {
         const Certificate certificate = certify(find_method(name), Damping::in_kick, steps);
@@ -42,7 +42,7 @@ TEST(Certificate, HoldsForDampingInTheKicks) {
     }
 }
 
-/// That it fails, in words that hold `reason`.
+/// Expects the certificate to have a failure that contains `reason`.
 void expect_failure(const Method& method, const std::string& reason) {
     const Certificate certificate = certificate_of(method);
     const auto& failures = certificate.failures;
@@ -58,7 +58,7 @@ Method with_rule(const char* name, const decltype(Method::rule)& rule) {
     return method;
 }
 
-// PEFRL with the sign of one kick turned.
+// PEFRL with the sign of one kick reversed.
 TEST(BrokenTable, WithAWrongSignFails) {
     const auto k = [](long double c) { return Stage{Move::kick, c}; };
     const auto d = [](long double c) { return Stage{Move::drift, c}; };
@@ -81,7 +81,7 @@ TEST(BrokenTable, WithASwappedPairFails) {
     expect_failure(broken, "spring in long double: positions fall as dt^1.0");
 }
 
-// Forest and Ruth's outer drifts cut to six digits: in play nobody would notice.
+// Forest and Ruth's outer drifts cut to six digits.
 TEST(BrokenTable, WithATruncatedCoefficientFails) {
     const auto k = [](long double c) { return Stage{Move::kick, c}; };
     const auto d = [](long double c) { return Stage{Move::drift, c}; };
@@ -92,7 +92,7 @@ TEST(BrokenTable, WithATruncatedCoefficientFails) {
     expect_failure(broken, "claimed 4");
 }
 
-// A tableau's weights swapped keep their sum.
+// Swapped weights of a tableau keep their sum.
 TEST(BrokenTable, OfRungeAndKuttaFails) {
     const Method broken = with_rule("rk4", Tableau{{{1 / 2.0L}, {0, 1 / 2.0L}, {0, 0, 1}},
                                                    {1 / 3.0L, 1 / 6.0L, 1 / 3.0L, 1 / 6.0L},
@@ -133,7 +133,7 @@ TEST(FalseClaim, OfFewerEvaluationsFails) {
     expect_failure(claims, "1.000 force evaluations per step, claimed 2");
 }
 
-// "A SymplecticEuler that was plain Euler" was once published.
+// A published "SymplecticEuler" was plain explicit Euler.
 TEST(FalseClaim, OfExplicitEulerToBeSemiImplicitFails) {
     expect_failure(with_rule("semi_implicit_euler", find_method("explicit_euler").rule),
                    "claimed symplectic");

@@ -20,7 +20,7 @@ namespace oiler {
 using namespace oiler::certify;
 namespace {
 
-/// What the figures must show, in their order.
+/// The expected contents of the figures, in order.
 struct Expected {
     double b;
     int rate;
@@ -41,11 +41,11 @@ const std::vector<Figure>& figures() {
     return all;
 }
 
-struct Look {
+struct Style {
     const char* name;
     Colour colour;
 };
-const std::map<std::string, Look> looks{
+const std::map<std::string, Style> styles{
     {"explicit_euler", {"explicit Euler", palette::purple}},
     {"semi_implicit_euler", {"semi-implicit Euler", palette::vermilion}},
     {"rk4", {"RK4", palette::green}}};
@@ -54,7 +54,7 @@ bool has_label(const Picture& picture, const std::string& text) {
     return std::ranges::find(picture.labels, text, &Label::text) != picture.labels.end();
 }
 
-/// Whether it stands below the x axis and its name.
+/// Whether a label is below the x axis and its name.
 bool is_in_caption(const Label& label) { return label.align == Align::left && label.at.y < 45; }
 
 std::string caption(const Picture& picture) {
@@ -68,7 +68,7 @@ struct Tick {
     double at, value;
 };
 
-/// Along the x axis ticks are labelled at their centres, along the y axis at their right ends.
+/// Tick labels are centred along the x axis and right-aligned along the y axis.
 std::vector<Tick> ticks_of(const Picture& picture, Align align) {
     std::vector<Tick> ticks;
     for (const auto& [key, at, text, size, colour, aligned, space] : picture.labels)
@@ -87,7 +87,7 @@ struct Seen {
     double t, x;
 };
 
-/// The longest line of a colour, read off by the axes' ticks; its swatch in the legend is shorter.
+/// The longest line of a colour, in the units of the ticks. Its swatch in the legend is shorter.
 std::vector<Seen> curve(const Picture& picture, const Colour& colour) {
     const Polyline& line = *std::ranges::max_element(picture.polylines, {}, [&](const Polyline& l) {
         return l.colour == colour ? l.points.size() : 0;
@@ -110,7 +110,7 @@ double stepped_x(const Expected& run, const std::string& method, std::int64_t ti
     return bodies.position(0)[0];
 }
 
-TEST(ArticleFigures, SayWhatTheyShow) {
+TEST(ArticleFigures, HaveTitlesLegendsAndCaptions) {
     ASSERT_EQ(figures().size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         SCOPED_TRACE(figures()[i].name);
@@ -121,7 +121,7 @@ TEST(ArticleFigures, SayWhatTheyShow) {
         for (const char* words : {"time, s", "position, m", "exact"})
             EXPECT_TRUE(has_label(picture, words)) << words;
         for (const std::string& method : expected[i].methods)
-            EXPECT_TRUE(has_label(picture, looks.at(method).name)) << method;
+            EXPECT_TRUE(has_label(picture, styles.at(method).name)) << method;
         EXPECT_TRUE(caption(picture).ends_with("."));
         EXPECT_LE(std::ranges::count_if(picture.labels, is_in_caption), 2);
         EXPECT_GE(ticks_of(picture, Align::centre).size(), 7U);
@@ -139,12 +139,12 @@ TEST(ArticleFigures, DrawTheExactMotion) {
         ASSERT_GT(line.size(), 2000U);
         EXPECT_NEAR(line.front().t, expected[i].from, 1e-4);
         EXPECT_NEAR(line.back().t, expected[i].to, 1e-4);
-        // In float a point of 90 s of canvas is 5 μs wide, in which the mass moves by 2 cm.
+        // In float, a canvas of 90 s resolves 5 μs, in which the mass moves by 2 cm.
         for (const auto& [t, x] : line) EXPECT_NEAR(x, exact_x(expected[i].b, t), 0.04);
     }
 }
 
-TEST(ArticleFigures, TheirExactMotionIsTheOneOfTheReference) {
+TEST(ArticleFigures, HaveTheExactMotionOfTheReference) {
     for (const auto& [figure, table] : {std::pair{0, "exact_damped"}, {5, "exact_undamped"}}) {
         const auto line = curve(figures().at(figure).picture, palette::sky_blue);
         ASSERT_EQ(line.size(), 3001U);
@@ -159,7 +159,7 @@ TEST(ArticleFigures, DrawWhatTheEngineSteps) {
     for (std::size_t i = 0; i < expected.size(); ++i)
         for (const std::string& method : expected[i].methods) {
             SCOPED_TRACE(figures()[i].name + " " + method);
-            const auto line = curve(figures()[i].picture, looks.at(method).colour);
+            const auto line = curve(figures()[i].picture, styles.at(method).colour);
             const auto steps = std::lround((expected[i].to - expected[i].from) * expected[i].rate);
             ASSERT_EQ(line.size(), static_cast<std::size_t>(steps) + 1);
             for (std::size_t k = 0; k < line.size(); k += 1 + line.size() / 20) {
@@ -174,14 +174,14 @@ TEST(ArticleFigures, MarkStepsWhereThereAreFew) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const double steps = (expected[i].to - expected[i].from) * expected[i].rate;
         const bool few = steps < 50 && !expected[i].methods.empty();
-        // A disc for each step and the legend of the one method, two for each of the other's.
+        // One disc per step and legend entry of one method, two of the other.
         const double discs = few ? 3 * (std::round(steps) + 2) : 0;
         EXPECT_EQ(static_cast<double>(figures()[i].picture.discs.size()), discs)
             << figures()[i].name;
     }
 }
 
-TEST(ArticleFigures, KeepTheirWordsApartAndOnTheCanvas) {
+TEST(ArticleFigures, HaveLabelsThatDoNotOverlapOnTheCanvas) {
     struct Extent {
         double left, right, low, high;
     };
@@ -209,7 +209,7 @@ TEST(ArticleFigures, KeepTheirWordsApartAndOnTheCanvas) {
     }
 }
 
-/// Expects a figure, counted from 1, to say all of these.
+/// Expects all parts in the caption of a figure, counted from 1.
 void expect_caption(std::size_t figure, const std::vector<std::string>& parts) {
     const std::string words = caption(figures().at(figure - 1).picture);
     for (const std::string& part : parts)
@@ -232,7 +232,7 @@ TEST(FigureCaptions, SayHowExplicitEulerGrows) {
     const auto threshold = reference("article").at("explicit_euler_threshold");
     const double factor = number(threshold.at("amplitude_factor_after_90s"));
     expect_caption(2, {fmt::format("every {:.1f} s", number(threshold.at("doubling_time_s"))),
-                       fmt::format("{:.2f} times as far after 90 s", factor),
+                       fmt::format("{:.2f} times as large after 90 s", factor),
                        fmt::format("b/k = 1/{:.0f} s", 1 / number(threshold.at("dt_max=b/k")))});
 }
 
@@ -245,20 +245,21 @@ TEST(FigureCaptions, SayTheLargestErrors) {
         fmt::format("{:.4f} m", number(errors.at("rk4_classic").at("0..10s")[0]));
     // Where k·dt² + 2·b·dt = 4.
     const double limit = (std::sqrt(damping * damping + 4 * stiffness) - damping) / stiffness;
-    expect_caption(3, {off + " off", "at t = 3.65 s", fmt::format("below {:.2f} s", limit)});
+    expect_caption(
+        3, {"largest error is " + off, "at t = 3.65 s", fmt::format("below {:.2f} s", limit)});
     expect_caption(4, {off + " for semi-implicit Euler", rk4 + " for RK4"});
     double largest = 0;
     for (int tick = 0; tick <= 370; ++tick)
         largest = std::max(largest, std::abs(stepped_x(expected[4], "rk4", tick) -
                                              exact_x(damping, Rate{100}.time(tick))));
-    expect_caption(5, {off, fmt::format("RK4 is {:.4f} m off", largest),
-                       "4 evaluations of the forces a step instead of 1"});
+    expect_caption(5, {off, fmt::format("error of RK4 is {:.4f} m", largest),
+                       "4 force evaluations per step instead of 1"});
 }
 
 TEST(FigureCaptions, SayHowFarAheadSemiImplicitEulerIs) {
     const Expected& zoom = expected[4];
     const double x = stepped_x(zoom, "semi_implicit_euler", 365);
-    // The time at which the exact motion is there, by bisection: it descends all the way.
+    // The time at which the exact motion reaches x, by bisection; it falls monotonically here.
     double low = zoom.from;
     double high = zoom.to;
     while (high - low > 1e-12) {
@@ -288,7 +289,7 @@ TEST(FigureCaptions, SayPhasesAndEnergiesAfter90Seconds) {
                          100 * number(at_4_hz.at("rk4_amplitude_remaining")))});
 }
 
-TEST(FigureCaptions, SayWhereSemiImplicitEulersEnergySwings) {
+TEST(FigureCaptions, SayBetweenWhichLimitsSemiImplicitEulersEnergyOscillates) {
     const auto at_4_hz = reference("article").at("undamped_90s_dt_0.25");
     const auto percent = [&](const char* key) { return 100 * number(at_4_hz.at(key)); };
     const double mean = percent("sie_energy_mean_over_E0=1/(1-h^2/4)");

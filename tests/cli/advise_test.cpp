@@ -115,7 +115,7 @@ TEST(Advise, ThatNothingMeetsIsNotApplied) {
     EXPECT_EQ(json.at("meets"), false);
     EXPECT_FALSE(json.at("obstacles").empty());
     EXPECT_EQ(json.at("advice").at("method"), "explicit_euler");
-    EXPECT_TRUE(run.out.starts_with("Nothing keeps within 1e-09 m")) << run.out;
+    EXPECT_TRUE(run.out.starts_with("No setting meets 1e-09 m")) << run.out;
 }
 
 }  // namespace

@@ -194,8 +194,8 @@ std::string line_with(const std::string& text, const std::string& words) {
 /// A sweep of one method whose numbers are all different.
 Tradeoff made_up() {
     const Method* const rk4 = &find_method("rk4");
-    const Stepping today{rk4, {240}, Precision::double_};
-    TradeoffRow told{.stepping = today, .ns_per_second = 36'000, .ns_spread = 1800};
+    const Stepping current{rk4, {240}, Precision::double_};
+    TradeoffRow told{.stepping = current, .ns_per_second = 36'000, .ns_spread = 1800};
     told.judgement = {.position_error = 0.125,
                       .velocity_error = 2.5,
                       .phase_error = -3.5,
@@ -209,8 +209,8 @@ Tradeoff made_up() {
     TradeoffRow unstable{.stepping = {rk4, {10}, Precision::double_}, .meets_steps = false};
     unstable.judgement.stable = false;
     Tradeoff tradeoff{.scene = "made_up", .title = "", .fingerprint = "1", .duration = 5};
-    tradeoff.today = today;
-    tradeoff.looks = {.per_second = 60, .count = 301};
+    tradeoff.current = current;
+    tradeoff.samples = {.per_second = 60, .count = 301};
     tradeoff.reference.floor.position = 1e-9;
     tradeoff.reference.extent = 1;
     tradeoff.reference.meaningful_until = 5;

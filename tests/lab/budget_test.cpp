@@ -29,7 +29,8 @@ std::string with_position(const std::string& most) {
     return article_spring + "[budget]\nposition_error = " + most + "\n";
 }
 
-/// The article's two lines, against its closed form, at every so many steps for ten seconds.
+/// The error of the article's two lines from its closed form over 10 s, sampled every `stride`
+/// steps.
 double error_of_article(int rate, int stride, double damping) {
     const double h = 1.0 / rate;
     const double w = std::sqrt(15 - damping * damping / 4);
@@ -47,7 +48,7 @@ double error_of_article(int rate, int stride, double damping) {
     return most;
 }
 
-// A reference is as good as the budget needs it: a hundred times better.
+// The reference is made 100 times as accurate as the budget.
 TEST(Budget, OfASceneWithoutAClosedFormIsCheckedHoweverTightItIs) {
     const std::string thrown =
         "[scene]\naxes = 2\nrate = 60\nduration = 4.0\nmethod = \"rk4\"\n[gravity]\n"
@@ -56,12 +57,11 @@ TEST(Budget, OfASceneWithoutAClosedFormIsCheckedHoweverTightItIs) {
         const std::vector<BudgetLine> lines =
             checked(thrown + "[budget]\nposition_error = " + most + "\n", 60, "rk4");
         ASSERT_EQ(lines.size(), 1U);
-        EXPECT_LE(lines[0].told_from, lines[0].most);
+        EXPECT_LE(lines[0].floor, lines[0].most);
     }
 }
 
-// Looked at 50 times a second, at 100 Hz after every other step; both round 1000 m a thousand
-// times.
+// 50 samples per second at 100 Hz: every other step. Both runs round 1000 m a thousand times.
 TEST(Budget, ThatIsKept) {
     const std::vector<BudgetLine> lines = checked(with_position("25.0"));
     ASSERT_EQ(lines.size(), 1U);
@@ -70,25 +70,25 @@ TEST(Budget, ThatIsKept) {
     EXPECT_EQ(lines[0].most, 25);
     EXPECT_NEAR(lines[0].measured, error_of_article(100, 2, 0.1), 1e-8);
     EXPECT_TRUE(lines[0].kept);
-    EXPECT_GT(lines[0].told_from, 0);
-    EXPECT_EQ(words_of(lines[0]), "position_error 19.8 m of 25 m: kept");
+    EXPECT_GT(lines[0].floor, 0);
+    EXPECT_EQ(describe(lines[0]), "position_error 19.8 m of 25 m: kept");
 }
 
 TEST(Budget, ThatIsExceeded) {
     const std::vector<BudgetLine> lines = checked(with_position("19.5"));
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_FALSE(lines[0].kept);
-    EXPECT_EQ(words_of(lines[0]), "position_error 19.8 m of 19.5 m: exceeded");
+    EXPECT_EQ(describe(lines[0]), "position_error 19.8 m of 19.5 m: exceeded");
 }
 
-// How the scene is stepped is what the settings say, whatever the file does.
-TEST(Budget, IsHeldAgainstTheSettings) {
+// The settings override the stepping of the scene file.
+TEST(Budget, IsCheckedWithTheGivenSettings) {
     EXPECT_NEAR(checked(with_position("25.0"), 50)[0].measured, error_of_article(50, 1, 0.1), 1e-8);
     EXPECT_FALSE(checked(with_position("25.0"), 50)[0].kept);
     EXPECT_LT(checked(with_position("25.0"), 100, "exact")[0].measured, 1e-9);
 }
 
-// x and v leapfrog: x is half a step of v ahead of the energy, by ω·h/2·sin 2ωt of it.
+// In leapfrog, x is half a step ahead of v: the energy oscillates by ω·h/2·sin 2ωt.
 TEST(Budget, OfEnergy) {
     const std::string undamped =
         one_axis +
@@ -109,7 +109,7 @@ TEST(Budget, OfEnergy) {
     EXPECT_NEAR(lines[0].measured, most, 1e-11);
     EXPECT_NEAR(most, std::sqrt(15.0) * 0.01 / 2, 2e-2 * most);
     EXPECT_TRUE(lines[0].kept);
-    EXPECT_TRUE(words_of(lines[0]).ends_with(" of 0.05: kept")) << words_of(lines[0]);
+    EXPECT_TRUE(describe(lines[0]).ends_with(" of 0.05: kept")) << describe(lines[0]);
     EXPECT_FALSE(checked(undamped + "0.019\n")[0].kept);
 }
 
@@ -122,18 +122,19 @@ TEST(Budget, OfBothHasALineForEach) {
     EXPECT_FALSE(lines[1].kept);
 }
 
-TEST(Budget, ThatIsNoneHasNoLines) { EXPECT_TRUE(checked(article_spring).empty()); }
+TEST(Budget, OfASceneWithoutOneHasNoLines) { EXPECT_TRUE(checked(article_spring).empty()); }
 
-TEST(Budget, OfWhatIsUnstableIsExceeded) {
+TEST(Budget, OfAnUnstableRunIsExceeded) {
     const std::vector<BudgetLine> lines = checked(with_position("25.0"), 1);
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_FALSE(lines[0].kept);
     EXPECT_TRUE(std::isinf(lines[0].measured));
-    EXPECT_EQ(words_of(lines[0]), "position_error unstable of 25 m: exceeded");
+    EXPECT_EQ(describe(lines[0]), "position_error unstable of 25 m: exceeded");
 }
 
-// Two masses on a link have no closed form: fine steps are good to a two hundredth of the budget.
-TEST(Budget, OfWhatIsTooSmallToBeToldIsKept) {
+// Two linked masses have no closed form. The error of the fine steps is at most 1/200 of the
+// budget.
+TEST(Budget, BelowTheFloorIsKept) {
     const std::vector<BudgetLine> lines = checked(
         "[scene]\naxes = 1\nrate = 1000\nduration = 3.0\n[[body]]\nname = \"a\"\n"
         "position = [1.0]\n[[body]]\nname = \"b\"\nposition = [2.0]\n[[spring]]\nbody = \"a\"\n"
@@ -141,9 +142,9 @@ TEST(Budget, OfWhatIsTooSmallToBeToldIsKept) {
         0, "kahan_li8_kdk");
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_TRUE(lines[0].kept);
-    EXPECT_EQ(lines[0].measured, lines[0].told_from);
-    EXPECT_LE(lines[0].told_from, 0.5e-6);
-    EXPECT_TRUE(holds(words_of(lines[0]), "position_error below ")) << words_of(lines[0]);
+    EXPECT_EQ(lines[0].measured, lines[0].floor);
+    EXPECT_LE(lines[0].floor, 0.5e-6);
+    EXPECT_TRUE(holds(describe(lines[0]), "position_error below ")) << describe(lines[0]);
 }
 
 TEST(Budget, ThatIsTooTightIsRefused) {
@@ -165,49 +166,48 @@ TEST(Budget, ThatIsTooTightIsRefused) {
     }
 }
 
-/// 3 kg are no power of two, so that forces per kg are rounded to double.
+/// 3 kg is no power of two, so forces per kg are rounded to double.
 const std::string heavy_spring =
     one_axis +
     "duration = 10.0\n[[body]]\nname = \"mass\"\nmass = 3.0\nposition = [1000.0]\n[[spring]]\n"
     "body = \"mass\"\nanchor = [0.0]\nstiffness = 45.0\n";
 
-// The closed form's energies are right to 8 roundings of double, its positions to some of 1000 m:
-// what cannot be told of one is no limit to the other.
-TEST(Budget, OfEnergyIsComparedWithWhatCanBeToldOfEnergy) {
-    const double told_from = 100 * 8 * std::numeric_limits<double>::epsilon();
+// The closed form's energies are accurate to 8 roundings of double, its positions to some roundings
+// of 1000 m. Each limit has a floor of its own.
+TEST(Budget, OfEnergyIsComparedWithTheFloorOfEnergy) {
+    const double floor = 100 * 8 * std::numeric_limits<double>::epsilon();
     const std::vector<BudgetLine> energy =
         checked(heavy_spring + "[budget]\nenergy_drift = 1e-11\n", 0, "exact");
     ASSERT_EQ(energy.size(), 1U);
-    EXPECT_DOUBLE_EQ(energy[0].told_from, told_from);
+    EXPECT_DOUBLE_EQ(energy[0].floor, floor);
     const std::vector<BudgetLine> both = checked(
         heavy_spring + "[budget]\nposition_error = 1e-6\nenergy_drift = 1e-11\n", 0, "exact");
     ASSERT_EQ(both.size(), 2U);
-    EXPECT_DOUBLE_EQ(both[1].told_from, told_from);
-    // At 1000 m alone 100 × 8 roundings are 1.8e-10 m.
-    EXPECT_GE(both[0].told_from, 1000 * told_from);
+    EXPECT_DOUBLE_EQ(both[1].floor, floor);
+    // At 1000 m, 100 × 8 roundings are 1.8e-10 m.
+    EXPECT_GE(both[0].floor, 1000 * floor);
     EXPECT_THROW((void)checked(heavy_spring + "[budget]\nposition_error = 1e-11\n"), Error);
 }
 
-/// A reference of one sample whose own errors are given.
-Reference doubtful(double position, double energy) {
+/// A reference of one sample with the given own errors.
+Reference uncertain(double position, double energy) {
     Reference reference;
-    reference.looks = {.per_second = 60, .count = 1};
+    reference.samples = {.per_second = 60, .count = 1};
     reference.meaningful = 1;
-    reference.doubts = {{.position = position, .energy = energy}};
+    reference.uncertainties = {{.position = position, .energy = energy}};
     return reference;
 }
 
-bool is_judgeable(const Wish& wish, const Reference& reference) try {
-    require_judgeable(Scene{}, reference, wish);
+bool is_judgeable(const Requirements& requirements, const Reference& reference) try {
+    require_judgeable(Scene{}, reference, requirements);
     return true;
 } catch (const Error&) {
     return false;
 }
 
-// Advice is asked for as budgets are: from 100 × the reference's own error on, 1 m or 1e-3 of the
-// energy.
+// Tolerances are accepted from 100 × the reference's own error on: 1 m, or 1e-3 of the energy.
 TEST(RequireJudgeable, ComparesEachToleranceWithItsOwnFloor) {
-    const Reference reference = doubtful(0.01, 1e-5);
+    const Reference reference = uncertain(0.01, 1e-5);
     EXPECT_TRUE(is_judgeable({.position_error = 1.01}, reference));
     EXPECT_FALSE(is_judgeable({.position_error = 0.99}, reference));
     EXPECT_TRUE(is_judgeable({.energy_drift = 1.01e-3}, reference));
@@ -217,7 +217,7 @@ TEST(RequireJudgeable, ComparesEachToleranceWithItsOwnFloor) {
     EXPECT_FALSE(is_judgeable({.position_error = 0.99, .energy_drift = 1.01e-3}, reference));
 }
 
-// A scatter's bodies are those of the seed that is run, and the exact motion is that of these.
+// The reference must use the bodies that the scatter makes with the run's seed.
 TEST(Budget, OfAScatterHoldsForEverySeed) {
     const Scene scene = parse_scene(
         "[scene]\naxes = 2\nrate = 60\nduration = 2.0\n[gravity]\nacceleration = [0.0, -9.81]\n"
@@ -234,7 +234,7 @@ TEST(Budget, OfAScatterHoldsForEverySeed) {
     }
 }
 
-TEST(Budget, StoppedIsNone) {
+TEST(Budget, HasNoLinesIfStopped) {
     const Scene scene = parse_scene(with_position("25.0"), "test.toml");
     EXPECT_TRUE(check_budget(scene, Settings{scene.stepping}, [] { return true; }).empty());
 }

@@ -13,7 +13,7 @@ using namespace lab;
 
 inline const std::string one_axis = "[scene]\naxes = 1\nrate = 100\n";
 
-/// The article's spring and damper, as long as a test can wait.
+/// The article's spring and damper over 10 s.
 inline const std::string article_spring =
     one_axis +
     "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
@@ -25,17 +25,17 @@ inline std::vector<const Method*> methods_of(const std::vector<const char*>& nam
     return all;
 }
 
-/// A scene, when it is looked at and what it is held against.
+/// A scene, its sample times and its reference.
 struct MeasuredScene {
     explicit MeasuredScene(const std::string& scene_text, const ReferenceEffort& effort = {})
         : text(scene_text),
           scene(parse_scene(text, "test.toml")),
-          looks(looks_of(scene)),
-          reference(make_reference(scene, looks, effort)) {}
+          samples(sample_times_of(scene)),
+          reference(make_reference(scene, samples, effort)) {}
 
     std::string text;
     Scene scene;
-    Looks looks;
+    SampleTimes samples;
     Reference reference;
 };
 

@@ -12,7 +12,7 @@ using namespace oiler::lab;
 using Real = long double;
 using State3 = State<Real, 3>;
 
-/// Where every body is at t s.
+/// The motion of every body.
 using Motions = std::vector<ExactMotion>;
 
 inline State3 along_x(Real x, Real v) { return {{x, 0, 0}, {v, 0, 0}}; }

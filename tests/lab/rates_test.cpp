@@ -42,7 +42,7 @@ double value_of(const Rates& rates, const std::string& part, std::size_t method,
     return quantity_of(rates, part).lines.at(method).values.at(rate);
 }
 
-/// The height above the start after so many steps of h seconds.
+/// The height above the start after n steps of h seconds.
 using Height = std::function<double(int n, double h)>;
 
 struct Jump {
@@ -51,7 +51,7 @@ struct Jump {
     double landing = 0;
 };
 
-/// What straight lines between the steps show.
+/// The jump as drawn: straight lines between the steps.
 Jump jump_of(const Height& height, double h) {
     Jump jump;
     int n = 1;
@@ -77,7 +77,7 @@ void expect_jump(const Rates& rates, const Height& height, std::size_t method) {
     for (std::size_t i = 0; i < usual.size(); ++i) {
         const double h = 1.0 / static_cast<double>(usual[i]);
         const Jump jump = jump_of(height, h);
-        // Hundreds of roundings of 2 m; where the last line is crossed they count twice.
+        // Hundreds of roundings of 2 m; twice as many for the crossing of the last line.
         EXPECT_NEAR(value_of(rates, "apex", method, i), jump.apex, 1e-12) << usual[i];
         EXPECT_NEAR(value_of(rates, "time of the apex", method, i), jump.apex_time, 1e-12);
         EXPECT_NEAR(value_of(rates, "time of landing", method, i), jump.landing, 1e-12);
@@ -105,12 +105,12 @@ TEST(RatesOfAJump, AreThoseOfTheStepsByTheory) {
     }
 }
 
-TEST(RatesOfAJump, KnowWhatIsTrue) {
+TEST(RatesOfAJump, HaveTheTruth) {
     const Rates rates = rates_of(jump, usual, {"exact"});
     const auto truth = [&](const char* part) { return quantity_of(rates, part).truth; };
-    // A cubic through positions and velocities is the parabola itself.
+    // A cubic through positions and velocities reproduces the parabola.
     EXPECT_NEAR(truth("apex"), v0 * v0 / (2 * g), 1e-12);
-    // The highest point of a parabola is found to the root of what is rounded.
+    // The maximum of a parabola is found to the square root of the round-off.
     EXPECT_NEAR(truth("time of the apex"), v0 / g, 1e-7);
     EXPECT_NEAR(truth("time of landing"), 2 * v0 / g, 1e-12);
     EXPECT_NEAR(truth("place of landing"), across * 2 * v0 / g, 1e-11);
@@ -118,7 +118,7 @@ TEST(RatesOfAJump, KnowWhatIsTrue) {
     EXPECT_EQ(quantity_of(rates, "time of landing").unit, "s");
 }
 
-// The same jump to the left, where things fall to the right.
+// A jump to the left, with gravity to the right.
 TEST(RatesOfAJump, GoAgainstGravityWhereverThatIs) {
     const Rates rates = rates_of(
         "[scene]\naxes = 2\nrate = 60\nduration = 1.2\n[gravity]\nacceleration = [20.0, 0.0]\n"
@@ -129,12 +129,12 @@ TEST(RatesOfAJump, GoAgainstGravityWhereverThatIs) {
     expect_jump(rates, exact, 1);
 }
 
-TEST(RatesOfAJump, AreOfTheBodyThatIsAsked) {
+TEST(RatesOfAJump, AreOfTheGivenBody) {
     const Rates rates = rates_of(jump + "[[body]]\nname = \"b\"\nvelocity = [0.0, 4.0]\n", usual,
                                  {"velocity_verlet"}, 1);
     EXPECT_EQ(rates.body, "b");
     EXPECT_NEAR(quantity_of(rates, "apex").truth, 4 * 4 / (2 * g), 1e-12);
-    // 4 m/s against 20 m/s²: it is highest after 0.2 s, where all rates have a step.
+    // 4 m/s against 20 m/s²: the apex is at 0.2 s, where all rates have a step.
     for (std::size_t i = 0; i < usual.size(); ++i)
         EXPECT_NEAR(value_of(rates, "apex", 0, i), 0.4, 1e-12) << usual[i];
 }
@@ -147,8 +147,8 @@ TEST(RatesOfAJump, SpreadFromTheLeastToTheMost) {
                 100 * (high - low) / (v0 * v0 / (2 * g)), 1e-9);
 }
 
-// At 2 Hz semi-implicit Euler slows down by 10 m/s before it moves: it never leaves the ground.
-TEST(RatesOfAJump, ThatIsNoneAreUnknown) {
+// At 2 Hz semi-implicit Euler loses 10 m/s before it moves: the body never leaves the ground.
+TEST(RatesOfAJump, ThatDoesNotRiseAreUnknown) {
     const Rates rates = rates_of(jump, {2, 60}, {"semi_implicit_euler"});
     const RatesLine& line = quantity_of(rates, "apex").lines.front();
     EXPECT_TRUE(std::isnan(line.values[0]));
@@ -185,10 +185,10 @@ std::string spring_with(const std::string& damping, const std::string& duration)
            damping + "\n";
 }
 
-/// A coordinate after so many steps.
+/// A coordinate after n steps.
 using Samples = std::function<double(int n)>;
 
-/// The mean time between upward crossings of nought by straight lines.
+/// The mean time between upward crossings of 0 by straight lines.
 double period_of(const Samples& x, double h, int steps) {
     double first = unknown;
     double last = unknown;
@@ -201,16 +201,16 @@ double period_of(const Samples& x, double h, int steps) {
     return (last - first) / (count - 1);
 }
 
-/// Of a step of h, by which both methods turn: cos θ = 1 − (ωh)²/2.
+/// The phase of a step of h, equal for both methods: cos θ = 1 − (ωh)²/2.
 double turn_of(double h) { return std::acos(1 - stiffness * h * h / 2); }
 
 // Semi-implicit Euler from rest: x = A·cos((n + ½)θ)/cos(θ/2); velocity Verlet: x = A·cos(nθ). Both
 // follow from x(n+1) − 2x(n) + x(n−1) = −ω²h²·x(n).
-Samples semi_implicit_swing(double h) {
+Samples semi_implicit_oscillation(double h) {
     const double turn = turn_of(h);
     return [=](int n) { return start * std::cos((n + 0.5) * turn) / std::cos(turn / 2); };
 }
-Samples verlet_swing(double h) {
+Samples verlet_oscillation(double h) {
     const double turn = turn_of(h);
     return [=](int n) { return start * std::cos(n * turn); };
 }
@@ -225,32 +225,32 @@ double amplitude_of(const Samples& x, double h, int steps, double period) {
     return (high - low) / 2;
 }
 
-const std::vector<Rate> swings{5, 10, 20, 50, 100};
+const std::vector<Rate> oscillation_rates{5, 10, 20, 50, 100};
 
-TEST(RatesOfASwing, HaveThePeriodOfTheStepsByTheory) {
-    const Rates rates =
-        rates_of(spring_with("0.0", "20.0"), swings, {"semi_implicit_euler", "velocity_verlet"});
+TEST(RatesOfAnOscillation, HaveThePeriodOfTheStepsByTheory) {
+    const Rates rates = rates_of(spring_with("0.0", "20.0"), oscillation_rates,
+                                 {"semi_implicit_euler", "velocity_verlet"});
     const double period = 2 * std::numbers::pi / std::sqrt(stiffness);
-    // Cubics between looks 50 times a second: (ωh)⁴/384 of a radian; and so is the highest point.
+    // Cubics between 50 samples per second have an error of (ωh)⁴/384, also at the maximum.
     EXPECT_NEAR(quantity_of(rates, "period").truth, period, 1e-7);
     EXPECT_NEAR(quantity_of(rates, "amplitude").truth, start, 1e-7 * start);
     EXPECT_EQ(find(rates, "time to settle"), nullptr);
     EXPECT_EQ(find(rates, "apex"), nullptr);
-    for (std::size_t i = 0; i < swings.size(); ++i) {
-        const double h = 1.0 / static_cast<double>(swings[i]);
-        const int steps = static_cast<int>(20 * swings[i]);
-        const Samples paths[]{semi_implicit_swing(h), verlet_swing(h)};
+    for (std::size_t i = 0; i < oscillation_rates.size(); ++i) {
+        const double h = 1.0 / static_cast<double>(oscillation_rates[i]);
+        const int steps = static_cast<int>(20 * oscillation_rates[i]);
+        const Samples paths[]{semi_implicit_oscillation(h), verlet_oscillation(h)};
         for (std::size_t method = 0; method < 2; ++method) {
-            // Where it comes to rest is known to 1e-7 of the swing, which shifts both crossings.
+            // The centre is known to 1e-7 of the amplitude, which shifts both crossings.
             EXPECT_NEAR(value_of(rates, "period", method, i), period_of(paths[method], h, steps),
                         1e-8)
-                << swings[i];
+                << oscillation_rates[i];
             EXPECT_NEAR(value_of(rates, "amplitude", method, i),
                         amplitude_of(paths[method], h, steps, period), 1e-8 * start)
-                << swings[i];
+                << oscillation_rates[i];
         }
     }
-    // From the least to the most, of the true one: they are too fast by (ωh)²/24.
+    // The spread, relative to the truth: runs are too fast by (ωh)²/24.
     const RatesLine& line = quantity_of(rates, "period").lines[1];
     EXPECT_NEAR(line.spread_percent, 100 * (line.values.back() - line.values.front()) / period,
                 1e-6);
@@ -263,7 +263,7 @@ double damped(double damping, double t) {
            (std::cos(w * t) + damping / (2 * w) * std::sin(w * t));
 }
 
-/// When straight lines between the samples come within 50 m for good.
+/// The time after which straight lines between the samples stay within 50 m.
 double settle_time_of(const Samples& x, double h, int steps) {
     int n = steps;
     while (std::abs(x(n)) <= 0.05 * start) --n;
@@ -271,13 +271,13 @@ double settle_time_of(const Samples& x, double h, int steps) {
     return h * (n + (edge - x(n)) / (x(n + 1) - x(n)));
 }
 
-TEST(RatesOfASwing, HaveTheTimeToSettle) {
+TEST(RatesOfAnOscillation, HaveTheTimeToSettle) {
     const Rates rates = rates_of(spring_with("0.5", "20.0"), {20, 50, 100, 1000}, {"exact"});
     const auto settle = [](double h) {
         return settle_time_of([h](int n) { return damped(0.5, n * h); }, h,
                               static_cast<int>(std::lround(20 / h)));
     };
-    // Straight lines of 10 µs are as good as the curve: (ωh)² of a radian.
+    // Straight lines of 10 µs differ from the curve by (ωh)² rad.
     EXPECT_NEAR(quantity_of(rates, "time to settle").truth, settle(1e-5), 1e-6);
     EXPECT_NEAR(value_of(rates, "time to settle", 0, 0), settle(1.0 / 20), 1e-7);
     EXPECT_NEAR(value_of(rates, "time to settle", 0, 1), settle(1.0 / 50), 1e-7);
@@ -286,24 +286,24 @@ TEST(RatesOfASwing, HaveTheTimeToSettle) {
     EXPECT_EQ(quantity_of(rates, "time to settle").name, "time to settle to 5 %");
 }
 
-// A weight on a spring swings around g/k below the anchor.
-TEST(RatesOfASwing, GoAroundWhereItComesToRest) {
+// A weight on a spring oscillates around g/k below the anchor.
+TEST(RatesOfAnOscillation, GoAroundTheCentre) {
     const Rates rates = rates_of(
         "[scene]\naxes = 1\nrate = 100\nduration = 20.0\n[gravity]\nacceleration = [-9.81]\n"
         "[[body]]\nname = \"mass\"\nposition = [3.0]\n[[spring]]\nbody = \"mass\"\n"
         "anchor = [0.0]\nstiffness = 15.0\ndamping = 0.5\n",
         {100}, {"exact"});
     const double rest = -9.81 / stiffness;
-    const double swing = (3 - rest) / start;
+    const double oscillation = (3 - rest) / start;
     const double settle = settle_time_of([&](int n) { return damped(0.5, n / 100.0); }, 0.01, 2000);
     EXPECT_NEAR(value_of(rates, "time to settle", 0, 0), settle, 1e-6);
     EXPECT_NEAR(quantity_of(rates, "period").truth,
                 2 * std::numbers::pi / std::sqrt(stiffness - 0.25 * 0.25), 1e-6);
-    EXPECT_GT(swing, 0);
+    EXPECT_GT(oscillation, 0);
 }
 
-// ω·dt is 3.9 at 1 Hz, and 2 is the most.
-TEST(RatesOfASwing, ThatIsUnstableAreUnknown) {
+// ω·dt is 3.9 at 1 Hz; the limit is 2.
+TEST(RatesOfAnOscillation, ThatIsUnstableAreUnknown) {
     const Rates rates =
         rates_of(spring_with("0.0", "20.0"), {1, 100}, {"velocity_verlet", "implicit_midpoint"});
     for (const RatesQuantity& quantity : rates.quantities) {
@@ -314,19 +314,19 @@ TEST(RatesOfASwing, ThatIsUnstableAreUnknown) {
     }
 }
 
-TEST(RatesOfASwing, OfAMethodThatCannotStepItAreUnknown) {
+TEST(RatesOfAnOscillation, OfAMethodThatCannotStepItAreUnknown) {
     const Rates rates = rates_of(
         "[scene]\naxes = 2\nrate = 100\nduration = 20.0\n[[attractor]]\nposition = [0.0, 0.0]\n"
         "gm = 1.0\n[[body]]\nposition = [1.0, 0.0]\nvelocity = [0.0, 1.0]\n",
         {100}, {"exact", "rk4"});
     const RatesQuantity& period = quantity_of(rates, "period");
-    // Once round in 2π s.
+    // The orbital period is 2π s.
     EXPECT_NEAR(period.truth, 2 * std::numbers::pi, 1e-6);
     EXPECT_TRUE(std::isnan(period.lines[0].values[0]));
     EXPECT_NEAR(period.lines[1].values[0], 2 * std::numbers::pi, 1e-5);
 }
 
-// ---- which body
+// ---- the body
 
 TEST(FindBody, ByNameOrNumber) {
     const Scene scene = parse_scene(

@@ -30,13 +30,13 @@ inline SweepPlan small_plan() {
 }
 
 inline Tradeoff started(const MeasuredScene& measured, const SweepPlan& plan) {
-    Tradeoff tradeoff = start_tradeoff(measured.scene, measured.looks, measured.reference, plan);
+    Tradeoff tradeoff = start_tradeoff(measured.scene, measured.samples, measured.reference, plan);
     tradeoff.scene = "test";
-    tradeoff.fingerprint = fingerprint(measured.text, measured.scene, measured.looks, plan);
+    tradeoff.fingerprint = fingerprint(measured.text, measured.scene, measured.samples, plan);
     return tradeoff;
 }
 
-// What is compared is told apart to the bit, and so are different NaNs of the same meaning: none.
+// Numbers are compared to the bit. All NaNs are equal.
 inline bool same(double a, double b) {
     return (std::isnan(a) && std::isnan(b)) ||
            std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);

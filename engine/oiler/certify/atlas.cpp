@@ -20,7 +20,7 @@ constexpr float number_size = 4.6F;
 constexpr Colour stable = palette::sky_blue;
 constexpr Colour differs = palette::vermilion;
 
-/// Where a panel's plane is on the canvas.
+/// The position of a panel's plane on the canvas.
 struct Panel {
     Point origin;
     const StabilityGrid& grid;
@@ -50,7 +50,7 @@ void add_text(Picture& picture, Point at, std::string text, float size, Align al
         {.at = at, .text = std::move(text), .size = size, .colour = palette::ink, .align = align});
 }
 
-/// Fills the cells of a column for which `is` holds, each run of them with one bar.
+/// Fills the cells of a column for which `is` holds, one bar per run of cells.
 template <class Is>
 void fill_column(Picture& picture, const Panel& panel, int column, Colour colour, Is is) {
     const float width = plane_size.x / static_cast<float>(panel.grid.columns);
@@ -64,7 +64,7 @@ void fill_column(Picture& picture, const Panel& panel, int column, Colour colour
     }
 }
 
-/// The edge of the region by theory, between cells of which one is stable.
+/// Draws the edge of the region by theory: between a stable and an unstable cell.
 void draw_edge(Picture& picture, const Panel& panel, const StabilityRegion& region) {
     const StabilityGrid& grid = panel.grid;
     const auto is = [&](int column, int row) { return region.stable[grid.index(column, row)]; };
@@ -117,7 +117,7 @@ void draw_panel(Picture& picture, const Panel& panel, const StabilityRegion& reg
              Align::left);
 }
 
-/// In two columns from `at` on.
+/// Draws the legend in two columns, with the upper left corner at `at`.
 void draw_legend(Picture& picture, Point at) {
     constexpr float size = 6.4F;
     constexpr float spacing = 11;
@@ -127,12 +127,12 @@ void draw_legend(Picture& picture, Point at) {
         add_text(picture, {at.x + 18, y - 2.4F}, words, size, Align::left);
     };
     entry(0, stable, 6, "bounded when stepped in double");
-    entry(1, palette::ink, 0.8F, "edge that the step matrix has: its largest eigenvalue is 1");
-    entry(2, differs, 6, "otherwise when stepped in float");
+    entry(1, palette::ink, 0.8F, "edge by theory: the step matrix's spectral radius is 1");
+    entry(2, differs, 6, "float and double differ");
     float y = at.y;
     for (const char* words : {"To the right: stiffer springs or longer steps, ω = √(k/m).",
                               "Upwards: more damping, ζ = b/(2·√(k·m)); critical at 1.",
-                              "White: the spring explodes."}) {
+                              "White: the spring is unstable."}) {
         add_text(picture, {at.x + 222, y - 2.4F}, words, size, Align::left);
         y -= spacing;
     }

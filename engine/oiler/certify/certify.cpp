@@ -14,8 +14,9 @@ namespace {
 std::string wrong_order(const MeasuredOrder& order) {
     const std::string where = fmt::format("{} in {}", order.problem, name_of(order.precision));
     if (order.claimed == exact_order)
-        return order.exact ? "" : fmt::format("{}: errors are more than round-off", where);
-    if (order.exact) return fmt::format("{}: no error to measure an order of", where);
+        return order.exact ? "" : fmt::format("{}: errors exceed round-off", where);
+    if (order.exact)
+        return fmt::format("{}: errors are only round-off, no order can be measured", where);
     if (!order.measured())
         return order.precision == Precision::extended
                    ? fmt::format("{}: errors do not fall as a power of dt, claimed {}", where,
@@ -27,8 +28,8 @@ std::string wrong_order(const MeasuredOrder& order) {
 }
 
 std::string wrong_property(std::string_view property, bool claimed, double defect) {
-    // Far above what is left by round-off and central differences, far below what a method of order
-    // 8 leaves that does not have the property.
+    // Far above round-off and the error of central differences, far below the defect of a method of
+    // order 8 without the property.
     constexpr double none_left = 1e-13;
     if (claimed == (defect < none_left)) return "";
     return fmt::format("claimed {}{}, but the defect is {:.2g}", claimed ? "" : "not ", property,
@@ -44,13 +45,13 @@ std::string wrong_evaluations(const Certificate& certificate) {
 
 std::string wrong_limit(const Certificate& certificate) {
     if (certificate.limit_confirmed) return "";
-    return fmt::format("the limit ω·dt = {:.10g} of its step matrix is not that of its runs",
+    return fmt::format("runs do not confirm the limit ω·dt = {:.10g} of the step matrix",
                        certificate.limit);
 }
 
 std::string wrong_energy(const LongRun& run) {
     if (std::abs(run.trend - run.predicted) <= run.allowed) return "";
-    return fmt::format("energy grows by {:.2g} a step over {} steps, expected {:.2g} ± {:.2g}",
+    return fmt::format("energy grows by {:.2g} per step over {} steps, expected {:.2g} ± {:.2g}",
                        run.trend, run.steps, run.predicted, run.allowed);
 }
 

@@ -13,51 +13,50 @@
 
 namespace oiler::certify {
 
-/// How errors fall with dt: the slopes of log error over log dt through five step sizes, each half
-/// of the one before. NaN where no five lie between those at which errors begin to fall as a power
-/// of dt and those at which round-off is left.
+/// The measured order of a method: the slope of log error over log dt through five step sizes, each
+/// half of the one before. NaN if fewer than five lie between the asymptotic range and round-off.
 struct MeasuredOrder {
     std::string_view problem;
     Precision precision;
     int claimed;
     double position = std::numeric_limits<double>::quiet_NaN();
     double velocity = std::numeric_limits<double>::quiet_NaN();
-    bool exact = false;  ///< at no step size was anything left but round-off
+    bool exact = false;  ///< only round-off at every step size
 
-    /// That of the worse of both, since one may do better than the method claims.
+    /// The smaller slope, because one of them may exceed the claimed order.
     [[nodiscard]] double slope() const { return std::min(position, velocity); }
     [[nodiscard]] bool measured() const { return !std::isnan(position) && !std::isnan(velocity); }
 };
 
-/// What energy does on the undamped spring over many steps in double.
+/// The energy of the undamped spring over many steps in double.
 struct LongRun {
-    std::int64_t steps;  ///< fewer than asked for where the energy became too large or too small
+    std::int64_t steps;  ///< fewer than requested if the energy overflows or vanishes
     double omega_dt;
-    double lowest;  ///< energy over that at the start, at any step
-    double highest;
-    /// Growth per step, relative: of the quadratic form that the step conserves, which unlike the
-    /// energy does not sway; where it conserves none, of the energy.
+    double lowest;   ///< the lowest energy at a step, relative to the start
+    double highest;  ///< the highest, likewise
+    /// Relative growth per step: of the quadratic form that the step conserves, which unlike the
+    /// energy does not oscillate; of the energy if the step conserves none.
     double trend = 0;
     double predicted = 0;  ///< trend from the step matrix, 0 for a method that conserves a form
-    double allowed = 0;    ///< of the difference, what round-off may make
+    double allowed = 0;    ///< difference of both that round-off explains
 };
 
-/// What a method was measured to be.
+/// The measured properties of a method.
 struct Certificate {
     const Method* method;
     Damping damping;
     std::vector<MeasuredOrder> orders;
     double symplectic_defect;   ///< largest entry of MᵀJM − J for a step of an orbit
-    double reversal_defect;     ///< after steps there and, velocities turned, back; relative
-    double evaluations;         ///< per step, in a run of many
-    double single_evaluations;  ///< per step, where nothing is left of the one before
-    double limit;  ///< of ω·dt on the undamped spring; 0: none is stable, infinite: all are
-    bool limit_confirmed;  ///< by simulating on both sides of it
+    double reversal_defect;     ///< after 16 steps forth and 16 with reversed velocities; relative
+    double evaluations;         ///< force evaluations per step, many steps per call
+    double single_evaluations;  ///< force evaluations per step, one step per call
+    double limit;               ///< of ω·dt, undamped spring; 0: never stable, infinite: always
+    bool limit_confirmed;       ///< by simulation on both sides of the limit
     LongRun energy;
-    std::vector<std::string> failures;  ///< what is not as the table claims
+    std::vector<std::string> failures;  ///< deviations from the method table
 };
 
-/// Measures a method in double and long double, with a long run of `steps`. Some seconds for 10⁷.
+/// Measures a method in double and long double, with a long run of `steps`. 10⁷ take some seconds.
 [[nodiscard]] Certificate certify(const Method& method, Damping damping, std::int64_t steps);
 
 }  // namespace oiler::certify

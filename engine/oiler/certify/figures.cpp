@@ -28,7 +28,7 @@ Motion<double> exact(double b, double t) {
     return damped_oscillator(mass, stiffness, b, {start, 0.0}, t);
 }
 
-/// s
+/// The period, s.
 double period(double b) {
     const double decay = b / (2 * mass);
     return 2 * std::numbers::pi / std::sqrt(stiffness / mass - decay * decay);
@@ -58,12 +58,12 @@ struct Run {
     Oscillation spring(double unit) const {
         return {.k = stiffness / mass * unit * unit, .c = b / mass * unit};
     }
-    /// What every step does to the motion: it turns by an angle, and grows by √determinant.
+    /// The matrix of a step, which rotates the motion and scales it by √determinant.
     StepMatrix step() const {
         const Oscillation per_step = spring(rate.dt());
         return step_matrices(method, method.damping, {&per_step, 1}).front();
     }
-    /// The largest, s.
+    /// The largest stable step, s.
     double stable_step() const { return stability_limit(method, method.damping, spring(1)); }
 };
 using Runs = std::vector<Run>;
@@ -81,7 +81,7 @@ Run simulate(std::string_view method, double b, Rate rate, double until) {
     }
 }
 
-/// By how many cycles the steps have turned the motion farther than the exact one.
+/// The number of cycles by which the run is ahead of the exact motion.
 double cycles_gained(const Run& run) {
     const StepMatrix step = run.step();
     const auto angle = std::acos(step.trace() / 2 / std::sqrt(step.determinant()));
@@ -89,14 +89,14 @@ double cycles_gained(const Run& run) {
            run.duration() / period(run.b);
 }
 
-/// The h of theory, ω·dt.
+/// ω·dt, the h of theory.
 double radians_a_step(const Run& run) { return std::sqrt(stiffness / mass) * run.rate.dt(); }
 
-/// By what part semi-implicit Euler's energy exceeds that at the start without damping, on average
-/// over the ellipse v² + ω²·x² − ω²·dt·x·v on which its steps stay.
+/// The mean relative excess of semi-implicit Euler's energy without damping: the mean over the
+/// ellipse v² + ω²·x² − ω²·dt·x·v on which its steps stay.
 double energy_excess(double h) { return 1 / (1 - h * h / 4) - 1; }
 
-/// How a method looks in every figure; by its width and marks too, for who sees no colours.
+/// The style of a method in every figure. Width and marks differ too, for colour-blind readers.
 struct Style {
     std::string_view method;
     const char* name;
@@ -105,13 +105,13 @@ struct Style {
     Mark mark;
 };
 
-constexpr Colour pale_blue{155, 211, 242};  // sky blue, less loud where there is much of it
+constexpr Colour pale_blue{155, 211, 242};  // a paler sky blue, for large areas
 constexpr std::array styles{
     Style{"explicit_euler", "explicit Euler", palette::purple, 2.5F, Mark::none},
     Style{"semi_implicit_euler", "semi-implicit Euler", palette::vermilion, 2.5F, Mark::disc},
     Style{"rk4", "RK4", palette::green, 1, Mark::ring}};
 
-/// A part of the exact motion, and of runs over it.
+/// A section of the exact motion, and runs over it.
 struct Graph {
     const char* name;
     const char* title;
@@ -120,11 +120,11 @@ struct Graph {
     std::vector<std::string_view> methods;
     double from;   // s
     double to;     // s
-    double reach;  // m, to both sides
+    double reach;  // m, above and below 0
     std::string (*caption)(const Runs& runs);
 };
 
-/// Whether cycles stand so close that strong lines would run together.
+/// Whether cycles are so dense that thick lines would merge.
 bool is_crowded(const Graph& graph) { return graph.to - graph.from > 20 * period(graph.b); }
 
 Series exact_series(const Graph& graph) {
@@ -179,18 +179,18 @@ Figure draw(const Graph& graph) {
 
 std::string exact_damped(const Runs&) {
     return fmt::format(
-        "Let go at {:g} m, a mass of {:g} kg swings once in {:.3f} s. Every {:g} s its amplitude "
-        "falls to {:.1f} %.",
-        start, mass, period(damping), 2 * mass / damping, 100 * std::exp(-1.0));
+        "A mass of {:g} kg, released at {:g} m, oscillates with a period of {:.3f} s. Every {:g} s "
+        "its amplitude falls to {:.1f} %.",
+        mass, start, period(damping), 2 * mass / damping, 100 * std::exp(-1.0));
 }
 
 std::string explicit_euler(const Runs& runs) {
     const double area = static_cast<double>(runs[0].step().determinant());
     const double growth = std::log(area) / 2 / runs[0].rate.dt();  // 1/s
     return fmt::format(
-        "Damping should bring the mass to rest. Instead it swings twice as far every {:.1f} s, and "
-        "{:.2f} times as far after {:g} s: on this spring explicit Euler is unstable for every dt "
-        "above b/k = 1/{:.0f} s.",
+        "Damping should bring the mass to rest. Instead its amplitude doubles every {:.1f} s and "
+        "is {:.2f} times as large after {:g} s: on this spring explicit Euler is unstable for "
+        "every dt above b/k = 1/{:.0f} s.",
         std::numbers::ln2 / growth, std::exp(growth * runs[0].duration()), runs[0].duration(),
         1 / runs[0].stable_step());
 }
@@ -198,32 +198,32 @@ std::string explicit_euler(const Runs& runs) {
 std::string semi_implicit_euler(const Runs& runs) {
     const Sample& worst = runs[0].worst();
     return fmt::format(
-        "It is {:.1f} m off at most, at t = {:.2f} s, and on this spring it is stable for every dt "
-        "below {:.2f} s. That it is symplectic would explain this only if there were no damping.",
+        "The largest error is {:.1f} m, at t = {:.2f} s. On this spring semi-implicit Euler is "
+        "stable for every dt below {:.2f} s. Being symplectic explains this only without damping.",
         std::abs(worst.error), worst.t, runs[0].stable_step());
 }
 
 std::string rk4_and_semi_implicit_euler(const Runs& runs) {
     return fmt::format(
-        "At this scale all three curves lie on each other. Yet the largest error is {:.1f} m for "
-        "semi-implicit Euler and {:.4f} m for RK4.",
+        "At this scale all three curves coincide. The largest error is {:.1f} m for semi-implicit "
+        "Euler and {:.4f} m for RK4.",
         std::abs(runs[0].worst().error), std::abs(runs[1].worst().error));
 }
 
 std::string zoomed_in(const Runs& runs) {
     const Sample& worst = runs[0].worst();
     return fmt::format(
-        "At t = {:.2f} s, where semi-implicit Euler is farthest off, it is {:.1f} m or {:.1f} ms "
-        "ahead of the exact motion. RK4 is {:.4f} m off at most, at {} evaluations of the forces a "
-        "step instead of {}.",
+        "At t = {:.2f} s semi-implicit Euler has its largest error: it is {:.1f} m or {:.1f} ms "
+        "ahead of the exact motion. The largest error of RK4 is {:.4f} m, with {} force "
+        "evaluations per step instead of {}.",
         worst.t, std::abs(worst.error), 1000 * worst.error / exact(damping, worst.t).v,
         std::abs(runs[1].worst().error), runs[1].method.evaluations, runs[0].method.evaluations);
 }
 
 std::string exact_undamped(const Runs&) {
     return fmt::format(
-        "The mass swings {:g} m to both sides for ever, once in {:.3f} s, and its energy stays "
-        "k·x²/2 = {:.1f} MJ.",
+        "The mass oscillates forever with an amplitude of {:g} m and a period of {:.3f} s. Its "
+        "energy stays k·x²/2 = {:.1f} MJ.",
         start, period(0), stiffness * start * start / 2 / 1e6);
 }
 
@@ -248,8 +248,8 @@ std::string semi_implicit_euler_keeps_energy(const Runs& runs) {
     const double percent = 100 / runs[0].samples[0].energy;
     const double h = radians_a_step(runs[0]);
     return fmt::format(
-        "The energy does not drift: it swings between {:.0f} % and {:.0f} % of the true one. On "
-        "average it is {:.1f} % too large, by the factor 1/(1 − h²/4) with h = dt·√(k/m) = {:.3f}. "
+        "The energy oscillates between {:.0f} % and {:.0f} % of the true one, without drift. Its "
+        "mean is {:.1f} % too large, by the factor 1/(1 − h²/4) with h = dt·√(k/m) = {:.3f}. "
         "Straight lines join the steps.",
         percent * least.energy, percent * most.energy, 100 * energy_excess(h), h);
 }

@@ -9,14 +9,14 @@
 namespace oiler::certify {
 
 struct Figure {
-    std::string name;  ///< a file's, without the extension
+    std::string name;  ///< file name without extension
     Picture picture;
 };
 
-/// The graphs that the article Integration Basics describes, in its order, drawn from runs of this
-/// engine over the exact motion. What a caption says of them is computed from the same runs, so
-/// that it also holds where the article is loose: RK4 does not keep the frequency, and being
-/// symplectic explains nothing of a spring with damping.
+/// Draws the graphs that the article Integration Basics describes, in its order, from runs of this
+/// engine over the exact motion. Numbers in captions are computed from the same runs. They correct
+/// the article twice: RK4 does not keep the frequency, and being symplectic does not explain the
+/// stability of a damped spring.
 [[nodiscard]] std::vector<Figure> article_figures();
 
 }  // namespace oiler::certify

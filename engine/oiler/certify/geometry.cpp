@@ -9,7 +9,7 @@
 namespace oiler::certify {
 namespace {
 
-/// Of an orbit where the method takes one, of a spring in two axes else.
+/// An orbit, or a spring in two axes for methods that cannot step an orbit.
 Bodies plane(const Method& method) {
     Bodies bodies(2, Precision::extended);
     if (method.order == exact_order)
@@ -30,8 +30,8 @@ State4 stepped(const Method& method, const State4& from) {
     return {to.x[0], to.x[1], to.v[0], to.v[1]};
 }
 
-/// The step's derivative by one coordinate: central differences of order 6 over 2⁻¹¹, exact to some
-/// 10⁻¹⁵.
+/// The derivative of a step by one coordinate: central differences of order 6 with spacing 2⁻¹¹,
+/// accurate to about 10⁻¹⁵.
 State4 derivative(const Method& method, std::size_t coordinate) {
     constexpr std::array<long double, 3> weights{45 / 60.0L, -9 / 60.0L, 1 / 60.0L};
     constexpr long double distance = 0x1p-11L;

@@ -39,8 +39,8 @@ Errors errors_after_a_second(const Method& method, Damping damping, const Proble
     return largest;
 }
 
-/// The slope of −log₂ of the errors over their places, fitted by least squares; NaN where the
-/// slopes from one to the next differ by more than 1.5: then errors do not fall as a power.
+/// The slope of −log₂(error) over the index, by least squares. NaN if slopes between neighbours
+/// differ by more than 1.5: then errors do not fall as a power of dt.
 double slope(std::span<const double> errors) {
     const double middle = static_cast<double>(errors.size() - 1) / 2;
     double products = 0;
@@ -59,8 +59,7 @@ double slope(std::span<const double> errors) {
     return most - least > 1.5 ? nan : products / squares;
 }
 
-/// Over the finest five step sizes, each half of the one before, at which both errors are more than
-/// a hundred times what round-off makes of the steps.
+/// Uses the five finest step sizes at which both errors exceed 100 × the round-off of the steps.
 MeasuredOrder measure_order(const Method& method, Damping damping, const Problem& problem,
                             Precision precision) {
     constexpr std::size_t sizes = 5;

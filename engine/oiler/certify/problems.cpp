@@ -13,8 +13,7 @@ using Real = long double;
 
 constexpr double stiffness = 25;  // N/m
 constexpr double damping = 1;     // N·s/m
-/// Two independent starts, so that neither position nor velocity can be right by the luck of a
-/// phase.
+/// Two independent starts, so that no error vanishes by a lucky phase.
 constexpr std::array<Motion<Real>, 2> starts{{{1, 0}, {0, 5}}};
 
 void fill_springs(Bodies& bodies, double b) {
@@ -30,9 +29,8 @@ State<Real, 3> spring_end(std::size_t row, Real b) {
     return along_x(damped_oscillator<Real>(1, stiffness, b, starts[row], 1));
 }
 
-/// An ellipse of eccentricity 0.44 that is gone round in 4.3 s, from its nearest point. One on
-/// which no method's leading error changes its sign at the steps that are tried. Dyadic numbers, so
-/// that the start is exact.
+/// An ellipse of eccentricity 0.44 with a period of 4.3 s, from its nearest point. No method's
+/// leading error changes sign at the measured steps. The numbers are dyadic, so the start is exact.
 constexpr double gm = 12;            // m³/s²
 constexpr double nearest = 1;        // m
 constexpr double fastest = 4.15625;  // m/s

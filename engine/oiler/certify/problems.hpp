@@ -12,10 +12,10 @@ namespace oiler::certify {
 struct Problem {
     std::string_view name;
     int axes;
-    bool linear;  ///< all forces in position and velocity
+    bool linear;  ///< whether all forces are linear in position and velocity
     void (*fill)(Bodies& bodies);
     State<long double, 3> (*end)(std::size_t row);  ///< after 1 s
-    /// The order that a method has on it.
+    /// The order of a method on this problem.
     int (*order)(const Method& method, Damping damping);
 };
 

@@ -23,13 +23,13 @@ std::vector<Oscillation> oscillations(const StabilityGrid& grid) {
     return cells;
 }
 
-/// The springs of all cells, stepped together. They start small, so that the first steps of the
-/// most unstable do not overflow; one that has grown a millionfold is unbounded. It is put to rest,
-/// as is one that has all but come to rest, since subnormal numbers are slow.
-class Swings {
+/// The springs of all cells, stepped together. They start small, so that the most unstable do not
+/// overflow in their first steps. A spring that has grown by 10⁶ is unbounded. It is reset to zero,
+/// as is one that has shrunk by 10⁻⁸, because subnormal numbers are slow.
+class Springs {
 public:
-    Swings(const Method& method, Damping damping, const std::vector<Oscillation>& cells,
-           Precision precision)
+    Springs(const Method& method, Damping damping, const std::vector<Oscillation>& cells,
+            Precision precision)
         : method_(method),
           damping_(damping),
           bodies_(1, precision),
@@ -42,13 +42,14 @@ public:
         }
     }
 
-    /// The farthest that each comes in so many looks.
-    std::vector<double> farthest(int looks, int least, int spread) {
+    /// The largest amplitude of each spring over `samples` samples, `least` to `least + spread − 1`
+    /// steps apart.
+    std::vector<double> farthest(int samples, int least, int spread) {
         std::vector<double> most(omega_.size());
-        for (int i = 0; i < looks; ++i) {
+        for (int i = 0; i < samples; ++i) {
             advance(least + 7 * i % spread);
             for (std::size_t cell = 0; cell < most.size(); ++cell)
-                most[cell] = std::max(most[cell], look(cell));
+                most[cell] = std::max(most[cell], sample(cell));
         }
         return most;
     }
@@ -57,7 +58,7 @@ public:
 private:
     static constexpr double start = 0x1p-90;
 
-    /// Those that overflow are unbounded, and put to rest where they were before.
+    /// Marks springs that overflow as unbounded, resets them to zero and repeats the steps.
     void advance(int steps) {
         for (;;) {
             Bodies after = bodies_;
@@ -72,7 +73,7 @@ private:
         }
     }
 
-    double look(std::size_t cell) {
+    double sample(std::size_t cell) {
         const double x = std::abs(bodies_.position(cell)[0]);
         const double size = std::max(x, std::abs(bodies_.velocity(cell)[0]) / omega_[cell]);
         if (size > start * 1e6) unbounded_[cell] = true;
@@ -89,15 +90,15 @@ private:
 
 std::vector<bool> bounded(const Method& method, Damping damping,
                           const std::vector<Oscillation>& cells, Precision precision) {
-    Swings swings(method, damping, cells, precision);
-    // One by one, until hardly any is left that could overflow between two looks.
-    swings.farthest(20, 1, 1);
-    // After 13 to 23 steps each, so that a swing is not caught at the same phases again and again.
-    const std::vector<double> before = swings.farthest(55, 13, 11);
-    const std::vector<double> after = swings.farthest(55, 13, 11);
+    Springs springs(method, damping, cells, precision);
+    // Single steps, until few springs are left that could overflow between two samples.
+    springs.farthest(20, 1, 1);
+    // Samples 13 to 23 steps apart, so that an oscillation is not sampled at repeating phases.
+    const std::vector<double> before = springs.farthest(55, 13, 11);
+    const std::vector<double> after = springs.farthest(55, 13, 11);
     std::vector<bool> found(cells.size());
     for (std::size_t i = 0; i < found.size(); ++i)
-        found[i] = !swings.unbounded(i) && after[i] <= 1.05 * before[i];
+        found[i] = !springs.unbounded(i) && after[i] <= 1.05 * before[i];
     return found;
 }
 

@@ -16,8 +16,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr Rate each_second{1};
 
-/// An undamped spring with the ω·dt given, for steps of 1 s, in double.
-Bodies swing(double omega_dt) {
+/// An undamped spring with the given ω·dt, for steps of 1 s, in double.
+Bodies undamped_spring(double omega_dt) {
     Bodies bodies(1, Precision::double_);
     bodies.add({.position = {1}}, Spring{.stiffness = omega_dt * omega_dt});
     return bodies;
@@ -28,19 +28,19 @@ StepMatrix matrix_at(const Method& method, Damping damping, double omega_dt) {
     return step_matrices(method, damping, std::span(&oscillation, 1)).front();
 }
 
-/// By how much a swing grew in a run in double, and by how much its step matrix says.
+/// The growth factor of an oscillation: measured in double, and predicted by the step matrix.
 struct Growth {
     double measured;
     double predicted;
 };
 
-/// Over as many steps as should let it grow a millionfold, ten million at most, or a million where
-/// it should not grow.
+/// Runs as many steps as should give a growth of 10⁶, at most 10⁷; 10⁶ steps if no growth is
+/// predicted.
 Growth grow(const Method& method, Damping damping, double omega_dt) {
     const long double rate = std::log(spectral_radius(matrix_at(method, damping, omega_dt)));
     const double steps =
         rate > 1e-12L ? std::clamp(static_cast<double>(std::log(1e6L) / rate), 1.0, 1e7) : 1e6;
-    Bodies bodies = swing(omega_dt);
+    Bodies bodies = undamped_spring(omega_dt);
     const double predicted = std::exp(static_cast<double>(rate) * std::floor(steps));
     if (bodies.try_step(
             method,
@@ -50,8 +50,8 @@ Growth grow(const Method& method, Damping damping, double omega_dt) {
     return {static_cast<double>(std::hypot(end.x[0], end.v[0] / omega_dt)), predicted};
 }
 
-/// A quadratic form of the state: the energy, or what a step matrix of determinant 1 conserves:
-/// z ∧ Mz.
+/// A quadratic form of the state: the energy, or z ∧ Mz, which a step matrix M of determinant 1
+/// conserves.
 struct Form {
     long double xx, xv, vv;
 
@@ -62,7 +62,7 @@ struct Form {
     }
 };
 
-/// Of log(values) over their places, by least squares.
+/// The slope of log(value) over the index, by least squares.
 double relative_trend(const std::vector<double>& values) {
     const double middle = static_cast<double>(values.size() - 1) / 2;
     double products = 0;
@@ -75,22 +75,22 @@ double relative_trend(const std::vector<double>& values) {
     return products / squares;
 }
 
-/// How many roundings a step makes at most, each of a number no larger than the swing.
+/// The largest number of roundings per step, each of a number no larger than the amplitude.
 double roundings(const Method& method) {
     if (const auto* splitting = std::get_if<Splitting>(&method.rule))
         return 3 * static_cast<double>(splitting->stages().size());
     return 24;
 }
 
-/// The energy of the swing, in J.
+/// The energy of the oscillation, J.
 Form energy_form(double omega_dt) {
     return {static_cast<long double>(omega_dt) * omega_dt / 2, 0, 0.5L};
 }
 
-/// Of a trend per step. Twice for a square. Random roundings walk as the root of the steps; those
-/// that are correlated, as where one drift takes back another, were seen to leave up to a
-/// thousandth. The exact method's matrix is rounded once and for all, so that its determinant is 1
-/// but for a rounding.
+/// The trend per step that round-off explains. Random roundings grow with the square root of the
+/// steps. Correlated ones, for example of drifts that cancel, left up to 1/1000 per step in
+/// measurements. The matrix of the exact method is rounded once, so its determinant differs from 1
+/// by one rounding.
 double allowed_trend(const Method& method, double steps) {
     const double rounding = roundings(method) * epsilon;
     const double bias = method.order == exact_order ? epsilon : rounding / 1000;
@@ -99,10 +99,10 @@ double allowed_trend(const Method& method, double steps) {
 
 }  // namespace
 
-double evaluations_per_step(const Method& method, Damping damping, bool at_once) {
+double evaluations_per_step(const Method& method, Damping damping, bool one_call) {
     constexpr std::int64_t steps = 1000;
-    Bodies bodies = swing(0.1);
-    if (at_once)
+    Bodies bodies = undamped_spring(0.1);
+    if (one_call)
         bodies.step(method, {.rate = each_second, .count = steps, .damping = damping});
     else
         for (std::int64_t i = 0; i < steps; ++i)
@@ -110,9 +110,9 @@ double evaluations_per_step(const Method& method, Damping damping, bool at_once)
     return static_cast<double>(bodies.evaluations()) / static_cast<double>(steps);
 }
 
-// One part in 10⁶ below the limit a bounded swing may reach some √10⁶ times its start; as much
-// above it grows as the step matrix says, but for such a factor. Without a limit, at small or at
-// large steps.
+// At (1 − 10⁻⁶) × the limit, a bounded oscillation may reach about √10⁶ times its start. At
+// (1 + 10⁻⁶) × the limit, it grows as the step matrix predicts, up to such a factor. Without a
+// limit, the test runs at small and at large steps.
 bool confirm_limit(const Method& method, Damping damping, double limit) {
     const auto holds = [&](double omega_dt) {
         return grow(method, damping, omega_dt).measured < 1e4;
@@ -132,11 +132,11 @@ LongRun run_long(const Method& method, Damping damping, double limit, std::int64
     const StepMatrix m = matrix_at(method, damping, omega_dt);
     const Form energy = energy_form(omega_dt);
     const Form form = method.symplectic ? Form{-m.vx, m.xx - m.vv, m.xv} : energy;
-    Bodies bodies = swing(omega_dt);
+    Bodies bodies = undamped_spring(omega_dt);
     const double at_start = energy.of(bodies.state(0));
     LongRun run{.steps = 0, .omega_dt = omega_dt, .lowest = 1, .highest = 1};
     if (!method.symplectic) run.predicted = 2 * static_cast<double>(std::log(spectral_radius(m)));
-    // No longer than until the energy is e⁵⁰⁰ times larger or smaller.
+    // Stops before the energy has changed by a factor of e⁵⁰⁰.
     const double most = std::min(static_cast<double>(steps), 500 / std::abs(run.predicted));
     const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(most) / samples);
     std::vector<double> values;

@@ -16,12 +16,12 @@ namespace {
 
 constexpr double frames_per_second = 60;
 
-Advice search(const Scene& scene, const Reference& reference, const Wish& wish, bool quiet) {
+Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements, bool quiet) {
     Percent percent(quiet, "of the settings, most of which need no run");
     SweepWatch watch;
     watch.progress = [&](double fraction) { percent(fraction); };
     watch.stopped = Interrupt::requested;
-    return advise(scene, reference, wish, watch);
+    return advise(scene, reference, requirements, watch);
 }
 
 }  // namespace
@@ -55,26 +55,26 @@ struct AdviseCommand {
     }
 
     /// Throws Error{usage} without a tolerance and a budget.
-    [[nodiscard]] Wish wish() const {
-        Wish wish{.position_error = tolerances.position_error,
+    [[nodiscard]] Requirements requirements() const {
+        Requirements requirements{.position_error = tolerances.position_error,
                   .energy_drift = tolerances.energy_drift};
-        if (budget_us) wish.ns_per_second = *budget_us * (1e3 * frames_per_second);
-        if (!wish.has_tolerance() && !wish.ns_per_second)
+        if (budget_us) requirements.ns_per_second = *budget_us * (1e3 * frames_per_second);
+        if (!requirements.has_tolerance() && !requirements.ns_per_second)
             fail(Exit::usage,
                  "give a tolerance or a budget: --position-error, --energy-drift or --budget-us "
                  "(see oiler advise --help)");
-        wish.min_rate = min_rate;
-        wish.methods = parse_methods(methods);
-        return wish;
+        requirements.min_rate = min_rate;
+        requirements.methods = parse_methods(methods);
+        return requirements;
     }
 
     void show(const Advice& advice, const Scene& scene, const Reference& reference,
-              const Wish& wish) const {
+              const Requirements& requirements) const {
         if (!scene_options.json.empty())
-            write_json(scene_options.json, json_of(advice, scene, reference, wish));
+            write_json(scene_options.json, json_of(advice, scene, reference, requirements));
         if (scene_options.json == "-") return;
         std::string text;
-        for (const std::string& sentence : words_of(advice, scene, reference, wish))
+        for (const std::string& sentence : describe(advice, scene, reference, requirements))
             text += sentence + "\n";
         print(text);
     }
@@ -82,19 +82,19 @@ struct AdviseCommand {
     void apply_to_scene(const Stepping& stepping) const {
         const std::string file = scene_options.file.string();
         write_text(file, apply(read_text(file), file, stepping));
-        remark(scene_options.quiet, "{} now has the setting {}", file, words_of(stepping));
+        remark(scene_options.quiet, "{} now has the setting {}", file, describe(stepping));
     }
 
     [[nodiscard]] Exit run() const {
         const Interrupt interrupt;
         const Scene scene = scene_options.read();
-        const Wish wish = this->wish();
+        const Requirements requirements = this->requirements();
         const Reference reference =
-            measure_reference(scene, looks_of(scene), wanted_of(wish) / 2, scene_options.quiet);
+            measure_reference(scene, sample_times_of(scene), required_reference_error(requirements) / 2, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
-        const Advice advice = search(scene, reference, wish, scene_options.quiet);
+        const Advice advice = search(scene, reference, requirements, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
-        show(advice, scene, reference, wish);
+        show(advice, scene, reference, requirements);
         if (!advice.meets) return Exit::comparison_failed;
         if (writes_scene) apply_to_scene(advice.best->stepping);
         return Exit::done;

@@ -59,11 +59,11 @@ public:
 
 private:
     void add_line(const std::string& file, const BudgetLine& line) {
-        if (!line.kept) return add_case(file, line.name, "failure", words_of(line), failures_);
+        if (!line.kept) return add_case(file, line.name, "failure", describe(line), failures_);
         ++tests_;
         cases_ += fmt::format(
             "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
-            for_xml(file), line.name, for_xml(words_of(line)));
+            for_xml(file), line.name, for_xml(describe(line)));
     }
     void add_case(const std::string& file, const std::string& name, const std::string& outcome,
                   const std::string& message, int& count) {
@@ -122,7 +122,7 @@ std::string text_of(const std::vector<CheckResult>& all) {
         if (result.lines.empty() && result.error.empty())
             text += fmt::format("{}: no [budget]\n", result.file);
         for (const BudgetLine& line : result.lines)
-            text += fmt::format("{}: {}\n", result.file, words_of(line));
+            text += fmt::format("{}: {}\n", result.file, describe(line));
     }
     return text;
 }

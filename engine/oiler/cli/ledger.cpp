@@ -55,7 +55,7 @@ Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) 
             {"bodies", ledger.bodies},
             {"links", ledger.links},
             {"steps", ledger.steps},
-            {"looks", ledger.looks},
+            {"looks", ledger.samples},
             {"timed_steps", ledger.timed_steps},
             {"bytes_per_body", ledger.bytes_per_body()},
             {"bytes_per_link", ledger.bytes_per_link},

@@ -112,7 +112,7 @@ std::string passes_text(const Ledger& ledger) {
     const LedgerPass& moving = ledger.passes.back();
     text += moving.diverged ? "The run without all of them diverges."
                             : fmt::format("A step without all of them takes {:.3g} ns.", moving.ns);
-    return text + fmt::format(passes_foot, ledger.timed_steps, ledger.looks, ledger.steps);
+    return text + fmt::format(passes_foot, ledger.timed_steps, ledger.samples, ledger.steps);
 }
 
 std::string flags_text(const Ledger& ledger) {

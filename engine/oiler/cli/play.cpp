@@ -46,7 +46,7 @@ std::vector<BudgetEntry> check(const Scene& scene, const Settings& settings) {
     std::vector<BudgetEntry> entries;
     for (const lab::BudgetLine& budget : lab::check_budget(scene, settings, Interrupt::requested))
         entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
-                           fmt::format("over {:g} s: {}", scene.duration, words_of(budget))});
+                           fmt::format("over {:g} s: {}", scene.duration, describe(budget))});
     return entries;
 }
 

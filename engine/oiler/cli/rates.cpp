@@ -107,7 +107,7 @@ struct RatesCommand {
         const Interrupt interrupt;
         const Scene scene = scene_options.read();
         const Reference reference =
-            measure_reference(scene, looks_of(scene), 0, scene_options.quiet);
+            measure_reference(scene, sample_times_of(scene), 0, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         if (!reference.why_no_longer.empty())
             remark(scene_options.quiet, "measures only the first {:.4g} s of {:.4g} s: {}",

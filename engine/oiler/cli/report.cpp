@@ -57,54 +57,54 @@ struct ReportCommand {
     [[nodiscard]] Exit run() const;
 
 private:
-    [[nodiscard]] Wish wish(const Scene& scene, const Reference& reference) const;
+    [[nodiscard]] Requirements requirements(const Scene& scene, const Reference& reference) const;
     [[nodiscard]] Reference measure_meaningful(Scene& scene) const;
     [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
-                                        const Wish& wish) const;
+                                        const Requirements& requirements) const;
     [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
                                              const Json& data);
 };
 
 /// Takes the tolerance of the options, else of the budget, else the largest power of ten within
 /// `usual_tolerance`.
-Wish ReportCommand::wish(const Scene& scene, const Reference& reference) const {
-    Wish wish{.position_error = tolerances.position_error, .energy_drift = tolerances.energy_drift};
-    if (!wish.has_tolerance()) {
-        wish.position_error = scene.budget.position_error;
-        wish.energy_drift = scene.budget.energy_drift;
+Requirements ReportCommand::requirements(const Scene& scene, const Reference& reference) const {
+    Requirements requirements{.position_error = tolerances.position_error, .energy_drift = tolerances.energy_drift};
+    if (!requirements.has_tolerance()) {
+        requirements.position_error = scene.budget.position_error;
+        requirements.energy_drift = scene.budget.energy_drift;
     }
-    if (!wish.has_tolerance())
-        wish.position_error =
+    if (!requirements.has_tolerance())
+        requirements.position_error =
             std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
-    wish.methods = parse_methods("all");
-    return wish;
+    requirements.methods = parse_methods("all");
+    return requirements;
 }
 
 /// Shortens the scene to the time for which its reference is meaningful.
 Reference ReportCommand::measure_meaningful(Scene& scene) const {
     const bool quiet = scene_options.quiet;
-    Reference reference = measure_reference(scene, looks_of(scene), 0, quiet);
+    Reference reference = measure_reference(scene, sample_times_of(scene), 0, quiet);
     if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
     remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until(),
            reference.why_no_longer);
     scene.duration = reference.meaningful_until();
-    return measure_reference(scene, looks_of(scene), 0, quiet);
+    return measure_reference(scene, sample_times_of(scene), 0, quiet);
 }
 
 ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
-                                     const Wish& wish) const {
-    const Looks& looks = reference.looks;
+                                     const Requirements& requirements) const {
+    const SampleTimes& samples = reference.samples;
     const SweepPlan plan{
         .methods = parse_methods("all"),
         .max_rate = std::min<std::int64_t>(
-            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * looks.per_second)),
+            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * samples.per_second)),
         .most_work = most_work};
-    ReportResults results{start_tradeoff(scene, looks, reference, plan), {}, {}};
+    ReportResults results{start_tradeoff(scene, samples, reference, plan), {}, {}};
     results.tradeoff.scene = scene_options.name();
     measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
-    results.advice = advise(scene, reference, wish, watch);
+    results.advice = advise(scene, reference, requirements, watch);
     results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
                                   usual_methods(scene), Interrupt::requested);
     return results;
@@ -123,12 +123,12 @@ Exit ReportCommand::run() const {
     Scene scene = scene_options.read();
     const Reference reference = measure_meaningful(scene);
     if (Interrupt::requested()) return Exit::interrupted;
-    const Wish wish = this->wish(scene, reference);
-    require_judgeable(scene, reference, wish);
+    const Requirements requirements = this->requirements(scene, reference);
+    require_judgeable(scene, reference, requirements);
     File page(out);
-    const ReportResults results = measure(scene, reference, wish);
+    const ReportResults results = measure(scene, reference, requirements);
     if (Interrupt::requested()) return Exit::interrupted;
-    const Json data = report_json(scene, reference, wish, results);
+    const Json data = report_json(scene, reference, requirements, results);
     page.write(page_of(scene, scene_options.name(), data));
     page.commit();
     if (!scene_options.json.empty()) write_json(scene_options.json, data);

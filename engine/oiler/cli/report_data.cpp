@@ -97,11 +97,11 @@ Json obvious_names() {
 
 }  // namespace
 
-Json report_json(const Scene& scene, const Reference& reference, const Wish& wish,
+Json report_json(const Scene& scene, const Reference& reference, const Requirements& requirements,
                  const ReportResults& results) {
     const auto& [tradeoff, advice, rates] = results;
     return {{"tradeoff", json_of(tradeoff)},
-            {"advice", json_of(advice, scene, reference, wish)},
+            {"advice", json_of(advice, scene, reference, requirements)},
             {"stability", stability_json(scene, notable_methods(tradeoff))},
             {"rates", rates.quantities.empty() ? Json(nullptr) : json_of(rates)},
             {"ledger", ledger_json(scene)},

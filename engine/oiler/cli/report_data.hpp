@@ -17,6 +17,6 @@ struct ReportResults {
 
 /// Returns the data that report.html shows. Computes the stability limits and measures the ledger.
 [[nodiscard]] Json report_json(const Scene& scene, const lab::Reference& reference,
-                               const lab::Wish& wish, const ReportResults& results);
+                               const lab::Requirements& requirements, const ReportResults& results);
 
 }  // namespace oiler::cli

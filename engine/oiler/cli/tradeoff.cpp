@@ -45,7 +45,7 @@ void draw_energies(const Tradeoff& tradeoff, const Scene& scene, const Reference
                    const std::filesystem::path& path, Stills& stills) {
     std::vector<Stepping> settings;
     for (const Method* method : notable_methods(tradeoff))
-        settings.push_back({method, tradeoff.today.rate, Precision::double_});
+        settings.push_back({method, tradeoff.current.rate, Precision::double_});
     if (!settings.empty())
         stills.write(energy_over_time(scene, tradeoff, reference, settings), path);
 }
@@ -118,7 +118,7 @@ public:
           shard_(shard),
           size_(size),
           scene_(options.scene_options.read()),
-          looks_(looks_of(scene_)),
+          looks_(sample_times_of(scene_)),
           plan_{.methods = parse_methods(options.methods),
                 .max_rate = options.max_rate,
                 .shard = shard.index,
@@ -167,7 +167,7 @@ private:
     Shard shard_;
     Size size_;
     Scene scene_;
-    Looks looks_;
+    SampleTimes looks_;
     SweepPlan plan_;
     std::filesystem::path part_;
 };

@@ -31,7 +31,7 @@ std::string heading(const Tradeoff& tradeoff) {
     std::string text =
         fmt::format("{}\n  {:.4g} s, {} samples per second; reference: {}\n",
                     tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
-                    reference.meaningful_until, tradeoff.looks.per_second, reference.words);
+                    reference.meaningful_until, tradeoff.samples.per_second, reference.words);
     text += fmt::format(
         "  errors below {:.2g} m, 100 × the reference's own error of {:.2g} m, are shown as < "
         "limit\n",
@@ -90,7 +90,7 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
     };
     for (const Method* method : notable_methods(tradeoff))
         for (const TradeoffRow* row : cheapest_of(tradeoff, method)) add(row);
-    add(tradeoff.find(tradeoff.today));
+    add(tradeoff.find(tradeoff.current));
     std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
         return a->ns_per_second < b->ns_per_second;
     });
@@ -106,7 +106,7 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {
         const bool best = std::find(front.begin(), front.end(), row) != front.end();
-        const char mark = row->stepping == tradeoff.today ? '>' : best ? '*' : ' ';
+        const char mark = row->stepping == tradeoff.current ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
     text += fmt::format(legend, shown.size(), tradeoff.rows().size(),

@@ -10,13 +10,14 @@
 namespace oiler::lab {
 namespace {
 
-BudgetLine hold(std::string name, std::string unit, double most, bool stable, double measured,
-                double floor) {
+BudgetLine make_line(std::string name, std::string unit, double most, bool stable, double measured,
+                     double floor) {
     if (most < floor)
-        fail(Exit::usage,
-             "[budget] {} = {:g}: errors below {:.2g} cannot be told, a hundred times the "
-             "reference's own; give a larger one, or a shorter scene",
-             name, most, floor);
+        fail(
+            Exit::usage,
+            "[budget] {} = {:g}: expected at least {:.2g}, 100 × the reference's own error; give a "
+            "larger limit or a shorter duration",
+            name, most, floor);
     BudgetLine line{std::move(name), std::move(unit), most, INFINITY, floor, false};
     if (stable) line.measured = std::isnan(measured) ? floor : measured;
     line.kept = line.measured <= most;
@@ -35,32 +36,32 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
     if (!budget.position_error && !budget.energy_drift) return lines;
     ReferenceEffort effort{.stopped = stopped};
     if (budget.position_error) effort.wanted = *budget.position_error / 200;
-    const Reference reference = make_reference(scene, looks_of(scene), effort);
+    const Reference reference = make_reference(scene, sample_times_of(scene), effort);
     if (stopped()) return lines;
-    if (reference.meaningful < reference.looks.count)
+    if (reference.meaningful < reference.samples.count)
         fail(Exit::usage,
-             "[budget]: errors on this scene mean nothing after {:.4g} s of {:.4g}: {}; give it a "
-             "shorter duration",
+             "[budget]: errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; "
+             "give it a shorter duration",
              reference.meaningful_until(), scene.duration, reference.why_no_longer);
     const Judgement judgement = judge(scene, settings, reference, stopped);
     if (stopped()) return lines;
-    const Doubt floor = reference.floor();
+    const Uncertainty floor = reference.floor();
     if (budget.position_error)
-        lines.push_back(hold("position_error", "m", *budget.position_error, judgement.stable,
-                             judgement.position_error, floor.position));
+        lines.push_back(make_line("position_error", "m", *budget.position_error, judgement.stable,
+                                  judgement.position_error, floor.position));
     if (budget.energy_drift)
-        lines.push_back(hold("energy_drift", "", *budget.energy_drift, judgement.stable,
-                             judgement.energy_drift, floor.energy));
+        lines.push_back(make_line("energy_drift", "", *budget.energy_drift, judgement.stable,
+                                  judgement.energy_drift, floor.energy));
     return lines;
 }
 
-std::string words_of(const BudgetLine& line) {
+std::string describe(const BudgetLine& line) {
     const std::string unit = line.unit.empty() ? "" : " " + line.unit;
     const std::string measured =
         std::isinf(line.measured)
             ? "unstable"
-            : fmt::format("{}{:.3g}{}", line.measured == line.told_from ? "below " : "",
-                          line.measured, unit);
+            : fmt::format("{}{:.3g}{}", line.measured == line.floor ? "below " : "", line.measured,
+                          unit);
     return fmt::format("{} {} of {:g}{}: {}", line.name, measured, line.most, unit,
                        line.kept ? "kept" : "exceeded");
 }

@@ -8,23 +8,24 @@
 
 namespace oiler::lab {
 
-/// One number of a scene's budget, held against what was measured.
+/// One limit of a scene's budget and the measured value.
 struct BudgetLine {
     std::string name;     ///< "position_error" or "energy_drift"
     std::string unit;     ///< "m", or empty
-    double most = 0;      ///< what the budget allows
-    double measured = 0;  ///< infinite for an unstable run; where too small to be told, `told_from`
-    double told_from = 0;  ///< a hundred times the reference's own error
+    double most = 0;      ///< the limit
+    double measured = 0;  ///< infinite for an unstable run, `floor` for an error below it
+    double floor = 0;     ///< 100 × the reference's own error
     bool kept = false;
 };
 
-/// Measures the scene, stepped so, over its duration against its budget; nothing where it has none.
-/// Throws Error{usage} for a budget so tight that the reference's own error would decide.
+/// Runs the scene with the given settings and compares its errors with its budget. Returns no lines
+/// for a scene without a budget or for a stopped run. Throws Error{usage} for a limit below 100 ×
+/// the reference's own error.
 [[nodiscard]] std::vector<BudgetLine> check_budget(
     const Scene& scene, const Settings& settings,
     const std::function<bool()>& stopped = [] { return false; });
 
 /// "position_error 19.8 m of 25 m: kept"
-[[nodiscard]] std::string words_of(const BudgetLine& line);
+[[nodiscard]] std::string describe(const BudgetLine& line);
 
 }  // namespace oiler::lab

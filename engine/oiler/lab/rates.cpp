@@ -12,10 +12,10 @@
 namespace oiler::lab {
 namespace {
 
-constexpr double settled = 0.05;  ///< of how far it was from rest at the start
+constexpr double settled = 0.05;  ///< of the distance from rest at the start
 
-/// All that is noticed of one run, in the order of `things`; unknown where there is no such thing.
-struct Noticed {
+/// The quantities of one run, in the order of `kinds`; `unknown` if the run does not have them.
+struct Observed {
     double apex = unknown;
     double apex_time = unknown;
     double landing_time = unknown;
@@ -25,36 +25,36 @@ struct Noticed {
     double settle_time = unknown;
 };
 
-struct Thing {
+struct ObservedQuantity {
     const char* name;
     const char* unit;
-    double Noticed::*value;
+    double Observed::*value;
 };
-constexpr Thing things[]{
-    {"apex above the start", "m", &Noticed::apex},
-    {"time of the apex", "s", &Noticed::apex_time},
-    {"time of landing at the height of the start", "s", &Noticed::landing_time},
-    {"place of landing, from the start", "m", &Noticed::landing_place},
-    {"period", "s", &Noticed::period},
-    {"amplitude over the last period", "m", &Noticed::amplitude},
-    {"time to settle to 5 %", "s", &Noticed::settle_time},
+constexpr ObservedQuantity kinds[]{
+    {"apex above the start", "m", &Observed::apex},
+    {"time of the apex", "s", &Observed::apex_time},
+    {"time of landing at the height of the start", "s", &Observed::landing_time},
+    {"place of landing, from the start", "m", &Observed::landing_place},
+    {"period", "s", &Observed::period},
+    {"amplitude over the last period", "m", &Observed::amplitude},
+    {"time to settle to 5 %", "s", &Observed::settle_time},
 };
 
-/// What is watched of the body.
-struct Watch {
-    std::optional<int> up{};      ///< axis against gravity
-    double up_sign = 1;           ///< of it
-    std::optional<int> across{};  ///< axis of the place of landing
-    std::optional<Swing> swing{};
-    double rest = 0;  ///< m, around which it swings
+/// The axes and the oscillation along which a body is measured.
+struct Observer {
+    std::optional<int> up{};      ///< the axis of gravity
+    double up_sign = 1;           ///< −1 if up is the negative direction
+    std::optional<int> across{};  ///< the axis of the place of landing
+    std::optional<PeriodicCoordinate> oscillation{};
+    double rest = 0;  ///< m, the centre of the oscillation
 };
 
 using Paths = std::array<Path, 3>;
 
-void notice_jump(Noticed& noticed, const Watch& watch, const Paths& paths) {
-    if (!watch.up) return;
-    const Path& along = paths[static_cast<std::size_t>(*watch.up)];
-    const Path height = watch.up_sign > 0 ? along : turned(along);
+void observe_jump(Observed& observed, const Observer& observer, const Paths& paths) {
+    if (!observer.up) return;
+    const Path& along = paths[static_cast<std::size_t>(*observer.up)];
+    const Path height = observer.up_sign > 0 ? along : turned(along);
     const double start = height.x.front();
     std::size_t landing = 1;
     while (landing < height.size() &&
@@ -62,52 +62,53 @@ void notice_jump(Noticed& noticed, const Watch& watch, const Paths& paths) {
         ++landing;
     const Peak peak = highest(height, 0, std::min(landing + 1, height.size()));
     if (!(peak.x > start)) return;
-    noticed.apex = peak.x - start;
-    noticed.apex_time = peak.t;
+    observed.apex = peak.x - start;
+    observed.apex_time = peak.t;
     if (landing == height.size()) return;
     const double s = height.crossing(landing, start);
-    noticed.landing_time = height.time(landing, s);
-    if (!watch.across) return;
-    const Path& place = paths[static_cast<std::size_t>(*watch.across)];
-    noticed.landing_place = place.at(landing, s) - place.x.front();
+    observed.landing_time = height.time(landing, s);
+    if (!observer.across) return;
+    const Path& place = paths[static_cast<std::size_t>(*observer.across)];
+    observed.landing_place = place.at(landing, s) - place.x.front();
 }
 
-void notice_swing(Noticed& noticed, const Watch& watch, const Paths& paths) {
-    if (!watch.swing) return;
-    const Path& path = paths[static_cast<std::size_t>(watch.swing->axis)];
-    const std::vector<double> up = upward_crossings(path, watch.rest, watch.swing->band);
+void observe_oscillation(Observed& observed, const Observer& observer, const Paths& paths) {
+    if (!observer.oscillation) return;
+    const Path& path = paths[static_cast<std::size_t>(observer.oscillation->axis)];
+    const std::vector<double> up =
+        upward_crossings(path, observer.rest, observer.oscillation->band);
     if (up.size() >= 2)
-        noticed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
+        observed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
     std::size_t from = path.size() - 1;
-    while (from > 1 && path.t[from - 1] > path.t.back() - watch.swing->period) --from;
+    while (from > 1 && path.t[from - 1] > path.t.back() - observer.oscillation->period) --from;
     const double high = highest(path, from, path.size()).x;
     const double low = -highest(turned(path), from, path.size()).x;
-    noticed.amplitude = (high - low) / 2;
-    const double band = settled * std::abs(path.x.front() - watch.rest);
-    if (noticed.amplitude >= band) return;
+    observed.amplitude = (high - low) / 2;
+    const double band = settled * std::abs(path.x.front() - observer.rest);
+    if (observed.amplitude >= band) return;
     std::size_t last = path.size() - 1;
-    while (last > 0 && std::abs(path.x[last] - watch.rest) <= band) --last;
+    while (last > 0 && std::abs(path.x[last] - observer.rest) <= band) --last;
     if (last + 1 == path.size()) return;
-    const double edge = watch.rest + std::copysign(band, path.x[last] - watch.rest);
-    noticed.settle_time = path.time(last + 1, path.crossing(last + 1, edge));
+    const double edge = observer.rest + std::copysign(band, path.x[last] - observer.rest);
+    observed.settle_time = path.time(last + 1, path.crossing(last + 1, edge));
 }
 
-Noticed notice(const Watch& watch, const Paths& paths) {
-    Noticed noticed;
-    notice_jump(noticed, watch, paths);
-    notice_swing(noticed, watch, paths);
-    return noticed;
+Observed observe(const Observer& observer, const Paths& paths) {
+    Observed observed;
+    observe_jump(observed, observer, paths);
+    observe_oscillation(observed, observer, paths);
+    return observed;
 }
 
 Paths paths_of(const Reference& reference, std::size_t row) {
     Paths paths;
     for (int axis = 0; axis < 3; ++axis)
         paths[static_cast<std::size_t>(axis)] =
-            path_of(reference.track, reference.meaningful_looks(), row, axis);
+            path_of(reference.trajectory, reference.meaningful_samples(), row, axis);
     return paths;
 }
 
-/// Nothing where the run diverges or is lost.
+/// Returns no paths if the run diverges or gets farther than 10 × the reference's extent.
 std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Reference& reference,
                          std::size_t row, const std::function<bool()>& stopped) try {
     World world = make_world(scene, Settings{choice});
@@ -131,8 +132,8 @@ std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Refer
     return std::nullopt;
 }
 
-/// Where a swing comes to rest that falls by the same factor from each extreme to the next, from
-/// the last three: by Aitken's formula.
+/// The limit of an oscillation whose amplitude falls by a constant factor per extreme: Aitken's
+/// formula on the last three extremes.
 double rest_of(const Path& path, double band) {
     const Path down = turned(path);
     std::vector<double> extremes;
@@ -140,7 +141,7 @@ double rest_of(const Path& path, double band) {
         if (path.v[i - 1] > 0 && path.v[i] <= 0) extremes.push_back(path.at(i, path.summit(i)));
         if (path.v[i - 1] < 0 && path.v[i] >= 0) extremes.push_back(-down.at(i, down.summit(i)));
     }
-    // Those that rounding has left something of.
+    // Extremes within the dead band of the next are only round-off.
     while (extremes.size() > 3 &&
            std::abs(extremes[extremes.size() - 1] - extremes[extremes.size() - 2]) < band)
         extremes.pop_back();
@@ -150,23 +151,24 @@ double rest_of(const Path& path, double band) {
     return (last[0] * last[2] - last[1] * last[1]) / (last[0] + last[2] - 2 * last[1]);
 }
 
-Watch watch_of(const Scene& scene, const Reference& reference, std::size_t row) {
-    Watch watch;
+Observer observer_of(const Scene& scene, const Reference& reference, std::size_t row) {
+    Observer observer;
     if (scene.gravity && largest(*scene.gravity) > 0) {
         int up = 0;
         for (int axis = 1; axis < 3; ++axis)
             if (std::abs((*scene.gravity)[axis]) > std::abs((*scene.gravity)[up])) up = axis;
-        watch.up = up;
-        watch.up_sign = (*scene.gravity)[up] > 0 ? -1 : 1;
-        if (scene.axes > 1) watch.across = up == 0 ? 1 : 0;
+        observer.up = up;
+        observer.up_sign = (*scene.gravity)[up] > 0 ? -1 : 1;
+        if (scene.axes > 1) observer.across = up == 0 ? 1 : 0;
     }
-    watch.swing = find_swing(reference.track, reference.meaningful_looks(), row);
-    if (watch.swing) {
-        watch.rest =
-            rest_of(path_of(reference.track, reference.meaningful_looks(), row, watch.swing->axis),
-                    watch.swing->band);
+    observer.oscillation =
+        find_oscillation(reference.trajectory, reference.meaningful_samples(), row);
+    if (observer.oscillation) {
+        observer.rest = rest_of(path_of(reference.trajectory, reference.meaningful_samples(), row,
+                                        observer.oscillation->axis),
+                                observer.oscillation->band);
     }
-    return watch;
+    return observer;
 }
 
 double spread_percent(const RatesLine& line, double truth) {
@@ -187,22 +189,23 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
                     const std::vector<std::int64_t>& rates,
                     const std::vector<const Method*>& methods,
                     const std::function<bool()>& stopped) {
-    const Watch watch = watch_of(scene, reference, row);
-    const Noticed truth = notice(watch, paths_of(reference, row));
-    std::vector<std::vector<Noticed>> noticed(methods.size());
+    const Observer observer = observer_of(scene, reference, row);
+    const Observed truth = observe(observer, paths_of(reference, row));
+    std::vector<std::vector<Observed>> observed(methods.size());
     for (std::size_t i = 0; i < methods.size(); ++i)
         for (const std::int64_t rate : rates) {
             const auto paths =
-                run(scene, {methods[i], {rate}, scene.stepping.precision, scene.stepping.damping}, reference, row, stopped);
-            noticed[i].push_back(paths ? notice(watch, *paths) : Noticed{});
+                run(scene, {methods[i], {rate}, scene.stepping.precision, scene.stepping.damping},
+                    reference, row, stopped);
+            observed[i].push_back(paths ? observe(observer, *paths) : Observed{});
         }
     Rates result{.body = scene.name_of_body(row), .rates = rates};
-    for (const Thing& thing : things) {
-        if (std::isnan(truth.*thing.value)) continue;
-        RatesQuantity quantity{thing.name, thing.unit, truth.*thing.value};
+    for (const ObservedQuantity& kind : kinds) {
+        if (std::isnan(truth.*kind.value)) continue;
+        RatesQuantity quantity{kind.name, kind.unit, truth.*kind.value};
         for (std::size_t i = 0; i < methods.size(); ++i) {
             RatesLine line{.method = methods[i]};
-            for (const Noticed& one : noticed[i]) line.values.push_back(one.*thing.value);
+            for (const Observed& one : observed[i]) line.values.push_back(one.*kind.value);
             line.spread_percent = spread_percent(line, quantity.truth);
             quantity.lines.push_back(std::move(line));
         }
@@ -212,7 +215,7 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
 }
 
 std::size_t most_oscillating_row(const Reference& reference) {
-    return reference.swing ? reference.swing->row : 0;
+    return reference.oscillation ? reference.oscillation->row : 0;
 }
 
 std::size_t find_body(const Scene& scene, const std::string& name) {
@@ -223,8 +226,8 @@ std::size_t find_body(const Scene& scene, const std::string& name) {
     if (error == std::errc() && end == name.data() + name.size() &&
         row < static_cast<std::size_t>(scene.body_count()))
         return row;
-    fail(Exit::usage, "no body is called {}; give the name of one, or its number from 0 to {}",
-         name, scene.body_count() - 1);
+    fail(Exit::usage, "no body is called {}; give a body's name, or its index from 0 to {}", name,
+         scene.body_count() - 1);
 }
 
 }  // namespace oiler::lab

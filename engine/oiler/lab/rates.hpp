@@ -9,17 +9,17 @@
 
 namespace oiler::lab {
 
-/// What a player notices, by a method at each of the rates; unknown where it has none, say because
-/// the run is unstable.
+/// The values of a quantity by one method at each rate. A value is `unknown` if the run is unstable
+/// or does not show the quantity.
 struct RatesLine {
     const Method* method = nullptr;
     std::vector<double> values{};
-    /// From the least to the largest value, of the true one or, where that is 0, of the largest: in
-    /// percent.
+    /// (largest − smallest)/|truth|, in percent; relative to the largest magnitude if the truth is
+    /// 0.
     double spread_percent = unknown;
 };
 
-/// One thing that a player notices of a body.
+/// A quantity of a body's motion that a player notices.
 struct RatesQuantity {
     std::string name;  ///< "apex"
     std::string unit;  ///< "m"
@@ -33,19 +33,19 @@ struct Rates {
     std::vector<RatesQuantity> quantities{};
 };
 
-/// Runs the scene in its own precision with each method at each rate and measures what is drawn:
-/// straight lines between steps. Apex, its time, time and place of landing where there is gravity;
-/// period, amplitude at the end and the time to settle to a twentieth where the body swings. Only
-/// what the exact motion has.
+/// Runs the scene in its own precision with each method at each rate. Measures the drawn motion:
+/// straight lines between steps. With gravity: apex, its time, time and place of landing. For an
+/// oscillating body: period, amplitude at the end, time to settle to 5 %. Quantities that the exact
+/// motion does not have are left out.
 [[nodiscard]] Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t row,
                                   const std::vector<std::int64_t>& rates,
                                   const std::vector<const Method*>& methods,
                                   const std::function<bool()>& stopped);
 
-/// The row of the body that oscillates most; 0 where none does.
+/// The row of the body that oscillates most; 0 if none oscillates.
 [[nodiscard]] std::size_t most_oscillating_row(const Reference& reference);
 
-/// The row of the body that is called so, or has that number from 0 on. Throws Error{usage}.
+/// The row of the body with that name, or with that index, from 0. Throws Error{usage}.
 [[nodiscard]] std::size_t find_body(const Scene& scene, const std::string& name);
 
 }  // namespace oiler::lab

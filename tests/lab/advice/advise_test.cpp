@@ -32,19 +32,19 @@ std::vector<const Method*> splittings() {
     return all;
 }
 
-/// The scene, with a reference as good as the wish needs it.
-MeasuredScene measured_for(const std::string& text, const Wish& wish) {
-    return MeasuredScene(text, {.wanted = wanted_of(wish) / 2});
+/// The scene, with a reference accurate enough for the requirements.
+MeasuredScene measured_for(const std::string& text, const Requirements& requirements) {
+    return MeasuredScene(text, {.wanted = required_reference_error(requirements) / 2});
 }
 
-Advice advice_on(const std::string& text, const Wish& wish) {
-    const MeasuredScene measured = measured_for(text, wish);
-    return advise(measured.scene, measured.reference, wish, {});
+Advice advice_on(const std::string& text, const Requirements& requirements) {
+    const MeasuredScene measured = measured_for(text, requirements);
+    return advise(measured.scene, measured.reference, requirements, {});
 }
 
-// ---- what is right, by the textbook
+// ---- exact motions, from textbooks
 
-/// Where a body is at a time.
+/// The exact position of a body at time t.
 using Truth = std::function<Vec<Real, 2>(std::size_t row, Real t)>;
 
 /// x = A·e^(−b·t/2)·(cos ωt + b/(2ω)·sin ωt), ω² = k − b²/4
@@ -66,8 +66,8 @@ Vec<Real, 2> orbit_truth(std::size_t, Real t) {
     return {std::cos(low) - e, std::sqrt(1 - e * e) * std::sin(low)};
 }
 
-/// Two masses of 1 kg, springs of 15, 1.5 and 15 N/m: together they swing with √15, against each
-/// other with √18. The left one starts 1 m off its rest at −2 m.
+/// Two masses of 1 kg, springs of 15, 1.5 and 15 N/m: the modes have √15 rad/s in phase and √18
+/// rad/s in antiphase. The left mass starts 1 m from its rest at −2 m.
 Vec<Real, 2> chain_truth(std::size_t row, Real t) {
     const Real together = std::cos(std::sqrt(Real(15)) * t) / 2;
     const Real apart = std::cos(std::sqrt(Real(18)) * t) / 2;
@@ -75,10 +75,11 @@ Vec<Real, 2> chain_truth(std::size_t row, Real t) {
                     : Vec<Real, 2>{2 + together - apart, 0};
 }
 
-/// The largest distance at any step up to the end of the scene.
+/// The largest distance from the truth at any step of the scene.
 double error_of(const Scene& scene, const Stepping& choice, const Truth& truth) {
     World world = make_world(scene, Settings{choice});
-    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps));
+    const auto steps =
+        static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps));
     Real most = 0;
     for (std::int64_t tick = 0; tick <= steps; ++tick) {
         if (tick > 0) world.step();
@@ -97,15 +98,15 @@ const std::string chain = text_of(OILER_SOURCE "/assets/scenes/chain.toml");
 
 class AdviceOnPosition : public testing::TestWithParam<double> {
 protected:
-    void expect_kept(const std::string& text, const Truth& truth,
-                     const std::vector<const Method*>& among) {
-        const Wish wish{.position_error = GetParam(), .methods = among};
-        const MeasuredScene measured = measured_for(text, wish);
-        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+    void expect_within_tolerance(const std::string& text, const Truth& truth,
+                                 const std::vector<const Method*>& among) {
+        const Requirements requirements{.position_error = GetParam(), .methods = among};
+        const MeasuredScene measured = measured_for(text, requirements);
+        const Advice advice = advise(measured.scene, measured.reference, requirements, {});
         ASSERT_TRUE(advice.best);
         ASSERT_TRUE(advice.meets) << advice.obstacles.front();
         EXPECT_TRUE(advice.obstacles.empty());
-        const std::string words = words_of(advice.best->stepping);
+        const std::string words = describe(advice.best->stepping);
         EXPECT_LE(error_of(measured.scene, advice.best->stepping, truth), GetParam()) << words;
         EXPECT_TRUE(std::find(among.begin(), among.end(), advice.best->stepping.method) !=
                     among.end())
@@ -117,10 +118,14 @@ protected:
 };
 
 TEST_P(AdviceOnPosition, OfTheArticlesSpringIsKept) {
-    expect_kept(article_spring, spring_truth, all_methods());
+    expect_within_tolerance(article_spring, spring_truth, all_methods());
 }
-TEST_P(AdviceOnPosition, OfAnOrbitIsKept) { expect_kept(orbit, orbit_truth, all_methods()); }
-TEST_P(AdviceOnPosition, OfAChainIsKept) { expect_kept(chain, chain_truth, all_methods()); }
+TEST_P(AdviceOnPosition, OfAnOrbitIsKept) {
+    expect_within_tolerance(orbit, orbit_truth, all_methods());
+}
+TEST_P(AdviceOnPosition, OfAChainIsKept) {
+    expect_within_tolerance(chain, chain_truth, all_methods());
+}
 
 // Positions at whole seconds, which are steps at any rate, to twenty digits.
 TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
@@ -131,9 +136,9 @@ TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
             "[scene]\naxes = 2\nrate = 60\nduration = 6.0\n[gravity]\nacceleration = [0.0, -" +
             word("g") + "]\n[[body]]\nvelocity = [" + word("vx0") + ", " + word("vy0") +
             "]\nquadratic_drag = " + word("k_per_m") + "\n";
-        const Wish wish{.position_error = GetParam(), .methods = all_methods()};
-        const MeasuredScene measured = measured_for(text, wish);
-        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        const Requirements requirements{.position_error = GetParam(), .methods = all_methods()};
+        const MeasuredScene measured = measured_for(text, requirements);
+        const Advice advice = advise(measured.scene, measured.reference, requirements, {});
         ASSERT_TRUE(advice.meets);
         World world = make_world(measured.scene, Settings{advice.best->stepping});
         for (const nlohmann::json& state : run.at("states")) {
@@ -142,7 +147,7 @@ TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
             EXPECT_LE(std::hypot(at[0] - number<Real>(state.at("x")),
                                  at[1] - number<Real>(state.at("y"))),
                       GetParam())
-                << words_of(advice.best->stepping) << " after " << state.at("t");
+                << describe(advice.best->stepping) << " after " << state.at("t");
         }
         EXPECT_EQ(world.time(), 6);
         return;
@@ -161,61 +166,63 @@ TEST(Advice, OnTheArticlesSpringIsTheExactMotion) {
         EXPECT_EQ(advice.best->stepping.method->name, "exact");
         EXPECT_EQ(advice.best->stepping.precision, Precision::double_);
         EXPECT_EQ(advice.best->stepping.rate.steps, 50);
-        EXPECT_EQ(advice.today->stepping.method->name, "semi_implicit_euler");
+        EXPECT_EQ(advice.current->stepping.method->name, "semi_implicit_euler");
     }
 }
 
-// The sweep knows how often each way to be within the tolerance evaluates forces. Advice goes by
-// time; a step's other costs, and that steps in one call share some, are worth a factor of two.
+// The sweep counts the force evaluations of every setting within the tolerance. Advice compares
+// times. Other costs of a step, partly shared within a call, allow a factor of two.
 TEST(Advice, AmongSplittingsIsOneOfTheSweepsBest) {
     SweepPlan plan{.methods = splittings(), .max_rate = 12'800};
     for (const double tolerance : {1.0, 1e-3, 1e-6}) {
-        const Wish wish{
+        const Requirements requirements{
             .position_error = tolerance, .max_rate = plan.max_rate, .methods = plan.methods};
-        const MeasuredScene measured = measured_for(article_spring, wish);
+        const MeasuredScene measured = measured_for(article_spring, requirements);
         Tradeoff tradeoff =
-            start_tradeoff(measured.scene, measured.looks, measured.reference, plan);
+            start_tradeoff(measured.scene, measured.samples, measured.reference, plan);
         sweep(tradeoff, measured.scene, measured.reference, plan, {});
         double fewest = INFINITY;
         for (const TradeoffRow* row : tradeoff.rows())
             if (row->judgement.stable && !(row->judgement.position_error > tolerance))
                 fewest = std::min(fewest, row->judgement.evaluations);
-        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        const Advice advice = advise(measured.scene, measured.reference, requirements, {});
         ASSERT_TRUE(advice.meets);
-        EXPECT_LE(advice.best->judgement.evaluations, 2 * fewest) << words_of(advice.best->stepping);
+        EXPECT_LE(advice.best->judgement.evaluations, 2 * fewest)
+            << describe(advice.best->stepping);
         EXPECT_GT(advice.runs, 0);
         EXPECT_LT(static_cast<std::size_t>(advice.runs), tradeoff.rows().size() / 2);
     }
 }
 
-// What the method is wrong by falls with dt⁴ where it is aligned: refining between the rungs ends
-// within a step of 1/32 of the coarsest rate that will do, of those that are aligned.
-TEST(Advice, IsTheLowestRateThatWillDo) {
+// The error falls with dt⁴ at rates with a step at every sample. Among these, refining ends within
+// 1/32 of the lowest rate that meets the tolerance.
+TEST(Advice, IsTheLowestRateThatMeetsTheTolerance) {
     for (const double tolerance : {1e-7, 1e-8}) {
-        const Wish wish{.position_error = tolerance, .methods = methods_of({"rk4"})};
-        const MeasuredScene measured = measured_for(article_spring, wish);
-        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        const Requirements requirements{.position_error = tolerance,
+                                        .methods = methods_of({"rk4"})};
+        const MeasuredScene measured = measured_for(article_spring, requirements);
+        const Advice advice = advise(measured.scene, measured.reference, requirements, {});
         ASSERT_TRUE(advice.meets);
         Stepping lower = advice.best->stepping;
         ASSERT_GT(lower.rate.steps, 100);
         lower.rate.steps -= std::max<std::int64_t>(50, lower.rate.steps / 32 / 50 * 50 + 50);
         EXPECT_GT(error_of(measured.scene, lower, spring_truth), 0.97 * tolerance)
-            << words_of(advice.best->stepping);
+            << describe(advice.best->stepping);
     }
 }
 
 // ---- energy
 
-// Without a damper ½·v² + ½·15·x² stays what it is, 7.5e6 J.
+// Without a damper ½·v² + ½·15·x² stays 7.5e6 J.
 TEST(AdviceOnEnergy, IsKept) {
     const std::string undamped =
         one_axis +
         "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
         "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n";
     for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
-        const Wish wish{.energy_drift = tolerance, .methods = splittings()};
-        const MeasuredScene measured = measured_for(undamped, wish);
-        const Advice advice = advise(measured.scene, measured.reference, wish, {});
+        const Requirements requirements{.energy_drift = tolerance, .methods = splittings()};
+        const MeasuredScene measured = measured_for(undamped, requirements);
+        const Advice advice = advise(measured.scene, measured.reference, requirements, {});
         ASSERT_TRUE(advice.meets);
         World world = make_world(measured.scene, Settings{advice.best->stepping});
         double most = 0;
@@ -225,29 +232,30 @@ TEST(AdviceOnEnergy, IsKept) {
             const double v = world.bodies().velocity(0)[0];
             most = std::max(most, std::abs((v * v + 15 * x * x) / 15e6 - 1));
         }
-        EXPECT_LE(most, tolerance) << words_of(advice.best->stepping);
+        EXPECT_LE(most, tolerance) << describe(advice.best->stepping);
         EXPECT_GT(most, 0);
         EXPECT_DOUBLE_EQ(measured.reference.energy_scale, 7.5e6);
     }
 }
 
 TEST(AdviceOnEnergy, AndPositionKeepsBoth) {
-    const Wish both{.position_error = 10, .energy_drift = 1e-7, .methods = splittings()};
+    const Requirements both{.position_error = 10, .energy_drift = 1e-7, .methods = splittings()};
     const Advice advice = advice_on(article_spring, both);
     ASSERT_TRUE(advice.meets);
     EXPECT_FALSE(advice.best->judgement.position_error > 10);
     EXPECT_FALSE(advice.best->judgement.energy_drift > 1e-7);
-    const Wish position{.position_error = 10, .methods = splittings()};
+    const Requirements position{.position_error = 10, .methods = splittings()};
     EXPECT_GT(advice_on(article_spring, position).best->judgement.energy_drift, 1e-7);
 }
 
 // ---- time
 
 TEST(AdviceOnTime, AloneIsTheMostAccurateThatFits) {
-    const Wish wish{.ns_per_second = 1e9,
-                    .max_rate = 800,
-                    .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
-    const Advice advice = advice_on(article_spring, wish);
+    const Requirements requirements{
+        .ns_per_second = 1e9,
+        .max_rate = 800,
+        .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
+    const Advice advice = advice_on(article_spring, requirements);
     ASSERT_TRUE(advice.meets);
     EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
     EXPECT_EQ(advice.best->stepping.rate.steps, 800);
@@ -256,40 +264,40 @@ TEST(AdviceOnTime, AloneIsTheMostAccurateThatFits) {
 }
 
 // A millionth of a ns is less than any step takes.
-TEST(AdviceOnTime, ThatNothingKeepsNamesTheTime) {
+TEST(AdviceOnTime, ThatNoSettingMeetsNamesTheTime) {
     for (const std::optional<double>& tolerance : {std::optional<double>(), std::optional(1e-3)}) {
-        const Wish wish{.position_error = tolerance,
-                        .ns_per_second = 1e-6,
-                        .methods = methods_of({"velocity_verlet", "rk4"})};
-        const Advice advice = advice_on(article_spring, wish);
+        const Requirements requirements{.position_error = tolerance,
+                                        .ns_per_second = 1e-6,
+                                        .methods = methods_of({"velocity_verlet", "rk4"})};
+        const Advice advice = advice_on(article_spring, requirements);
         EXPECT_FALSE(advice.meets);
         ASSERT_FALSE(advice.obstacles.empty());
         EXPECT_TRUE(holds(advice.obstacles.front(), "time")) << advice.obstacles.front();
     }
 }
 
-// ---- where nothing will do
+// ---- requirements that no setting meets
 
-TEST(Advice, ThatCannotBeGivenNamesWhatIsInTheWay) {
-    const Wish wish{
+TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
+    const Requirements requirements{
         .position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"explicit_euler"})};
-    const MeasuredScene measured = measured_for(article_spring, wish);
-    const Advice advice = advise(measured.scene, measured.reference, wish, {});
+    const MeasuredScene measured = measured_for(article_spring, requirements);
+    const Advice advice = advise(measured.scene, measured.reference, requirements, {});
     EXPECT_FALSE(advice.meets);
     ASSERT_TRUE(advice.best);
     ASSERT_EQ(advice.obstacles.size(), 2U);
-    // At whole seconds it is farthest after 8 s: 604.35000417 m, where numbers of float are 2⁻¹⁴ m
-    // apart and the nearest one is 2.85839e-5 m off.
-    EXPECT_TRUE(holds(advice.obstacles[0], "in float rounding alone moves bodies by 2.86e-05 m"))
+    // The largest rounding at a whole second is at 8 s: at 604.35000417 m floats are 2⁻¹⁴ m apart,
+    // and the nearest is 2.85839e-5 m away.
+    EXPECT_TRUE(holds(advice.obstacles[0], "in float, round-off alone moves bodies by 2.86e-05 m"))
         << advice.obstacles[0];
     EXPECT_TRUE(holds(advice.obstacles[1], "double"));
     const std::vector<std::string> words =
-        words_of(advice, measured.scene, measured.reference, wish);
-    EXPECT_TRUE(holds(words.front(), "Nothing keeps within 1e-06 m")) << words.front();
+        describe(advice, measured.scene, measured.reference, requirements);
+    EXPECT_TRUE(holds(words.front(), "No setting meets 1e-06 m")) << words.front();
 }
 
-// Of a method of first order the highest rung is the most accurate.
-TEST(Advice, ThatCannotBeGivenComesAsNearAsItCan) {
+// For a method of first order, the highest rung is the most accurate.
+TEST(Advice, ThatDoesNotExistIsTheClosestSetting) {
     const Advice advice = advice_on(
         article_spring,
         {.position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
@@ -298,7 +306,7 @@ TEST(Advice, ThatCannotBeGivenComesAsNearAsItCan) {
     EXPECT_EQ(advice.best->stepping.rate.steps, 800);
 }
 
-TEST(Advice, OnEnergyThatCannotBeGivenSpeaksOfEnergy) {
+TEST(Advice, OnEnergyThatDoesNotExistNamesEnergy) {
     const Advice advice = advice_on(
         article_spring,
         {.energy_drift = 1e-9, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
@@ -307,33 +315,34 @@ TEST(Advice, OnEnergyThatCannotBeGivenSpeaksOfEnergy) {
     EXPECT_TRUE(holds(advice.obstacles.front(), "energy")) << advice.obstacles.front();
 }
 
-void expect_refused(const MeasuredScene& measured, const Wish& wish, const std::string& named) {
+void expect_refused(const MeasuredScene& measured, const Requirements& requirements,
+                    const std::string& named) {
     try {
-        (void)advise(measured.scene, measured.reference, wish, {});
+        (void)advise(measured.scene, measured.reference, requirements, {});
         ADD_FAILURE() << "is not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(holds(error.what(), "cannot be")) << error.what();
+        EXPECT_TRUE(holds(error.what(), "expected at least")) << error.what();
         EXPECT_TRUE(holds(error.what(), named)) << error.what();
         EXPECT_FALSE(holds(error.what(), "--duration 0")) << error.what();
         EXPECT_FALSE(holds(error.what(), "\n"));
     }
 }
 
-TEST(Advice, BelowWhatCanBeToldIsRefused) {
+TEST(Advice, BelowTheFloorIsRefused) {
     expect_refused(MeasuredScene(article_spring),
                    {.position_error = 1e-14, .methods = all_methods()}, "1e-14 m");
     expect_refused(MeasuredScene(article_spring), {.energy_drift = 1e-15, .methods = all_methods()},
                    "1e-15");
 }
 
-// A reference that was to be as good as that, and is not, blames the wish and not the scene.
-TEST(Advice, BelowWhatCanBeToldByItsOwnReferenceIsRefused) {
-    const Wish wish{.position_error = 1e-14, .methods = all_methods()};
-    expect_refused(measured_for(article_spring, wish), wish, "1e-14");
+// A reference that misses its wanted error blames the tolerance, not the scene.
+TEST(Advice, BelowTheFloorOfAReferenceMadeForItIsRefused) {
+    const Requirements requirements{.position_error = 1e-14, .methods = all_methods()};
+    expect_refused(measured_for(article_spring, requirements), requirements, "1e-14");
 }
 
-/// Two masses on rods that are hardly springs, thrown over: chaotic.
+/// A double pendulum of stiff springs, started upright: chaotic.
 std::string double_pendulum(const std::string& duration) {
     return "[scene]\naxes = 2\nrate = 100\nduration = " + duration +
            "\n[gravity]\nacceleration = [0.0, -9.81]\n"
@@ -343,14 +352,16 @@ std::string double_pendulum(const std::string& duration) {
            "[[spring]]\nbody = \"b\"\nto = \"a\"\nstiffness = 500.0\nrest_length = 1.0\n";
 }
 
-TEST(Advice, OnWhatIsChaoticIsRefusedAndTheRemedyHelps) {
-    const Wish wish{.position_error = 1e-3, .methods = methods_of({"rk4", "kahan_li8_kdk"})};
-    const ReferenceEffort effort{.wanted = wanted_of(wish) / 2, .most_work = 2e6};
+TEST(Advice, OnAChaoticSceneIsRefusedAndTheRemedyHelps) {
+    const Requirements requirements{.position_error = 1e-3,
+                                    .methods = methods_of({"rk4", "kahan_li8_kdk"})};
+    const ReferenceEffort effort{.wanted = required_reference_error(requirements) / 2,
+                                 .most_work = 2e6};
     const MeasuredScene measured(double_pendulum("60.0"), effort);
-    ASSERT_LT(measured.reference.meaningful, measured.looks.count);
+    ASSERT_LT(measured.reference.meaningful, measured.samples.count);
     std::string line;
     try {
-        (void)advise(measured.scene, measured.reference, wish, {});
+        (void)advise(measured.scene, measured.reference, requirements, {});
         FAIL() << "is not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::usage);
@@ -362,15 +373,16 @@ TEST(Advice, OnWhatIsChaoticIsRefusedAndTheRemedyHelps) {
     EXPECT_GT(std::stod(duration), 1) << line;
     const MeasuredScene shorter(double_pendulum(holds(duration, ".") ? duration : duration + ".0"),
                                 effort);
-    EXPECT_NO_THROW((void)advise(shorter.scene, shorter.reference, wish, {})) << duration;
+    EXPECT_NO_THROW((void)advise(shorter.scene, shorter.reference, requirements, {})) << duration;
 }
 
-// ---- the rates and the methods that are asked for
+// ---- limits of rates
 
 TEST(Advice, StaysAboveTheLowestRate) {
     for (const std::int64_t lowest : {30, 99, 130, 250}) {
-        const Wish wish{.position_error = 100, .min_rate = lowest, .methods = splittings()};
-        const Advice advice = advice_on(article_spring, wish);
+        const Requirements requirements{
+            .position_error = 100, .min_rate = lowest, .methods = splittings()};
+        const Advice advice = advice_on(article_spring, requirements);
         ASSERT_TRUE(advice.meets);
         EXPECT_GE(advice.best->stepping.rate.steps, lowest);
         ASSERT_TRUE(advice.runner_up);
@@ -379,17 +391,17 @@ TEST(Advice, StaysAboveTheLowestRate) {
 }
 
 TEST(Advice, StaysBelowTheHighestRate) {
-    const Wish wish{.position_error = 1, .max_rate = 200, .methods = all_methods()};
-    const Advice advice = advice_on(article_spring, wish);
+    const Requirements requirements{.position_error = 1, .max_rate = 200, .methods = all_methods()};
+    const Advice advice = advice_on(article_spring, requirements);
     ASSERT_TRUE(advice.best);
     EXPECT_LE(advice.best->stepping.rate.steps, 200);
 }
 
 TEST(Advice, WithoutARateInBetweenIsRefused) {
-    const Wish wish{
+    const Requirements requirements{
         .position_error = 1, .min_rate = 300, .max_rate = 200, .methods = all_methods()};
     try {
-        (void)advice_on(article_spring, wish);
+        (void)advice_on(article_spring, requirements);
         ADD_FAILURE() << "is not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::usage);
@@ -397,9 +409,9 @@ TEST(Advice, WithoutARateInBetweenIsRefused) {
     }
 }
 
-// At a rate whose only divisors are 1 and itself it must still be looked at often: a step of a
-// second would be drawn 1000 m off.
-TEST(Advice, OnASceneOfAPrimeRateIsNoSlideShow) {
+// A prime rate has no divisor near 60, but the scene must still be sampled often: with steps of 1 s
+// the drawn motion has an error of 1000 m.
+TEST(Advice, OnASceneOfAPrimeRateIsNotBelow20Hz) {
     std::string text = article_spring;
     text.replace(text.find("rate = 100"), 10, "rate = 97");
     const Advice advice = advice_on(text, {.position_error = 1e-3, .methods = all_methods()});
@@ -407,7 +419,7 @@ TEST(Advice, OnASceneOfAPrimeRateIsNoSlideShow) {
     EXPECT_GE(advice.best->stepping.rate.steps, 20);
 }
 
-TEST(Advice, StoppedIsNone) {
+TEST(Advice, IsEmptyIfStopped) {
     const MeasuredScene measured(article_spring);
     const Advice advice =
         advise(measured.scene, measured.reference, {.position_error = 1, .methods = splittings()},
@@ -417,27 +429,27 @@ TEST(Advice, StoppedIsNone) {
 }
 
 TEST(Advice, SaysTheConclusionFirst) {
-    const Wish wish{.position_error = 1, .methods = all_methods()};
-    const MeasuredScene measured = measured_for(article_spring, wish);
-    const Advice advice = advise(measured.scene, measured.reference, wish, {});
+    const Requirements requirements{.position_error = 1, .methods = all_methods()};
+    const MeasuredScene measured = measured_for(article_spring, requirements);
+    const Advice advice = advise(measured.scene, measured.reference, requirements, {});
     const std::vector<std::string> words =
-        words_of(advice, measured.scene, measured.reference, wish);
-    EXPECT_TRUE(words.front().starts_with(words_of(advice.best->stepping) + ": ")) << words.front();
+        describe(advice, measured.scene, measured.reference, requirements);
+    EXPECT_TRUE(words.front().starts_with(describe(advice.best->stepping) + ": ")) << words.front();
     EXPECT_TRUE(holds(words.back(), "10 s")) << words.back();
-    EXPECT_TRUE(holds(words.back(), "50 times a second")) << words.back();
-    EXPECT_EQ(words_of(Stepping{&find_method("rk4"), {60}, Precision::double_}),
+    EXPECT_TRUE(holds(words.back(), "50 times per second")) << words.back();
+    EXPECT_EQ(describe(Stepping{&find_method("rk4"), {60}, Precision::double_}),
               "rk4 at 60 Hz in double");
 }
 
 TEST(Meets, IsWithinAllTolerancesWithSomeToSpare) {
-    const Wish wish{.position_error = 2, .energy_drift = 3};
+    const Requirements requirements{.position_error = 2, .energy_drift = 3};
     const Judgement both{.position_error = 2, .energy_drift = 3};
-    EXPECT_TRUE(meets(both, wish));
-    EXPECT_FALSE(meets(both, wish, 0.01));
-    EXPECT_FALSE(meets({.position_error = 2.001, .energy_drift = 3}, wish));
-    EXPECT_FALSE(meets({.position_error = 2, .energy_drift = 3.001}, wish));
-    EXPECT_TRUE(meets({.position_error = unknown, .energy_drift = 1}, wish));
-    EXPECT_FALSE(meets({.stable = false}, wish));
+    EXPECT_TRUE(meets(both, requirements));
+    EXPECT_FALSE(meets(both, requirements, 0.01));
+    EXPECT_FALSE(meets({.position_error = 2.001, .energy_drift = 3}, requirements));
+    EXPECT_FALSE(meets({.position_error = 2, .energy_drift = 3.001}, requirements));
+    EXPECT_TRUE(meets({.position_error = unknown, .energy_drift = 1}, requirements));
+    EXPECT_FALSE(meets({.stable = false}, requirements));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Advice by what steps cost, from a made-up clock, and how its costs are said.
+// Advice by the cost of steps, from a made-up clock, and the description of costs.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,14 +20,14 @@ const MeasuredScene& spring() {
     return measured;
 }
 
-/// What a step of a method costs in ns, as the search estimates it and as it is then timed.
+/// The cost of a step of a method, ns, as the search estimates it and as it is timed later.
 struct Price {
     const char* method;
     double estimated;
     double timed;
 };
 
-/// The search estimates costs at a rate that no scene here has a run at.
+/// The search estimates costs at a rate that no run here has.
 SweepWatch clock_of(const std::vector<Price>& prices) {
     constexpr std::int64_t rate_of_estimates = 1 << 16;
     SweepWatch watch;
@@ -40,19 +40,19 @@ SweepWatch clock_of(const std::vector<Price>& prices) {
     return watch;
 }
 
-Advice advice_by(const Wish& wish, const std::vector<Price>& prices) {
-    return advise(spring().scene, spring().reference, wish, clock_of(prices));
+Advice advice_by(const Requirements& requirements, const std::vector<Price>& prices) {
+    return advise(spring().scene, spring().reference, requirements, clock_of(prices));
 }
 
 // ---- by time
 
-// Rates are tried up to 1000 ns of computing for a second, by estimates of 1 ns for a step. Then
-// velocity Verlet, which is more accurate at all of them, turns out to take a hundred times that.
-TEST(AdviceByTime, PutsLastWhatDoesNotFitItsBudget) {
-    const Wish wish{.ns_per_second = 1000,
-                    .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
+// Estimates of 1 ns per step allow rates up to 1000 Hz. Velocity Verlet is more accurate at all of
+// them, but is then timed at 100 ns per step.
+TEST(AdviceByTime, PutsSettingsOverBudgetLast) {
+    const Requirements requirements{
+        .ns_per_second = 1000, .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
     const Advice advice =
-        advice_by(wish, {{"semi_implicit_euler", 1, 1}, {"velocity_verlet", 1, 100}});
+        advice_by(requirements, {{"semi_implicit_euler", 1, 1}, {"velocity_verlet", 1, 100}});
     ASSERT_TRUE(advice.best);
     EXPECT_EQ(advice.best->stepping.method->name, "semi_implicit_euler");
     EXPECT_EQ(advice.best->ns_per_second, static_cast<double>(advice.best->stepping.rate.steps));
@@ -64,10 +64,10 @@ TEST(AdviceByTime, PutsLastWhatDoesNotFitItsBudget) {
 }
 
 TEST(AdviceByTime, IsTheMostAccurateWhereAllFit) {
-    const Wish wish{.ns_per_second = 1000,
-                    .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
+    const Requirements requirements{
+        .ns_per_second = 1000, .methods = methods_of({"semi_implicit_euler", "velocity_verlet"})};
     const Advice advice =
-        advice_by(wish, {{"semi_implicit_euler", 1, 1}, {"velocity_verlet", 1, 1}});
+        advice_by(requirements, {{"semi_implicit_euler", 1, 1}, {"velocity_verlet", 1, 1}});
     ASSERT_TRUE(advice.best);
     EXPECT_TRUE(advice.meets);
     EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
@@ -78,19 +78,21 @@ TEST(AdviceByTime, IsTheMostAccurateWhereAllFit) {
 // A cost of exactly the budget fits.
 TEST(AdviceByTime, FitsABudgetThatItJustTakes) {
     for (const double budget : {800.0, 799.0}) {
-        const Wish wish{.ns_per_second = budget, .methods = methods_of({"velocity_verlet"})};
-        const Advice advice = advice_by(wish, {{"velocity_verlet", 1, 1}});
+        const Requirements requirements{.ns_per_second = budget,
+                                        .methods = methods_of({"velocity_verlet"})};
+        const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.best);
         EXPECT_EQ(advice.best->stepping.rate.steps, budget == 800 ? 800 : 600);
         EXPECT_TRUE(advice.meets);
     }
 }
 
-// Within 1 m both methods will do. By the estimates velocity Verlet is the cheaper one, by its
-// times Runge and Kutta's is: 50 Hz at 5 ns each are 250 ns a second.
+// Both methods meet 1 m. Velocity Verlet is cheaper as estimated, rk4 as timed: 50 Hz at 5 ns are
+// 250 ns per second.
 TEST(AdviceByTime, IsTheCheapestAsTimedNotAsEstimated) {
-    const Wish wish{.position_error = 1, .methods = methods_of({"velocity_verlet", "rk4"})};
-    const Advice advice = advice_by(wish, {{"velocity_verlet", 1, 10}, {"rk4", 5, 5}});
+    const Requirements requirements{.position_error = 1,
+                                    .methods = methods_of({"velocity_verlet", "rk4"})};
+    const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 10}, {"rk4", 5, 5}});
     ASSERT_TRUE(advice.meets);
     EXPECT_EQ(advice.best->stepping.method->name, "rk4");
     EXPECT_EQ(advice.best->stepping.rate.steps, 50);
@@ -99,14 +101,14 @@ TEST(AdviceByTime, IsTheCheapestAsTimedNotAsEstimated) {
     EXPECT_EQ(advice.runner_up->stepping.method->name, "velocity_verlet");
 }
 
-// 60 frames show a second: 48,000 ns for a second at 400 Hz are 0.8 µs for a frame.
-TEST(AdviceByTime, ThatNothingFitsSaysTheTimeOfAFrame) {
-    const Wish wish{.position_error = 100,
-                    .ns_per_second = 10,
-                    .min_rate = 400,
-                    .max_rate = 400,
-                    .methods = methods_of({"velocity_verlet"})};
-    const Advice advice = advice_by(wish, {{"velocity_verlet", 120, 120}});
+// 400 Hz at 120 ns are 48,000 ns per second: 0.8 µs for each of 60 frames.
+TEST(AdviceByTime, ThatNoSettingMeetsNamesTheTimePerFrame) {
+    const Requirements requirements{.position_error = 100,
+                                    .ns_per_second = 10,
+                                    .min_rate = 400,
+                                    .max_rate = 400,
+                                    .methods = methods_of({"velocity_verlet"})};
+    const Advice advice = advice_by(requirements, {{"velocity_verlet", 120, 120}});
     EXPECT_FALSE(advice.meets);
     ASSERT_TRUE(advice.best);
     EXPECT_EQ(advice.best->ns_per_second, 48'000);
@@ -116,25 +118,25 @@ TEST(AdviceByTime, ThatNothingFitsSaysTheTimeOfAFrame) {
 
 // ---- rates between the rungs
 
-// Velocity Verlet is ahead by ω·(ω·dt)²/24 rad a second: within 1 m at 121 Hz. The lowest rate that
-// is asked for decides, where it is a rung (200 Hz) as where it lies between two.
+// Velocity Verlet gains ω·(ω·dt)²/24 rad per second: it meets 1 m from 121 Hz on. The lowest
+// allowed rate decides, on a rung (200 Hz) and between two.
 TEST(AdviceByTime, NeverGoesBelowTheLowestRate) {
     for (const std::int64_t lowest : {160, 200, 210, 299}) {
-        const Wish wish{
+        const Requirements requirements{
             .position_error = 1, .min_rate = lowest, .methods = methods_of({"velocity_verlet"})};
-        const Advice advice = advice_by(wish, {{"velocity_verlet", 1, 1}});
+        const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.meets);
         EXPECT_GE(advice.best->stepping.rate.steps, lowest);
         EXPECT_LE(advice.best->stepping.rate.steps, lowest <= 200 ? 200 : 300) << lowest;
     }
 }
 
-// Of the multiples of 50 Hz, 100 Hz is too low and 150 Hz will do, as above.
+// Velocity Verlet meets 1 m from 121 Hz on: of the multiples of 50 Hz, 150 Hz is the first.
 TEST(AdviceByTime, IsRefinedBetweenTheLowestRateAndARung) {
     for (const std::int64_t lowest : {1, 50, 100}) {
-        const Wish wish{
+        const Requirements requirements{
             .position_error = 1, .min_rate = lowest, .methods = methods_of({"velocity_verlet"})};
-        const Advice advice = advice_by(wish, {{"velocity_verlet", 1, 1}});
+        const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.meets);
         EXPECT_EQ(advice.best->stepping.rate.steps, 150) << lowest;
     }
@@ -142,17 +144,17 @@ TEST(AdviceByTime, IsRefinedBetweenTheLowestRateAndARung) {
 
 TEST(AdviceByTime, TriesTheHighestRateToo) {
     for (const std::int64_t highest : {50, 300, 400}) {
-        const Wish wish{
+        const Requirements requirements{
             .ns_per_second = 1e9, .max_rate = highest, .methods = methods_of({"velocity_verlet"})};
-        const Advice advice = advice_by(wish, {{"velocity_verlet", 1, 1}});
+        const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.best);
         EXPECT_EQ(advice.best->stepping.rate.steps, highest);
     }
 }
 
-// ---- how costs are said
+// ---- descriptions of costs
 
-/// 36 µs for a second of the scene are 0.6 µs for each of 60 frames.
+/// 36 µs per second of the scene are 0.6 µs for each of 60 frames.
 TradeoffRow costing(const char* method, double us_per_second) {
     TradeoffRow row{.stepping = {&find_method(method), {240}, Precision::double_}};
     row.judgement.position_error = 0.25;
@@ -161,20 +163,20 @@ TradeoffRow costing(const char* method, double us_per_second) {
     return row;
 }
 
-const Wish both{.position_error = 0.5, .ns_per_second = 120e3};
+const Requirements both{.position_error = 0.5, .ns_per_second = 120e3};
 
 std::string said(const Advice& advice) {
     std::string all;
-    for (const std::string& sentence : words_of(advice, spring().scene, spring().reference, both))
+    for (const std::string& sentence : describe(advice, spring().scene, spring().reference, both))
         all += sentence + "\n";
     return all;
 }
 
-TEST(WordsOfAdvice, SayCostsForASecondAndForAFrame) {
+TEST(DescribeAdvice, SayCostsForASecondAndForAFrame) {
     const std::string words = said({.best = costing("rk4", 36),
                                     .meets = true,
                                     .runner_up = costing("velocity_verlet", 72),
-                                    .today = costing("semi_implicit_euler", 9)});
+                                    .current = costing("semi_implicit_euler", 9)});
     for (const char* part : {" 36 µs of computing for a second", " 0.6 µs per frame",
                              " 72 µs of computing for a second", " 2 times the cost",
                              " 9 µs of computing for a second", " 0.25 times the cost", "50 % of"})
@@ -182,8 +184,8 @@ TEST(WordsOfAdvice, SayCostsForASecondAndForAFrame) {
     EXPECT_EQ(count_of(words, "per frame"), 1U) << words;
 }
 
-// 120 µs for a second are 2 µs for a frame.
-TEST(WordsOfAdvice, SayABudgetForAFrame) {
+// 120 µs per second are 2 µs per frame.
+TEST(DescribeAdvice, SayABudgetForAFrame) {
     const std::string words = said({.best = costing("rk4", 600)});
     EXPECT_TRUE(holds(words, " 0.5 m and 2 µs per frame")) << words;
     EXPECT_TRUE(holds(words, " 10 µs per frame")) << words;
@@ -194,7 +196,7 @@ TEST(JsonOfAdvice, HasEveryCostForAFrameInMicroseconds) {
         .best = costing("rk4", 36),
         .meets = true,
         .runner_up = costing("velocity_verlet", 72),
-        .today = costing("semi_implicit_euler", 9),
+        .current = costing("semi_implicit_euler", 9),
         .alternatives = {
             {.row = costing("exact", 18), .method = &find_method("exact"), .why = "so"}}};
     const auto json =

@@ -29,11 +29,11 @@ const LedgerPass& pass_of(const Ledger& ledger, const std::string& name) {
     return *found;
 }
 
-/// The bytes of each body in the columns of one thing.
-std::size_t bytes_of(const Ledger& ledger, const std::string& thing) {
+/// The bytes per body in the columns of one kind.
+std::size_t bytes_of(const Ledger& ledger, const std::string& kind) {
     std::size_t bytes = 0;
     for (const LedgerColumn& column : ledger.columns)
-        if (column.of == thing) bytes += column.bytes;
+        if (column.of == kind) bytes += column.bytes;
     return bytes;
 }
 
@@ -49,7 +49,7 @@ const std::string lone_spring = one_axis +
                                 "[[body]]\nname = \"a\"\nposition = [1.0]\n"
                                 "[[spring]]\nbody = \"a\"\nanchor = [0.0]\nstiffness = 15.0\n";
 
-// x and v of 8 bytes and a handle of 12; what one body has is shared by all.
+// x and v of 8 bytes and a handle of 12. Numbers of a lone body are shared.
 TEST(Ledger, OfASpringCountsItsBytes) {
     const Ledger ledger = ledger_of(lone_spring);
     EXPECT_EQ(ledger.bytes_per_body(), 8 + 8 + 12);
@@ -61,8 +61,8 @@ TEST(Ledger, OfASpringCountsItsBytes) {
     EXPECT_EQ(ledger.flags, Strings{});
 }
 
-// Two masses and two springs that differ in stiffness alone: a column for each of both.
-TEST(Ledger, CountsAColumnForWhatDiffers) {
+// Two masses, and two springs that differ only in stiffness: one column each.
+TEST(Ledger, CountsAColumnForNumbersThatDiffer) {
     const Ledger ledger = ledger_of(lone_spring +
                                     "[[body]]\nname = \"b\"\nmass = 2.0\nposition = [1.0]\n"
                                     "[[spring]]\nbody = \"b\"\nanchor = [0.0]\nstiffness = 40.0\n");
@@ -97,7 +97,7 @@ TEST(Ledger, OfProjectilesCountsTheirBytes) {
 }
 
 // A 3 × 2 net has 7 springs; each has two rows of 8 bytes and three numbers of 8.
-TEST(Ledger, CountsLinksAndWhoHangs) {
+TEST(Ledger, CountsLinksAndAnchoredNodes) {
     const Ledger ledger =
         ledger_of(two_axes +
                   "[[grid]]\ncount = [3, 2]\nspacing = 1.0\nstiffness = 50.0\n"
@@ -105,7 +105,7 @@ TEST(Ledger, CountsLinksAndWhoHangs) {
     EXPECT_EQ(ledger.links, 7);
     EXPECT_EQ(ledger.bytes_per_link, 40U);
     EXPECT_EQ(names_of_passes(ledger), (Strings{"spring", "links", "moving"}));
-    // Two hang, in columns for all: anchors of two numbers and a stiffness, while none is damped.
+    // Two nodes hang: columns for an anchor of two numbers and a stiffness, none for damping.
     EXPECT_EQ(bytes_of(ledger, "spring"), 24U);
     EXPECT_DOUBLE_EQ(ledger.bytes_per_body(), 16 + 16 + 24 + 12 + 7 * 40 / 6.0);
     for (const LedgerColumn& column : ledger.columns)
@@ -114,9 +114,9 @@ TEST(Ledger, CountsLinksAndWhoHangs) {
     EXPECT_GT(pass_of(ledger, "spring").changes_position, 0);
 }
 
-// Semi-implicit Euler adds g·dt to the velocity and then that to the position: after n steps
-// g·dt²·(1 + … + n) = ½·g·t·(t + dt), and without gravity nothing of it.
-TEST(Ledger, SaysWhatGravityChanges) {
+// Semi-implicit Euler adds g·dt to the velocity, then the velocity to the position: after n steps
+// g·dt²·(1 + … + n) = ½·g·t·(t + dt). Without gravity the body stays.
+TEST(Ledger, ReportsTheEffectOfGravity) {
     const Ledger ledger = ledger_of(two_axes +
                                         "method = \"semi_implicit_euler\"\n"
                                         "[gravity]\nacceleration = [0.0, -9.81]\n" +
@@ -127,14 +127,13 @@ TEST(Ledger, SaysWhatGravityChanges) {
     EXPECT_NEAR(pass_of(ledger, "gravity").changes_position, 0.5 * 9.81 * t * (t + 0.01), 1e-10);
 }
 
-// Without its only spring a body at rest stays where it was, 1 m out; with it, it swings to the
-// other side, which is 2 m away.
-TEST(Ledger, SaysTheLargestChangeOfTheRun) {
+// Without its only spring, the body stays at 1 m. With it, the body oscillates to −1 m, 2 m away.
+TEST(Ledger, ReportsTheLargestChangeOfTheRun) {
     const Ledger ledger = ledger_of(lone_spring, 170);
     EXPECT_NEAR(pass_of(ledger, "spring").changes_position, 2, 0.01);
 }
 
-// The last look is at the last step, however many steps lie between two of them.
+// The last sample is at the last step, for any stride.
 TEST(Ledger, ComparesManyBodiesLessOften) {
     const Ledger ledger =
         ledger_of(two_axes +
@@ -142,7 +141,7 @@ TEST(Ledger, ComparesManyBodiesLessOften) {
                       "position_from = [0.0, 0.0]\nposition_to = [1.0, 1.0]\n",
                   103);
     EXPECT_EQ(ledger.steps, 103);
-    EXPECT_LT(ledger.looks, 103);
+    EXPECT_LT(ledger.samples, 103);
     EXPECT_NEAR(pass_of(ledger, "gravity").changes_position, 0.5 * 10 * 1.03 * 1.04, 1e-10);
 }
 
@@ -184,21 +183,21 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Flagged{"NoGravity",
                 one_axis + "[gravity]\nacceleration = [0.0]\n" + flying,
-                {"[gravity] changes nothing in 20 steps: leave it out"}},
+                {"[gravity] has no effect in 20 steps: leave it out"}},
         Flagged{"ASpringThatDoesNothing",
                 lone_spring + "[[spring]]\nbody = \"a\"\nanchor = [3.0]\nstiffness = 0.0\n",
-                {"[[spring]] 2 (of \"a\") changes nothing in 20 steps: leave it out"}},
+                {"[[spring]] 2 (of \"a\") has no effect in 20 steps: leave it out"}},
         Flagged{"ASpringThatIsNeverStretched",
                 lone_spring + "[[body]]\nname = \"b\"\nposition = [3.0]\n"
                               "[[spring]]\nbody = \"b\"\nanchor = [3.0]\nstiffness = 9.0\n",
-                {"[[spring]] 2 (of \"b\") changes nothing in 20 steps: leave it out"}},
+                {"[[spring]] 2 (of \"b\") has no effect in 20 steps: leave it out"}},
         Flagged{"OneSpringOnce",
                 one_axis + flying + "[[spring]]\nbody = \"a\"\nanchor = [3.0]\nstiffness = 0.0\n",
-                {"anchored [[spring]] without `rest_length`, `hang` of [[grid]] changes nothing in "
+                {"anchored [[spring]] without `rest_length`, `hang` of [[grid]] has no effect in "
                  "20 steps: leave it out"}},
         Flagged{"DampingTooWeakForABit",
                 lone_spring + "damping = 1e-30\n",
-                {"`damping` of [[spring]] 1 (of \"a\") changes nothing in 20 steps: leave it out"}},
+                {"`damping` of [[spring]] 1 (of \"a\") has no effect in 20 steps: leave it out"}},
         Flagged{"ASpringThatOnlyDamps",
                 one_axis + flying +
                     "[[spring]]\nbody = \"a\"\nanchor = [3.0]\nstiffness = 0.0\ndamping = 0.5\n",
@@ -206,24 +205,24 @@ INSTANTIATE_TEST_SUITE_P(
                  "`linear_drag` of the body"}},
         Flagged{"AttractorTooWeakForABit",
                 one_axis + flying + "[[attractor]]\ngm = 1e-30\n",
-                {"[[attractor]] changes nothing in 20 steps: leave it out"}},
+                {"[[attractor]] has no effect in 20 steps: leave it out"}},
         Flagged{"OneOfTwoAttractors",
                 one_axis + flying + "[[attractor]]\ngm = 1.0\n[[attractor]]\ngm = 1e-30\n",
-                {"[[attractor]] 2 changes nothing in 20 steps: leave it out"}},
-        Flagged{"DragOfWhatRests",
+                {"[[attractor]] 2 has no effect in 20 steps: leave it out"}},
+        Flagged{"DragOfABodyAtRest",
                 one_axis + "[[body]]\nlinear_drag = 1.0\n" + flying,
-                {"`linear_drag` changes nothing in 20 steps: leave it out"}},
+                {"`linear_drag` has no effect in 20 steps: leave it out"}},
         Flagged{"AnAxis",
                 two_axes + "[[body]]\nvelocity = [0.0, 1.0]\n",
-                {"nothing moves along x in 20 steps, at 16 bytes per body: fewer `axes` would "
-                 "do, but for the picture"}},
+                {"no body moves along x in 20 steps, at 16 bytes per body: fewer `axes` "
+                 "suffice, except for the picture"}},
         Flagged{"Everything",
                 two_axes + "[[body]]\n",
-                {"nothing moves in 20 steps: give a body a `velocity` or a force that acts"}}),
+                {"no body moves in 20 steps: give a body a `velocity` or a force that acts"}}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
-// Explicit Euler multiplies the spring's z = ω·dt = 1 by |1 + iz| = √2 with each step, to beyond
-// the largest float within 300; with b·dt = 1.5 it is √(2 − 1.5).
+// With ω·dt = 1, explicit Euler multiplies the amplitude by |1 + i| = √2 per step: it exceeds the
+// largest float within 300 steps. With b·dt = 1.5 the factor is √(2 − 1.5).
 TEST(Ledger, ReportsDivergenceWithoutAForce) {
     const Ledger ledger =
         ledger_of(one_axis +
@@ -256,13 +255,13 @@ TEST(Ledger, ReportsDivergenceOfTheSceneItself) {
     EXPECT_EQ(ledger.bytes_per_body(), 16 + 16 + 12);
 }
 
-TEST(Ledger, RefusesWhatTheMethodCannotStep) {
+TEST(Ledger, RefusesAMethodThatCannotStepTheScene) {
     const std::string scene =
         one_axis + "method = \"exact\"\n[[body]]\nvelocity = [1.0]\nquadratic_drag = 1.0\n";
     EXPECT_THROW(static_cast<void>(ledger_of(scene)), Error);
 }
 
-TEST(Ledger, ProgressGoesFromNothingToAll) {
+TEST(Ledger, ReportsProgressFrom0To1) {
     std::vector<double> shares;
     static_cast<void>(ledger(parse_scene(lone_spring, "test.toml"), 20,
                              [&](double share) { shares.push_back(share); }));

@@ -30,7 +30,7 @@ using State3 = State<Real, 3>;
 using Complex = std::complex<Real>;
 
 constexpr Real fine = std::numeric_limits<Real>::epsilon() / 2;
-/// A closed form takes forces per mass from numbers of double.
+/// The closed form uses forces per mass that are rounded to double.
 constexpr Real coarse = std::numeric_limits<double>::epsilon() / 2;
 
 Bodies in_space() { return Bodies(3, Precision::extended); }
@@ -45,8 +45,8 @@ struct Linear {
     Real x0 = 0;
     Real v0 = 0;
 
-    /// The textbook's formula with the two roots of r² + c·r + s = 0, which is good while they are
-    /// neither close to each other nor far apart.
+    /// The textbook's formula with the two roots of r² + c·r + s = 0. It is accurate if the roots
+    /// are neither close to each other nor far apart.
     [[nodiscard]] std::pair<Real, Real> at(Real t) const {
         const Complex root = std::sqrt(Complex(c * c / 4 - s));
         const Complex r1 = -c / 2 + root;
@@ -67,13 +67,13 @@ struct Linear {
     }
 };
 
-/// The sizes of what is summed on the way, by which roundings are told.
+/// The sizes of the terms, which scale the roundings.
 struct Sizes {
     Real x;
     Real v;
 };
 
-/// `roundings` of the motion's size, and as many for each radian turned or time constant passed.
+/// The tolerance: `roundings` of the motion's size, and as many per radian or time constant.
 void expect_near(Real found, Real expected, Real size, Real radians, Real unit) {
     EXPECT_LE(std::abs(found - expected), 16 * (1 + radians) * unit * size) << expected;
 }
@@ -110,7 +110,7 @@ Linear axis_of(double mass, double drag, int axis) {
             .v0 = with[axis]};
 }
 
-/// How far the body above gets on each axis, roughly, and ω times that.
+/// The approximate range of the body above on each axis, and ω times that.
 constexpr Real reach = 32;
 
 void expect_tied(double mass, double drag, Real unit) {
@@ -198,7 +198,7 @@ TEST(ExactMotion, OfDragTendsToItsTerminalSpeed) {
     }
 }
 
-// The file's numbers are decimal; those of double are off by a rounding, in a speed, g and c each.
+// The file's numbers are decimal: speed, g and c each have a rounding to double.
 TEST(ExactMotion, OfLinearDragMeetsTheReference) {
     const auto runs = reference("linear_drag");
     ASSERT_EQ(runs.size(), 2U);
@@ -225,7 +225,7 @@ TEST(ExactMotion, OfLinearDragMeetsTheReference) {
     }
 }
 
-// b = 0.1 is not a number of double: a rounding of γt, and the amplitude's size.
+// b = 0.1 is rounded to double: an error of γt roundings of the amplitude.
 TEST(ExactMotion, OfTheArticlesSpringMeetsTheReference) {
     for (const char* which : {"exact_damped", "exact_undamped"}) {
         Bodies bodies(1, Precision::extended);
@@ -243,7 +243,7 @@ TEST(ExactMotion, OfTheArticlesSpringMeetsTheReference) {
     }
 }
 
-// Each body has its own forces, though columns hold zeros for those that others have.
+// Each body has its own forces; columns hold zeros for the forces of others.
 TEST(ExactMotion, OfEachBodyIsItsOwn) {
     Bodies bodies = in_space();
     bodies.add({.position = from, .velocity = with});
@@ -264,7 +264,7 @@ TEST(ExactMotion, OfEachBodyIsItsOwn) {
     }
 }
 
-TEST(ExactMotion, OfASpringThatPullsNothingIsFree) {
+TEST(ExactMotion, WithZeroStiffnessIsFree) {
     Bodies bodies = in_space();
     bodies.add({.position = from, .velocity = with}, Spring{.anchor = {9, 9, 9}});
     const auto motions = exact_motions(bodies);
@@ -276,7 +276,7 @@ TEST(ExactMotion, OfASpringThatPullsNothingIsFree) {
 
 const Vec3 sun{3, -2, 1};
 
-/// gm = 2 m³/s², and a planet that crosses the plane of x and y there, `at` m from the sun.
+/// gm = 2 m³/s², and a planet that crosses the x-y plane, `at` m from the sun.
 Bodies planet(double speed, double at = 0.5) {
     Bodies bodies = in_space();
     bodies.add({.mass = 0.7, .position = {3, -2 + at, 1}, .velocity = {0, 0, speed}},
@@ -295,8 +295,8 @@ Real anomaly(Real e, Real mean) {
     return low;
 }
 
-// r·v²/gm = 1 + e. Roundings of the angle are magnified where the planet is fast: 3 times by the
-// energy's, and (1 + e)/(1 − e)² = 8 times at the perihelion.
+// r·v²/gm = 1 + e. Roundings of the angle are magnified: 3 times by the energy's, and
+// (1 + e)/(1 − e)² = 8 times at the perihelion.
 TEST(ExactMotion, AroundAnAttractorMeetsKeplersEquation) {
     constexpr Real e = 0.5625;
     constexpr Real a = 0.5L / (1 - e);
@@ -327,7 +327,7 @@ TEST(NoExactMotion, OfLinkedBodies) {
     expect_none(bodies);
 }
 
-TEST(NoExactMotion, OfWhatIsNotLinear) {
+TEST(NoExactMotion, OfNonlinearForces) {
     Bodies coil = in_space();
     coil.add({.position = from}, CoilSpring{.stiffness = 1, .rest_length = 2});
     expect_none(coil);
@@ -339,7 +339,7 @@ TEST(NoExactMotion, OfWhatIsNotLinear) {
     expect_none(drag);
 }
 
-// Where one body has none, the scene has none.
+// If one body has no closed form, the scene has none.
 TEST(NoExactMotion, OfOneAmongOthers) {
     Bodies bodies = tied(1, 0);
     bodies.add({.velocity = with}, QuadraticDrag{0.25});
@@ -379,8 +379,8 @@ TEST(NoExactMotion, AroundAnAttractorThatIsNotAlone) {
     expect_none(held);
 }
 
-// From 0.5 m, 2·gm/r = 8 m²/s².
-TEST(NoExactMotion, OfWhatDoesNotCircle) {
+// At 0.5 m the square of the escape speed is 2·gm/r = 8 m²/s².
+TEST(NoExactMotion, OfUnboundOrbits) {
     expect_none(planet(std::sqrt(8.0)));
     expect_none(planet(3));
     expect_none(planet(0));

@@ -17,15 +17,15 @@
 namespace {
 
 using oiler::Bodies;
+using oiler::Scene;
+using oiler::Vec;
 using oiler::lab::ClosedForm;
 using oiler::lab::ExactMotion;
-using oiler::lab::Looks;
-using oiler::lab::looks_of;
 using oiler::lab::make_reference;
 using oiler::lab::Reference;
 using oiler::lab::ReferenceEffort;
-using oiler::Scene;
-using oiler::Vec;
+using oiler::lab::sample_times_of;
+using oiler::lab::SampleTimes;
 using oiler::test::along_x;
 using oiler::test::article_motion;
 using oiler::test::holds;
@@ -40,7 +40,7 @@ ClosedForm claimed(const Motions& motions) {
 }
 std::optional<Motions> none(const Bodies&) { return std::nullopt; }
 
-/// Enough for all scenes here, and a second's work.
+/// Enough work for all scenes here; it takes about 1 s.
 ReferenceEffort effort() {
     ReferenceEffort effort;
     effort.most_work = 2e7;
@@ -57,42 +57,46 @@ Scene article_scene(double damping, double duration) {
     return scene;
 }
 
-/// That the reference is never further off than it says, beside what the numbers of double that
-/// it starts with are (m, m/s).
-void expect_within_doubts(const Reference& reference, const Motions& motions, double given = 0) {
-    ASSERT_EQ(reference.doubts.size(), static_cast<std::size_t>(reference.looks.count));
-    for (std::int64_t look = 0; look < reference.looks.count; ++look)
+/// Expects errors within the reference's uncertainties, plus `given` (m, m/s) for initial values
+/// that are rounded to double.
+void expect_within_uncertainties(const Reference& reference, const Motions& motions,
+                                 double given = 0) {
+    ASSERT_EQ(reference.uncertainties.size(), static_cast<std::size_t>(reference.samples.count));
+    for (std::int64_t sample = 0; sample < reference.samples.count; ++sample)
         for (std::size_t row = 0; row < motions.size(); ++row) {
-            const State3 exact = motions[row](static_cast<Real>(look) /
-                                              static_cast<Real>(reference.looks.per_second));
-            const State3& found = reference.track.at(look, row);
-            const oiler::lab::Doubt& doubt = reference.doubts[static_cast<std::size_t>(look)];
-            ASSERT_LE(length(found.x - exact.x), doubt.position + given) << look << " " << row;
-            ASSERT_LE(length(found.v - exact.v), doubt.velocity + given) << look << " " << row;
+            const State3 exact = motions[row](static_cast<Real>(sample) /
+                                              static_cast<Real>(reference.samples.per_second));
+            const State3& found = reference.trajectory.at(sample, row);
+            const oiler::lab::Uncertainty& uncertainty =
+                reference.uncertainties[static_cast<std::size_t>(sample)];
+            ASSERT_LE(length(found.x - exact.x), uncertainty.position + given)
+                << sample << " " << row;
+            ASSERT_LE(length(found.v - exact.v), uncertainty.velocity + given)
+                << sample << " " << row;
         }
 }
 
-/// Its doubt is what was wanted, a millionth of a millionth of what moves, or as little as that.
+/// Expects an uncertainty of about the default, 10⁻¹² of the extent.
 void expect_fine_steps(const Scene& scene, const Motions& motions, double given = 0) {
-    const Reference reference = make_reference(scene, looks_of(scene), effort(), none);
+    const Reference reference = make_reference(scene, sample_times_of(scene), effort(), none);
     EXPECT_FALSE(reference.closed_form);
     EXPECT_TRUE(holds(reference.words, "in long double by")) << reference.words;
-    EXPECT_EQ(reference.meaningful, reference.looks.count);
-    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent) << reference.words;
-    EXPECT_GT(reference.doubts.back().position, 0);
-    expect_within_doubts(reference, motions, given);
+    EXPECT_EQ(reference.meaningful, reference.samples.count);
+    EXPECT_LE(reference.uncertainties.back().position, 1e-11 * reference.extent) << reference.words;
+    EXPECT_GT(reference.uncertainties.back().position, 0);
+    expect_within_uncertainties(reference, motions, given);
 }
 
 TEST(FineSteps, OfTheArticlesSpring) {
     expect_fine_steps(article_scene(0, 20), {article_motion(0)});
     expect_fine_steps(article_scene(0.125, 90), {article_motion(0.125)});
-    // Stiff enough for more than the fewest runs.
+    // Stiff enough to need more than the fewest runs.
     Scene stiff = article_scene(0, 20);
     stiff.springs[0].stiffness = 6000;
     expect_fine_steps(stiff, {article_motion(0, 6000)});
 }
 
-/// gm = 1, half an axis of 1, from the perihelion, by bisection of Kepler's equation.
+/// gm = 1, semi-axis 1, from the perihelion, by bisection of Kepler's equation.
 State3 planet(Real e, Real t) {
     Real low = t - 1;
     Real high = t + 1;
@@ -106,8 +110,8 @@ State3 planet(Real e, Real t) {
             {-rate * std::sin(low), rate * minor * std::cos(low), 0}};
 }
 
-// 0.4 is no number of double, which changes the frequency by 3·2·u·0.4/0.4² and so on, and moves
-// the planet with a speed of up to 2 (and an acceleration of up to 1/0.4²).
+// 0.4 is rounded to double, which changes the frequency by 3·2·u·0.4/0.4² and moves the planet with
+// a speed of up to 2 (and an acceleration of up to 1/0.4²).
 TEST(FineSteps, OfAnOrbit) {
     Scene scene;
     scene.axes = 2;
@@ -118,9 +122,9 @@ TEST(FineSteps, OfAnOrbit) {
                       12.566 * 15 * 0.4 * double_round_off * 6.25);
 }
 
-// u1 and u2 = (cos ω1·t ± cos ω2·t)/2 are how far the masses are from their rest at −2 and 2 m,
-// ω1 = √15 where they swing together, ω2 = √18 where against each other. Neither reaches a wall or
-// the other, where its spring would turn over.
+// The displacements of the masses from −2 m and 2 m are u1 and u2 = (cos ω1·t ± cos ω2·t)/2, with
+// ω1 = √15 in phase and ω2 = √18 in antiphase. Neither reaches a wall or the other, where its
+// spring would turn over.
 TEST(FineSteps, OfTheChainMeetItsNormalModes) {
     const Scene scene = oiler::read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
     const auto mass = [](Real sign) {
@@ -136,8 +140,8 @@ TEST(FineSteps, OfTheChainMeetItsNormalModes) {
     expect_fine_steps(scene, {mass(1), mass(-1)});
 }
 
-// The file's numbers are rounded to double: the start's speed, g and the drag's coefficient, which
-// move the projectile by u·(speed·t + g·t²) or so.
+// The initial speed, g and the drag coefficient of the file are rounded to double, which moves the
+// projectile by about u·(speed·t + g·t²).
 TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
     const auto runs = reference("projectile_quadratic_drag");
     const auto& run = runs.at(0);
@@ -147,34 +151,35 @@ TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
     scene.gravity = {0, -number(run.at("g")), 0};
     scene.bodies = {{.matter = {.quadratic_drag = number(run.at("k_per_m"))},
                      .velocity = {number(run.at("vx0")), number(run.at("vy0")), 0}}};
-    const Looks looks = looks_of(scene);
+    const SampleTimes samples = sample_times_of(scene);
     ReferenceEffort little;
     little.most_work = 1e5;
-    const Reference fine = make_reference(scene, looks, little);
+    const Reference fine = make_reference(scene, samples, little);
     EXPECT_FALSE(fine.closed_form);
-    EXPECT_LE(fine.doubts.back().position, 1e-11 * fine.extent) << fine.words;
+    EXPECT_LE(fine.uncertainties.back().position, 1e-11 * fine.extent) << fine.words;
     ASSERT_EQ(run.at("states").size(), 9U);
     for (const auto& state : run.at("states")) {
         const double t = number(state.at("t"));
-        const auto look = std::lround(t * static_cast<double>(looks.per_second));
-        const State3& found = fine.track.at(look, 0);
-        const oiler::lab::Doubt& doubt = fine.doubts[static_cast<std::size_t>(look)];
+        const auto sample = std::lround(t * static_cast<double>(samples.per_second));
+        const State3& found = fine.trajectory.at(sample, 0);
+        const oiler::lab::Uncertainty& uncertainty =
+            fine.uncertainties[static_cast<std::size_t>(sample)];
         const double given = double_round_off * (30 * t + 10 * t * t);
         EXPECT_LE(length(found.x -
                          Vec<Real, 3>{number<Real>(state.at("x")), number<Real>(state.at("y")), 0}),
-                  doubt.position + given)
+                  uncertainty.position + given)
             << t;
         EXPECT_LE(length(found.v - Vec<Real, 3>{number<Real>(state.at("vx")),
                                                 number<Real>(state.at("vy")), 0}),
-                  doubt.velocity + double_round_off * (30 + 10 * t))
+                  uncertainty.velocity + double_round_off * (30 + 10 * t))
             << t;
     }
 }
 
-// A doubt that always was the same would pass the tests above. Here ω·dt is 1.6 to 0.2. With three
-// runs two powers of dt, the 8th and the 10th, are out of the coarser ones' error, and each further
-// run takes out one more: as long as none is good enough, a halving divides it by 2¹⁰ and more.
-TEST(FineSteps, DoubtThemselvesMoreWhereTheyAreCoarser) {
+// A constant uncertainty would pass the other tests. Here ω·dt is 1.6 to 0.2. Three runs eliminate
+// two powers of dt from the error, the 8th and the 10th, and each further run eliminates one more:
+// a halving divides the uncertainty by at least 2¹⁰.
+TEST(FineSteps, AreMoreUncertainAtLargerSteps) {
     Scene scene = article_scene(0, 20);
     scene.springs[0].stiffness = 6000;
     double before = 0;
@@ -182,96 +187,97 @@ TEST(FineSteps, DoubtThemselvesMoreWhereTheyAreCoarser) {
         ReferenceEffort less;
         less.wanted = 1e-18;
         less.most_work = work;
-        const Reference reference = make_reference(scene, looks_of(scene), less, none);
-        const double doubt = reference.doubts.back().position;
+        const Reference reference = make_reference(scene, sample_times_of(scene), less, none);
+        const double uncertainty = reference.uncertainties.back().position;
         if (before > 0) {
-            EXPECT_LT(doubt, before / 1024) << reference.words;
+            EXPECT_LT(uncertainty, before / 1024) << reference.words;
         }
-        before = doubt;
-        expect_within_doubts(reference, {article_motion(0, 6000)});
-        EXPECT_LT(reference.doubts.front().position, doubt);
+        before = uncertainty;
+        expect_within_uncertainties(reference, {article_motion(0, 6000)});
+        EXPECT_LT(reference.uncertainties.front().position, uncertainty);
     }
 }
 
-TEST(ClosedFormReference, SaysHowGoodItIs) {
+TEST(ClosedFormReference, StatesItsError) {
     const Scene scene = article_scene(0, 20);
-    const Reference reference = make_reference(scene, looks_of(scene), effort());
+    const Reference reference = make_reference(scene, sample_times_of(scene), effort());
     EXPECT_TRUE(reference.closed_form);
-    EXPECT_TRUE(holds(reference.words, "which fine steps confirm to")) << reference.words;
-    EXPECT_EQ(reference.meaningful, reference.looks.count);
+    EXPECT_TRUE(holds(reference.words, "confirmed by fine steps to")) << reference.words;
+    EXPECT_EQ(reference.meaningful, reference.samples.count);
     EXPECT_EQ(reference.meaningful_until(), 20);
-    expect_within_doubts(reference, {article_motion(0)});
+    expect_within_uncertainties(reference, {article_motion(0)});
     EXPECT_NEAR(reference.extent, 2000, 2);
     EXPECT_DOUBLE_EQ(reference.energy_scale, 7.5e6);
-    EXPECT_LE(reference.doubts.back().position, 1e-12 * 2000);
-    EXPECT_EQ(reference.floor().position, 100 * reference.doubts.back().position);
-    EXPECT_EQ(reference.floor().velocity, 100 * reference.doubts.back().velocity);
-    EXPECT_EQ(reference.floor().energy, 100 * reference.doubts.back().energy);
-    ASSERT_TRUE(reference.swing);
-    EXPECT_EQ(reference.swing->crossings.size(), 12U);
+    EXPECT_LE(reference.uncertainties.back().position, 1e-12 * 2000);
+    EXPECT_EQ(reference.floor().position, 100 * reference.uncertainties.back().position);
+    EXPECT_EQ(reference.floor().velocity, 100 * reference.uncertainties.back().velocity);
+    EXPECT_EQ(reference.floor().energy, 100 * reference.uncertainties.back().energy);
+    ASSERT_TRUE(reference.oscillation);
+    EXPECT_EQ(reference.oscillation->crossings.size(), 12U);
 }
 
-TEST(ClosedFormReference, SaysWhereItWasTooLongToCheck) {
+TEST(ClosedFormReference, StatesThatItIsNotChecked) {
     const Scene scene = article_scene(0, 20);
     ReferenceEffort none_at_all;
     none_at_all.most_work = 1;
-    const Reference reference = make_reference(scene, looks_of(scene), none_at_all);
+    const Reference reference = make_reference(scene, sample_times_of(scene), none_at_all);
     EXPECT_TRUE(reference.closed_form);
-    EXPECT_TRUE(holds(reference.words, "too long to check")) << reference.words;
+    EXPECT_TRUE(holds(reference.words, "not checked by fine steps: too much work"))
+        << reference.words;
 }
 
-double largest_difference(const ExactMotion& a, const ExactMotion& b, const Looks& looks) {
+double largest_difference(const ExactMotion& a, const ExactMotion& b, const SampleTimes& samples) {
     double most = 0;
-    for (std::int64_t look = 0; look < looks.count; ++look) {
-        const Real t = static_cast<Real>(look) / static_cast<Real>(looks.per_second);
+    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
+        const Real t = static_cast<Real>(sample) / static_cast<Real>(samples.per_second);
         most = std::max(most, length(a(t).x - b(t).x));
     }
     return most;
 }
 
-/// That a wrong closed form is found out, and what it is wrong by is told, to three digits.
-void expect_found_out(const Scene& scene, const ExactMotion& wrong, const ExactMotion& right) {
-    const Looks looks = looks_of(scene);
-    const Reference reference = make_reference(scene, looks, effort(), claimed({wrong}));
+/// Expects a wrong closed form to be rejected, with its error to three digits.
+void expect_rejected(const Scene& scene, const ExactMotion& wrong, const ExactMotion& right) {
+    const SampleTimes samples = sample_times_of(scene);
+    const Reference reference = make_reference(scene, samples, effort(), claimed({wrong}));
     EXPECT_FALSE(reference.closed_form);
-    const std::string says = "the closed form is not believed: it differs by ";
+    const std::string says = "closed form rejected: it differs by ";
     const std::size_t at = reference.words.find(says);
     ASSERT_NE(at, std::string::npos) << reference.words;
     const double told = std::stod(reference.words.substr(at + says.size()));
-    const double difference = largest_difference(wrong, right, looks);
+    const double difference = largest_difference(wrong, right, samples);
     EXPECT_NEAR(told, difference, 0.005 * difference) << reference.words;
-    expect_within_doubts(reference, {right});
-    EXPECT_LE(reference.doubts.back().position, 1e-11 * reference.extent);
+    expect_within_uncertainties(reference, {right});
+    EXPECT_LE(reference.uncertainties.back().position, 1e-11 * reference.extent);
 }
 
-// x0·e^(−γt)·cos ω0·t, off by up to 12.78 m.
-TEST(WrongClosedForm, AsTheArticlePublishedItIsNotBelieved) {
+// x0·e^(−γt)·cos ω0·t has an error of up to 12.78 m.
+TEST(WrongClosedForm, AsTheArticlePublishedItIsRejected) {
     const ExactMotion wrong = [](Real t) {
         const Real omega = std::sqrt(15.0L);
         const Real decay = 1000 * std::exp(-0.0625L * t);
         return along_x(decay * std::cos(omega * t),
                        -decay * (0.0625L * std::cos(omega * t) + omega * std::sin(omega * t)));
     };
-    expect_found_out(article_scene(0.125, 30), wrong, article_motion(0.125));
+    expect_rejected(article_scene(0.125, 30), wrong, article_motion(0.125));
 }
 
-// A millionth of the stiffness is half a millionth of the frequency: 1.9 cm after 10 s.
-TEST(WrongClosedForm, ByAMillionthIsNotBelieved) {
-    expect_found_out(article_scene(0, 10), article_motion(0, 15 * (1 + 2e-6L)), article_motion(0));
-    expect_found_out(article_scene(0.125, 10), article_motion(0.125, 15 * (1 - 1e-6L)),
-                     article_motion(0.125));
+// 10⁻⁶ of the stiffness is 5·10⁻⁷ of the frequency: 1.9 cm after 10 s.
+TEST(WrongClosedForm, ByAMillionthIsRejected) {
+    expect_rejected(article_scene(0, 10), article_motion(0, 15 * (1 + 2e-6L)), article_motion(0));
+    expect_rejected(article_scene(0.125, 10), article_motion(0.125, 15 * (1 - 1e-6L)),
+                    article_motion(0.125));
 }
 
-// The faster it swings, the finer the steps that tell: two parts in 10⁸ of the stiffness are 1.2 cm
-// of 1000 m after 195 periods.
-TEST(WrongClosedForm, OfAFastSpringIsNotBelieved) {
+// A faster oscillation needs finer steps: 2·10⁻⁸ of the stiffness are 1.2 cm of 1000 m after 195
+// periods.
+TEST(WrongClosedForm, OfAFastSpringIsRejected) {
     Scene scene = article_scene(0, 10);
     scene.springs[0].stiffness = 15000;
-    expect_found_out(scene, article_motion(0, 15000 * (1 + 2e-8L)), article_motion(0, 15000));
+    expect_rejected(scene, article_motion(0, 15000 * (1 + 2e-8L)), article_motion(0, 15000));
 }
 
-// Only one of two bodies', and only after a while.
-TEST(WrongClosedForm, OfOneBodyIsNotBelieved) {
+// Only one of two bodies is wrong, and only late in the run.
+TEST(WrongClosedForm, OfOneBodyIsRejected) {
     Scene scene = article_scene(0, 10);
     scene.bodies.push_back(scene.bodies[0]);
     scene.springs.push_back(scene.springs[0]);
@@ -283,13 +289,13 @@ TEST(WrongClosedForm, OfOneBodyIsNotBelieved) {
         return state;
     };
     const Reference reference =
-        make_reference(scene, looks_of(scene), effort(), claimed({right, wrong}));
+        make_reference(scene, sample_times_of(scene), effort(), claimed({right, wrong}));
     EXPECT_TRUE(holds(reference.words, "differs by 0.001 m")) << reference.words;
     EXPECT_FALSE(reference.closed_form);
-    expect_within_doubts(reference, {right, right});
+    expect_within_uncertainties(reference, {right, right});
 }
 
-/// 2 kg that start at 0 m with that speed and fall for 2 s by 10 m/s².
+/// A body of 2 kg that starts at 0 m with the given speed and falls for 2 s at 10 m/s².
 Scene falling(double speed) {
     Scene scene;
     scene.stepping.rate.steps = 60;
@@ -300,10 +306,10 @@ Scene falling(double speed) {
 }
 
 double energy_scale_of(const Scene& scene) {
-    return make_reference(scene, looks_of(scene), effort()).energy_scale;
+    return make_reference(scene, sample_times_of(scene), effort()).energy_scale;
 }
 
-// At 0 m and at rest there is no energy at all; at 20 m/s the kinetic energy is ½·2·20² = 400 J.
+// The energy at 0 m at rest is 0; the kinetic energy at 20 m/s is ½·2·20² = 400 J.
 TEST(EnergyScale, IsTheLargestKineticEnergyWhereTheStartHasNone) {
     EXPECT_NEAR(energy_scale_of(falling(0)), 400, 1e-9);
 }
@@ -315,7 +321,7 @@ TEST(EnergyScale, IsTheEnergyAtTheStartFromAHundredthOfTheKineticEnergyOn) {
     EXPECT_NEAR(energy_scale_of(falling(2.5)), 6.25, 1e-12);
 }
 
-// Energies below zero count by their size: a planet's is −gm/2a = −0.5 J a kg.
+// Negative energies count by magnitude: a planet's is −gm/2a = −0.5 J per kg.
 TEST(EnergyScale, IsPositive) {
     Scene scene;
     scene.axes = 2;
@@ -325,17 +331,17 @@ TEST(EnergyScale, IsPositive) {
     EXPECT_NEAR(energy_scale_of(scene), 0.5, 1e-12);
 }
 
-TEST(EnergyScale, IsNoneWhereNothingMovesAndDriftsAreInJoules) {
+TEST(EnergyScale, IsZeroWithoutMotionSoThatDriftsAreInJoules) {
     Scene scene;
     scene.duration = 1;
     scene.bodies = {{.position = {0, 0, 0}}};
-    const Reference reference = make_reference(scene, looks_of(scene), effort());
+    const Reference reference = make_reference(scene, sample_times_of(scene), effort());
     EXPECT_EQ(reference.energy_scale, 0);
     EXPECT_EQ(reference.share_of_energy(3), 3);
 }
 
-/// Two masses on springs as stiff as rods, thrown high: a double pendulum, whose neighbours part
-/// e-fold within less than a second.
+/// A double pendulum of springs as stiff as rods. Neighbouring motions diverge e-fold in less than
+/// 1 s.
 constexpr const char* double_pendulum = R"(
 [scene]
 axes = 2
@@ -363,25 +369,26 @@ rest_length = 1.118
 
 TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
     const Scene scene = oiler::parse_scene(double_pendulum, "double_pendulum");
-    const Looks looks = looks_of(scene);
+    const SampleTimes samples = sample_times_of(scene);
     const auto with = [&](double work) {
         ReferenceEffort limited;
         limited.most_work = work;
-        return make_reference(scene, looks, limited);
+        return make_reference(scene, samples, limited);
     };
     const Reference poor = with(1e6);
     const Reference better = with(1e7);
     EXPECT_FALSE(better.closed_form);
-    EXPECT_LT(better.meaningful, looks.count);
+    EXPECT_LT(better.meaningful, samples.count);
     EXPECT_LT(poor.meaningful, better.meaningful);
     EXPECT_GT(poor.meaningful_until(), 1) << poor.words;
-    for (std::int64_t look = 0; look < poor.meaningful; ++look) {
-        const oiler::lab::Doubt& doubt = poor.doubts[static_cast<std::size_t>(look)];
+    for (std::int64_t sample = 0; sample < poor.meaningful; ++sample) {
+        const oiler::lab::Uncertainty& uncertainty =
+            poor.uncertainties[static_cast<std::size_t>(sample)];
         for (std::size_t row = 0; row < 2; ++row) {
-            const State3& a = poor.track.at(look, row);
-            const State3& b = better.track.at(look, row);
-            ASSERT_LE(length(a.x - b.x), 100 * doubt.position) << looks.time(look);
-            ASSERT_LE(length(a.v - b.v), 100 * doubt.velocity) << looks.time(look);
+            const State3& a = poor.trajectory.at(sample, row);
+            const State3& b = better.trajectory.at(sample, row);
+            ASSERT_LE(length(a.x - b.x), 100 * uncertainty.position) << samples.time(sample);
+            ASSERT_LE(length(a.v - b.v), 100 * uncertainty.velocity) << samples.time(sample);
         }
     }
     EXPECT_TRUE(holds(poor.why_no_longer, "chaotic")) << poor.why_no_longer;

@@ -16,20 +16,20 @@ namespace {
 
 using oiler::Bodies;
 using oiler::Damping;
-using oiler::lab::evaluations_per_step;
 using oiler::Exit;
 using oiler::find_method;
-using oiler::lab::judge;
-using oiler::lab::Judgement;
-using oiler::lab::looks_of;
 using oiler::Method;
 using oiler::Move;
 using oiler::Precision;
-using oiler::lab::Reference;
 using oiler::Scene;
 using oiler::Settings;
 using oiler::Splitting;
 using oiler::Tableau;
+using oiler::lab::evaluations_per_step;
+using oiler::lab::judge;
+using oiler::lab::Judgement;
+using oiler::lab::Reference;
+using oiler::lab::sample_times_of;
 using oiler::lab::why_not;
 using oiler::test::line_of_error;
 using Real = long double;
@@ -37,7 +37,7 @@ using Real = long double;
 constexpr double start_x = 1000;
 const double omega = std::sqrt(15.0);
 
-/// The article's spring, looked at `rate` times a second where that is at most 60.
+/// The article's spring, with `rate` samples per second for rates up to 60.
 Scene spring(std::int64_t rate, double duration, double damping = 0, double stiffness = 15) {
     Scene scene;
     scene.stepping.rate.steps = rate;
@@ -50,7 +50,7 @@ Scene spring(std::int64_t rate, double duration, double damping = 0, double stif
 Reference reference_of(const Scene& scene) {
     oiler::lab::ReferenceEffort effort;
     effort.most_work = 1e6;
-    return make_reference(scene, looks_of(scene), effort);
+    return make_reference(scene, sample_times_of(scene), effort);
 }
 
 Settings with(const Method& method, std::int64_t rate) {
@@ -58,12 +58,12 @@ Settings with(const Method& method, std::int64_t rate) {
 }
 Settings with(const char* method, std::int64_t rate) { return with(find_method(method), rate); }
 
-/// Where the spring is and how fast it goes: e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t)·x0.
-struct Swing {
+/// The spring's exact position and velocity: x = e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t)·x0.
+struct ExactState {
     Real x;
     Real v;
 };
-Swing exact(Real t, Real damping = 0, Real stiffness = 15) {
+ExactState exact(Real t, Real damping = 0, Real stiffness = 15) {
     const Real gamma = damping / 2;
     const Real turning = std::sqrt(stiffness - gamma * gamma);
     const Real decay = start_x * std::exp(-gamma * t);
@@ -71,41 +71,44 @@ Swing exact(Real t, Real damping = 0, Real stiffness = 15) {
             -decay * stiffness / turning * std::sin(turning * t)};
 }
 
-/// Of the one at the start.
-double energy_of(const Swing& s) {
+/// Energy relative to that at the start.
+double energy_of(const ExactState& s) {
     return static_cast<double>((s.v * s.v + 15 * s.x * s.x) / (15 * start_x * start_x));
 }
 
-/// The largest differences from the motion above, at looks.
+/// The largest differences from the exact motion, at samples.
 struct Errors {
     double x = 0;
     double v = 0;
     double energy = 0;
 
-    void add(const Swing& found, double energy_found, const Swing& expected) {
+    void add(const ExactState& found, double energy_found, const ExactState& expected) {
         x = std::max(x, static_cast<double>(std::abs(found.x - expected.x)));
         v = std::max(v, static_cast<double>(std::abs(found.v - expected.v)));
         energy = std::max(energy, std::abs(energy_found - energy_of(expected)));
     }
-    void add(const Swing& found, const Swing& expected) { add(found, energy_of(found), expected); }
+    void add(const ExactState& found, const ExactState& expected) {
+        add(found, energy_of(found), expected);
+    }
 };
 
-/// Of a method stepped here, where each look meets a step.
-Errors stepped_errors(const Method& method, std::int64_t rate, const oiler::lab::Looks& looks,
-                      double damping) {
+/// The errors of a method that is stepped here, with a step at every sample.
+Errors stepped_errors(const Method& method, std::int64_t rate,
+                      const oiler::lab::SampleTimes& samples, double damping) {
     Bodies bodies = oiler::test::oscillator(Precision::double_, 15, damping, start_x);
     Errors errors;
-    const std::int64_t between = rate / looks.per_second;
-    for (std::int64_t look = 0; look < looks.count; ++look) {
-        if (look > 0) bodies.step(method, {{rate}, (look - 1) * between, between});
-        errors.add({oiler::test::x_of(bodies), oiler::test::v_of(bodies)},
-                   exact(static_cast<Real>(look) / static_cast<Real>(looks.per_second), damping));
+    const std::int64_t between = rate / samples.per_second;
+    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
+        if (sample > 0) bodies.step(method, {{rate}, (sample - 1) * between, between});
+        errors.add(
+            {oiler::test::x_of(bodies), oiler::test::v_of(bodies)},
+            exact(static_cast<Real>(sample) / static_cast<Real>(samples.per_second), damping));
     }
     return errors;
 }
 
-/// The judge sees the same run; its reference and the formula above differ by round-off of long
-/// double, and energies by that of double.
+/// Expects the judge's errors to equal the given ones up to round-off: of long double for motions,
+/// of double for energies.
 void expect_errors(const Judgement& judgement, const Errors& errors) {
     EXPECT_TRUE(judgement.stable);
     EXPECT_NEAR(judgement.position_error, errors.x, 1e-12 * start_x);
@@ -113,26 +116,27 @@ void expect_errors(const Judgement& judgement, const Errors& errors) {
     EXPECT_NEAR(judgement.energy_drift, errors.energy, 1e-14);
 }
 
-/// That a method with a wrong coefficient is told by its error, which is not the right one's.
+/// Expects the judge to find the error of a method with a wrong coefficient, and another error for
+/// the right one.
 void expect_told(const Method& broken, const char* right) {
     const Scene scene = spring(100, 10, 0.125);
     const Reference reference = reference_of(scene);
-    ASSERT_EQ(reference.looks.per_second, 50);
+    ASSERT_EQ(reference.samples.per_second, 50);
     const Judgement judgement = judge(scene, with(broken, 100), reference);
-    expect_errors(judgement, stepped_errors(broken, 100, reference.looks, 0.125));
+    expect_errors(judgement, stepped_errors(broken, 100, reference.samples, 0.125));
     const Judgement sound = judge(scene, with(right, 100), reference);
-    expect_errors(sound, stepped_errors(find_method(right), 100, reference.looks, 0.125));
+    expect_errors(sound, stepped_errors(find_method(right), 100, reference.samples, 0.125));
     EXPECT_GT(judgement.position_error, sound.position_error + 0.1);
 }
 
 // A kick of 0.5001 makes the spring stiffer by 1e-4: after 10 s it is ahead by ω·t·0.5e-4 = 2 mrad.
-TEST(Judge, TellsAWrongSplitting) {
+TEST(Judge, FindsAWrongSplitting) {
     Method broken = find_method("velocity_verlet");
     broken.rule = Splitting{{Move::kick, 0.5001L}, {Move::drift, 1.0L}, {Move::kick, 0.5001L}};
     expect_told(broken, "velocity_verlet");
 }
 
-TEST(Judge, TellsAWrongTableau) {
+TEST(Judge, FindsAWrongTableau) {
     Method broken = find_method("rk4");
     broken.rule = Tableau{{{1 / 2.0L}, {0, 1 / 2.0L}, {0, 0, 1}},
                           {1 / 6.0L + 1e-4L, 1 / 3.0L, 1 / 3.0L, 1 / 6.0L},
@@ -140,80 +144,81 @@ TEST(Judge, TellsAWrongTableau) {
     expect_told(broken, "rk4");
 }
 
-// The second body's spring is four times as stiff, and its error is the larger one.
-TEST(Judge, TellsTheWorstOfAllBodies) {
+// The second body's spring is four times as stiff and has the larger error.
+TEST(Judge, ReportsTheLargestErrorOfAllBodies) {
     Scene scene = spring(60, 5);
     scene.bodies.push_back(scene.bodies[0]);
     scene.springs.push_back({.body = 1, .stiffness = 60});
     const Judgement judgement = judge(scene, with("velocity_verlet", 60), reference_of(scene));
     Bodies bodies = oiler::test::oscillator(Precision::double_, 60, 0, start_x);
     Errors errors;
-    for (std::int64_t look = 1; look <= 300; ++look) {
-        bodies.step(find_method("velocity_verlet"), {{60}, look - 1, 1});
+    for (std::int64_t sample = 1; sample <= 300; ++sample) {
+        bodies.step(find_method("velocity_verlet"), {{60}, sample - 1, 1});
         errors.add({oiler::test::x_of(bodies), oiler::test::v_of(bodies)},
-                   exact(static_cast<Real>(look) / 60, 0, 60));
+                   exact(static_cast<Real>(sample) / 60, 0, 60));
     }
     EXPECT_NEAR(judgement.position_error, errors.x, 1e-12 * start_x);
     EXPECT_NEAR(judgement.velocity_error, errors.v, 1e-12 * 2 * omega * start_x);
 }
 
-/// Chords of the exact motion between its steps, and of its energy.
-Errors chord_errors(std::int64_t rate, const oiler::lab::Looks& looks, double damping) {
+/// Chords of the exact motion and of its energy between steps.
+Errors chord_errors(std::int64_t rate, const oiler::lab::SampleTimes& samples, double damping) {
     Errors errors;
-    for (std::int64_t look = 0; look < looks.count; ++look) {
-        const std::int64_t tick = look * rate / looks.per_second;
-        const Real alpha =
-            static_cast<Real>(look * rate % looks.per_second) / static_cast<Real>(looks.per_second);
-        const Swing a = exact(static_cast<Real>(tick) / static_cast<Real>(rate), damping);
-        const Swing b = exact(static_cast<Real>(tick + 1) / static_cast<Real>(rate), damping);
+    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
+        const std::int64_t tick = sample * rate / samples.per_second;
+        const Real alpha = static_cast<Real>(sample * rate % samples.per_second) /
+                           static_cast<Real>(samples.per_second);
+        const ExactState a = exact(static_cast<Real>(tick) / static_cast<Real>(rate), damping);
+        const ExactState b = exact(static_cast<Real>(tick + 1) / static_cast<Real>(rate), damping);
         const auto between = [&](Real before, Real after) {
             return before + (after - before) * alpha;
         };
-        errors.add({between(a.x, b.x), between(a.v, b.v)},
-                   static_cast<double>(between(energy_of(a), energy_of(b))),
-                   exact(static_cast<Real>(look) / static_cast<Real>(looks.per_second), damping));
+        errors.add(
+            {between(a.x, b.x), between(a.v, b.v)},
+            static_cast<double>(between(energy_of(a), energy_of(b))),
+            exact(static_cast<Real>(sample) / static_cast<Real>(samples.per_second), damping));
     }
     return errors;
 }
 
-// What is off is what a player sees between steps; what the run's own round-off in double leaves
-// is 1e-12 of the motion.
-TEST(Judge, HoldsStraightLinesBetweenSteps) {
+// The error is that of the straight lines between steps. The run's round-off in double is 1e-12 of
+// the motion.
+TEST(Judge, SamplesStraightLinesBetweenSteps) {
     const Scene scene = spring(60, 10, 0.125);
     const Reference reference = reference_of(scene);
     for (const std::int64_t rate : {1, 4, 7, 45, 90}) {
         SCOPED_TRACE(rate);
-        const Errors errors = chord_errors(rate, reference.looks, 0.125);
+        const Errors errors = chord_errors(rate, reference.samples, 0.125);
         EXPECT_GT(errors.x, 0.1);
         EXPECT_GT(errors.energy, 1e-6);
         expect_errors(judge(scene, with("exact", rate), reference), errors);
     }
 }
 
-// Without damping the energies of the steps, and so those between, are right.
-TEST(Judge, TellsNoEnergyThatIsRight) {
+// Without damping, energies at steps are exact, and so are those between.
+TEST(Judge, ReportsNoDriftOfAnExactEnergy) {
     const Scene scene = spring(60, 10);
     const Judgement judgement = judge(scene, with("exact", 4), reference_of(scene));
     EXPECT_GT(judgement.position_error, 1);
     EXPECT_TRUE(std::isnan(judgement.energy_drift)) << judgement.energy_drift;
 }
 
-// From rest at 0 m there is no energy to tell drifts by: 2 kg that fall for 2 s get to 400 J. After
-// n steps semi-implicit Euler is at −g·dt²·n(n + 1)/2, which is g·dt·t/2 too low: m·g²·dt·t/2 =
-// 10/3 J are missing in the end, and 1/120 of these 400 J.
-TEST(Judge, TellsEnergiesByTheMotionWhereTheStartHasNone) {
+// The energy at rest at 0 m is 0; 2 kg that fall for 2 s reach 400 J, the scale of drifts. After n
+// steps semi-implicit Euler is at −g·dt²·n(n + 1)/2, which is g·dt·t/2 too low: m·g²·dt·t/2 =
+// 10/3 J are missing at the end, 1/120 of 400 J.
+TEST(Judge, ScalesDriftsByKineticEnergyIfTheStartHasNone) {
     Scene scene;
     scene.stepping.rate.steps = 60;
     scene.duration = 2;
     scene.gravity = {{-10, 0, 0}};
     scene.bodies = {{.matter = {.mass = 2}}};
     const Reference reference = reference_of(scene);
-    ASSERT_EQ(reference.looks.per_second, 60);
+    ASSERT_EQ(reference.samples.per_second, 60);
     const Judgement judgement = judge(scene, with("semi_implicit_euler", 60), reference);
     EXPECT_NEAR(judgement.energy_drift, 1 / 120.0, 1e-12);
 }
 
-TEST(Judge, DoesNotTellWhatItsReferenceCannot) {
+TEST(Judge, ReportsNoErrorBelowTheFloor) {
     const Scene scene = spring(60, 10);
     const Reference reference = reference_of(scene);
     const Settings settings = with("semi_implicit_euler", 60);
@@ -221,16 +226,16 @@ TEST(Judge, DoesNotTellWhatItsReferenceCannot) {
     ASSERT_TRUE(std::isfinite(told.position_error + told.velocity_error + told.energy_drift));
     for (const double times : {0.99, 1.01}) {
         Reference poor = reference;
-        // Only the last look's counts, and it is a hundredth of the floor.
-        poor.doubts.back() = {times * told.position_error / 100, 0, 0};
+        // Only the uncertainty at the last sample counts; it is a hundredth of the floor.
+        poor.uncertainties.back() = {times * told.position_error / 100, 0, 0};
         Judgement judgement = judge(scene, settings, poor);
         EXPECT_EQ(judgement.below_floor(), times > 1);
         EXPECT_EQ(std::isnan(judgement.position_error), times > 1);
         EXPECT_EQ(judgement.velocity_error, told.velocity_error);
         EXPECT_EQ(judgement.energy_drift, told.energy_drift);
         EXPECT_TRUE(judgement.stable);
-        poor.doubts.back() = {0, times * told.velocity_error / 100,
-                              times * told.energy_drift / 100};
+        poor.uncertainties.back() = {0, times * told.velocity_error / 100,
+                                     times * told.energy_drift / 100};
         judgement = judge(scene, settings, poor);
         EXPECT_EQ(judgement.position_error, told.position_error);
         EXPECT_EQ(std::isnan(judgement.velocity_error), times > 1);
@@ -239,12 +244,12 @@ TEST(Judge, DoesNotTellWhatItsReferenceCannot) {
     }
 }
 
-TEST(Judge, StopsWhereTheReferenceMeansNothing) {
+TEST(Judge, StopsWhereTheReferenceStopsBeingMeaningful) {
     const Scene scene = spring(60, 10);
     Reference reference = reference_of(scene);
     reference.meaningful = 121;
     const Judgement judgement = judge(scene, with("semi_implicit_euler", 60), reference);
-    const oiler::lab::Looks first{.per_second = 60, .count = 121};
+    const oiler::lab::SampleTimes first{.per_second = 60, .count = 121};
     expect_errors(judgement, stepped_errors(find_method("semi_implicit_euler"), 60, first, 0));
     EXPECT_EQ(judgement.evaluations, 120);
 }
@@ -258,9 +263,9 @@ void expect_unstable(const Judgement& judgement) {
     EXPECT_TRUE(std::isnan(judgement.energy_drift));
 }
 
-// Explicit Euler's amplitude grows by √(1 + 15/60²) a step: 75,000 times in 90 s. Verlet's limit is
-// ω·dt = 2, and it grows 12 times a second with 1 Hz.
-TEST(Judge, TellsAnUnstableRun) {
+// Explicit Euler's amplitude grows by √(1 + 15/60²) per step: 75,000 times in 90 s. Verlet's limit
+// is ω·dt = 2; at 1 Hz it grows 12 times per second.
+TEST(Judge, DetectsAnUnstableRun) {
     const Scene scene = spring(60, 90);
     const Reference reference = reference_of(scene);
     expect_unstable(judge(scene, with("explicit_euler", 60), reference));
@@ -268,7 +273,7 @@ TEST(Judge, TellsAnUnstableRun) {
     EXPECT_TRUE(judge(scene, with("velocity_verlet", 2), reference).stable);
 }
 
-TEST(Judge, TellsARunTenTimesAsFarOffAsTheBodiesMove) {
+TEST(Judge, CountsAnErrorAboveTenTimesTheExtentAsUnstable) {
     const Scene scene = spring(60, 10);
     Reference reference = reference_of(scene);
     const Settings settings = with("semi_implicit_euler", 60);
@@ -279,42 +284,43 @@ TEST(Judge, TellsARunTenTimesAsFarOffAsTheBodiesMove) {
     expect_unstable(judge(scene, settings, reference));
 }
 
-// Looked at once a second. In that explicit Euler grows by √(1 + 10⁸/61²) = 164 a step,
-// to 10¹³⁵ m: infinite in float, and finite in double.
-TEST(Judge, TellsARunThatLeavesAllNumbers) {
+// One sample per second. Between samples explicit Euler grows by √(1 + 10⁸/61²) = 164 per step, to
+// 10¹³⁵ m: infinite in float, finite in double.
+TEST(Judge, DetectsARunThatOverflows) {
     const Scene scene = spring(61, 5, 0, 1e8);
-    const Reference reference = oiler::lab::make_reference(scene, {.per_second = 1, .count = 6}, {});
+    const Reference reference =
+        oiler::lab::make_reference(scene, {.per_second = 1, .count = 6}, {});
     Settings settings = with("explicit_euler", 61);
     expect_unstable(judge(scene, settings, reference));
     settings.stepping.precision = Precision::single;
     expect_unstable(judge(scene, settings, reference));
 }
 
-/// When cos(angle·t + φ) goes up through `level` for the `nth` time.
+/// The time of the `nth` upward crossing of `level` by cos(angle·t + φ).
 double upwards(double angle, double phase, double level, double nth) {
     return ((1.5 + 2 * nth) * std::numbers::pi + std::asin(level) - phase) / angle;
 }
 
-// Kicked first, x = A·cos(Ωt + φ) at the steps, with Ω·dt = 2·asin(ω·dt/2), φ = Ω·dt/2 and
-// A = x0/cos φ: ahead. Its v is that of half a step before, off by ω²x·dt/2 where the cubic
-// between looks takes it, |x| < ω·look·A: 8/27 of that over the look, over ωA.
-TEST(Judge, TellsThePhaseOfSemiImplicitEuler) {
+// With the kick first, x = A·cos(Ωt + φ) at steps, with Ω·dt = 2·asin(ω·dt/2), φ = Ω·dt/2 and
+// A = x0/cos φ: the run is ahead. Its v belongs half a step earlier; this error of ω²x·dt/2 enters
+// the cubic between samples, Δ s apart, where |x| < ω·Δ·A: 8/27 of that times Δ, over ωA.
+TEST(Judge, ReportsThePhaseOfSemiImplicitEuler) {
     for (const std::int64_t rate : {100, 20}) {
         SCOPED_TRACE(rate);
         const Scene scene = spring(rate, 90);
         const Reference reference = reference_of(scene);
-        ASSERT_TRUE(reference.swing);
+        ASSERT_TRUE(reference.oscillation);
         const double dt = 1 / static_cast<double>(rate);
         const double faster = 2 / dt * std::asin(omega * dt / 2);
         const double phase = faster * dt / 2;
-        const double level = reference.swing->level / start_x;
-        const auto last = static_cast<double>(reference.swing->crossings.size() - 1);
+        const double level = reference.oscillation->level / start_x;
+        const auto last = static_cast<double>(reference.oscillation->crossings.size() - 1);
         EXPECT_EQ(last, 54);
         const double ahead =
             upwards(omega, 0, level, last) - upwards(faster, phase, level * std::cos(phase), last);
-        const double look = 1 / static_cast<double>(reference.looks.per_second);
-        const double slack = 8 / 27.0 * look * omega * look * omega * dt / 2 +
-                             std::pow(omega * look, 4) / 192 / omega;
+        const double sample = 1 / static_cast<double>(reference.samples.per_second);
+        const double slack = 8 / 27.0 * sample * omega * sample * omega * dt / 2 +
+                             std::pow(omega * sample, 4) / 192 / omega;
         const double degrees = 360 * omega / (2 * std::numbers::pi);
         EXPECT_NEAR(judge(scene, with("semi_implicit_euler", rate), reference).phase_error,
                     degrees * ahead, degrees * slack);
@@ -322,14 +328,13 @@ TEST(Judge, TellsThePhaseOfSemiImplicitEuler) {
     }
 }
 
-// At 4 Hz semi-implicit Euler is ahead by 2.4 cycles in the end, and RK4, that turns by
-// arg(1 + iθ − θ²/2 − iθ³/6 + θ⁴/24) a step, θ = ω/4, is behind by 100°. A chord of a radian goes
-// through the middle up to 0.01 rad beside the sine, and the level is 0.02 of what is left of RK4's
-// amplitude.
+// At 4 Hz semi-implicit Euler is ahead by 2.4 cycles at the end. RK4, with a phase of
+// arg(1 + iθ − θ²/2 − iθ³/6 + θ⁴/24) per step, θ = ω/4, is behind by 100°. A chord of 1 rad crosses
+// the middle up to 0.01 rad beside the sine. The level is 0.02 of RK4's remaining amplitude.
 TEST(Judge, CountsWholeCyclesAndLags) {
     const Scene scene = spring(60, 90);
     const Reference reference = reference_of(scene);
-    ASSERT_TRUE(reference.swing);
+    ASSERT_TRUE(reference.oscillation);
     const double t = upwards(omega, 0, 0, 54);
     const double euler = 8 * std::asin(omega / 8);
     const double degrees = 180 / std::numbers::pi;
@@ -342,7 +347,7 @@ TEST(Judge, CountsWholeCyclesAndLags) {
     EXPECT_NEAR(judge(scene, with("rk4", 4), reference).phase_error, lag, 2.5);
 }
 
-TEST(Judge, TellsNoPhaseOfWhatDoesNotSwing) {
+TEST(Judge, ReportsNoPhaseWithoutAnOscillation) {
     Scene scene;
     scene.stepping.rate.steps = 60;
     scene.duration = 2;
@@ -350,14 +355,14 @@ TEST(Judge, TellsNoPhaseOfWhatDoesNotSwing) {
     scene.bodies = {{.velocity = {10, 0, 0}}};
     const Judgement judgement = judge(scene, with("semi_implicit_euler", 60), reference_of(scene));
     EXPECT_TRUE(std::isnan(judgement.phase_error));
-    // x is off by g·dt·t/2.
+    // The error of x is g·dt·t/2.
     EXPECT_NEAR(judgement.position_error, 10 / 60.0 * 2 / 2, 1e-12);
 }
 
-// v² + ω²x² − ω²·dt·x·v stays ω²x0², and so 2E/ω²x0² − 1 = dt·x·v/x0², which is at most h/(2 − h)
-// on that ellipse, h = ω·dt. Steps fall everywhere on it, and the next to the top within a step's
-// turn over the number of swings.
-TEST(Judge, TellsTheEnergyOfSemiImplicitEuler) {
+// v² + ω²x² − ω²·dt·x·v stays ω²x0², so 2E/ω²x0² − 1 = dt·x·v/x0², which is at most h/(2 − h) on
+// that ellipse, h = ω·dt. Steps fall everywhere on it; the one nearest to the maximum is within a
+// step's phase over the number of periods.
+TEST(Judge, ReportsTheEnergyOfSemiImplicitEuler) {
     for (const std::int64_t rate : {50, 20}) {
         const Scene scene = spring(rate, 90);
         const Judgement judgement =
@@ -378,7 +383,7 @@ TEST(Judge, CountsEvaluations) {
         EXPECT_EQ(judge(scene, with(name, 60), reference).evaluations, 600 * evaluations);
         EXPECT_EQ(judge(scene, with(name, 45), reference).evaluations, 450 * evaluations);
     }
-    // Velocities have a say in the last kick, so that the next step's first needs another.
+    // The last kick depends on velocities, so the next step's first kick needs another evaluation.
     const Scene damped = spring(60, 10, 0.1);
     Settings settings = with("velocity_verlet", 60);
     EXPECT_EQ(evaluations_per_step(damped, settings), 1);
@@ -386,7 +391,7 @@ TEST(Judge, CountsEvaluations) {
     EXPECT_EQ(evaluations_per_step(damped, settings), 2);
 }
 
-TEST(Judge, RefusesWhatCannotBeStepped) {
+TEST(Judge, RefusesAMethodThatCannotStepTheScene) {
     Scene scene = spring(60, 10);
     const Reference reference = reference_of(scene);
     EXPECT_EQ(why_not(scene, with("exact", 60)), "");

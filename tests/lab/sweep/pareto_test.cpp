@@ -19,7 +19,7 @@ TradeoffRow made_up(double error, double cost, bool stable = true) {
     return row;
 }
 
-// A small generator of its own: few different values, so that there are ties.
+// A small generator with few different values, so that there are ties.
 class Dice {
 public:
     int roll(int sides) {
@@ -43,8 +43,8 @@ std::set<Point> undominated(const std::vector<Point>& points) {
     return best;
 }
 
-// What is below the floor counts as no error, what is unstable or untimed does not count at all.
-TEST(Pareto, IsWhatNothingBeats) {
+// Errors below the floor count as 0. Unstable and untimed rows do not count.
+TEST(Pareto, HasTheRowsThatNoOtherBeats) {
     Dice dice;
     for (int round = 0; round < 300; ++round) {
         Tradeoff tradeoff;
@@ -69,7 +69,7 @@ TEST(Pareto, IsWhatNothingBeats) {
     }
 }
 
-TEST(Pareto, GoesByTheCostThatIsAsked) {
+TEST(Pareto, UsesTheGivenCost) {
     Tradeoff tradeoff;
     tradeoff.ladders.resize(1);
     tradeoff.ladders[0].rows = {made_up(1, 10), made_up(2, 20)};

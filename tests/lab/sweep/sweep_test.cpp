@@ -27,32 +27,32 @@ const Tradeoff& whole_sweep() {
 
 // ---- rungs
 
-std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t looks, std::int64_t most) {
+std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t samples, std::int64_t most) {
     Scene scene;
     scene.stepping.rate.steps = rate;
-    return rungs(scene, {.per_second = looks, .count = 2}, most);
+    return rungs(scene, {.per_second = samples, .count = 2}, most);
 }
 
 class Rungs : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t>> {};
 
-TEST_P(Rungs, AreDivisorsAndMultiplesOfTheLooksAndTheRate) {
-    const auto [rate, looks] = GetParam();
-    const std::int64_t most = 64 * looks;
-    const std::vector<std::int64_t> all = rungs_at(rate, looks, most);
+TEST_P(Rungs, AreDivisorsAndMultiplesOfTheSamplesAndTheRate) {
+    const auto [rate, samples] = GetParam();
+    const std::int64_t most = 64 * samples;
+    const std::vector<std::int64_t> all = rungs_at(rate, samples, most);
     EXPECT_EQ(all.front(), 1);
     EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), std::less_equal{}));
     EXPECT_EQ(std::count(all.begin(), all.end(), rate), 1);
-    EXPECT_EQ(std::count(all.begin(), all.end(), looks), 1);
+    EXPECT_EQ(std::count(all.begin(), all.end(), samples), 1);
     EXPECT_EQ(std::count(all.begin(), all.end(), most), 1);
-    for (std::int64_t divisor = 1; divisor <= looks; ++divisor)
+    for (std::int64_t divisor = 1; divisor <= samples; ++divisor)
         EXPECT_EQ(std::count(all.begin(), all.end(), divisor),
-                  looks % divisor == 0 || divisor == rate)
+                  samples % divisor == 0 || divisor == rate)
             << divisor;
     for (std::size_t i = 1; i < all.size(); ++i) {
         const std::int64_t rung = all[i];
-        EXPECT_TRUE(rung == rate || looks % rung == 0 || rung % looks == 0) << rung;
+        EXPECT_TRUE(rung == rate || samples % rung == 0 || rung % samples == 0) << rung;
         EXPECT_TRUE(rung <= most || rung == rate) << rung;
-        EXPECT_TRUE(rung <= looks || rung <= 2 * all[i - 1]) << rung;
+        EXPECT_TRUE(rung <= samples || rung <= 2 * all[i - 1]) << rung;
     }
 }
 
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(All, Rungs,
                                          std::pair{1000, 50}, std::pair{1, 1}, std::pair{144, 48},
                                          std::pair{3000, 60}, std::pair{177, 59}));
 
-// Up to twice the one before, where the looks have the divisors for it, and not beyond the limit.
-TEST(RungsAt, SixtyLooks) {
+// Each rung is at most twice the one before if the samples per second have the divisors for it.
+TEST(RungsAt, SixtySamples) {
     EXPECT_EQ(rungs_at(60, 60, 500), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20,
                                                                 30, 60, 120, 180, 240, 360, 480}));
     EXPECT_EQ(rungs_at(600, 60, 250), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20,
@@ -74,14 +74,14 @@ TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
     EXPECT_EQ(rungs_at(60, 60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
 }
 
-// A limit is a rung where it is a divisor of the samples, a power of two times them, or three
-// halves of one; the scene's own 1 Hz is one anyway.
+// A limit is a rung if it divides the samples per second, or is 2ⁿ or 1.5·2ⁿ times them. The
+// scene's own 1 Hz is always a rung.
 TEST(RungsAt, TheLimitItselfIsOne) {
     for (const std::int64_t most : {2, 10, 30, 60, 120, 180, 240, 360, 480, 720, 960}) {
         const std::vector<std::int64_t> all = rungs_at(1, 60, most);
         EXPECT_EQ(all.back(), most);
         EXPECT_LT(rungs_at(1, 60, most - 1).back(), most);
-        // The ladder below is the same.
+        // The rungs below do not depend on the limit.
         EXPECT_EQ(std::vector(all.begin(), all.end() - 1), rungs_at(1, 60, most - 1));
     }
 }
@@ -89,22 +89,22 @@ TEST(RungsAt, TheLimitItselfIsOne) {
 // ---- sweeping
 
 TEST(Sweep, ClimbsEachLadderByTheRungs) {
-    const std::vector<std::int64_t> rates = rungs(spring().scene, spring().looks, 800);
+    const std::vector<std::int64_t> rates = rungs(spring().scene, spring().samples, 800);
     EXPECT_TRUE(whole_sweep().complete());
     EXPECT_EQ(whole_sweep().ladders.size(), 12U);
-    EXPECT_EQ(whole_sweep().today,
+    EXPECT_EQ(whole_sweep().current,
               (Stepping{&find_method("semi_implicit_euler"), {100}, Precision::double_}));
     for (const Ladder& ladder : whole_sweep().ladders) {
         EXPECT_FALSE(ladder.rows.empty());
         for (std::size_t i = 0; i < ladder.rows.size(); ++i) {
             EXPECT_EQ(ladder.rows[i].stepping,
                       (Stepping{ladder.method, {rates[i]}, ladder.precision}));
-            EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().looks.per_second == 0);
+            EXPECT_EQ(ladder.rows[i].meets_steps, rates[i] % spring().samples.per_second == 0);
         }
     }
 }
 
-// As many threads as there are cores climbed the ladders of the sweep; one judges here.
+// The sweep uses a thread per core; this test judges with one.
 TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
     std::size_t count = 0;
     for (const TradeoffRow* row : whole_sweep().rows()) {
@@ -115,9 +115,8 @@ TEST(Sweep, OfSeveralThreadsHasTheErrorsOfOne) {
     EXPECT_GT(count, 80U);
 }
 
-// The spring is left to itself: x" = -15 x - 0.1 x', so that the closed form is a damped cosine.
-// What the sweep says of semi-implicit Euler is what its two lines say: at 100 Hz it is looked at
-// every other step.
+// x" = -15 x - 0.1 x', so the closed form is a damped cosine. At 100 Hz every other step is
+// sampled.
 TEST(Sweep, HasTheErrorsOfTheArticlesLines) {
     const double w = std::sqrt(15 - 0.05 * 0.05);
     double x = 1000;
@@ -131,14 +130,14 @@ TEST(Sweep, HasTheErrorsOfTheArticlesLines) {
         v += (-15 * x - 0.1 * v) * 0.01;
         x += v * 0.01;
     }
-    const TradeoffRow* row = whole_sweep().find(whole_sweep().today);
+    const TradeoffRow* row = whole_sweep().find(whole_sweep().current);
     ASSERT_NE(row, nullptr);
     EXPECT_NEAR(row->judgement.position_error, most, 1e-9 * most);
 }
 
-// At 25 Hz every other of 50 looks a second falls between two steps, at 10 Hz four of five: there
-// it is on the straight line.
-TEST(Sweep, HasTheErrorsOfWhatIsDrawnBetweenSteps) {
+// 50 samples per second: every other falls between two steps at 25 Hz, four of five at 10 Hz. There
+// the run is on the straight line.
+TEST(Sweep, HasTheErrorsOfTheDrawnMotionBetweenSteps) {
     const double w = std::sqrt(15 - 0.05 * 0.05);
     for (const int rate : {10, 25}) {
         std::vector<double> x{1000};
@@ -148,10 +147,10 @@ TEST(Sweep, HasTheErrorsOfWhatIsDrawnBetweenSteps) {
             x.push_back(x.back() + v / rate);
         }
         double most = 0;
-        for (int look = 0; look <= 500; ++look) {
-            const double t = look / 50.0;
-            const auto tick = static_cast<std::size_t>(look * rate / 50);
-            const double share = look * rate % 50 / 50.0;
+        for (int sample = 0; sample <= 500; ++sample) {
+            const double t = sample / 50.0;
+            const auto tick = static_cast<std::size_t>(sample * rate / 50);
+            const double share = sample * rate % 50 / 50.0;
             const double drawn = x[tick] + share * (x[tick + 1] - x[tick]);
             const double exact =
                 1000 * std::exp(-0.05 * t) * (std::cos(w * t) + 0.05 / w * std::sin(w * t));
@@ -165,7 +164,7 @@ TEST(Sweep, HasTheErrorsOfWhatIsDrawnBetweenSteps) {
     }
 }
 
-TEST(Sweep, StoppedAndGoneOnWithIsThatOfOneGo) {
+TEST(Sweep, StoppedAndResumedEqualsAnUninterruptedOne) {
     for (const int ladders : {1, 4, 7}) {
         Tradeoff tradeoff = started(spring(), small_plan());
         int done = 0;
@@ -183,7 +182,7 @@ TEST(Sweep, StoppedAndGoneOnWithIsThatOfOneGo) {
     }
 }
 
-TEST(Sweep, LeavesWhatIsDoneAlone) {
+TEST(Sweep, KeepsFinishedLadders) {
     Tradeoff tradeoff = whole_sweep();
     tradeoff.ladders[2].rows[0].judgement.position_error = 42;
     int climbed = 0;
@@ -194,7 +193,7 @@ TEST(Sweep, LeavesWhatIsDoneAlone) {
     EXPECT_EQ(tradeoff.ladders[2].rows[0].judgement.position_error, 42);
 }
 
-TEST(Sweep, TellsHowFarItIs) {
+TEST(Sweep, ReportsItsProgress) {
     SweepPlan plan = small_plan();
     plan.max_rate = 50;
     Tradeoff tradeoff = started(spring(), plan);
@@ -208,7 +207,7 @@ TEST(Sweep, TellsHowFarItIs) {
     EXPECT_NEAR(shares.back(), 1, 1e-12);
 }
 
-TEST(TimeRows, TimesWhatIsStableAndChangesNoError) {
+TEST(TimeRows, TimesStableRowsAndChangesNoError) {
     Tradeoff tradeoff = whole_sweep();
     EXPECT_FALSE(tradeoff.timed());
     std::vector<TradeoffRow*> rows;
@@ -231,7 +230,7 @@ const Ladder& ladder_of(const Tradeoff& tradeoff, const char* name, Precision pr
     throw std::invalid_argument("no such ladder");
 }
 
-TEST(Ladder, EndsWhereTheReferenceCannotTell) {
+TEST(Ladder, EndsBelowTheFloorOfTheReference) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"kahan_li8_kdk"});
     plan.max_rate = 100'000;
@@ -242,13 +241,13 @@ TEST(Ladder, EndsWhereTheReferenceCannotTell) {
         {.wanted = 1e-9});
     const Tradeoff tradeoff = swept(rough, plan);
     const Ladder& ladder = ladder_of(tradeoff, "kahan_li8_kdk", Precision::double_);
-    EXPECT_EQ(ladder.end, "the reference cannot tell smaller errors");
+    EXPECT_EQ(ladder.end, "smaller errors are below the reference's floor");
     ASSERT_GT(ladder.rows.size(), 1U);
     for (std::size_t i = 0; i < ladder.rows.size(); ++i)
         EXPECT_EQ(ladder.rows[i].judgement.below_floor(), i + 1 == ladder.rows.size()) << i;
 }
 
-// Of the last three aligned rows none was better by a tenth than the best before.
+// None of the last three aligned rows improved on the best by a tenth.
 TEST(Ladder, EndsAtRoundOff) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"rk4"});
@@ -267,7 +266,7 @@ TEST(Ladder, EndsAtRoundOff) {
     EXPECT_LT(best, 0.1);
 }
 
-// Semi-implicit Euler evaluates once a step: 10 s at 400 Hz are 4000 evaluations, one body.
+// Semi-implicit Euler evaluates forces once per step: 10 s of one body at 400 Hz are 4000.
 TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"semi_implicit_euler"});
@@ -281,7 +280,7 @@ TEST(Ladder, EndsWhereARunIsTooMuchWork) {
     EXPECT_EQ(ladder.rows.back().judgement.evaluations, 4000);
 }
 
-// Sampled 50 times a second: up to 1024 times as often, which is below 1,000,000 Hz.
+// 50 samples per second: rates up to 1024 × 50 Hz, which is below 1,000,000 Hz.
 TEST(Ladder, GoesUpTo1024TimesTheSamplesWhereNoLimitIsGiven) {
     SweepPlan plan{.methods = methods_of({"explicit_euler"}), .precisions = {Precision::double_}};
     const MeasuredScene brief(one_axis + "duration = 2.0\n[[body]]\nposition = [1.0]\n" +
@@ -289,13 +288,13 @@ TEST(Ladder, GoesUpTo1024TimesTheSamplesWhereNoLimitIsGiven) {
                               "stiffness = 15.0\n");
     const Tradeoff tradeoff = swept(brief, plan);
     const Ladder& ladder = tradeoff.ladders.front();
-    EXPECT_EQ(ladder.end, "no higher rates were asked for");
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 1024 * brief.looks.per_second);
+    EXPECT_EQ(ladder.end, "the highest rate of the sweep was reached");
+    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 1024 * brief.samples.per_second);
 }
 
-TEST(Ladder, EndsWhereNoMoreIsAskedFor) {
+TEST(Ladder, EndsAtTheHighestRateOfThePlan) {
     const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
-    EXPECT_EQ(ladder.end, "no higher rates were asked for");
+    EXPECT_EQ(ladder.end, "the highest rate of the sweep was reached");
     EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 800);
 }
 
@@ -316,9 +315,9 @@ TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {
     }
 }
 
-TEST(Ladder, GoesOnPastWhatIsUnstable) {
+TEST(Ladder, ContinuesPastUnstableRates) {
     const Ladder& ladder = ladder_of(whole_sweep(), "velocity_verlet", Precision::double_);
-    // Below ω·dt = 2 at 1.94 Hz it blows up.
+    // Below 1.94 Hz, where ω·dt = 2, it is unstable.
     EXPECT_FALSE(ladder.rows.front().judgement.stable);
     EXPECT_TRUE(std::isnan(ladder.rows.front().judgement.position_error));
     EXPECT_TRUE(ladder.rows.back().judgement.stable);

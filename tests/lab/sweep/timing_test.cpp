@@ -19,7 +19,7 @@ TradeoffRow row_at(std::int64_t rate, bool stable = true) {
     return row;
 }
 
-/// A clock that shows these costs of a step one after the other, and then from the first on.
+/// A clock that returns these costs of a step in turn, and repeats.
 SweepWatch clock_of(const std::vector<double>& ns) {
     SweepWatch watch;
     watch.ns_per_step = [ns, calls = std::size_t{0}](const auto&, const auto&,
@@ -34,16 +34,16 @@ void time_row(TradeoffRow& row, int rounds, const SweepWatch& watch) {
     time_rows(scene, {&row}, rounds, watch);
 }
 
-// Sorted: 1, 2, 3, 4 and 100 ns. The median is 3, the quartiles are 2 and 4: half of what lies
-// between them is 1. A step at 50 Hz is taken 50 times a second.
-TEST(TimeRow, HasTheMedianAndHalfOfWhatLiesBetweenTheQuartiles) {
+// Sorted: 1, 2, 3, 4 and 100 ns. The median is 3 ns, the quartiles are 2 and 4 ns: half the
+// interquartile range is 1 ns. 50 Hz are 50 steps per second.
+TEST(TimeRow, HasTheMedianAndHalfTheInterquartileRange) {
     TradeoffRow row = row_at(50);
     time_row(row, 5, clock_of({4, 1, 100, 3, 2}));
     EXPECT_DOUBLE_EQ(row.ns_per_second, 50 * 3);
     EXPECT_DOUBLE_EQ(row.ns_spread, 50 * 1);
 }
 
-// Of 10 and 20 ns the quartiles are 12.5 and 17.5.
+// The quartiles of 10 and 20 ns are 12.5 and 17.5 ns.
 TEST(TimeRow, HasQuartilesBetweenTwoMeasurements) {
     TradeoffRow row = row_at(1);
     time_row(row, 2, clock_of({20, 10}));
@@ -51,7 +51,7 @@ TEST(TimeRow, HasQuartilesBetweenTwoMeasurements) {
     EXPECT_DOUBLE_EQ(row.ns_spread, 2.5);
 }
 
-TEST(TimeRow, TimedAgainForgetsWhatWasMeasuredBefore) {
+TEST(TimeRow, ReplacesItsTimesIfTimedAgain) {
     TradeoffRow row = row_at(10);
     time_row(row, 3, clock_of({500, 700, 900}));
     time_row(row, 3, clock_of({6, 6, 6}));
@@ -59,7 +59,7 @@ TEST(TimeRow, TimedAgainForgetsWhatWasMeasuredBefore) {
     EXPECT_EQ(row.ns_spread, 0);
 }
 
-// Several rows take turns, so that a machine that gets slower slows down all of them.
+// Rows take turns, so that a slowdown of the machine affects all of them.
 TEST(TimeRows, TakeTurns) {
     TradeoffRow first = row_at(1);
     TradeoffRow unstable = row_at(1, false);
@@ -71,22 +71,22 @@ TEST(TimeRows, TakeTurns) {
     EXPECT_TRUE(std::isnan(unstable.ns_per_second));
 }
 
-// A frame of 1/60 s has four steps at 240 Hz, and one at 30 Hz; no call takes more than 256.
+// A frame of 1/60 s has four steps at 240 Hz and one at 30 Hz. A call takes at most 256.
 TEST(TimeRow, IsTimedWithTheStepsOfAFrameInACall) {
     SweepWatch watch;
-    watch.ns_per_step = [](const auto&, const auto&, std::int64_t at_once) {
-        return static_cast<double>(at_once);
+    watch.ns_per_step = [](const auto&, const auto&, std::int64_t per_call) {
+        return static_cast<double>(per_call);
     };
-    for (const auto& [rate, at_once] : std::vector<std::pair<std::int64_t, double>>{
+    for (const auto& [rate, per_call] : std::vector<std::pair<std::int64_t, double>>{
              {30, 1}, {60, 1}, {119, 1}, {120, 2}, {240, 4}, {15'360, 256}, {60'000, 256}}) {
         TradeoffRow row = row_at(rate);
         time_row(row, 1, watch);
-        EXPECT_DOUBLE_EQ(row.ns_per_second, static_cast<double>(rate) * at_once) << rate;
+        EXPECT_DOUBLE_EQ(row.ns_per_second, static_cast<double>(rate) * per_call) << rate;
     }
 }
 
-// The clock is given the row's own choice: method, rate and precision.
-TEST(TimeRow, IsTimedWithItsOwnChoice) {
+// The clock gets the row's method, rate and precision.
+TEST(TimeRow, IsTimedWithItsOwnSetting) {
     const Stepping choice{&find_method("velocity_verlet"), {75}, Precision::single};
     Stepping timed;
     SweepWatch watch;

@@ -22,7 +22,7 @@ bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
 
 // ---- files
 
-/// Numbers that are hard to write, in all places.
+/// A trade-off with numbers that are hard to write in every field.
 Tradeoff hard_numbers() {
     Tradeoff tradeoff = started(spring(), small_plan());
     tradeoff.duration = 0.1 + 0.2;
@@ -63,8 +63,8 @@ TEST(TradeoffFile, ReadsBackToTheSameBits) {
     EXPECT_EQ(read.title, written.title);
     EXPECT_EQ(read.fingerprint, written.fingerprint);
     EXPECT_EQ(read.duration, written.duration);
-    EXPECT_EQ(read.today, written.today);
-    EXPECT_EQ(read.looks, written.looks);
+    EXPECT_EQ(read.current, written.current);
+    EXPECT_EQ(read.samples, written.samples);
     EXPECT_EQ(read.machines, written.machines);
     EXPECT_EQ(read.reference.words, written.reference.words);
     EXPECT_EQ(read.reference.closed_form, written.reference.closed_form);
@@ -139,7 +139,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return at == std::string::npos ? text : text.replace(at, what.size(), with);
 }
 
-TEST(TradeoffFile, RubbishIsRefusedInOneLineThatNamesIt) {
+TEST(TradeoffFile, IfInvalidIsRefusedInOneLineThatNamesTheFile) {
     const std::string good = to_json(hard_numbers());
     (void)parse_tradeoff(good, "a.json");
     const std::vector<std::string> bad{
@@ -176,11 +176,11 @@ TEST(TradeoffFile, OfAnotherVersionIsRefused) {
 
 // ---- the fingerprint
 
-TEST(Fingerprint, IsOfAllThatDecidesOnErrors) {
+TEST(Fingerprint, DependsOnEverythingThatDeterminesErrors) {
     const auto print = [](const std::string& text, const SweepPlan& plan, double duration) {
         Scene scene = parse_scene(text, "test.toml");
         if (duration > 0) scene.duration = duration;
-        return fingerprint(text, scene, looks_of(scene), plan);
+        return fingerprint(text, scene, sample_times_of(scene), plan);
     };
     const SweepPlan plan = small_plan();
     std::set<std::string> prints{print(article_spring, plan, 0)};
@@ -201,20 +201,20 @@ TEST(Fingerprint, IsOfAllThatDecidesOnErrors) {
     other.most_work = 1e8;
     prints.insert(print(article_spring, other, 0));
     EXPECT_EQ(prints.size(), 8U);
-    // All parts of one sweep have the same.
+    // All shards of a sweep have equal fingerprints.
     other = plan;
     other.shard = 2;
     other.shards = 4;
     EXPECT_EQ(prints.count(print(article_spring, other, 0)), 1U);
 }
 
-TEST(Fingerprint, IsOfThePrecisionsToo) {
+TEST(Fingerprint, DependsOnThePrecisions) {
     const Scene scene = parse_scene(article_spring, "test.toml");
     SweepPlan plan = small_plan();
     plan.precisions = {Precision::single};
-    const std::string single = fingerprint(article_spring, scene, looks_of(scene), plan);
+    const std::string single = fingerprint(article_spring, scene, sample_times_of(scene), plan);
     plan.precisions = {Precision::double_};
-    EXPECT_NE(fingerprint(article_spring, scene, looks_of(scene), plan), single);
+    EXPECT_NE(fingerprint(article_spring, scene, sample_times_of(scene), plan), single);
 }
 
 }  // namespace

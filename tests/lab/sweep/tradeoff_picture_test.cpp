@@ -31,7 +31,7 @@ Ladder ladder_of(const char* method, const std::vector<TradeoffRow>& rows) {
 Tradeoff made_up(const std::vector<Ladder>& ladders) {
     Tradeoff tradeoff;
     tradeoff.title = "Made up";
-    tradeoff.today = {&find_method("rk4"), {40}, Precision::double_};
+    tradeoff.current = {&find_method("rk4"), {40}, Precision::double_};
     tradeoff.reference.extent = 1;
     tradeoff.reference.floor.position = 1e-9;
     tradeoff.ladders = ladders;
@@ -45,7 +45,7 @@ Tradeoff three_rates() {
                                       row_of("rk4", 80, 1000, 0.01)})});
 }
 
-/// The marks of the first method, which are discs, from left to right, without that of the legend.
+/// The marks of the first method, which are discs, from left to right, without the legend's.
 std::vector<Point> marks_of(const Picture& picture) {
     std::vector<Point> marks;
     for (const Disc& disc : picture.discs) marks.push_back(disc.centre);
@@ -59,7 +59,7 @@ struct Segment {
     Point to;
 };
 
-/// Of the dashed line of the best of all methods.
+/// The points of the dashed line, the Pareto front of all methods.
 std::vector<Segment> best_line(const Picture& picture) {
     std::vector<Segment> segments;
     for (const Polyline& line : picture.polylines)
@@ -76,7 +76,7 @@ bool has_label(const Picture& picture, const std::string& text) {
 
 // ---- the best of all methods
 
-TEST(BestLine, GoesAlongAndDownNeverAslant) {
+TEST(BestLine, HasHorizontalAndVerticalSegmentsOnly) {
     const std::vector<Segment> segments = best_line(work_precision(three_rates(), time_axis));
     std::size_t along = 0;
     std::size_t down = 0;
@@ -90,8 +90,8 @@ TEST(BestLine, GoesAlongAndDownNeverAslant) {
     EXPECT_GT(down, 10U);
 }
 
-// Up to the cost of a row the line is at the error of the row before it: no row there is better.
-TEST(BestLine, PromisesNothingThatNoRowHas) {
+// Up to the cost of a row, the line stays at the error of the row before it.
+TEST(BestLine, IsNeverBelowTheErrorsOfTheRows) {
     const Picture picture = work_precision(three_rates(), time_axis);
     const std::vector<Point> marks = marks_of(picture);
     ASSERT_EQ(marks.size(), 3U);
@@ -104,7 +104,7 @@ TEST(BestLine, PromisesNothingThatNoRowHas) {
                 << at.x << " " << at.y;
 }
 
-// Costs and errors are a decade apart, and so are the marks: as far along as down.
+// Costs and errors are a decade apart, so marks are equally far apart in both directions.
 TEST(WorkPrecisionPicture, IsLogarithmicInBoth) {
     const std::vector<Point> marks = marks_of(work_precision(three_rates(), time_axis));
     ASSERT_EQ(marks.size(), 3U);
@@ -116,7 +116,7 @@ TEST(WorkPrecisionPicture, IsLogarithmicInBoth) {
 
 // ---- words
 
-// 10,000, 100,000 and 1,000,000 ns are 10, 100 and 1000 µs; evaluations were made up as 100 times
+// 10,000, 100,000 and 1,000,000 ns are 10, 100 and 1000 µs. The made-up evaluations are 100 times
 // these.
 TEST(WorkPrecisionPicture, ListsTheLeastCostsInTheUnitOfItsAxis) {
     const Picture time = work_precision(three_rates(), time_axis);
@@ -131,7 +131,7 @@ TEST(WorkPrecisionPicture, ListsTheLeastCostsInTheUnitOfItsAxis) {
 
 // ---- methods
 
-// Only these step the scene, each at one rate, and each is the best for an error.
+// Only these methods step the scene, each at one rate, and each is on the Pareto front.
 Tradeoff of_methods(const std::vector<const char*>& names) {
     std::vector<Ladder> ladders;
     double us = 1;

@@ -24,7 +24,7 @@ constexpr double damping = 0.1;   // N·s/m
 constexpr std::int64_t duration = 10;
 const double omega = std::sqrt(stiffness);
 
-/// Where two motions are in (ωx, v): what a column of each is.
+/// Two motions in (ωx, v), one per column.
 using Matrix = std::array<std::array<Real, 2>, 2>;
 
 /// exp(AT), from x0·e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t) + v0·e^(−γt)·sin(ωd·t)/ωd.
@@ -48,13 +48,12 @@ double norm(const Matrix& m) {
 }
 
 struct Run {
-    double error;  ///< ‖Mⁿ − exp(AT)‖₂, the largest relative one of all starts
+    double error;  ///< ‖Mⁿ − exp(AT)‖₂, the largest relative error of any start
     std::int64_t evaluations;
 };
 
-/// Both unit states at once. Round-off of double does not matter: n steps leave no more than about
-/// n·u, 3·10⁻⁹ with the most steps here, where the errors next to a target of 10⁻⁶ are off it by
-/// 7·10⁻⁹ and more.
+/// Runs both unit states together. Round-off of double is negligible: n steps leave about n·u, at
+/// most 3·10⁻⁹ here, while errors near the target of 10⁻⁶ differ from it by at least 7·10⁻⁹.
 Run run(const Method& method, std::int64_t rate) {
     Bodies bodies(1, Precision::double_);
     const oiler::Spring spring{.stiffness = stiffness, .damping = damping};
@@ -70,8 +69,8 @@ Run run(const Method& method, std::int64_t rate) {
     return {norm(apart), bodies.evaluations()};
 }
 
-/// The evaluations of the first rung that meets the target where the next one does so too: phases
-/// that are right by accident are rejected, as in the reference. 0 where none up to `most` does.
+/// The evaluations of the first rung that meets the target together with the next. This rejects
+/// phases that are right by accident, as in the reference. 0 if no rung up to `most` does.
 std::int64_t evaluations_to_meet(const Method& method, double target, std::int64_t most,
                                  const std::vector<std::int64_t>& rungs) {
     std::int64_t first = 0;
@@ -88,21 +87,21 @@ std::int64_t evaluations_to_meet(const Method& method, double target, std::int64
     return 0;
 }
 
-/// Looked at once a second, so that rungs are 4/3 and 3/2 apart from 2 Hz on.
+/// One sample per second, so that rungs from 2 Hz on have ratios of 4/3 and 3/2.
 std::vector<std::int64_t> lab_rungs() {
     oiler::Scene scene;
     scene.stepping.rate.steps = 1;
     return oiler::lab::rungs(scene, {.per_second = 1, .count = duration + 1}, 1 << 22);
 }
 
-/// What the reference calls a method in the way that it is run here.
+/// The reference's name of a method as it is run here.
 struct Named {
     std::string method;
     std::string in_reference;
 };
 void PrintTo(const Named& named, std::ostream* out) { *out << named.method; }
 
-/// Without optimisation a run of many million steps takes too long.
+/// Without optimisation, runs of many million steps take too long.
 #ifdef NDEBUG
 constexpr std::int64_t most_evaluations = 20'000'000;
 #else
@@ -111,8 +110,8 @@ constexpr std::int64_t most_evaluations = 100'000;
 
 class WorkPrecision : public testing::TestWithParam<Named> {};
 
-// The rung at or above what is needed has less than 1.5 times its steps. A kick that serves the
-// next step's first needs one more at the start.
+// The first sufficient rung has less than 1.5 times the needed steps. Methods that reuse the last
+// kick for the next step need one more evaluation at the start.
 TEST_P(WorkPrecision, TakesTheEvaluationsOfTheReference) {
     const auto table = reference("work_precision_spring").at("T=10 k=15 b=0.1");
     const auto& needed = table.at("force_evaluations_needed").at(GetParam().in_reference);
@@ -145,9 +144,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Named{"kahan_li8_kdk", "kahan_li8_kdk/A"}),
     [](const auto& tested) { return tested.param.method; });
 
-// Above, a method is right to 4/3 or 3/2. The numbers of steps themselves: the error is above the
-// target with 1 % fewer steps than the reference needs, or it would have needed fewer.
-TEST(WorkPrecisionOfSemiImplicitEuler, IsThatOfItsStepsToAPercent) {
+// Rungs are accurate only to 4/3 or 3/2; this test checks the number of steps. With 1 % fewer steps
+// than in the reference, the error is above the target.
+TEST(WorkPrecisionOfSemiImplicitEuler, TakesTheStepsOfTheReferenceWithin1Percent) {
     const Method& method = oiler::find_method("semi_implicit_euler");
     EXPECT_LT(run(method, 1593).error, 1e-3);
     EXPECT_GT(run(method, 1577).error, 1e-3);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_contenders = 8;
 constexpr int timing_rounds = 9;
 
-/// Each method's best in each precision, in the order of `rows`.
+/// The first row of each method in each precision.
 std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) {
     std::vector<TradeoffRow> kept;
     for (const TradeoffRow& row : rows) {
@@ -28,17 +28,18 @@ std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) 
     return kept;
 }
 
-/// Makes an advice of what a search has found.
+/// Turns the result of a search into an advice.
 class Conclusion {
 public:
-    Conclusion(const Scene& scene, const Reference& reference, const Wish& wish, Search& search)
-        : scene_(scene), reference_(reference), wish_(wish), search_(search) {}
+    Conclusion(const Scene& scene, const Reference& reference, const Requirements& requirements,
+               Search& search)
+        : scene_(scene), reference_(reference), requirements_(requirements), search_(search) {}
 
     Advice run(const SweepWatch& watch) {
-        const bool found = wish_.has_tolerance() && !search_.good_rows().empty();
-        front_ = contenders_among(found ? search_.good_rows() : search_.nearest_rows());
+        const bool found = requirements_.has_tolerance() && !search_.meeting_rows().empty();
+        front_ = contenders_among(found ? search_.meeting_rows() : search_.closest_rows());
         if (why_not(scene_, Settings{scene_.stepping}).empty())
-            advice_.today = search_.try_choice(scene_.stepping);
+            advice_.current = search_.try_choice(scene_.stepping);
         for (const Method* method : obvious_methods()) consider(*method);
         time(watch);
         const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
@@ -52,9 +53,9 @@ public:
     }
 
 private:
-    /// At the highest rate that costs no more than the best.
+    /// Adds a method at the highest rate that costs no more than the best.
     void consider(const Method& method) {
-        const auto& asked = wish_.methods;
+        const auto& asked = requirements_.methods;
         if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
         Alternative alternative{.method = &method};
         Stepping choice{&method, {search_.rates().front()}, Precision::double_};
@@ -73,24 +74,23 @@ private:
         const double times = row.ns_per_second / advice_.best->ns_per_second;
         const std::int64_t rate = row.stepping.rate.steps;
         std::string text =
-            times > 1.1 ? fmt::format("already at {} Hz it costs {:.3g} times as much", rate, times)
-                        : fmt::format("for the same time it could run at {} Hz", rate);
+            times > 1.1 ? fmt::format("at only {} Hz it costs {:.3g} times as much", rate, times)
+                        : fmt::format("it takes the same time at {} Hz", rate);
         if (!judgement.stable)
-            return fmt::format("for the same time it could run at {} Hz, where it is unstable",
-                               rate);
-        if (!wish_.has_tolerance())
-            return text + fmt::format(", and is off by up to {:.3g} m", judgement.position_error);
-        if (search_.good(row)) return text + ", and is good enough, too";
-        const double off = excess(judgement, wish_);
-        text += fmt::format(", and is {:.3g} times too far off", off);
-        const bool falls = judgement.position_error < wild * reference_.extent;
+            return fmt::format("it takes the same time at {} Hz, where it is unstable", rate);
+        if (!requirements_.has_tolerance())
+            return text + fmt::format(", with an error up to {:.3g} m", judgement.position_error);
+        if (search_.meets_tolerance(row)) return text + ", and meets the tolerance, too";
+        const double off = excess(judgement, requirements_);
+        text += fmt::format(", with {:.3g} times the error allowed", off);
+        const bool falls = judgement.position_error < largest_converging_error * reference_.extent;
         if (falls && row.meets_steps && row.stepping.method->order != exact_order)
             text += fmt::format(
-                "; it would need some {:.2g} Hz",
+                "; it would need about {:.2g} Hz",
                 static_cast<double>(rate) * std::pow(off, 1.0 / row.stepping.method->order));
         return text;
     }
-    /// Leaves out what is the advice itself, or the runner-up.
+    /// Says why each alternative loses. Removes the advice itself and the runner-up.
     void explain() {
         const auto named = [&](const Alternative& alternative) {
             const bool is_best = alternative.method == advice_.best->stepping.method;
@@ -105,7 +105,7 @@ private:
     void time(const SweepWatch& whole) {
         std::vector<TradeoffRow*> rows;
         for (TradeoffRow& row : front_) rows.push_back(&row);
-        if (advice_.today) rows.push_back(&*advice_.today);
+        if (advice_.current) rows.push_back(&*advice_.current);
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) rows.push_back(&*alternative.row);
         // The search alone shows its progress.
@@ -115,13 +115,14 @@ private:
     }
 
     [[nodiscard]] bool in_time(const TradeoffRow& row) const {
-        return !wish_.ns_per_second || row.ns_per_second <= *wish_.ns_per_second;
+        return !requirements_.ns_per_second || row.ns_per_second <= *requirements_.ns_per_second;
     }
     void choose() {
         if (front_.empty()) {
-            advice_.obstacles.push_back(wish_.ns_per_second && !wish_.has_tolerance()
-                                            ? "the time: nothing that is stable takes so little"
-                                            : "no method is stable at any rate that was asked for");
+            advice_.obstacles.push_back(requirements_.ns_per_second &&
+                                                !requirements_.has_tolerance()
+                                            ? "time: every stable setting takes longer"
+                                            : "no method is stable at any of the rates");
             return;
         }
         std::stable_partition(front_.begin(), front_.end(),
@@ -130,21 +131,21 @@ private:
         for (const TradeoffRow& row : front_)
             if (row.stepping.method != advice_.best->stepping.method && !advice_.runner_up)
                 advice_.runner_up = row;
-        const bool near = lab::meets(advice_.best->judgement, wish_);
+        const bool near = lab::meets(advice_.best->judgement, requirements_);
         advice_.meets = near && in_time(*advice_.best);
         if (!in_time(*advice_.best))
-            advice_.obstacles.push_back(fmt::format(
-                "the time: nothing that is as accurate takes less than {:.3g} µs per frame",
-                advice_.best->ns_per_second / 60'000));
+            advice_.obstacles.push_back(
+                fmt::format("time: the fastest setting as accurate takes {:.3g} µs per frame",
+                            advice_.best->ns_per_second / 60'000));
         if (!near) add_rounding_and_rates();
     }
     void add_rounding_and_rates() {
-        const std::vector<TradeoffRow> nearest = search_.nearest_rows();
+        const std::vector<TradeoffRow> nearest = search_.closest_rows();
         for (const Precision precision : {Precision::single, Precision::double_}) {
             const auto rounding = search_.too_coarse_float();
             if (precision == Precision::single && rounding) {
                 advice_.obstacles.push_back(
-                    fmt::format("in float rounding alone moves bodies by {:.3g} m", *rounding));
+                    fmt::format("in float, round-off alone moves bodies by {:.3g} m", *rounding));
                 continue;
             }
             const auto row = std::find_if(nearest.begin(), nearest.end(), [&](const auto& one) {
@@ -152,16 +153,16 @@ private:
             });
             if (row == nearest.end()) continue;
             advice_.obstacles.push_back(fmt::format(
-                "in {} nothing comes nearer than {}, with {:.3g} times the {} that is asked for: "
-                "higher rates, up to {} Hz, only round more often or are too much work",
-                name_of(precision), words_of(row->stepping), excess(row->judgement, wish_),
-                wish_.position_error ? "error" : "energy drift", search_.rates().back()));
+                "in {}, the closest is {} with {:.3g} times the {} allowed; higher rates, up to {} "
+                "Hz, only add round-off or are too much work",
+                name_of(precision), describe(row->stepping), excess(row->judgement, requirements_),
+                requirements_.position_error ? "error" : "energy drift", search_.rates().back()));
         }
     }
 
     const Scene& scene_;
     const Reference& reference_;
-    const Wish& wish_;
+    const Requirements& requirements_;
     Search& search_;
     std::vector<TradeoffRow> front_;
     Advice advice_;
@@ -169,42 +170,43 @@ private:
 
 }  // namespace
 
-void require_judgeable(const Scene& scene, const Reference& reference, const Wish& wish) {
-    if (reference.meaningful < reference.looks.count)
+void require_judgeable(const Scene& scene, const Reference& reference,
+                       const Requirements& requirements) {
+    if (reference.meaningful < reference.samples.count)
         fail(Exit::usage,
-             "errors on this scene mean nothing after {:.4g} s of {:.4g}: {}; give --duration "
-             "{:.4g}",
+             "errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; give "
+             "--duration {:.4g}",
              reference.meaningful_until(), scene.duration, reference.why_no_longer,
              reference.meaningful_until());
-    const Doubt floor = reference.floor();
+    const Uncertainty floor = reference.floor();
     const auto require = [](const std::optional<double>& wanted, double least, const char* what,
                             const char* unit) {
         if (wanted && *wanted < least)
             fail(Exit::usage,
-                 "a {} of {:g}{} cannot be judged: errors below {:.2g}{} cannot be told, a hundred "
-                 "times the reference's own; ask for less, or give a shorter --duration",
-                 what, *wanted, unit, least, unit);
+                 "{}: expected at least {:.2g}{}, 100 × the reference's own error, got {:g}{}; "
+                 "give a larger tolerance or a shorter --duration",
+                 what, least, unit, *wanted, unit);
     };
-    require(wish.position_error, floor.position, "position error", " m");
-    require(wish.energy_drift, floor.energy, "energy drift", "");
+    require(requirements.position_error, floor.position, "position error", " m");
+    require(requirements.energy_drift, floor.energy, "energy drift", "");
 }
 
-bool meets(const Judgement& judgement, const Wish& wish, double slack) {
-    return judgement.stable && excess(judgement, wish) <= 1 - slack;
+bool meets(const Judgement& judgement, const Requirements& requirements, double slack) {
+    return judgement.stable && excess(judgement, requirements) <= 1 - slack;
 }
 
-double wanted_of(const Wish& wish) {
-    // Energies go with positions; a sharper one is refused where it cannot be judged.
-    return wish.position_error ? *wish.position_error / 100 : 0;
+double required_reference_error(const Requirements& requirements) {
+    // The error of energies falls with that of positions. require_judgeable refuses the rest.
+    return requirements.position_error ? *requirements.position_error / 100 : 0;
 }
 
-Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
+Advice advise(const Scene& scene, const Reference& reference, const Requirements& requirements,
               const SweepWatch& watch) {
-    require_judgeable(scene, reference, wish);
-    Search search(scene, reference, wish, watch);
+    require_judgeable(scene, reference, requirements);
+    Search search(scene, reference, requirements, watch);
     search.run();
     if (watch.stopped()) return {};
-    return Conclusion(scene, reference, wish, search).run(watch);
+    return Conclusion(scene, reference, requirements, search).run(watch);
 }
 
 }  // namespace oiler::lab

@@ -9,11 +9,11 @@
 
 namespace oiler::lab {
 
-/// What is asked of a way to step a scene.
-struct Wish {
-    std::optional<double> position_error{};  ///< m, at most
-    std::optional<double> energy_drift{};    ///< relative, at most
-    std::optional<double> ns_per_second{};   ///< of computing for a second of the scene, at most
+/// The requirements on a setting: tolerances, a time budget, and the settings to choose from.
+struct Requirements {
+    std::optional<double> position_error{};  ///< m, the tolerance
+    std::optional<double> energy_drift{};    ///< relative, the tolerance
+    std::optional<double> ns_per_second{};   ///< computing time per second of the scene
     std::int64_t min_rate = 1;               ///< 1/s
     std::int64_t max_rate = 1'000'000;       ///< 1/s
     std::vector<const Method*> methods{};
@@ -22,43 +22,47 @@ struct Wish {
     [[nodiscard]] bool has_tolerance() const { return position_error || energy_drift; }
 };
 
-/// A method that people would have thought of, and why it is not the advice.
+/// A method that people commonly choose, and why it is not the advice.
 struct Alternative {
-    std::optional<TradeoffRow> row{};  ///< none where it cannot step the scene
+    std::optional<TradeoffRow> row{};  ///< none if it cannot step the scene
     const Method* method = nullptr;
     std::string why{};
 };
 
 struct Advice {
-    std::optional<TradeoffRow> best{};  ///< that meets the wish, or comes nearest
+    std::optional<TradeoffRow> best{};  ///< meets the requirements, or is the closest
     bool meets = false;
     std::optional<TradeoffRow> runner_up{};  ///< of another method
-    std::optional<TradeoffRow> today{};      ///< the scene's own choice
+    std::optional<TradeoffRow> current{};    ///< the scene's own setting
     std::vector<Alternative> alternatives{};
-    std::vector<std::string> obstacles{};  ///< where nothing meets the wish
-    std::int64_t runs = 0;                 ///< that it took
+    std::vector<std::string> obstacles{};  ///< why no setting meets the requirements
+    std::int64_t runs = 0;                 ///< number of runs that the search took
 };
 
-/// The cheapest way to step the scene within the tolerances, or without tolerances the most
-/// accurate within the time. It tries ways in the order of what they cost, and leaves out those
-/// that their order rules out. Throws Error{usage} for a wish that the reference cannot judge.
-[[nodiscard]] Advice advise(const Scene& scene, const Reference& reference, const Wish& wish,
-                            const SweepWatch& watch);
+/// Finds the cheapest setting within the tolerances or, without tolerances, the most accurate
+/// within the time. Tries settings from the cheapest up and skips rates that the method's order
+/// rules out. Throws Error{usage} for a tolerance that the reference cannot judge. The result of a
+/// stopped call is empty.
+[[nodiscard]] Advice advise(const Scene& scene, const Reference& reference,
+                            const Requirements& requirements, const SweepWatch& watch);
 
-/// Throws Error{usage} for a wish that the reference cannot judge.
-void require_judgeable(const Scene& scene, const Reference& reference, const Wish& wish);
+/// Throws Error{usage} for a tolerance below 100 × the reference's own error.
+void require_judgeable(const Scene& scene, const Reference& reference,
+                       const Requirements& requirements);
 
-/// Whether a judgement is within the tolerances; with a hundredth's part of `slack` to spare.
-[[nodiscard]] bool meets(const Judgement& judgement, const Wish& wish, double slack = 0);
+/// Whether errors are within (1 − slack) × the tolerances.
+[[nodiscard]] bool meets(const Judgement& judgement, const Requirements& requirements,
+                         double slack = 0);
 
-/// How good a reference has to be for the wish, m.
-[[nodiscard]] double wanted_of(const Wish& wish);
+/// The largest error of a reference that can judge the requirements, m; 0 for the best reference.
+[[nodiscard]] double required_reference_error(const Requirements& requirements);
 
 /// The advice in sentences, the conclusion first.
-[[nodiscard]] std::vector<std::string> words_of(const Advice& advice, const Scene& scene,
-                                                const Reference& reference, const Wish& wish);
+[[nodiscard]] std::vector<std::string> describe(const Advice& advice, const Scene& scene,
+                                                const Reference& reference,
+                                                const Requirements& requirements);
 
 /// "rk4 at 60 Hz in double"
-[[nodiscard]] std::string words_of(const Stepping& choice);
+[[nodiscard]] std::string describe(const Stepping& choice);
 
 }  // namespace oiler::lab

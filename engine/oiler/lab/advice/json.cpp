@@ -34,18 +34,19 @@ Json alternatives_of(const Advice& advice) {
 }  // namespace
 
 Json json_of(const Advice& advice, const Scene& scene, const Reference& reference,
-             const Wish& wish) {
-    const Doubt floor = reference.floor();
+             const Requirements& requirements) {
+    const Uncertainty floor = reference.floor();
     return {{"meets", advice.meets},
             {"advice", with_frame(advice.best)},
             {"runner_up", with_frame(advice.runner_up)},
-            {"today", with_frame(advice.today)},
+            {"today", with_frame(advice.current)},
             {"alternatives", alternatives_of(advice)},
             {"obstacles", advice.obstacles},
             {"wish",
-             {{"position_error", optional_number(wish.position_error)},
-              {"energy_drift", optional_number(wish.energy_drift)},
-              {"us_per_frame", wish.ns_per_second ? Json(*wish.ns_per_second / 60'000) : Json()}}},
+             {{"position_error", optional_number(requirements.position_error)},
+              {"energy_drift", optional_number(requirements.energy_drift)},
+              {"us_per_frame",
+               requirements.ns_per_second ? Json(*requirements.ns_per_second / 60'000) : Json()}}},
             {"reference",
              {{"words", reference.words},
               {"closed_form", reference.closed_form},
@@ -53,7 +54,7 @@ Json json_of(const Advice& advice, const Scene& scene, const Reference& referenc
               {"energy_floor", floor.energy},
               {"meaningful_until", reference.meaningful_until()}}},
             {"runs", advice.runs},
-            {"words", words_of(advice, scene, reference, wish)}};
+            {"words", describe(advice, scene, reference, requirements)}};
 }
 
 }  // namespace oiler::lab

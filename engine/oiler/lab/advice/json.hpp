@@ -7,6 +7,6 @@
 namespace oiler::lab {
 
 [[nodiscard]] Json json_of(const Advice& advice, const Scene& scene, const Reference& reference,
-                           const Wish& wish);
+                           const Requirements& requirements);
 
 }  // namespace oiler::lab

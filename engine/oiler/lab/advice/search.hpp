@@ -9,47 +9,47 @@
 
 namespace oiler::lab {
 
-/// Tries ways to step a scene in the order of what they cost, as far as their order does not rule
-/// them out, until one is good enough.
+/// Tries settings from the cheapest up and skips rates that the method's order rules out, until it
+/// has a setting that meets the tolerance and a runner-up.
 class Search {
 public:
-    Search(const Scene& scene, const Reference& reference, const Wish& wish,
+    Search(const Scene& scene, const Reference& reference, const Requirements& requirements,
            const SweepWatch& watch);
 
-    /// The cheapest that meets the tolerances, and a runner-up of another method; without
-    /// tolerances the most accurate in the time.
+    /// Finds the cheapest setting that meets the tolerances, and a runner-up of another method.
+    /// Without tolerances: the most accurate setting within the time.
     void run();
 
-    /// Judged once.
+    /// Judges a setting, once however often it is asked for.
     TradeoffRow try_choice(const Stepping& choice);
-    /// An estimate in ns for a second of the scene.
+    /// The estimated computing time for a second of the scene, ns.
     [[nodiscard]] double cost_of(const Stepping& choice) const;
-    /// With a little to spare, since an independent run may look elsewhere.
-    [[nodiscard]] bool good(const TradeoffRow& row) const;
+    /// Whether a row is within 98 % of the tolerances. An independent run may sample other times.
+    [[nodiscard]] bool meets_tolerance(const TradeoffRow& row) const;
 
-    /// What was tried and is good, the cheapest first.
-    [[nodiscard]] std::vector<TradeoffRow> good_rows() const;
-    /// All that is stable: the one that is off by the least first, without tolerances the most
-    /// accurate.
-    [[nodiscard]] std::vector<TradeoffRow> nearest_rows() const;
+    /// The tried rows that meet the tolerance, the cheapest first.
+    [[nodiscard]] std::vector<TradeoffRow> meeting_rows() const;
+    /// The stable rows, by their errors relative to the tolerances; without tolerances, by position
+    /// error.
+    [[nodiscard]] std::vector<TradeoffRow> closest_rows() const;
 
-    /// By how much rounding to float alone moves bodies, in m, where that rules out all runs in it.
+    /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
     [[nodiscard]] std::optional<double> too_coarse_float() const { return too_coarse_float_; }
     [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rungs_; }
     [[nodiscard]] std::int64_t runs() const { return static_cast<std::int64_t>(rows_.size()); }
 
 private:
-    /// A method in one precision, how far it was tried, and what a step of it costs in ns.
+    /// A method in one precision, the last rate tried, and the cost of a step in ns.
     struct Candidate {
         const Method* method = nullptr;
         Precision precision = Precision::double_;
-        double alone = unknown;     ///< a call of one step
-        double together = unknown;  ///< a step of many in a call
-        double work_per_hertz = 0;  ///< of a run at 1 Hz
-        std::size_t next = 0;       ///< rung
-        Descent descent{};
-        std::int64_t tried = 0;  ///< last rate at which it was stable and met its looks
-        double error = unknown;  ///< m, there
+        double alone = unknown;     ///< one step per call
+        double together = unknown;  ///< a step, at many per call
+        double work_per_hertz = 0;  ///< work of a run at 1 Hz
+        std::size_t next = 0;       ///< index of the next rung
+        Convergence convergence{};
+        std::int64_t tried = 0;  ///< last stable rate with a step at every sample
+        double error = unknown;  ///< m, at that rate
         bool over = false;
 
         [[nodiscard]] Stepping at(std::int64_t rate) const { return {method, {rate}, precision}; }
@@ -60,12 +60,12 @@ private:
     Candidate* cheapest_next();
     [[nodiscard]] double next_cost(const Candidate& candidate) const;
     TradeoffRow try_next(const Candidate& candidate);
-    void go_on(Candidate& candidate, const TradeoffRow& row, double excess);
+    void advance(Candidate& candidate, const TradeoffRow& row, double excess);
     [[nodiscard]] std::int64_t least_rate(const Candidate& candidate, const TradeoffRow& row,
                                           double excess) const;
     [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
-    /// How many of all ways were tried or ruled out.
-    void tell_progress() const;
+    /// Reports the share of settings that were tried or ruled out.
+    void report_progress() const;
     void try_highest();
     void find_cheapest();
     void find_most_accurate();
@@ -74,19 +74,19 @@ private:
 
     const Scene& scene_;
     const Reference& reference_;
-    const Wish& wish_;
+    const Requirements& requirements_;
     const SweepWatch& watch_;
-    Work work_;
+    RunWork work_;
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
     std::optional<double> too_coarse_float_;
     std::vector<TradeoffRow> rows_;
 };
 
-/// How many times the tolerances a run is off.
-[[nodiscard]] double excess(const Judgement& judgement, const Wish& wish);
+/// The largest ratio of an error to its tolerance.
+[[nodiscard]] double excess(const Judgement& judgement, const Requirements& requirements);
 
-/// An error above this part of what the bodies move says nothing of how it falls.
-inline constexpr double wild = 0.1;
+/// Errors above this fraction of the extent do not follow the method's order.
+inline constexpr double largest_converging_error = 0.1;
 
 }  // namespace oiler::lab

@@ -10,8 +10,8 @@
 namespace oiler::lab {
 namespace {
 
-/// More than so many springs and attractors are not left out one by one, nor any where all those
-/// worlds together had more bodies.
+/// Limits for leaving out springs, dampers and attractors one by one: their number, and the bodies
+/// of all these worlds together.
 constexpr std::size_t most_parts = 48;
 constexpr std::int64_t most_part_bodies = 100'000;
 
@@ -32,8 +32,8 @@ void remove_springs(Scene& scene, std::string_view kind) {
                   [&](const SceneSpring& spring) { return kind_of(spring) == kind; });
 }
 
-/// The nodes of a grid as bodies of the scene, and the springs on which they hang, without those
-/// between them. Bodies come before grids, so that with all grids so taken apart rows stay.
+/// Turns the nodes of a grid into bodies, and its hanging springs into springs; drops the springs
+/// between nodes. Bodies come before grids, so rows do not change if all grids are taken apart.
 void take_apart(Scene& scene, const SceneGrid& grid) {
     const std::size_t first = scene.bodies.size();
     for (std::int64_t row = 0; row < grid.count[1]; ++row)
@@ -54,27 +54,27 @@ void leave_out_links(Scene& scene) {
     scene.grids.clear();
 }
 
-const ForceWords& words_of(std::string_view force) {
-    const auto& all = force_words();
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const ForceWords& words) { return words.name == force; });
-    require(found != all.end(), "the ledger knows every force");
+const ForceDescription& describe(std::string_view force) {
+    const auto& all = force_descriptions();
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const ForceDescription& words) { return words.name == force; });
+    require(found != all.end(), "every force has a description in the ledger");
     return *found;
 }
 
-class Leavings {
+class Ablations {
 public:
-    explicit Leavings(const Scene& scene) : scene_(scene) {}
+    explicit Ablations(const Scene& scene) : scene_(scene) {}
 
-    std::vector<Leaving> run(const std::vector<std::string_view>& forces, bool linked) {
+    std::vector<Ablation> run(const std::vector<std::string_view>& forces, bool linked) {
         Scene bare = scene_;
         for (const std::string_view force : forces) {
-            const ForceWords& words = words_of(force);
+            const ForceDescription& words = describe(force);
             add(words.words, "", force, words.leave_out);
             words.leave_out(bare);
         }
         if (linked) {
-            add(links_words, "", "links", leave_out_links);
+            add(links_text, "", "links", leave_out_links);
             leave_out_links(bare);
         }
         all_.push_back({"", "", "moving", std::move(bare)});
@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    static constexpr std::string_view links_words = "springs between bodies";
+    static constexpr std::string_view links_text = "springs between bodies";
 
     template <class Change>
     void add(std::string_view words, std::string_view part_of, std::string_view pass,
@@ -99,7 +99,7 @@ private:
         for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
         for (std::size_t i = 0; i < scene_.grids.size(); ++i) add_grid(i);
         for (std::size_t i = 0; i < scene_.attractors.size(); ++i)
-            add(fmt::format("[[attractor]] {}", i + 1), words_of("attractor").words, "",
+            add(fmt::format("[[attractor]] {}", i + 1), describe("attractor").words, "",
                 [&](Scene& scene) {
                     scene.attractors.erase(scene.attractors.begin() + signed_of(i));
                 });
@@ -109,7 +109,7 @@ private:
         const std::string& name = scene_.bodies[spring.body].name;
         const std::string words = fmt::format("[[spring]] {} (of \"{}\")", i + 1, name);
         const std::string_view kind = kind_of(spring);
-        add(words, kind == "links" ? links_words : words_of(kind).words, "",
+        add(words, kind == "links" ? links_text : describe(kind).words, "",
             [&](Scene& scene) { scene.springs.erase(scene.springs.begin() + signed_of(i)); });
         if (spring.damping > 0)
             add("`damping` of " + words, words, "",
@@ -117,19 +117,19 @@ private:
     }
     void add_grid(std::size_t i) {
         if (scene_.grids[i].damping > 0)
-            add(fmt::format("`damping` of [[grid]] {}", i + 1), links_words, "",
+            add(fmt::format("`damping` of [[grid]] {}", i + 1), links_text, "",
                 [&](Scene& scene) { scene.grids[i].damping = 0; });
     }
     static std::ptrdiff_t signed_of(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
     const Scene& scene_;
-    std::vector<Leaving> all_;
+    std::vector<Ablation> all_;
 };
 
 }  // namespace
 
-const std::vector<ForceWords>& force_words() {
-    static const std::vector<ForceWords> all{
+const std::vector<ForceDescription>& force_descriptions() {
+    static const std::vector<ForceDescription> all{
         {"gravity",
          "gravity",
          {"acceleration"},
@@ -171,9 +171,9 @@ const std::vector<ForceWords>& force_words() {
     return all;
 }
 
-std::vector<Leaving> leavings(const Scene& scene, const std::vector<std::string_view>& forces,
-                              bool linked) {
-    return Leavings(scene).run(forces, linked);
+std::vector<Ablation> ablations(const Scene& scene, const std::vector<std::string_view>& forces,
+                                bool linked) {
+    return Ablations(scene).run(forces, linked);
 }
 
 }  // namespace oiler::lab

@@ -8,11 +8,11 @@
 namespace oiler::lab {
 namespace {
 
-/// "anchor.x", "anchor.y", "stiffness": the first of a thing's numbers may be a vector.
+/// "anchor.x", "anchor.y", "stiffness": the first field may be a vector.
 std::vector<std::string> number_names(const Stored& stored) {
     static const std::vector<std::string_view> vector{""};
     static const std::vector<std::string_view> mass{"mass"};
-    const auto& forces = force_words();
+    const auto& forces = force_descriptions();
     const auto force = std::find_if(forces.begin(), forces.end(),
                                     [&](const auto& words) { return words.name == stored.of; });
     const auto& fields = force != forces.end() ? force->numbers
@@ -43,7 +43,7 @@ void add_columns(Ledger& ledger, const Stored& stored) {
              .bodies = static_cast<std::int64_t>(stored.rows)});
 }
 
-/// What there is of each body besides the numbers of its motion: see World.
+/// Adds the handle that World keeps for each body.
 void add_handle(Ledger& ledger) {
     for (const auto& [number, bytes] : {std::pair{"generation", sizeof(Entity::generation)},
                                         std::pair{"row of entity", sizeof(Entity::index)},
@@ -65,7 +65,7 @@ std::vector<std::string_view> enter_columns(Ledger& ledger, const Bodies& bodies
     }
     add_handle(ledger);
     std::vector<std::string_view> forces;
-    for (const ForceWords& words : force_words())
+    for (const ForceDescription& words : force_descriptions())
         if (std::find(names.begin(), names.end(), words.name) != names.end())
             forces.push_back(words.name);
         else

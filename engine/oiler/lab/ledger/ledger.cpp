@@ -14,32 +14,32 @@
 namespace oiler::lab {
 namespace {
 
-/// About so long is timed at once.
-constexpr double seconds_at_once = 0.02;
+/// The approximate time of each scene in a round.
+constexpr double seconds_per_scene = 0.02;  // s
 
-/// Raises a flag for what has no effect; none for part of a thing that has none itself.
+/// Flags parts without effect. A part of a flagged part is not flagged again.
 class Flags {
 public:
     Flags(Ledger& ledger, const Comparison& comparison)
         : ledger_(ledger), comparison_(comparison) {}
 
-    void raise(const std::vector<Leaving>& leavings) {
-        for (std::size_t i = 0; i < leavings.size(); ++i)
-            if (leavings[i].pass != "moving") raise(leavings[i], comparison_.without[i]);
+    void raise(const std::vector<Ablation>& ablations) {
+        for (std::size_t i = 0; i < ablations.size(); ++i)
+            if (ablations[i].pass != "moving") raise(ablations[i], comparison_.without[i]);
     }
     void raise_for_axes(const Scene& scene, std::size_t bytes_per_number) {
         const Vec3& moved = comparison_.moved;
         if (std::all_of(moved.axis.begin(), moved.axis.end(), [](double by) { return by == 0; })) {
             ledger_.flags.push_back(fmt::format(
-                "nothing moves in {} steps: give a body a `velocity` or a force that acts",
+                "no body moves in {} steps: give a body a `velocity` or a force that acts",
                 comparison_.steps));
             return;
         }
         for (int axis = 0; axis < scene.axes; ++axis)
             if (moved[axis] == 0)
                 ledger_.flags.push_back(
-                    fmt::format("nothing moves along {} in {} steps, at {} bytes per body: fewer "
-                                "`axes` would do, but for the picture",
+                    fmt::format("no body moves along {} in {} steps, at {} bytes per body: fewer "
+                                "`axes` suffice, except for the picture",
                                 "xyz"[axis], comparison_.steps, 2 * bytes_per_number));
     }
     void raise_for_dampers(const Scene& scene) {
@@ -55,13 +55,13 @@ public:
     }
 
 private:
-    void raise(const Leaving& leaving, const Fared& fared) {
-        const bool said = said_.count(leaving.part_of) == 1;
-        if (!said && (fared.diverged || fared.change > 0)) return;
-        said_.insert(leaving.words);
+    void raise(const Ablation& ablation, const AblationResult& result) {
+        const bool said = said_.count(ablation.part_of) == 1;
+        if (!said && (result.diverged || result.change > 0)) return;
+        said_.insert(ablation.words);
         if (!said)
-            ledger_.flags.push_back(fmt::format("{} changes nothing in {} steps: leave it out",
-                                                leaving.words, comparison_.steps));
+            ledger_.flags.push_back(fmt::format("{} has no effect in {} steps: leave it out",
+                                                ablation.words, comparison_.steps));
     }
 
     Ledger& ledger_;
@@ -69,13 +69,13 @@ private:
     std::set<std::string> said_;
 };
 
-/// What of a leaving is known without a clock.
-LedgerPass pass_of(const Leaving& leaving, const Fared& fared) {
-    LedgerPass pass{.name = leaving.pass};
-    if (fared.diverged)
-        pass.diverged = fared.diverged;
-    else if (leaving.pass != "moving")
-        pass.changes_position = fared.change;
+/// The untimed entries of an ablation's pass.
+LedgerPass pass_of(const Ablation& ablation, const AblationResult& result) {
+    LedgerPass pass{.name = ablation.pass};
+    if (result.diverged)
+        pass.diverged = result.diverged;
+    else if (ablation.pass != "moving")
+        pass.changes_position = result.change;
     return pass;
 }
 
@@ -109,15 +109,15 @@ void time_passes(Ledger& ledger, const Scene& scene, const std::vector<const Sce
 }  // namespace
 
 Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress) {
-    require(steps >= 2, "a ledger takes two steps at least");
+    require(steps >= 2, "a ledger takes at least two steps");
     Ledger ledger;
     const World world = make_world(scene, Settings{scene.stepping});
     const auto forces = enter_columns(ledger, world.bodies());
     if (ledger.bodies == 0) return ledger;
-    const std::vector<Leaving> all = leavings(scene, forces, ledger.links > 0);
+    const std::vector<Ablation> all = ablations(scene, forces, ledger.links > 0);
     const Comparison comparison = compare(scene, all, steps, progress);
     ledger.steps = comparison.steps;
-    ledger.looks = comparison.looks;
+    ledger.samples = comparison.samples;
     ledger.diverged = comparison.diverged;
     std::vector<const Scene*> without;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -131,9 +131,9 @@ Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& prog
     flags.raise(all);
     flags.raise_for_dampers(scene);
     flags.raise_for_axes(scene, ledger.columns.front().bytes);
-    const double at_once = seconds_at_once * static_cast<double>(all.size() + 1);
+    const double seconds_per_round = seconds_per_scene * static_cast<double>(all.size() + 1);
     ledger.timed_steps = std::clamp<std::int64_t>(
-        std::llround(at_once / comparison.seconds_per_step), 1, ledger.steps - 1);
+        std::llround(seconds_per_round / comparison.seconds_per_step), 1, ledger.steps - 1);
     time_passes(ledger, scene, without, progress);
     return ledger;
 }

@@ -12,54 +12,56 @@
 
 namespace oiler::lab {
 
-/// A number of each body and where it is: in a column, or stored once because all bodies agree.
+/// A number that bodies have: stored in a column, or once if all bodies agree.
 struct LedgerColumn {
-    std::string of;           ///< "position", "velocity", "mass", a force or "handle"
-    std::size_t index = 0;    ///< of several forces of a kind
+    std::string of;           ///< "position", "velocity", "mass", a force's name or "handle"
+    std::size_t index = 0;    ///< index among forces of one kind
     std::string number;       ///< "x", "stiffness", "anchor.y"
     bool shared = false;      ///< stored once
-    std::size_t bytes = 0;    ///< of each body; 0 where shared
-    std::int64_t bodies = 0;  ///< for which any number of the same thing is other than 0
+    std::size_t bytes = 0;    ///< per body; 0 if shared
+    std::int64_t bodies = 0;  ///< bodies with a nonzero number in this group
 };
 
-/// One force, all links, or moving: what is left of the step where nothing acts.
+/// The cost of one force, of all links, or of moving: the rest of the step without forces and
+/// links.
 struct LedgerPass {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     std::string name;
-    double ns = unknown;  ///< per body and step; of a force what it adds to the others, from 0
-    double saves_ns = unknown;              ///< the same as measured; NaN for moving
-    double saves_percent = unknown;         ///< of the whole step
-    double changes_position = unknown;      ///< m, see Ledger::steps; NaN for moving
-    std::optional<std::string> diverged{};  ///< how, where the scene does without it
+    /// Per body and step. For a force, the cost that it adds to the others, at least 0.
+    double ns = unknown;
+    double saves_ns = unknown;          ///< measured difference, may be negative; NaN for moving
+    double saves_percent = unknown;     ///< percent of the whole step
+    double changes_position = unknown;  ///< m, the largest at any sample; NaN for moving
+    std::optional<std::string> diverged{};  ///< how the scene diverges without it
 };
 
-/// What a scene pays for: memory, time, and what each part of it is good for.
+/// The costs of a scene, memory and time, and the effect of each of its parts.
 struct Ledger {
     std::int64_t bodies = 0;
     std::int64_t links = 0;
     std::size_t bytes_per_link = 0;
     std::vector<LedgerColumn> columns;
-    std::vector<std::string> absent;  ///< what is neither stored nor evaluated
-    std::int64_t steps = 0;        ///< after which the scene is held against itself without a part
-    std::int64_t looks = 0;        ///< how often on the way
-    std::int64_t timed_steps = 0;  ///< the first ones, again and again
-    double ns = LedgerPass::unknown;        ///< per body and step, of the whole step
-    double noise_ns = LedgerPass::unknown;  ///< by which the whole step differs from itself
+    std::vector<std::string> absent;        ///< forces that are neither stored nor evaluated
+    std::int64_t steps = 0;                 ///< number of steps compared with the ablations
+    std::int64_t samples = 0;               ///< number of comparisons
+    std::int64_t timed_steps = 0;           ///< the first steps, timed repeatedly
+    double ns = LedgerPass::unknown;        ///< per body and step, the whole step
+    double noise_ns = LedgerPass::unknown;  ///< difference of two timings of the whole step
     std::vector<LedgerPass> passes;
-    std::vector<std::string> flags;         ///< what has no effect, and what to do about it
-    std::optional<std::string> diverged{};  ///< how, where the scene itself does; nothing is timed
+    std::vector<std::string> flags;         ///< parts without effect, and the remedy
+    std::optional<std::string> diverged{};  ///< how the scene itself diverges; then no times
 
-    /// With the share of the links, without what steps keep for themselves and without padding.
+    /// Includes the share of the links, but not scratch memory of steps or padding.
     [[nodiscard]] double bytes_per_body() const;
 };
 
-/// Called with the share that is done, from 0 to 1.
+/// Called with the fraction that is done, from 0 to 1.
 using LedgerProgress = std::function<void(double)>;
 
-/// Makes the scene's world, and one without each thing that it has; steps them side by side at most
-/// `steps` times, as far as about 10 s go; then times them for about 3 s. `steps` is at least 2:
-/// the first prepares what the others are timed with. Throws Error{usage} where the method cannot
+/// Makes the scene's world and its ablations: one world without each part. Steps them side by side,
+/// at most `steps` times and for about 10 s, then times them for about 3 s. `steps` is at least 2,
+/// because the first step prepares data and is not timed. Throws Error{usage} if the method cannot
 /// step the scene.
 [[nodiscard]] Ledger ledger(
     const Scene& scene, std::int64_t steps, const LedgerProgress& progress = [](double) {});

@@ -12,60 +12,59 @@
 
 namespace oiler::lab {
 
-// What a ledger is put together from.
+// The parts of a ledger.
 
-/// A scene without one of the things that it has.
-struct Leaving {
-    std::string words;    ///< what is left out, as the scene file has it
-    std::string part_of;  ///< the words of a larger thing that is left out, too; empty for a pass
-    std::string pass;     ///< the force's name, "links" or "moving"; empty for part of one
+/// A scene without one of its parts.
+struct Ablation {
+    std::string words;    ///< the part, as in the scene file
+    std::string part_of;  ///< `words` of the ablation that contains this one; empty for a pass
+    std::string pass;     ///< the force's name, "links" or "moving"; empty for part of a pass
     Scene scene;
 };
 
-/// Every way to leave something out of a scene whose bodies have `forces`. Springs and attractors
-/// are also left out one by one, and springs' dampers, where they are not too many.
-[[nodiscard]] std::vector<Leaving> leavings(const Scene& scene,
-                                            const std::vector<std::string_view>& forces,
-                                            bool linked);
+/// All ablations of a scene whose bodies have `forces`. Springs, their dampers and attractors are
+/// also left out one by one, unless there are too many: see most_parts.
+[[nodiscard]] std::vector<Ablation> ablations(const Scene& scene,
+                                              const std::vector<std::string_view>& forces,
+                                              bool linked);
 
-/// How a force is called where people read of it.
-struct ForceWords {
-    std::string_view name;                  ///< of the force
+/// The names of a force for people.
+struct ForceDescription {
+    std::string_view name;                  ///< the force's own
     std::string_view plural;                ///< "coil springs"
-    std::vector<std::string_view> numbers;  ///< of its fields, by the keys of the scene file
-    std::string_view words;                 ///< all of them in the scene file
+    std::vector<std::string_view> numbers;  ///< scene keys of its fields
+    std::string_view words;                 ///< all forces of this kind, as in the scene file
     std::function<void(Scene&)> leave_out;
 };
 
-/// Of every force, in the order of the list of forces.
-[[nodiscard]] const std::vector<ForceWords>& force_words();
+/// The description of every force, in the order of the list of forces.
+[[nodiscard]] const std::vector<ForceDescription>& force_descriptions();
 
-/// Enters what the bodies store and what they do not; returns the names of the forces that they
-/// have.
+/// Enters the stored columns and the absent forces. Returns the names of the bodies' forces.
 std::vector<std::string_view> enter_columns(Ledger& ledger, const Bodies& bodies);
 
-/// How the scene without something fared beside the whole.
-struct Fared {
-    double change = 0;                      ///< m, the largest at any look
+/// The difference between an ablation and the whole scene.
+struct AblationResult {
+    double change = 0;                      ///< m, the largest at any sample
     std::optional<std::string> diverged{};  ///< how
 };
 
 struct Comparison {
     std::int64_t steps = 0;
-    std::int64_t looks = 0;
-    double seconds_per_step = 0;            ///< of all worlds together
-    Vec3 moved{};                           ///< m, of any body from its start, at any look
-    std::optional<std::string> diverged{};  ///< how, where the whole scene did
-    std::vector<Fared> without;             ///< each of the leavings
+    std::int64_t samples = 0;
+    double seconds_per_step = 0;  ///< all worlds together
+    Vec3 moved{};                 ///< m, largest distance of any body from its start, per axis
+    std::optional<std::string> diverged{};  ///< how the whole scene diverged
+    std::vector<AblationResult> without;    ///< the result of each ablation
 };
 
-/// Steps all of them beside the whole scene, at most `steps` times.
-[[nodiscard]] Comparison compare(const Scene& scene, const std::vector<Leaving>& leavings,
+/// Steps the whole scene and all ablations side by side, at most `steps` times.
+[[nodiscard]] Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations,
                                  std::int64_t steps, const LedgerProgress& progress);
 
-/// Seconds that each scene takes for `steps` steps, after one in which it prepares what all others
-/// share: the least of several rounds, in which the scenes take turns, so that whatever else the
-/// machine is doing meets all of them alike.
+/// Measures the time of `steps` steps of each scene, s, after one untimed step that prepares data.
+/// Returns the least of several rounds. Scenes take turns in each round, so that other load on the
+/// machine affects all alike.
 [[nodiscard]] std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t steps,
                                        const LedgerProgress& progress);
 

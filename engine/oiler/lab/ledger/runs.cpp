@@ -16,22 +16,23 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of all worlds together; a step of few bodies takes as long as one of `block`.
+/// The limit of bodies × steps of all worlds together. A step of fewer bodies than `block` counts
+/// as one of `block`.
 constexpr double most_body_steps = 1.5e9;
 constexpr double block = 16;
-/// So many bodies are held against each other in all.
+/// The limit of bodies × comparisons of all worlds together.
 constexpr double most_compared_bodies = 4e7;
 constexpr double most_comparing_seconds = 10;
 constexpr double timing_seconds = 2.5;
 constexpr int most_rounds = 1000;
 constexpr int fewest_rounds = 3;
-/// Which part of all that there is to do comes before timing.
+/// The fraction of the progress that comes before timing.
 constexpr double comparing_share = 0.6;
 
 /// Steps a world that may diverge.
-class Rival {
+class TrialRun {
 public:
-    explicit Rival(const Scene& scene) : world_(make_world(scene, Settings{scene.stepping})) {
+    explicit TrialRun(const Scene& scene) : world_(make_world(scene, Settings{scene.stepping})) {
         world_.require_applicable();
     }
 
@@ -51,16 +52,16 @@ private:
 
 class Comparing {
 public:
-    Comparing(const Scene& scene, const std::vector<Leaving>& leavings)
+    Comparing(const Scene& scene, const std::vector<Ablation>& ablations)
         : whole_(scene), start_(whole_.bodies()) {
-        rivals_.reserve(leavings.size());
-        for (const Leaving& leaving : leavings) rivals_.emplace_back(leaving.scene);
-        result_.without.resize(leavings.size());
+        trials_.reserve(ablations.size());
+        for (const Ablation& ablation : ablations) trials_.emplace_back(ablation.scene);
+        result_.without.resize(ablations.size());
     }
 
     Comparison run(std::int64_t wanted, const LedgerProgress& progress) {
         const std::int64_t steps = std::min(wanted, most_steps());
-        const std::int64_t stride = (steps + most_looks() - 1) / most_looks();
+        const std::int64_t stride = (steps + most_samples() - 1) / most_samples();
         const auto started = Clock::now();
         const auto goes_on = [&] {
             return result_.steps < 2 || seconds_since(started) < most_comparing_seconds;
@@ -72,25 +73,25 @@ public:
         }
         result_.seconds_per_step = seconds_since(started) / static_cast<double>(result_.steps);
         result_.diverged = whole_.diverged();
-        for (std::size_t i = 0; i < rivals_.size(); ++i)
-            result_.without[i].diverged = rivals_[i].diverged();
+        for (std::size_t i = 0; i < trials_.size(); ++i)
+            result_.without[i].diverged = trials_[i].diverged();
         return std::move(result_);
     }
 
 private:
-    [[nodiscard]] double worlds() const { return static_cast<double>(rivals_.size() + 1); }
+    [[nodiscard]] double worlds() const { return static_cast<double>(trials_.size() + 1); }
     [[nodiscard]] double bodies() const { return static_cast<double>(start_.size()); }
 
     [[nodiscard]] std::int64_t most_steps() const {
         const double most = most_body_steps / worlds() / std::max(bodies(), block);
         return std::max<std::int64_t>(2, std::llround(most));
     }
-    [[nodiscard]] std::int64_t most_looks() const {
+    [[nodiscard]] std::int64_t most_samples() const {
         const double most = most_compared_bodies / worlds() / std::max(bodies(), block);
         return std::max<std::int64_t>(1, std::llround(most));
     }
 
-    /// Steps that take about a second, where those so far took `seconds`.
+    /// The number of steps that take about 1 s, if those so far took `seconds`.
     [[nodiscard]] std::int64_t affordable(double seconds) const {
         const double steps = static_cast<double>(result_.steps) / std::max(seconds, 1e-9);
         return std::max<std::int64_t>(1, std::llround(steps));
@@ -100,30 +101,30 @@ private:
         whole_.step(count);
         result_.steps += count;
         if (whole_.diverged()) return;
-        ++result_.looks;
+        ++result_.samples;
         const Vec3 along = whole_.bodies().deviation_from(start_).along;
         for (int axis = 0; axis < 3; ++axis)
             result_.moved[axis] = std::max(result_.moved[axis], along[axis]);
-        for (std::size_t i = 0; i < rivals_.size(); ++i) advance(rivals_[i], i, count);
+        for (std::size_t i = 0; i < trials_.size(); ++i) advance(trials_[i], i, count);
     }
-    void advance(Rival& rival, std::size_t i, std::int64_t count) {
-        rival.step(count);
-        if (rival.diverged()) return;
+    void advance(TrialRun& trial, std::size_t i, std::int64_t count) {
+        trial.step(count);
+        if (trial.diverged()) return;
         double& change = result_.without[i].change;
-        change = std::max(change, whole_.bodies().deviation_from(rival.bodies()).distance);
+        change = std::max(change, whole_.bodies().deviation_from(trial.bodies()).distance);
     }
 
-    Rival whole_;
+    TrialRun whole_;
     Bodies start_;
-    std::vector<Rival> rivals_;
+    std::vector<TrialRun> trials_;
     Comparison result_;
 };
 
 }  // namespace
 
-Comparison compare(const Scene& scene, const std::vector<Leaving>& leavings, std::int64_t steps,
+Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations, std::int64_t steps,
                    const LedgerProgress& progress) {
-    return Comparing(scene, leavings).run(steps, progress);
+    return Comparing(scene, ablations).run(steps, progress);
 }
 
 std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t steps,

@@ -13,13 +13,13 @@ using Real3 = Vec<Real, 3>;
 
 Real3 to_real(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// All forces on a body, as far as closed forms are concerned.
+/// The sum of the forces on a body, for those that have closed forms.
 struct Influence {
-    Real3 acceleration{};  ///< m/s², where the body is at the origin
+    Real3 acceleration{};  ///< m/s², at the origin
     Real stiffness = 0;    ///< 1/s²
     Real damping = 0;      ///< 1/s
     std::vector<Attractor> attractors{};
-    bool other = false;
+    bool other = false;  ///< a force without a closed form acts
 };
 
 template <class Force>
@@ -48,8 +48,9 @@ void add(Influence& influence, const GivenForces& forces) {
 
 Motion<Real> along(const State<Real, 3>& start, int axis) { return {start.x[axis], start.v[axis]}; }
 
-/// Around where the spring and the constant acceleration are in balance.
-Motion<Real> swing(const Influence& influence, const State<Real, 3>& start, int axis, Real t) {
+/// The oscillation around the point where the spring balances the constant acceleration.
+Motion<Real> oscillation(const Influence& influence, const State<Real, 3>& start, int axis,
+                         Real t) {
     const Real rest = influence.acceleration[axis] / influence.stiffness;
     const Motion<Real> from{start.x[axis] - rest, start.v[axis]};
     const Motion<Real> to =
@@ -63,7 +64,7 @@ ExactMotion linear_motion(const Influence& influence, const State<Real, 3>& star
         for (int axis = 0; axis < 3; ++axis) {
             const Motion<Real> motion =
                 influence.stiffness > 0
-                    ? swing(influence, start, axis, t)
+                    ? oscillation(influence, start, axis, t)
                     : linear_drag_motion(along(start, axis), influence.acceleration[axis],
                                          influence.damping, t);
             state.x[axis] = motion.x;
@@ -73,7 +74,7 @@ ExactMotion linear_motion(const Influence& influence, const State<Real, 3>& star
     };
 }
 
-/// None for a body that escapes, falls straight in or is pulled by anything else.
+/// Returns none for a body that escapes, falls straight in, or feels any other force.
 std::optional<ExactMotion> orbit_motion(const Influence& influence, const State<Real, 3>& start) {
     if (influence.attractors.size() != 1 || influence.stiffness != 0 || influence.damping != 0 ||
         largest(influence.acceleration) != 0)

@@ -9,12 +9,12 @@
 
 namespace oiler::lab {
 
-/// Where a body is and how fast it goes, so many seconds after the start.
+/// A body's position and velocity t seconds after the start.
 using ExactMotion = std::function<State<long double, 3>(long double t)>;
 
-/// The closed form of each body's motion from its present state, by the textbook and not by what
-/// steps it; none where any body has none: where bodies are linked, springs have rest lengths, drag
-/// is quadratic, or an attractor is not alone or not circled.
+/// The closed form of each body's motion from its present state. It shares no code with the
+/// methods. Returns none if any body has none: with links, springs with rest lengths, quadratic
+/// drag, an attractor beside other forces, or an orbit that is not closed.
 [[nodiscard]] std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies);
 
 }  // namespace oiler::lab

@@ -12,9 +12,9 @@ namespace {
 using Real = long double;
 
 constexpr std::size_t fewest_runs = 3;
-/// Of extrapolations from a run: each takes another power of dt out of its error.
+/// Extrapolations per run. Each removes another power of dt from the error.
 constexpr std::size_t most_columns = 4;
-/// Halvings in a row that gained nothing, after which round-off or chaos is what is left.
+/// Halvings in a row without improvement, after which only round-off or chaos remains.
 constexpr int most_vain_runs = 2;
 constexpr double least_wanted = 1e-12;  ///< of the extent
 
@@ -31,14 +31,14 @@ bool is_damped_along_lines(const Scene& scene) {
     return false;
 }
 
-/// Of the highest order that a method keeps on the scene, with a small error of that order.
+/// A method of the highest order that holds on the scene, with a small error constant.
 const Method& finest_method(const Scene& scene) {
     return find_method(is_damped_along_lines(scene) ? "rk4" : "kahan_li8_kdk");
 }
 
 /// fine + (fine − coarse)/divisor
-Track extrapolated(const Track& fine, const Track& coarse, Real divisor) {
-    Track better = fine;
+Trajectory extrapolated(const Trajectory& fine, const Trajectory& coarse, Real divisor) {
+    Trajectory better = fine;
     for (std::size_t i = 0; i < better.states.size(); ++i) {
         const State<Real, 3>& a = fine.states[i];
         const State<Real, 3>& b = coarse.states[i];
@@ -50,53 +50,53 @@ Track extrapolated(const Track& fine, const Track& coarse, Real divisor) {
     return better;
 }
 
-/// How far two tracks are apart up to each look; energies in J.
-std::vector<Doubt> differences(const Track& a, const Track& b) {
-    std::vector<Doubt> doubts;
-    Doubt most;
-    for (std::size_t look = 0; look < a.energies.size(); ++look) {
-        for (std::size_t i = look * a.bodies; i < (look + 1) * a.bodies; ++i) {
+/// The largest differences of two trajectories up to each sample; energies in J.
+std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b) {
+    std::vector<Uncertainty> uncertainties;
+    Uncertainty most;
+    for (std::size_t sample = 0; sample < a.energies.size(); ++sample) {
+        for (std::size_t i = sample * a.bodies; i < (sample + 1) * a.bodies; ++i) {
             most.position = larger(most.position, distance(a.states[i].x, b.states[i].x));
             most.velocity = larger(most.velocity, distance(a.states[i].v, b.states[i].v));
         }
-        most.energy = larger(most.energy, std::abs(a.energies[look] - b.energies[look]));
-        doubts.push_back(most);
+        most.energy = larger(most.energy, std::abs(a.energies[sample] - b.energies[sample]));
+        uncertainties.push_back(most);
     }
-    return doubts;
+    return uncertainties;
 }
 
-/// What rounding to long double leaves, below which no difference is believed: of where bodies are,
-/// and of the time that passed, since dt and the method's coefficients are rounded alike in all
-/// runs.
-void add_rounding(std::vector<Doubt>& doubts, const Track& track, const Looks& looks) {
+/// Adds the round-off of long double: of positions, and of the elapsed time, because dt and the
+/// method's coefficients are rounded alike in all runs.
+void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& trajectory,
+                  const SampleTimes& samples) {
     constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
     double x = 0;
     double v = 0;
-    for (const State<Real, 3>& state : track.states) {
+    for (const State<Real, 3>& state : trajectory.states) {
         x = std::max(x, static_cast<double>(largest(state.x)));
         v = std::max(v, static_cast<double>(largest(state.v)));
     }
-    for (std::size_t look = 0; look < doubts.size(); ++look) {
-        const double way = v * looks.time(static_cast<std::int64_t>(look));
-        doubts[look].position += 4 * epsilon * (2 * x + way);
-        doubts[look].velocity += 4 * epsilon * v * (2 + (x > 0 ? way / x : 0));
+    for (std::size_t sample = 0; sample < uncertainties.size(); ++sample) {
+        const double way = v * samples.time(static_cast<std::int64_t>(sample));
+        uncertainties[sample].position += 4 * epsilon * (2 * x + way);
+        uncertainties[sample].velocity += 4 * epsilon * v * (2 + (x > 0 ? way / x : 0));
     }
 }
 
 /// Romberg's table of runs, each of half the step of the one before.
 class Table {
 public:
-    Table(const Scene& scene, const Looks& looks, const ReferenceEffort& effort)
-        : scene_(scene), looks_(looks), effort_(effort), method_(finest_method(scene)) {}
+    Table(const Scene& scene, const SampleTimes& samples, const ReferenceEffort& effort)
+        : scene_(scene), looks_(samples), effort_(effort), method_(finest_method(scene)) {}
 
-    /// False where the run diverged or was stopped: then the table is as empty as at the start.
+    /// Returns false and empties the table if the run diverged or was stopped.
     bool add_run(std::int64_t rate) {
-        std::optional<Track> run = this->run(rate);
+        std::optional<Trajectory> run = this->run(rate);
         if (!run) {
             row_.clear();
             return false;
         }
-        std::vector<Track> row{std::move(*run)};
+        std::vector<Trajectory> row{std::move(*run)};
         for (std::size_t k = 0; k < std::min(row_.size(), most_columns - 1); ++k)
             row.push_back(extrapolated(row[k], row_[k], std::exp2(Real(power(k))) - 1));
         before_ = row_.empty() ? std::nullopt : std::optional(std::move(row_.back()));
@@ -104,88 +104,94 @@ public:
         ++runs_;
         return true;
     }
-    [[nodiscard]] bool has_doubts() const { return row_.size() >= 2 && runs_ >= fewest_runs; }
-    [[nodiscard]] const Track& best() const { return row_.back(); }
-    [[nodiscard]] const Track& finest_run() const { return row_.front(); }
-    [[nodiscard]] std::vector<Doubt> doubts() const {
-        std::vector<Doubt> doubts = differences(best(), *before_);
-        add_rounding(doubts, best(), looks_);
-        return doubts;
+    [[nodiscard]] bool has_uncertainties() const {
+        return row_.size() >= 2 && runs_ >= fewest_runs;
+    }
+    [[nodiscard]] const Trajectory& best() const { return row_.back(); }
+    [[nodiscard]] const Trajectory& finest_run() const { return row_.front(); }
+    [[nodiscard]] std::vector<Uncertainty> uncertainties() const {
+        std::vector<Uncertainty> uncertainties = differences(best(), *before_);
+        add_rounding(uncertainties, best(), looks_);
+        return uncertainties;
     }
     [[nodiscard]] const Method& method() const { return method_; }
 
 private:
-    /// Of dt, in the error of the kth column.
+    /// The power of dt in the error of column k.
     [[nodiscard]] int power(std::size_t k) const {
         return method_.order + static_cast<int>(k) * (method_.symmetric ? 2 : 1);
     }
-    [[nodiscard]] std::optional<Track> run(std::int64_t rate) const {
+    [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) const {
         Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}},
                           looks_.per_second);
-        Track track{.bodies = follower.bodies().size()};
-        for (std::int64_t look = 0; look < looks_.count; ++look) {
-            if (effort_.stopped() || !follower.go_to(look)) return std::nullopt;
-            for (std::size_t row = 0; row < track.bodies; ++row)
-                track.states.push_back(follower.state(row));
-            track.energies.push_back(follower.energy());
-            if (!std::isfinite(track.energies.back())) return std::nullopt;
+        Trajectory trajectory{.bodies = follower.bodies().size()};
+        for (std::int64_t sample = 0; sample < looks_.count; ++sample) {
+            if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
+            for (std::size_t row = 0; row < trajectory.bodies; ++row)
+                trajectory.states.push_back(follower.state(row));
+            trajectory.energies.push_back(follower.energy());
+            if (!std::isfinite(trajectory.energies.back())) return std::nullopt;
         }
-        return track;
+        return trajectory;
     }
 
     const Scene& scene_;
-    const Looks& looks_;
+    const SampleTimes& looks_;
     const ReferenceEffort& effort_;
     const Method& method_;
-    std::vector<Track> row_;
-    std::optional<Track> before_{};  ///< the best of twice the step
+    std::vector<Trajectory> row_;
+    std::optional<Trajectory> before_{};  ///< the best at twice the step
     std::size_t runs_ = 0;
 };
 
-std::int64_t count_within(const std::vector<Doubt>& doubts, double most) {
-    return std::count_if(doubts.begin(), doubts.end(),
-                         [&](const Doubt& doubt) { return doubt.position <= most; });
+std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double most) {
+    return std::count_if(
+        uncertainties.begin(), uncertainties.end(),
+        [&](const Uncertainty& uncertainty) { return uncertainty.position <= most; });
 }
 
 }  // namespace
 
-FineSteps fine_steps(const Scene& scene, const Looks& looks, const ReferenceEffort& effort) {
-    Table table(scene, looks, effort);
-    const double work_per_step = Work(scene).per_step(table.method());
+FineSteps fine_steps(const Scene& scene, const SampleTimes& samples,
+                     const ReferenceEffort& effort) {
+    Table table(scene, samples, effort);
+    const double work_per_step = RunWork(scene).per_step(table.method());
     FineSteps finest;
     bool affordable = false;
-    std::int64_t most_good = -1;
+    std::int64_t most_usable = -1;
     int vain = 0;
-    for (std::int64_t rate = looks.per_second; vain < most_vain_runs; rate *= 2) {
-        const double work = work_per_step * static_cast<double>(rate) * looks.time(looks.count - 1);
+    for (std::int64_t rate = samples.per_second; vain < most_vain_runs; rate *= 2) {
+        const double work =
+            work_per_step * static_cast<double>(rate) * samples.time(samples.count - 1);
         if (work > effort.most_work || effort.stopped()) break;
         affordable = true;
-        if (!table.add_run(rate) || !table.has_doubts()) continue;
+        if (!table.add_run(rate) || !table.has_uncertainties()) continue;
         effort.progress(work / effort.most_work);
-        std::vector<Doubt> doubts = table.doubts();
-        const double doubt = doubts.back().position;
+        std::vector<Uncertainty> uncertainties = table.uncertainties();
+        const double uncertainty = uncertainties.back().position;
         const double extent = extent_of(table.best());
-        const std::int64_t good = count_within(doubts, resolution * extent / margin);
-        const bool better = finest.doubts.empty() || good > most_good ||
-                            (good == most_good && doubt < finest.doubts.back().position / 2);
+        const std::int64_t usable = count_within(uncertainties, resolution * extent / margin);
+        const bool better =
+            finest.uncertainties.empty() || usable > most_usable ||
+            (usable == most_usable && uncertainty < finest.uncertainties.back().position / 2);
         vain = better ? 0 : vain + 1;
         if (!better) continue;
-        most_good = good;
+        most_usable = usable;
         finest = {
-            .track = table.best(),
-            .doubts = std::move(doubts),
+            .trajectory = table.best(),
+            .uncertainties = std::move(uncertainties),
             .words = fmt::format(
-                "the scene in long double by {} at {} Hz, extrapolated from runs at that "
-                "rate, its half and so on; where halving still moves it by {:.2g} m at the end",
-                table.method().name, rate, doubt),
+                "fine steps in long double by {} at {} Hz, extrapolated from runs at that rate, "
+                "its half and so on; the last halving changes the end by {:.2g} m",
+                table.method().name, rate, uncertainty),
             .finest_run = table.finest_run(),
             .method = &table.method(),
             .rate = rate};
-        // A loose wish is no reason to take a scene for chaotic.
+        // A loose tolerance must not make a scene look chaotic.
         const double wanted = effort.wanted > 0
                                   ? std::min(effort.wanted, resolution * extent / margin)
                                   : least_wanted * extent;
-        if (doubt <= wanted) break;
+        if (uncertainty <= wanted) break;
     }
     finest.affordable = affordable;
     return finest;

@@ -7,42 +7,43 @@
 
 namespace oiler::lab {
 
-// What a reference is put together from.
+// The parts of a reference.
 
-/// A run in steps so fine that their own error is known; energies' doubts are in J. Empty where
-/// none was finite, or too few were affordable.
+/// A run in steps so fine that their own error is known. Uncertainties of energies are in J. Empty
+/// if no run was finite or too few were affordable.
 struct FineSteps {
-    Track track{};
-    std::vector<Doubt> doubts{};
+    Trajectory trajectory{};
+    std::vector<Uncertainty> uncertainties{};
     std::string words{};
-    Track finest_run{};  ///< which the track was extrapolated from
+    Trajectory finest_run{};  ///< from which the trajectory was extrapolated
     const Method* method = nullptr;
     std::int64_t rate = 0;
-    bool affordable = false;  ///< whether even the coarsest was
+    bool affordable = false;  ///< whether the coarsest run was within the work limit
 };
 
-/// Halves the step until what the method's order extrapolates no longer changes by more than is
-/// wanted; or as long as it is worth its work, which is while it gets better or good for longer.
-[[nodiscard]] FineSteps fine_steps(const Scene& scene, const Looks& looks,
+/// Halves the step until the Romberg extrapolation changes by no more than the wanted error. Stops
+/// earlier if the work limit is reached or if two halvings in a row bring no improvement.
+[[nodiscard]] FineSteps fine_steps(const Scene& scene, const SampleTimes& samples,
                                    const ReferenceEffort& effort);
 
-/// A reference is good as long as it tells errors of this part of what bodies move.
+/// A reference is usable while it resolves errors of this fraction of its extent.
 inline constexpr double resolution = 1e-3;
-/// From a reference's own error to what it can tell.
+/// The smallest error that a reference resolves, as a multiple of its own error.
 inline constexpr double margin = 100;
 
 [[nodiscard]] inline double distance(const Vec<long double, 3>& a, const Vec<long double, 3>& b) {
     return static_cast<double>(std::sqrt(squared_length(a - b)));
 }
-/// How far any body gets from its start, m.
-[[nodiscard]] double extent_of(const Track& track);
+/// The largest distance of any body from its start, m.
+[[nodiscard]] double extent_of(const Trajectory& trajectory);
 
-/// Of the coordinate that moves most, of that row or of all; none where it does not swing, or too
-/// fast for the looks.
-[[nodiscard]] std::optional<Swing> find_swing(const Track& track, const Looks& looks,
-                                              std::optional<std::size_t> only = std::nullopt);
+/// The oscillation of the coordinate with the largest range, of row `only` or of all rows. Returns
+/// none if it does not oscillate, or has fewer than 8 samples per period.
+[[nodiscard]] std::optional<PeriodicCoordinate> find_oscillation(
+    const Trajectory& trajectory, const SampleTimes& samples,
+    std::optional<std::size_t> only = std::nullopt);
 
-/// Of how far a coordinate gets, what is at rest.
+/// Dead band: the fraction of a coordinate's range that counts as rest.
 inline constexpr double dead_band = 1e-6;
 
 }  // namespace oiler::lab

@@ -25,7 +25,7 @@ double Path::crossing(std::size_t i, double level) const {
     return (low + high) / 2;
 }
 
-// By golden sections.
+// Golden-section search.
 double Path::summit(std::size_t i) const {
     constexpr double golden = 0.6180339887498949;
     double low = 0;
@@ -67,11 +67,11 @@ std::vector<double> upward_crossings(const Path& path, double level, double band
     return at;
 }
 
-Path path_of(const Track& track, const Looks& looks, std::size_t row, int axis) {
+Path path_of(const Trajectory& trajectory, const SampleTimes& samples, std::size_t row, int axis) {
     Path path;
-    for (std::int64_t look = 0; look < looks.count; ++look) {
-        const State<long double, 3>& state = track.at(look, row);
-        path.t.push_back(looks.time(look));
+    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
+        const State<long double, 3>& state = trajectory.at(sample, row);
+        path.t.push_back(samples.time(sample));
         path.x.push_back(static_cast<double>(state.x[axis]));
         path.v.push_back(static_cast<double>(state.v[axis]));
     }

@@ -7,22 +7,22 @@
 
 namespace oiler::lab {
 
-/// One coordinate of a body over time: a curve through its points that has their slopes, or
-/// straight lines where it has none.
+/// One coordinate of a body over time: a cubic curve through points and slopes, or straight lines
+/// if no slopes are given.
 struct Path {
     std::vector<double> t{};  ///< s
     std::vector<double> x{};  ///< m
-    std::vector<double> v{};  ///< m/s; empty for what is drawn, which is straight in between
+    std::vector<double> v{};  ///< m/s; empty for the drawn motion, which is straight between steps
 
     [[nodiscard]] std::size_t size() const { return t.size(); }
-    /// Between point i−1 and the next, s from 0 to 1: Hermite's cubic.
+    /// The position between points i−1 and i, s from 0 to 1: Hermite's cubic.
     [[nodiscard]] double at(std::size_t i, double s) const;
     [[nodiscard]] double time(std::size_t i, double s) const {
         return t[i - 1] + s * (t[i] - t[i - 1]);
     }
-    /// Where between point i−1 and the next it goes through a level, which lies between them.
+    /// The s between points i−1 and i at which the path crosses a level that lies between them.
     [[nodiscard]] double crossing(std::size_t i, double level) const;
-    /// Where between point i−1 and the next it is highest, if it has a summit there.
+    /// The s between points i−1 and i at which the path is highest, if it has a maximum there.
     [[nodiscard]] double summit(std::size_t i) const;
 };
 
@@ -31,17 +31,18 @@ struct Peak {
     double x;  ///< m
 };
 
-/// From point `from` on and before point `to`.
+/// The highest point of the path from point `from` up to, not including, point `to`.
 [[nodiscard]] Peak highest(const Path& path, std::size_t from, std::size_t to);
 
-/// Upside down.
+/// The path with the signs of positions and velocities reversed.
 [[nodiscard]] Path turned(Path path);
 
-/// When it goes up through a level, in s; having been below it by `band` at least, so that the
-/// roundings of what has come to rest are no swing.
+/// The times of upward crossings of a level, in s. A crossing counts only if the path was below the
+/// level by at least `band`, so that the round-off of a resting body is no oscillation.
 [[nodiscard]] std::vector<double> upward_crossings(const Path& path, double level, double band);
 
-/// Of a coordinate, at those looks.
-[[nodiscard]] Path path_of(const Track& track, const Looks& looks, std::size_t row, int axis);
+/// One coordinate of a body at the sample times.
+[[nodiscard]] Path path_of(const Trajectory& trajectory, const SampleTimes& samples,
+                           std::size_t row, int axis);
 
 }  // namespace oiler::lab

@@ -11,89 +11,93 @@
 
 namespace oiler::lab {
 
-/// Where all bodies are at every look, and the energy in J.
-struct Track {
+/// Positions and velocities of all bodies at every sample, and the energy in J.
+struct Trajectory {
     std::size_t bodies = 0;
-    std::vector<State<long double, 3>>
-        states{};  ///< of all bodies at the first look, then the next
+    /// Of all bodies at the first sample, then at the next.
+    std::vector<State<long double, 3>> states{};
     std::vector<double> energies{};
 
-    [[nodiscard]] const State<long double, 3>& at(std::int64_t look, std::size_t row) const {
-        return states[static_cast<std::size_t>(look) * bodies + row];
+    [[nodiscard]] const State<long double, 3>& at(std::int64_t sample, std::size_t row) const {
+        return states[static_cast<std::size_t>(sample) * bodies + row];
     }
 };
 
-/// How wrong something may be, up to a look.
-struct Doubt {
+/// Bounds of the error up to a sample.
+struct Uncertainty {
     double position = 0;  ///< m
     double velocity = 0;  ///< m/s
-    double energy = 0;    ///< of Reference::energy_scale
+    double energy = 0;    ///< relative to Reference::energy_scale
 };
 
-/// A coordinate that swings to and fro, by which phases are told.
-struct Swing {
+/// An oscillating coordinate, for phase errors.
+struct PeriodicCoordinate {
     std::size_t row = 0;
     int axis = 0;
-    double level = 0;                 ///< m, which it crosses upwards once in a period
-    double band = 0;                  ///< m, below which it is at rest
+    double level = 0;                 ///< m, crossed upwards once per period
+    double band = 0;                  ///< m, dead band around the level
     double period = 0;                ///< s
-    std::vector<double> crossings{};  ///< s
+    std::vector<double> crossings{};  ///< s, times of upward crossings
 };
 
-/// What runs of a scene are held against. It is never made by what it judges: the closed form where
-/// the scene has one, else steps in long double so fine that their own error is known.
+/// The motion with which runs of a scene are compared: the closed form if the scene has one, else
+/// steps in long double so fine that their own error is known.
 struct Reference {
-    Looks looks;
-    Track track;
+    SampleTimes samples;
+    Trajectory trajectory;
     bool closed_form = false;
-    std::string words;          ///< what it is and how good
-    std::vector<Doubt> doubts;  ///< at each look the largest up to it
-    double extent = 0;          ///< m, how far any body gets from its start
-    double energy_scale = 0;    ///< J, by which energy drifts are told
-    std::optional<Swing> swing{};
-    /// How many looks from the first on errors mean anything: fewer than all where the scene is
-    /// chaotic, so that it outgrows any reference, or roundings to double.
+    std::string words;                       ///< kind and own error, for people
+    std::vector<Uncertainty> uncertainties;  ///< for each sample, the largest up to it
+    double extent = 0;                       ///< m, the largest distance of any body from its start
+    double energy_scale = 0;                 ///< J, the unit of energy drifts
+    std::optional<PeriodicCoordinate> oscillation{};
+    /// The number of samples up to which errors are meaningful. It is fewer than all if the scene is
+    /// chaotic: its motion then diverges from any reference, or changes by round-off to double alone.
     std::int64_t meaningful = 0;
-    std::string why_no_longer{};  ///< where they do not mean anything to the end
+    std::string why_no_longer{};  ///< empty if errors are meaningful to the end
 
-    /// Relative to the scale; what it is in J for a scene that has no energy.
+    /// The energy relative to energy_scale; unchanged, in J, for a scene without energy.
     [[nodiscard]] double share_of_energy(double joules) const;
-    /// Below which it cannot tell errors: a hundred times its own.
-    [[nodiscard]] Doubt floor() const;
-    [[nodiscard]] Looks meaningful_looks() const { return {looks.per_second, meaningful}; }
-    /// In s.
-    [[nodiscard]] double meaningful_until() const { return looks.time(meaningful - 1); }
+    /// The smallest errors that the reference resolves: 100 × its own.
+    [[nodiscard]] Uncertainty floor() const;
+    [[nodiscard]] SampleTimes meaningful_samples() const {
+        return {samples.per_second, meaningful};
+    }
+    /// The last time at which errors are meaningful, s.
+    [[nodiscard]] double meaningful_until() const { return samples.time(meaningful - 1); }
 };
 
-/// How much trouble to take over a reference.
+/// The accuracy wanted of a reference, and the work it may take.
 struct ReferenceEffort {
-    /// Its own error in m; 0: a millionth of a millionth of what the bodies move.
+    /// The reference's own error, m; 0 for 10⁻¹² of the extent.
     double wanted = 0;
-    /// Evaluations of forces on one body or link in the finest run.
+    /// The limit of force evaluations, each on one body or link, in the finest run.
     double most_work = 2e9;
-    /// Share of the work that is done, from 0 to 1.
+    /// Called with the fraction of the work that is done, from 0 to 1.
     std::function<void(double)> progress = [](double) {};
     std::function<bool()> stopped = [] { return false; };
 };
 
-/// The closed form of a scene's bodies, or another that is claimed to be.
+/// Returns the closed form of all bodies' motion, if there is one. Tests pass wrong ones.
 using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const Bodies& bodies)>;
 
-/// Stopped, it is of no use. A closed form is held against fine steps; where these disagree, it is
-/// the closed form that is not believed, and the words say so.
-[[nodiscard]] Reference make_reference(const Scene& scene, const Looks& looks,
+/// Makes the reference of a scene. A closed form is compared with fine steps; if they disagree, it
+/// is rejected, and `words` says so. The result of a stopped call is incomplete. Throws
+/// Error{usage} if the reference takes too much work, and Error{diverged} if no reference stays
+/// finite.
+[[nodiscard]] Reference make_reference(const Scene& scene, const SampleTimes& samples,
                                        const ReferenceEffort& effort,
                                        const ClosedForm& closed_form = exact_motions);
 
-/// What steps of a scene take, about: evaluations of the forces on one body or link.
-class Work {
+/// Estimates the work of a step: force evaluations, each on one body or link.
+class RunWork {
 public:
-    explicit Work(const Scene& scene);
+    explicit RunWork(const Scene& scene);
     [[nodiscard]] double per_step(const Method& method) const;
 
 private:
     double per_evaluation_;
-    double to_solve_;  ///< evaluations, of an implicit step
+    double to_solve_;  ///< evaluations per implicit step
 };
 
 }  // namespace oiler::lab

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::int64_t most_followed_bodies = 100'000;
 constexpr double longest = 100'000;  // s
-constexpr double usual_looks_per_second = 60;
-constexpr double fewest_looks = 20;
-/// Of all bodies at all looks, which are kept in memory several times over.
+constexpr double usual_samples_per_second = 60;
+constexpr double fewest_samples = 20;
+/// The limit of bodies × samples, which are kept in memory several times.
 constexpr double most_states = 400'000;
-/// Where one look a second is more than that.
+/// The limit of bodies × samples at 1 sample per second, above which a scene is refused.
 constexpr double most_kept_states = 4e6;
 
 std::int64_t largest_divisor(std::int64_t number, double most) {
@@ -24,20 +24,20 @@ std::int64_t largest_divisor(std::int64_t number, double most) {
     return divisor;
 }
 
-/// The divisor of the rate that is nearest to what is wanted by their ratio; for a rate that is far
-/// below it a multiple, and for one that has no divisor near it just what is wanted.
-std::int64_t look_rate(std::int64_t rate, double wanted) {
+/// The divisor of the rate with the smallest ratio to `wanted`. A rate below `wanted`/4 gives a
+/// multiple of the rate; a rate without a divisor within a factor of 4 gives `wanted` itself.
+std::int64_t sample_rate(std::int64_t rate, double wanted) {
     constexpr double far = 4;
     if (static_cast<double>(rate) * far < wanted)
         return rate * std::llround(wanted / static_cast<double>(rate));
     std::int64_t nearest = std::llround(wanted);
     double least = far * (1 + 1e-9);
-    for (std::int64_t looks = 1; looks <= std::min<std::int64_t>(rate, std::llround(far * wanted));
-         ++looks) {
-        const double ratio = static_cast<double>(looks) / wanted;
+    for (std::int64_t samples = 1;
+         samples <= std::min<std::int64_t>(rate, std::llround(far * wanted)); ++samples) {
+        const double ratio = static_cast<double>(samples) / wanted;
         const double times = std::max(ratio, 1 / ratio);
-        if (rate % looks != 0 || times >= least) continue;
-        nearest = looks;
+        if (rate % samples != 0 || times >= least) continue;
+        nearest = samples;
         least = times;
     }
     return nearest;
@@ -45,14 +45,13 @@ std::int64_t look_rate(std::int64_t rate, double wanted) {
 
 }  // namespace
 
-Looks looks_of(const Scene& scene) {
+SampleTimes sample_times_of(const Scene& scene) {
     const std::int64_t bodies = scene.body_count();
     if (bodies > most_followed_bodies)
-        fail(
-            Exit::usage,
-            "{} bodies are more than can be held against a reference ({}); take a scene with fewer "
-            "of the same kind",
-            bodies, most_followed_bodies);
+        fail(Exit::usage,
+             "{} bodies: at most {} can be compared with a reference; take a scene with fewer bodies "
+             "of the same kind",
+             bodies, most_followed_bodies);
     if (!(scene.duration > 0) || scene.duration > longest)
         fail(Exit::usage, "a duration of {} s cannot be measured: give --duration from 0 to {:g} s",
              scene.duration, longest);
@@ -60,29 +59,29 @@ Looks looks_of(const Scene& scene) {
         fail(Exit::usage, "the scene ends within one of its steps: give a longer --duration");
     const double affordable =
         most_states / static_cast<double>(std::max<std::int64_t>(1, bodies)) / scene.duration;
-    const double wanted = std::max(usual_looks_per_second, fewest_looks / scene.duration);
-    Looks looks{.per_second = largest_divisor(look_rate(scene.stepping.rate.steps, wanted), affordable)};
+    const double wanted = std::max(usual_samples_per_second, fewest_samples / scene.duration);
+    SampleTimes samples{
+        .per_second = largest_divisor(sample_rate(scene.stepping.rate.steps, wanted), affordable)};
     const double states =
-        static_cast<double>(bodies) * scene.duration * static_cast<double>(looks.per_second);
+        static_cast<double>(bodies) * scene.duration * static_cast<double>(samples.per_second);
     if (states > most_kept_states)
-        fail(Exit::usage,
-             "{} bodies for {:g} s are more than can be kept in memory: give --duration up to {:g}",
+        fail(Exit::usage, "{} bodies for {:g} s take too much memory: give --duration up to {:g}",
              bodies, scene.duration, scene.duration * most_kept_states / states);
-    const double intervals = scene.duration * static_cast<double>(looks.per_second);
-    looks.count = static_cast<std::int64_t>(std::floor(intervals * (1 + 1e-12))) + 1;
-    return looks;
+    const double intervals = scene.duration * static_cast<double>(samples.per_second);
+    samples.count = static_cast<std::int64_t>(std::floor(intervals * (1 + 1e-12))) + 1;
+    return samples;
 }
 
-Follower::Follower(const Scene& scene, const Settings& settings, std::int64_t looks_per_second)
-    : world_(make_world(scene, settings)), looks_per_second_(looks_per_second) {
+Follower::Follower(const Scene& scene, const Settings& settings, std::int64_t samples_per_second)
+    : world_(make_world(scene, settings)), samples_per_second_(samples_per_second) {
     world_.require_applicable();
 }
 
-bool Follower::go_to(std::int64_t look) {
-    const std::int64_t product = look * world_.settings().stepping.rate.steps;
-    const std::int64_t tick = product / looks_per_second_;
-    alpha_ = static_cast<long double>(product % looks_per_second_) /
-             static_cast<long double>(looks_per_second_);
+bool Follower::go_to(std::int64_t sample) {
+    const std::int64_t product = sample * world_.settings().stepping.rate.steps;
+    const std::int64_t tick = product / samples_per_second_;
+    alpha_ = static_cast<long double>(product % samples_per_second_) /
+             static_cast<long double>(samples_per_second_);
     if (world_.tick() < tick && world_.try_step(tick - world_.tick())) return false;
     if (alpha_ > 0 && before_tick_ != tick) {
         remember();

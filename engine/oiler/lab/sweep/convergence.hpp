@@ -6,10 +6,10 @@
 
 namespace oiler::lab {
 
-/// How a method's errors fall as its rate rises: at the end of it round-off is what is left.
-class Descent {
+/// The convergence of a method's error with its rate. It ends when only round-off remains.
+class Convergence {
 public:
-    /// Of the next rate.
+    /// Takes the error at the next higher rate.
     void take(double error) {
         vain_ = error >= improvement * best_ ? vain_ + 1 : 0;
         best_ = std::fmin(best_, error);
@@ -17,7 +17,7 @@ public:
     [[nodiscard]] bool ended() const { return vain_ >= most_vain; }
 
 private:
-    /// An error that is at least this part of the best before is no improvement.
+    /// An error above this fraction of the best so far is no improvement.
     static constexpr double improvement = 0.9;
     static constexpr int most_vain = 3;
 

@@ -6,9 +6,9 @@
 
 namespace oiler::lab {
 
-// What a sweep finds, as files and pages have it; null is what is unknown.
+// The results of a sweep as JSON, for files and pages. Unknown numbers are null.
 
-/// A row's measured numbers by their names in files.
+/// A measured number of a row and its name in files.
 struct RowNumber {
     const char* name;
     double& (*of)(TradeoffRow& row);
@@ -23,7 +23,7 @@ inline constexpr RowNumber row_numbers[]{
     {"ns_spread", [](TradeoffRow& row) -> double& { return row.ns_spread; }},
 };
 
-/// Null for what is not finite.
+/// The value, or null if it is not finite.
 [[nodiscard]] Json number_or_null(double value);
 [[nodiscard]] Json json_of(const Stepping& choice);
 [[nodiscard]] Json json_of(const TradeoffRow& row);

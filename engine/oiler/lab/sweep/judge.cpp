@@ -11,53 +11,56 @@
 namespace oiler::lab {
 namespace {
 
-/// So many times what bodies move, and a run has nothing to do with the scene any more.
+/// A run whose error exceeds this multiple of the extent counts as unstable.
 constexpr double lost = 10;
 
-/// Takes notes of a run, look by look.
-class Notes {
+/// The largest errors of a run, sample by sample.
+class RunErrors {
 public:
-    explicit Notes(const Reference& reference) : reference_(reference) {}
+    explicit RunErrors(const Reference& reference) : reference_(reference) {}
 
-    /// False where the run is not worth following any further.
-    bool take(std::int64_t look, const Follower& follower) {
-        for (std::size_t row = 0; row < reference_.track.bodies; ++row) {
+    /// Returns false if the run is lost.
+    bool take(std::int64_t sample, const Follower& follower) {
+        for (std::size_t row = 0; row < reference_.trajectory.bodies; ++row) {
             const State<long double, 3> state = follower.state(row);
-            const State<long double, 3>& exact = reference_.track.at(look, row);
+            const State<long double, 3>& exact = reference_.trajectory.at(sample, row);
             position_ = larger(position_, distance(state.x, exact.x));
             velocity_ = larger(velocity_, distance(state.v, exact.v));
-            if (reference_.swing && row == reference_.swing->row) add_to_swing(look, state);
+            if (reference_.oscillation && row == reference_.oscillation->row)
+                add_to_oscillation(sample, state);
         }
-        const double exact = reference_.track.energies[static_cast<std::size_t>(look)];
+        const double exact = reference_.trajectory.energies[static_cast<std::size_t>(sample)];
         energy_ = larger(energy_, std::abs(follower.energy() - exact));
         return position_ <= lost * reference_.extent;
     }
 
     [[nodiscard]] Judgement judgement() const {
-        const Doubt floor = reference_.floor();
-        const auto told = [](double error, double least) {
+        const Uncertainty floor = reference_.floor();
+        const auto above_floor = [](double error, double least) {
             return error >= least ? error : unknown;
         };
-        return {.position_error = told(position_, floor.position),
-                .velocity_error = told(velocity_, floor.velocity),
+        return {.position_error = above_floor(position_, floor.position),
+                .velocity_error = above_floor(velocity_, floor.velocity),
                 .phase_error = phase_error(),
-                .energy_drift = told(reference_.share_of_energy(energy_), floor.energy)};
+                .energy_drift = above_floor(reference_.share_of_energy(energy_), floor.energy)};
     }
 
 private:
-    void add_to_swing(std::int64_t look, const State<long double, 3>& state) {
-        swing_.t.push_back(reference_.looks.time(look));
-        swing_.x.push_back(static_cast<double>(state.x[reference_.swing->axis]));
-        swing_.v.push_back(static_cast<double>(state.v[reference_.swing->axis]));
+    void add_to_oscillation(std::int64_t sample, const State<long double, 3>& state) {
+        oscillation_.t.push_back(reference_.samples.time(sample));
+        oscillation_.x.push_back(static_cast<double>(state.x[reference_.oscillation->axis]));
+        oscillation_.v.push_back(static_cast<double>(state.v[reference_.oscillation->axis]));
     }
     [[nodiscard]] double phase_error() const {
-        if (!reference_.swing) return unknown;
-        const Swing& swing = *reference_.swing;
-        const std::vector<double> at = upward_crossings(swing_, swing.level, swing.band);
-        const std::size_t both = std::min(at.size(), swing.crossings.size());
+        if (!reference_.oscillation) return unknown;
+        const PeriodicCoordinate& oscillation = *reference_.oscillation;
+        const std::vector<double> at =
+            upward_crossings(oscillation_, oscillation.level, oscillation.band);
+        const std::size_t both = std::min(at.size(), oscillation.crossings.size());
         if (both == 0) return unknown;
-        const double phase = 360 * (swing.crossings[both - 1] - at[both - 1]) / swing.period;
-        // Of a swing whose middle is passed as fast as it ever is.
+        const double phase =
+            360 * (oscillation.crossings[both - 1] - at[both - 1]) / oscillation.period;
+        // The phase resolution at the middle, where the speed is largest.
         const double least = 360 * reference_.floor().position / reference_.extent;
         return std::abs(phase) >= least ? phase : unknown;
     }
@@ -66,11 +69,11 @@ private:
     double position_ = 0;
     double velocity_ = 0;
     double energy_ = 0;
-    Path swing_;
+    Path oscillation_;
 };
 
-/// Whether a body gets away at a step, told without looking in between: of runs at low rates this
-/// is what most do.
+/// Whether a run is lost at a step. Most runs at rates below the sampling rate are; this check is
+/// cheaper than sampling between steps.
 bool gets_lost(const Scene& scene, const Settings& settings, const Reference& reference,
                const std::function<bool()>& stopped) {
     World world = make_world(scene, settings);
@@ -79,8 +82,8 @@ bool gets_lost(const Scene& scene, const Settings& settings, const Reference& re
                                                  static_cast<double>(settings.stepping.rate.steps));
     for (std::int64_t tick = 0; tick < steps && !stopped(); ++tick) {
         if (world.try_step()) return true;
-        for (std::size_t row = 0; row < reference.track.bodies; ++row)
-            if (!(distance(world.bodies().state(row).x, reference.track.at(0, row).x) <=
+        for (std::size_t row = 0; row < reference.trajectory.bodies; ++row)
+            if (!(distance(world.bodies().state(row).x, reference.trajectory.at(0, row).x) <=
                   (lost + 1) * reference.extent))
                 return true;
     }
@@ -91,14 +94,14 @@ bool gets_lost(const Scene& scene, const Settings& settings, const Reference& re
 
 Judgement judge(const Scene& scene, const Settings& settings, const Reference& reference,
                 const std::function<bool()>& stopped) {
-    if (settings.stepping.rate.steps < reference.looks.per_second &&
+    if (settings.stepping.rate.steps < reference.samples.per_second &&
         gets_lost(scene, settings, reference, stopped))
         return {.stable = false};
-    Follower follower(scene, settings, reference.looks.per_second);
-    Notes notes(reference);
-    for (std::int64_t look = 0; look < reference.meaningful && !stopped(); ++look)
-        if (!follower.go_to(look) || !notes.take(look, follower)) return {.stable = false};
-    Judgement judgement = notes.judgement();
+    Follower follower(scene, settings, reference.samples.per_second);
+    RunErrors errors(reference);
+    for (std::int64_t sample = 0; sample < reference.meaningful && !stopped(); ++sample)
+        if (!follower.go_to(sample) || !errors.take(sample, follower)) return {.stable = false};
+    Judgement judgement = errors.judgement();
     judgement.evaluations =
         evaluations_per_step(scene, settings) *
         std::ceil(reference.meaningful_until() * static_cast<double>(settings.stepping.rate.steps));
@@ -123,13 +126,14 @@ std::vector<const Method*> usual_methods(const Scene& scene) {
     std::vector<const Method*> usual{scene.stepping.method};
     for (const Method* method : obvious_methods())
         if (method != scene.stepping.method &&
-            why_not(scene, Settings{{method, scene.stepping.rate, scene.stepping.precision}}).empty())
+            why_not(scene, Settings{{method, scene.stepping.rate, scene.stepping.precision}})
+                .empty())
             usual.push_back(method);
     return usual;
 }
 
 double evaluations_per_step(const Scene& scene, const Settings& settings) {
-    // An implicit method looks for each solution as long as it takes.
+    // Implicit methods iterate, so their evaluations vary from step to step.
     const std::int64_t steps = settings.stepping.method->evaluations > 0 ? 1 : 16;
     const World start = make_world(scene, settings);
     const auto after = [&](std::int64_t count) {

@@ -5,7 +5,7 @@
 
 namespace oiler::lab {
 
-/// Where times were measured.
+/// The machine on which times were measured.
 struct Machine {
     std::string cpu;
     int cores = 1;

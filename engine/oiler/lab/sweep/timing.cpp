@@ -12,13 +12,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t frames_per_second = 60;
-/// Long enough for a clock of some tens of ns.
+/// The shortest measurement, long against a clock resolution of tens of ns.
 constexpr double shortest = 100e-6;  // s
-/// Of a frame at a high rate no more steps are taken: each costs what the others do.
-constexpr std::int64_t most_steps_at_once = 256;
+/// The largest number of steps per call. More steps per call cost no less per step.
+constexpr std::int64_t most_steps_per_call = 256;
 
-/// Of a call, in s: what takes longer by far than calling is called with fewer steps.
-constexpr double longest_call = 50e-3;
+/// The longest call. Calls of expensive steps take fewer steps.
+constexpr double longest_call = 50e-3;  // s
 
 double seconds_of(World& world, std::int64_t steps) {
     const Clock::time_point begin = Clock::now();
@@ -35,25 +35,26 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-// Runs start over when the scene ends, since what is stable up to then may not be afterwards.
-double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t at_once) try {
+// Runs restart when the scene ends, because a run may be unstable after that.
+double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t per_call) try {
     World start = make_world(scene, Settings{choice});
     if (start.try_step()) return unknown;
-    if (at_once > 1) {
+    if (per_call > 1) {
         World probe = start;
         const double first = seconds_of(probe, 1);
         const double most = longest_call / std::min(first, seconds_of(probe, 1));
-        if (most < static_cast<double>(at_once))
-            at_once = std::max<std::int64_t>(1, std::llround(most));
+        if (most < static_cast<double>(per_call))
+            per_call = std::max<std::int64_t>(1, std::llround(most));
     }
     const auto last = std::max<std::int64_t>(
-        1 + at_once, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
+        1 + per_call,
+        static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
     double seconds = 0;
     std::int64_t steps = 0;
     while (seconds < shortest) {
         World world = start;
-        while (world.tick() + at_once <= last && seconds < shortest)
-            seconds += seconds_of(world, at_once);
+        while (world.tick() + per_call <= last && seconds < shortest)
+            seconds += seconds_of(world, per_call);
         steps += world.tick() - start.tick();
     }
     return 1e9 * seconds / static_cast<double>(steps);
@@ -61,8 +62,8 @@ double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t at_o
     return unknown;
 }
 
-std::int64_t steps_at_once(std::int64_t rate) {
-    return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_at_once);
+std::int64_t steps_per_call(std::int64_t rate) {
+    return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_per_call);
 }
 
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
@@ -73,7 +74,7 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
     std::vector<std::vector<double>> times(stable.size());
     const auto all = static_cast<double>(stable.size()) * rounds;
     const auto ns_per_second = [&](const Stepping& choice) {
-        return watch.ns_per_step(scene, choice, steps_at_once(choice.rate.steps)) *
+        return watch.ns_per_step(scene, choice, steps_per_call(choice.rate.steps)) *
                static_cast<double>(choice.rate.steps);
     };
     double done = 0;

@@ -18,7 +18,7 @@ namespace {
 class Climb {
 public:
     Climb(Ladder& ladder, const Scene& scene, const Reference& reference, const SweepPlan& plan,
-          const Work& work, const std::vector<std::int64_t>& rungs)
+          const RunWork& work, const std::vector<std::int64_t>& rungs)
         : ladder_(ladder),
           scene_(scene),
           reference_(reference),
@@ -26,32 +26,31 @@ public:
           work_(work),
           rungs_(rungs) {}
 
-    /// Leaves the ladder as it was where it was stopped.
+    /// A stopped call leaves the ladder unchanged.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
         std::string end = why_not(scene_, Settings{choice(rungs_.front())});
         const double work_per_hertz =
             work_.per_step(*ladder_.method) * reference_.meaningful_until();
-        Descent descent;
+        Convergence convergence;
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
             if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
                 end = "a run at higher rates is too much work";
                 break;
             }
-            rows.push_back(
-                {.stepping = choice(rate),
-                 .judgement = judge(scene_, Settings{choice(rate)}, reference_, stopped),
-                 .meets_steps = reference_.looks.meet_steps(rate)});
+            rows.push_back({.stepping = choice(rate),
+                            .judgement = judge(scene_, Settings{choice(rate)}, reference_, stopped),
+                            .meets_steps = reference_.samples.meet_steps(rate)});
             if (stopped()) return;
             const Judgement& judgement = rows.back().judgement;
-            if (judgement.below_floor()) end = "the reference cannot tell smaller errors";
+            if (judgement.below_floor()) end = "smaller errors are below the reference's floor";
             if (!judgement.stable || !rows.back().meets_steps) continue;
-            descent.take(judgement.position_error);
-            if (descent.ended() && end.empty()) end = "round-off keeps errors from falling";
+            convergence.take(judgement.position_error);
+            if (convergence.ended() && end.empty()) end = "round-off keeps errors from falling";
         }
         ladder_.rows = std::move(rows);
-        ladder_.end = end.empty() ? "no higher rates were asked for" : end;
+        ladder_.end = end.empty() ? "the highest rate of the sweep was reached" : end;
         ladder_.done = true;
     }
 
@@ -64,12 +63,12 @@ private:
     const Scene& scene_;
     const Reference& reference_;
     const SweepPlan& plan_;
-    const Work& work_;
+    const RunWork& work_;
     const std::vector<std::int64_t>& rungs_;
 };
 
-/// Calls task(i, stopped) for each i below `count`, until one throws: then all stop, and so does
-/// this.
+/// Calls task(i, stopped) for each i below `count`. If one throws, all stop and the exception is
+/// rethrown.
 template <class Task>
 void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop, Task task) {
     std::atomic<std::size_t> next = 0;
@@ -94,9 +93,9 @@ void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop,
     if (failure) std::rethrow_exception(failure);
 }
 
-std::int64_t max_rate_of(const SweepPlan& plan, const Looks& looks) {
+std::int64_t max_rate_of(const SweepPlan& plan, const SampleTimes& samples) {
     constexpr std::int64_t highest = 1'000'000;
-    return plan.max_rate > 0 ? plan.max_rate : std::min(highest, 1024 * looks.per_second);
+    return plan.max_rate > 0 ? plan.max_rate : std::min(highest, 1024 * samples.per_second);
 }
 
 }  // namespace
@@ -127,7 +126,8 @@ const TradeoffRow* Tradeoff::find(const Stepping& choice) const {
 }
 
 ReferenceSummary summary(const Reference& reference) {
-    const Doubt& own = reference.doubts[static_cast<std::size_t>(reference.meaningful - 1)];
+    const Uncertainty& own =
+        reference.uncertainties[static_cast<std::size_t>(reference.meaningful - 1)];
     return {.words = reference.words,
             .closed_form = reference.closed_form,
             .position_error = own.position,
@@ -136,7 +136,7 @@ ReferenceSummary summary(const Reference& reference) {
             .extent = reference.extent,
             .meaningful_until = reference.meaningful_until(),
             .why_no_longer = reference.why_no_longer,
-            .period = reference.swing ? reference.swing->period : unknown};
+            .period = reference.oscillation ? reference.oscillation->period : unknown};
 }
 
 std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
@@ -155,27 +155,28 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
     return front;
 }
 
-std::vector<std::int64_t> rungs(const Scene& scene, const Looks& looks, std::int64_t max_rate) {
+std::vector<std::int64_t> rungs(const Scene& scene, const SampleTimes& samples,
+                                std::int64_t max_rate) {
     std::set<std::int64_t> all;
-    for (std::int64_t rate = 1; rate < looks.per_second; ++rate)
-        if (looks.per_second % rate == 0) all.insert(rate);
-    for (std::int64_t rate = looks.per_second; rate <= max_rate; rate *= 2) {
+    for (std::int64_t rate = 1; rate < samples.per_second; ++rate)
+        if (samples.per_second % rate == 0) all.insert(rate);
+    for (std::int64_t rate = samples.per_second; rate <= max_rate; rate *= 2) {
         all.insert(rate);
-        if (rate > looks.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
+        if (rate > samples.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
     }
     all.erase(all.upper_bound(max_rate), all.end());
     all.insert(scene.stepping.rate.steps);
     return {all.begin(), all.end()};
 }
 
-Tradeoff start_tradeoff(const Scene& scene, const Looks& looks, const Reference& reference,
+Tradeoff start_tradeoff(const Scene& scene, const SampleTimes& samples, const Reference& reference,
                         const SweepPlan& plan) {
     Tradeoff tradeoff{.scene = {},
                       .title = scene.title,
                       .fingerprint = {},
                       .duration = scene.duration,
-                      .today = scene.stepping,
-                      .looks = looks,
+                      .current = scene.stepping,
+                      .samples = samples,
                       .reference = summary(reference),
                       .machines = {this_machine()}};
     for (const Method* method : plan.methods)
@@ -187,12 +188,12 @@ Tradeoff start_tradeoff(const Scene& scene, const Looks& looks, const Reference&
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch) {
     const std::vector<std::int64_t> rates =
-        rungs(scene, tradeoff.looks, max_rate_of(plan, tradeoff.looks));
+        rungs(scene, tradeoff.samples, max_rate_of(plan, tradeoff.samples));
     std::vector<std::size_t> open;
     for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
          i += static_cast<std::size_t>(plan.shards))
         if (!tradeoff.ladders[i].done) open.push_back(i);
-    const Work work(scene);
+    const RunWork work(scene);
     double all = 0;
     for (const std::size_t i : open) all += work.per_step(*tradeoff.ladders[i].method);
     double done = 0;
@@ -225,9 +226,8 @@ Tradeoff merge(const std::vector<Tradeoff>& parts) {
     const auto missing = std::count_if(whole.ladders.begin(), whole.ladders.end(),
                                        [](const Ladder& ladder) { return !ladder.done; });
     if (missing > 0)
-        fail(Exit::usage,
-             "{} of {} methods and precisions are in none of the parts: give all parts", missing,
-             whole.ladders.size());
+        fail(Exit::usage, "{} of {} ladders (methods × precisions) are missing: give all parts",
+             missing, whole.ladders.size());
     return whole;
 }
 

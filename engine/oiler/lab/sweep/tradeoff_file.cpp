@@ -23,7 +23,7 @@ double to_number(const Parsed& json) { return json.is_null() ? unknown : json.ge
 Precision to_precision(const std::string& name) {
     for (const Precision precision : {Precision::single, Precision::double_})
         if (name == name_of(precision)) return precision;
-    fail(Exit::usage, "no precision is called {}: float or double", name);
+    fail(Exit::usage, "precision: expected float or double, got {}", name);
 }
 
 Stepping to_stepping(const Parsed& json) {
@@ -57,8 +57,8 @@ Tradeoff from_json(const Parsed& json) {
                       .title = json.at("title"),
                       .fingerprint = json.at("fingerprint"),
                       .duration = json.at("duration"),
-                      .today = to_stepping(json.at("today")),
-                      .looks = {json.at("looks_per_second"), json.at("looks")},
+                      .current = to_stepping(json.at("today")),
+                      .samples = {json.at("looks_per_second"), json.at("looks")},
                       .reference = to_reference(json.at("reference"))};
     for (const Parsed& machine : json.at("machines"))
         tradeoff.machines.push_back(
@@ -88,13 +88,13 @@ std::string to_json(const Tradeoff& tradeoff) {
 Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
     const Parsed json = Parsed::parse(text);
     if (json.at("oiler") != version())
-        fail(Exit::usage, "it is of version {} of oiler, this is {}: measure again",
+        fail(Exit::usage, "expected a file of oiler {1}, got one of {0}; measure again",
              json.at("oiler").get<std::string>(), version());
     return from_json(json);
 } catch (const Error& error) {
     throw Error(error.exit(), fmt::format("{}: {}", file, error.what()));
 } catch (const Parsed::exception& error) {
-    fail(Exit::usage, "{}: it is not what oiler tradeoff writes ({})", file, error.what());
+    fail(Exit::usage, "{}: not a valid file of oiler tradeoff ({})", file, error.what());
 }
 
 std::string to_csv(const Tradeoff& tradeoff) {
@@ -105,9 +105,10 @@ std::string to_csv(const Tradeoff& tradeoff) {
     for (const TradeoffRow* found : tradeoff.rows()) {
         TradeoffRow row = *found;
         const bool best = std::find(front.begin(), front.end(), found) != front.end();
-        text += fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.stepping.method->name,
-                            row.stepping.rate.steps, name_of(row.stepping.precision), row.judgement.stable,
-                            row.meets_steps, row.judgement.below_floor(), best);
+        text +=
+            fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.stepping.method->name,
+                        row.stepping.rate.steps, name_of(row.stepping.precision),
+                        row.judgement.stable, row.meets_steps, row.judgement.below_floor(), best);
         for (const RowNumber& number : row_numbers)
             text += fmt::format(",{}", cell(number.of(row)));
         text += "\n";
@@ -115,10 +116,10 @@ std::string to_csv(const Tradeoff& tradeoff) {
     return text;
 }
 
-std::string fingerprint(std::string_view scene_text, const Scene& scene, const Looks& looks,
+std::string fingerprint(std::string_view scene_text, const Scene& scene, const SampleTimes& samples,
                         const SweepPlan& plan) {
-    std::string all = fmt::format("{}|{}|{}|{}|{}|{}|", version(), scene.duration, looks.per_second,
-                                  looks.count, plan.max_rate, plan.most_work);
+    std::string all = fmt::format("{}|{}|{}|{}|{}|{}|", version(), scene.duration,
+                                  samples.per_second, samples.count, plan.max_rate, plan.most_work);
     for (const Precision precision : plan.precisions) all += fmt::format("{},", name_of(precision));
     for (const Method* method : plan.methods) all += fmt::format("{},", method->name);
     all += scene_text;

@@ -8,18 +8,19 @@
 
 namespace oiler::lab {
 
-/// All of a trade-off, in part or whole, with what decides on it; null is what is unknown.
+/// A complete or partial trade-off as JSON. Unknown numbers are null.
 [[nodiscard]] std::string to_json(const Tradeoff& tradeoff);
 
-/// Numbers read back to the same bits. Throws Error{usage} where the text is no trade-off of this
-/// version; `file` is for the message.
+/// Reads to_json's text; numbers keep their bits. Throws Error{usage} if the text is not a
+/// trade-off of this version. `file` is named in the message.
 [[nodiscard]] Tradeoff parse_tradeoff(std::string_view text, std::string_view file);
 
-/// A line for each row, after one of names.
+/// A header line, and one line per row.
 [[nodiscard]] std::string to_csv(const Tradeoff& tradeoff);
 
-/// Of all that decides on a sweep's errors: two sweeps with the same one have the same errors.
+/// A hash of everything that determines a sweep's errors. Sweeps with equal fingerprints have equal
+/// errors.
 [[nodiscard]] std::string fingerprint(std::string_view scene_text, const Scene& scene,
-                                      const Looks& looks, const SweepPlan& plan);
+                                      const SampleTimes& samples, const SweepPlan& plan);
 
 }  // namespace oiler::lab

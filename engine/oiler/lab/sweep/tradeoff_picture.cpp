@@ -16,19 +16,19 @@ namespace {
 
 constexpr std::size_t most_methods = 8;
 
-/// Told apart by shape as well as by colour.
-struct Look {
+/// Methods differ in shape as well as in colour.
+struct Style {
     Colour colour;
     Mark mark;
 };
-constexpr std::array<Look, most_methods> looks{{{palette::vermilion, Mark::disc},
-                                                {palette::blue, Mark::square},
-                                                {palette::green, Mark::diamond},
-                                                {palette::orange, Mark::triangle},
-                                                {palette::purple, Mark::ring},
-                                                {palette::sky_blue, Mark::disc},
-                                                {palette::grey, Mark::square},
-                                                {palette::black, Mark::diamond}}};
+constexpr std::array<Style, most_methods> styles{{{palette::vermilion, Mark::disc},
+                                                  {palette::blue, Mark::square},
+                                                  {palette::green, Mark::diamond},
+                                                  {palette::orange, Mark::triangle},
+                                                  {palette::purple, Mark::ring},
+                                                  {palette::sky_blue, Mark::disc},
+                                                  {palette::grey, Mark::square},
+                                                  {palette::black, Mark::diamond}}};
 
 constexpr Box plot_box{{62, 62}, {446, 308}};
 
@@ -37,7 +37,7 @@ double shown_error(const Tradeoff& tradeoff, const TradeoffRow& row) {
                                        : row.judgement.position_error;
 }
 
-/// Whole decades around the values.
+/// The smallest range of whole decades around the values.
 Range decades(double low, double high) {
     return {std::pow(10, std::floor(std::log10(low) + 1e-9)),
             std::pow(10, std::ceil(std::log10(high) - 1e-9))};
@@ -65,18 +65,18 @@ public:
 
     Picture draw() {
         const auto methods = notable_methods(tradeoff_);
-        for (std::size_t i = 0; i < methods.size(); ++i) add_method(methods[i], looks[i]);
+        for (std::size_t i = 0; i < methods.size(); ++i) add_method(methods[i], styles[i]);
         add_front();
-        add_today();
+        add_current();
         plot_.x_label = axis_.label;
         if (axis_.of == time_of && tradeoff_.machines.size() > 1)
             plot_.x_label += fmt::format(", on {} machines", tradeoff_.machines.size());
-        plot_.title = fmt::format("What a timestep costs: {}",
+        plot_.title = fmt::format("The cost of a timestep: {}",
                                   tradeoff_.title.empty() ? tradeoff_.scene : tradeoff_.title);
         plot_.y_label = "largest position error over the run, m";
         plot_.caption = fmt::format(
-            "Each mark is a rate, the higher the further right; in double, the dashed line in both "
-            "precisions. Errors in {:.4g} s against {}.",
+            "Each mark is a rate; rates rise to the right. Marks are in double, the dashed line is "
+            "in both precisions. Errors over {:.4g} s against {}.",
             tradeoff_.reference.meaningful_until,
             tradeoff_.reference.closed_form ? "the closed form of the motion"
                                             : "fine steps in long double");
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// Below the legend, for whoever has an error in mind.
+    /// Lists the cheapest setting for each tolerance, below the legend.
     void add_cheapest(Picture& picture) const {
         constexpr float size = 7;
         constexpr float pitch = 11;
@@ -100,7 +100,7 @@ private:
                 {.at = {x, y}, .text = words, .size = size, .colour = palette::ink});
         };
         const float left = plot_box.high.x + 9;
-        write(left, fmt::format("least cost, {}, for an error up to", axis_.unit_name));
+        write(left, fmt::format("least cost, {}, by largest error", axis_.unit_name));
         const auto front = pareto(tradeoff_, axis_.of);
         double error = std::pow(10, std::floor(std::log10(tradeoff_.reference.extent / 5)));
         for (int i = 0; i < most; ++i, error /= 10) {
@@ -112,13 +112,15 @@ private:
             write(left,
                   error < 1e-3 ? fmt::format("{:.0e} m", error) : fmt::format("{:g} m", error));
             write(left + 36,
-                  fmt::format("{} {} Hz{} {:.4g}", (*row)->stepping.method->name, (*row)->stepping.rate.steps,
+                  fmt::format("{} {} Hz{} {:.4g}", (*row)->stepping.method->name,
+                              (*row)->stepping.rate.steps,
                               (*row)->stepping.precision == Precision::single ? " float:" : ":",
                               axis_.of(**row) / axis_.unit));
         }
     }
-    void add_method(const Method* method, const Look& look) {
-        Series series{.name = std::string(method->name), .colour = look.colour, .mark = look.mark};
+    void add_method(const Method* method, const Style& style) {
+        Series series{
+            .name = std::string(method->name), .colour = style.colour, .mark = style.mark};
         for (const TradeoffRow* row : rows_of(tradeoff_, method)) add(series, *row);
         if (!series.points.empty()) plot_.series.push_back(std::move(series));
     }
@@ -126,20 +128,20 @@ private:
         Series series{
             .name = "best of all methods", .colour = palette::ink, .width = 2.2F, .dashed = true};
         for (const TradeoffRow* row : pareto(tradeoff_, axis_.of)) {
-            // A staircase: nothing that costs less is better.
+            // A staircase: no cheaper row is more accurate.
             if (!series.points.empty())
                 series.points.push_back({axis_.of(*row) / axis_.unit, series.points.back().y});
             add(series, *row);
         }
         plot_.series.push_back(std::move(series));
     }
-    void add_today() {
-        const TradeoffRow* const today = tradeoff_.find(tradeoff_.today);
-        if (!today || !today->judgement.stable) return;
-        Series series{.name = fmt::format("today: {} Hz", tradeoff_.today.rate.steps),
+    void add_current() {
+        const TradeoffRow* const current = tradeoff_.find(tradeoff_.current);
+        if (!current || !current->judgement.stable) return;
+        Series series{.name = fmt::format("current: {} Hz", tradeoff_.current.rate.steps),
                       .colour = palette::black,
                       .mark = Mark::square};
-        add(series, *today);
+        add(series, *current);
         plot_.series.push_back(std::move(series));
     }
     void add(Series& series, const TradeoffRow& row) {
@@ -166,7 +168,7 @@ private:
 std::vector<const Method*> notable_methods(const Tradeoff& tradeoff) {
     std::vector<const Method*> methods;
     const auto has_rows = [&](const Method* method) { return !rows_of(tradeoff, method).empty(); };
-    if (has_rows(tradeoff.today.method)) methods.push_back(tradeoff.today.method);
+    if (has_rows(tradeoff.current.method)) methods.push_back(tradeoff.current.method);
     for (const Method* method : obvious_methods())
         if (has_rows(method)) add_if_new(methods, method);
     std::map<const Method*, int> best;
@@ -187,37 +189,36 @@ Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis) {
 
 Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff, const Reference& reference,
                          const std::vector<Stepping>& choices) {
-    Plot plot{
-        .box = plot_box,
-        .title =
-            fmt::format("Energy: {}", tradeoff.title.empty() ? tradeoff.scene : tradeoff.title),
-        .caption = fmt::format(
-            "How far the energy is from the reference's at {} Hz, the largest so far; below {:.1e} "
-            "nothing is told.",
-            choices.front().rate.steps, reference.floor().energy),
-        .x_label = "time, s",
-        .y_label = "relative energy drift",
-        .x = {0, reference.meaningful_until()},
-        .y_scale = Scale::logarithmic,
-        .y_ticks = 12,
-        .legend_beside = true};
+    Plot plot{.box = plot_box,
+              .title = fmt::format("Energy: {}",
+                                   tradeoff.title.empty() ? tradeoff.scene : tradeoff.title),
+              .caption = fmt::format("Largest difference from the reference's energy so far, at {} "
+                                     "Hz; values below {:.1e} are not shown.",
+                                     choices.front().rate.steps, reference.floor().energy),
+              .x_label = "time, s",
+              .y_label = "relative energy drift",
+              .x = {0, reference.meaningful_until()},
+              .y_scale = Scale::logarithmic,
+              .y_ticks = 12,
+              .legend_beside = true};
     double low = INFINITY;
     double high = 0;
     for (std::size_t i = 0; i < std::min(choices.size(), most_methods); ++i) {
         Series series{.name = std::string(choices[i].method->name),
-                      .colour = looks[i].colour,
+                      .colour = styles[i].colour,
                       .dashed = i % 2 == 1};
-        Follower follower(scene, Settings{choices[i]}, reference.looks.per_second);
+        Follower follower(scene, Settings{choices[i]}, reference.samples.per_second);
         double most = 0;
-        for (std::int64_t look = 0; look < reference.meaningful && follower.go_to(look); ++look) {
+        for (std::int64_t sample = 0; sample < reference.meaningful && follower.go_to(sample);
+             ++sample) {
             const double off =
-                follower.energy() - reference.track.energies[static_cast<std::size_t>(look)];
+                follower.energy() - reference.trajectory.energies[static_cast<std::size_t>(sample)];
             most = std::max(most, reference.share_of_energy(std::abs(off)));
             if (!std::isfinite(most) || most > 1e6) break;
             if (most < reference.floor().energy) continue;
             low = std::min(low, most);
             high = std::max(high, most);
-            series.points.push_back({reference.looks.time(look), most});
+            series.points.push_back({reference.samples.time(sample), most});
         }
         plot.series.push_back(std::move(series));
     }

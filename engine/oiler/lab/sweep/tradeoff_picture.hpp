@@ -9,24 +9,24 @@
 
 namespace oiler::lab {
 
-/// The methods worth looking at, eight at most: the scene's own, those that people would think of,
-/// and those that most often are the best.
+/// The methods shown in diagrams, at most eight: the scene's own, the obvious methods, and those
+/// with the most rows on the Pareto front.
 [[nodiscard]] std::vector<const Method*> notable_methods(const Tradeoff& tradeoff);
 
-/// What a diagram has its errors over.
+/// The cost axis of a diagram.
 struct CostAxis {
     Cost of;
-    double unit = 1;  ///< of the cost, that the axis is in
+    double unit = 1;  ///< the axis's unit, in units of the cost
     std::string label{};
     std::string unit_name{};
 };
 
-/// Error over cost, both logarithmic: a curve for each notable method in double, what is best at
-/// each cost among all methods in both precisions, and what is cheapest for each power of ten.
+/// Draws error over cost, both logarithmic: a curve for each notable method in double, the Pareto
+/// front of all methods in both precisions, and the cheapest setting for each power of ten.
 [[nodiscard]] Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis);
 
-/// How far the energy of runs, one at least and all at one rate, is off over time, of the
-/// reference's scale.
+/// Draws the largest energy drift so far over time, relative to Reference::energy_scale, for at
+/// least one run, all at one rate.
 [[nodiscard]] Picture energy_over_time(const Scene& scene, const Tradeoff& tradeoff,
                                        const Reference& reference,
                                        const std::vector<Stepping>& choices);
