@@ -118,7 +118,7 @@ public:
           shard_(shard),
           size_(size),
           scene_(options.scene_options.read()),
-          looks_(sample_times_of(scene_)),
+          samples_(sample_times_of(scene_)),
           plan_{.methods = parse_methods(options.methods),
                 .max_rate = options.max_rate,
                 .shard = shard.index,
@@ -127,11 +127,11 @@ public:
 
     [[nodiscard]] Exit run() {
         const std::string inputs =
-            fingerprint(read_text(options_.scene_options.file), scene_, looks_, plan_);
+            fingerprint(read_text(options_.scene_options.file), scene_, samples_, plan_);
         const std::optional<Tradeoff> unfinished = find_unfinished(part_, inputs, quiet());
-        const Reference reference = measure_reference(scene_, looks_, 0, quiet());
+        const Reference reference = measure_reference(scene_, samples_, 0, quiet());
         if (Interrupt::requested()) return Exit::interrupted;
-        Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, looks_, reference, plan_));
+        Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, samples_, reference, plan_));
         tradeoff.scene = options_.scene_options.name();
         tradeoff.fingerprint = inputs;
         tradeoff.machines = {this_machine()};
@@ -167,7 +167,7 @@ private:
     Shard shard_;
     Size size_;
     Scene scene_;
-    SampleTimes looks_;
+    SampleTimes samples_;
     SweepPlan plan_;
     std::filesystem::path part_;
 };

@@ -87,7 +87,7 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
 class Table {
 public:
     Table(const Scene& scene, const SampleTimes& samples, const ReferenceEffort& effort)
-        : scene_(scene), looks_(samples), effort_(effort), method_(finest_method(scene)) {}
+        : scene_(scene), samples_(samples), effort_(effort), method_(finest_method(scene)) {}
 
     /// Returns false and empties the table if the run diverged or was stopped.
     bool add_run(std::int64_t rate) {
@@ -99,7 +99,7 @@ public:
         std::vector<Trajectory> row{std::move(*run)};
         for (std::size_t k = 0; k < std::min(row_.size(), most_columns - 1); ++k)
             row.push_back(extrapolated(row[k], row_[k], std::exp2(Real(power(k))) - 1));
-        before_ = row_.empty() ? std::nullopt : std::optional(std::move(row_.back()));
+        if (!row_.empty()) before_ = std::move(row_.back());
         row_ = std::move(row);
         ++runs_;
         return true;
@@ -110,8 +110,8 @@ public:
     [[nodiscard]] const Trajectory& best() const { return row_.back(); }
     [[nodiscard]] const Trajectory& finest_run() const { return row_.front(); }
     [[nodiscard]] std::vector<Uncertainty> uncertainties() const {
-        std::vector<Uncertainty> uncertainties = differences(best(), *before_);
-        add_rounding(uncertainties, best(), looks_);
+        std::vector<Uncertainty> uncertainties = differences(best(), before_);
+        add_rounding(uncertainties, best(), samples_);
         return uncertainties;
     }
     [[nodiscard]] const Method& method() const { return method_; }
@@ -123,9 +123,9 @@ private:
     }
     [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) const {
         Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}},
-                          looks_.per_second);
+                          samples_.per_second);
         Trajectory trajectory{.bodies = follower.bodies().size()};
-        for (std::int64_t sample = 0; sample < looks_.count; ++sample) {
+        for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
                 trajectory.states.push_back(follower.state(row));
@@ -136,11 +136,11 @@ private:
     }
 
     const Scene& scene_;
-    const SampleTimes& looks_;
+    const SampleTimes& samples_;
     const ReferenceEffort& effort_;
     const Method& method_;
     std::vector<Trajectory> row_;
-    std::optional<Trajectory> before_{};  ///< the best at twice the step
+    Trajectory before_{};  ///< the best at twice the step
     std::size_t runs_ = 0;
 };
 
