@@ -20,6 +20,7 @@
 // an advice misses its tolerance.
 
 using namespace oiler;
+using namespace oiler::lab;
 
 namespace {
 
@@ -220,14 +221,14 @@ std::vector<Case> cases(bool full) {
 double independent_error(const Case& one, const Stepping& choice) {
     World world = make_world(one.scene, Settings{choice});
     const auto steps = static_cast<std::int64_t>(
-        std::floor(one.scene.duration * static_cast<double>(choice.rate) * (1 + 1e-12)));
+        std::floor(one.scene.duration * static_cast<double>(choice.rate.steps) * (1 + 1e-12)));
     const std::int64_t stride =
-        one.samples_per_second > 0 ? choice.rate / static_cast<std::int64_t>(one.samples_per_second)
+        one.samples_per_second > 0 ? choice.rate.steps / static_cast<std::int64_t>(one.samples_per_second)
                                    : 1;
     Real most = 0;
     for (std::int64_t tick = 0; tick <= steps; tick += stride) {
         if (tick > 0) world.step(stride);
-        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate);
+        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate.steps);
         for (std::size_t row = 0; row < world.bodies().size(); ++row) {
             const auto at = world.bodies().state(row).x;
             const Point2 exact = one.truth(row, t);

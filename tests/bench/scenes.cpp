@@ -80,7 +80,7 @@ HandBodies<T>::HandBodies(int axes, std::size_t bodies) {
     scene_.axes = axes;
     scene_.dt = rate.dt<T>();
     scene_.stiffness = static_cast<T>(soft_spring.stiffness);
-    scene_.stepping.damping = static_cast<T>(soft_spring.damping);
+    scene_.damping = static_cast<T>(soft_spring.damping);
     columns_.reserve(6);
     for (int a = 0; a < axes; ++a) {
         scene_.gravity[a] = static_cast<T>(gravity[a]);

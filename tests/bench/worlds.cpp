@@ -13,7 +13,7 @@ Work steps_of(World& world) {
     };
 }
 
-Settings in_float() { return {.rate = rate, .precision = Precision::single}; }
+Settings in_float() { return {.stepping = {.rate = rate, .precision = Precision::single}}; }
 
 /// Springs with the stiffness and damping of a game, from 1 m.
 World swinging(std::size_t bodies) {
