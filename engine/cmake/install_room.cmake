@@ -19,7 +19,11 @@ foreach(link IN LISTS links private_links)
 endforeach()
 
 install(TARGETS oiler_${room} EXPORT oiler-${room})
+set(not_installed)
+foreach(header IN LISTS private_headers)
+  list(APPEND not_installed PATTERN ${header} EXCLUDE)
+endforeach()
 install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/oiler/${room}
-        FILES_MATCHING PATTERN "*.hpp")
+        FILES_MATCHING ${not_installed} PATTERN "*.hpp")
 install(EXPORT oiler-${room} NAMESPACE oiler:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/oiler)

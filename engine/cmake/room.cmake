@@ -6,11 +6,15 @@
 #   links          libraries that users of the room link too
 #   private_links  libraries that only its own files include; header-only ones in
 #                  $<BUILD_INTERFACE:>, because an installed room does not need them
+#   private_headers  headers that only its own files include: they are not installed; optional
 # A link PkgConfig::OILER_NAME is the pkg-config module NAME; the installed package looks for it.
 cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME room)
 foreach(below IN LISTS rooms)
   if(NOT TARGET oiler_${below})
-    add_subdirectory(${OILER_ENGINE}/oiler/${below} ${OILER_ENGINE_BUILD}/${below})
+    block()
+      unset(private_headers)
+      add_subdirectory(${OILER_ENGINE}/oiler/${below} ${OILER_ENGINE_BUILD}/${below})
+    endblock()
   endif()
 endforeach()
 list(TRANSFORM rooms PREPEND oiler:: OUTPUT_VARIABLE room_links)

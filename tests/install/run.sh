@@ -67,6 +67,7 @@ libraries=$(dirname "$(dirname "$config")")
 quietly "$prefix/bin/oiler" check "$prefix/share/oiler/scenes/article_spring.toml"
 draws "$prefix/libexec/oiler/hello"
 [ ! -e "$prefix/include/oiler/cli" ] || fail "the headers of the program are installed"
+[ "$(find "$prefix/share/doc/oiler/licences" -type f | wc -l)" = 7 ] || fail "licences are missing"
 
 echo "a game by CMAKE_PREFIX_PATH, component app"
 mkdir "$folder/game"
@@ -118,9 +119,7 @@ no_window "$folder/simulation/by_pkg_config"
 [ "$("$folder/simulation/by_pkg_config")" = "$position" ]
 
 echo "the installed headers"
-# Headers of CLI11, GL and stb are not installed: those that include them serve their rooms alone.
-(cd "$prefix/include" && grep -rLE '<CLI/|<glad/|<stb|render/(gl|glyphs|layout|plane|polyline_mesh|framebuffer).hpp' oiler) |
-    sed 's/.*/#include <&>/' > "$folder/headers.cpp"
+(cd "$prefix/include" && find oiler -name '*.hpp') | sed 's/.*/#include <&>/' > "$folder/headers.cpp"
 [ "$(wc -l < "$folder/headers.cpp")" -gt 80 ] || fail "few headers are installed"
 echo 'int main() {}' >> "$folder/headers.cpp"
 quietly compile "$folder/headers" oiler "$folder/headers.cpp"

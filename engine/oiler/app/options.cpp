@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "oiler/app/parse.hpp"
+#include "oiler/app/parse_size.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
 

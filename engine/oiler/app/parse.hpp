@@ -2,12 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <string>
 #include <utility>
 
-#include "oiler/app/parse_size.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -33,10 +33,30 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Wh
 }
 
 /// Adds `--damping`, "kick" or "drift".
-CLI::Option* add_damping(CLI::App& app, std::string& words);
+inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
+    return app
+        .add_option("--damping", words,
+                    "where a splitting method puts damping: explicitly into its kicks or exactly "
+                    "into its drifts; the method's default if not given")
+        ->check(CLI::IsMember({"kick", "drift"}))
+        ->type_name("NAME");
+}
 
 /// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
 /// Error{usage} in one line that ends with "(see PROGRAM --help)".
-[[nodiscard]] std::string parse(CLI::App& app, int argc, char** argv);
+[[nodiscard]] inline std::string parse(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return app.help();
+    } catch (const CLI::CallForVersion&) {
+        return app.version() + "\n";
+    } catch (const CLI::ParseError& error) {
+        std::string what = error.what();
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        fail(Exit::usage, "{} (see {} --help)", what, app.get_name());
+    }
+    return {};
+}
 
 }  // namespace oiler
