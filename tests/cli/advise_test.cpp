@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `oiler advise` as its users run it.
+// Runs `oiler advise` as users do.
 #include <gtest/gtest.h>
 
 #include "cli/desk.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 const std::string article = "'" OILER_SOURCE "/assets/scenes/article_spring.toml'";
 
-TEST(Advise, SaysWhatTheContractPromises) {
+TEST(Advise, JsonHasTheKeysOfTheContract) {
     const Outcome run =
         shell("oiler advise " + article + " --duration 10 --position-error 1e-3 --json - --quiet");
     EXPECT_EQ(run.exit, 0) << run.err;
@@ -39,7 +39,7 @@ TEST(Advise, SaysWhatTheContractPromises) {
 }
 
 // A second of computing for a frame is always enough.
-TEST(Advise, GoesByEveryOptionThatIsGiven) {
+TEST(Advise, UsesEveryOption) {
     const Desk desk;
     const Outcome run = desk.run(
         "oiler advise scene.toml --duration 5 --energy-drift 0.5 --budget-us 1000000 --min-rate "
@@ -59,16 +59,17 @@ TEST(Advise, GoesByEveryOptionThatIsGiven) {
     EXPECT_EQ(json.at("today").at("rate"), 100);
 }
 
-TEST(Advise, ForPeopleSaysTheConclusionFirst) {
+TEST(Advise, PrintsTheConclusionFirst) {
     const Outcome run =
         shell("oiler advise " + article + " --duration 10 --position-error 1e-3 --quiet");
     EXPECT_EQ(run.exit, 0);
     EXPECT_TRUE(run.out.starts_with("exact at 50 Hz in double")) << run.out;
 }
 
-// Among velocity Verlet's the advice is the lowest rate that will do, in double: the error decides,
-// and no time. It is a multiple of 60 Hz, so that both are looked at 60 times a second.
-TEST(Advise, AppliedChangesTheChoiceAndNothingElse) {
+// With velocity Verlet alone, the advice is the lowest rate within the tolerance, in double: it
+// depends on the error and on no timing. The rate is a multiple of 60 Hz, so that both commands
+// sample 60 times per second.
+TEST(Advise, ApplyChangesOnlyTheSetting) {
     std::string scene = spring_scene("");
     scene.replace(scene.find("100 "), 4, "60   ");
     scene.replace(scene.find("duration"), 0, "precision = \"float\"\n");
@@ -87,7 +88,7 @@ TEST(Advise, AppliedChangesTheChoiceAndNothingElse) {
     replace("float", "double");
     replace("60 ", std::to_string(advice.at("rate").get<int>()) + " ");
     replace("semi_implicit_euler", "velocity_verlet");
-    // The columns of remarks may move with the words before them.
+    // The remarks shift with the widths of the cells before them.
     const auto squeezed = [](const std::string& text) {
         std::string tight;
         for (const char c : text)
@@ -104,7 +105,7 @@ TEST(Advise, AppliedChangesTheChoiceAndNothingElse) {
     EXPECT_EQ(again.at("today").at("position_error"), advice.at("position_error"));
 }
 
-TEST(Advise, ThatNothingMeetsIsNotApplied) {
+TEST(Advise, IsNotAppliedIfNothingMeetsTheTolerance) {
     const Desk desk;
     const Outcome run = desk.run(
         "oiler advise scene.toml --position-error 1e-9 --methods explicit_euler --apply --quiet "

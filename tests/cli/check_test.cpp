@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `oiler check`, and the budgets that `oiler play` keeps, as their users run them.
+// Runs `oiler check`, and `oiler play` with budgets, as users do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 // ---- check
 
-/// Whether it is one element with what is in it, all of whose marks are closed and in order.
+/// Whether the text is one XML element whose tags are all closed in order.
 bool is_well_formed(const std::string& xml) {
     std::vector<std::string> open;
     std::size_t at = xml.find("?>");
@@ -49,14 +49,14 @@ bool is_well_formed(const std::string& xml) {
     return open.empty() && roots == 1;
 }
 
-TEST(IsWellFormed, TellsWhatIsNot) {
+TEST(IsWellFormed, RefusesMalformedText) {
     EXPECT_TRUE(is_well_formed("<?xml version=\"1.0\"?>\n<a x=\"1\"><b/>&amp;</a>\n"));
     for (const char* bad : {"<a/>", "<?xml ?><a>", "<?xml ?><a></b>", "<?xml ?><a/><b/>",
                             "<?xml ?><a x=\"&\"/>", "<?xml ?><a x=\"/>", "<?xml ?><a x=\"<\"/>"})
         EXPECT_FALSE(is_well_formed(bad)) << bad;
 }
 
-TEST(Check, IsDoneWhereBudgetsAreKept) {
+TEST(Check, ExitsWith0IfBudgetsAreKept) {
     const Desk desk(spring_scene("[budget]\nposition_error = 25.0\n"));
     const Outcome run = desk.run("oiler check scene.toml");
     EXPECT_EQ(run.exit, 0) << run.err;
@@ -64,7 +64,7 @@ TEST(Check, IsDoneWhereBudgetsAreKept) {
     EXPECT_EQ(run.err, "");
 }
 
-TEST(Check, OfSeveralScenesTellsEachForACi) {
+TEST(Check, ReportsEachSceneToACi) {
     const Desk desk(spring_scene("[budget]\nposition_error = 25.0\nenergy_drift = 1e-4\n"));
     desk.put("a <b> & \"c\".toml", spring_scene("[budget]\nposition_error = 19.0\n"));
     desk.put("none.toml", spring_scene(""));
@@ -93,7 +93,7 @@ TEST(Check, OfSeveralScenesTellsEachForACi) {
     EXPECT_EQ(json.at(2).at("kept"), true);
 }
 
-/// A desk with a budget that is kept, one that is exceeded, and a file that is not a scene.
+/// A folder with a scene within its budget, one that exceeds it, and an invalid scene.
 class CheckOfThree : public testing::Test {
 protected:
     CheckOfThree() {
@@ -104,8 +104,8 @@ protected:
     Desk desk_{spring_scene("[budget]\nposition_error = 25.0\n")};
 };
 
-// A bad file says more than an exceeded budget, and both are told, in whatever order they are.
-TEST_F(CheckOfThree, WithABadAndAnExceededOneEndsAsOfABadOne) {
+// The exit code of an invalid file wins; both faults are reported, in any order of the files.
+TEST_F(CheckOfThree, AnInvalidSceneDecidesTheExitCode) {
     for (const char* files : {"bad.toml exceeded.toml", "exceeded.toml bad.toml",
                               "scene.toml bad.toml exceeded.toml scene.toml"}) {
         const Outcome run = desk_.run(std::string("oiler check ") + files);
@@ -121,8 +121,8 @@ TEST_F(CheckOfThree, WithABadAndAnExceededOneEndsAsOfABadOne) {
     EXPECT_EQ(desk_.run("oiler check exceeded.toml scene.toml").exit, 1);
 }
 
-// JUnit tells tests that failed from those that could not be run.
-TEST_F(CheckOfThree, HasAnErrorForTheBadOneAndAFailureForTheExceededOne) {
+// In JUnit, an exceeded budget is a failure and an unreadable scene an error.
+TEST_F(CheckOfThree, JUnitHasAnErrorAndAFailure) {
     const Outcome run =
         desk_.run("oiler check bad.toml exceeded.toml scene.toml --junit a.xml --json a.json");
     EXPECT_EQ(run.exit, 2) << run.err;
@@ -153,7 +153,7 @@ TEST_F(CheckOfThree, WithJUnitOnStandardOutputPrintsNothingElse) {
     EXPECT_TRUE(is_well_formed(run.out)) << run.out;
 }
 
-TEST(Check, OfTheHousesScenesIsDone) {
+TEST(Check, AcceptsAllShippedScenes) {
     const Outcome run = shell("cd '" OILER_SOURCE
                               "/assets/scenes'; oiler check article_spring.toml jump.toml "
                               "article_spring_undamped.toml orbit.toml");
@@ -161,8 +161,8 @@ TEST(Check, OfTheHousesScenesIsDone) {
     EXPECT_EQ(count_of(run.out, ": kept\n"), 4U) << run.out;
 }
 
-// A file may be called anything; what is written of it is JSON and XML all the same.
-TEST(Check, OfAFileWhoseNameIsNoText) {
+// File names with special characters are escaped in JSON and XML.
+TEST(Check, EscapesFileNames) {
     const Desk desk;
     const Outcome run = desk.run(
         "name=$(printf 'b\\377\\001.toml'); cp scene.toml \"$name\"; "
@@ -196,7 +196,7 @@ TEST_P(BudgetOfPlay, ThatIsExceededFailsInOneLine) {
     EXPECT_EQ(kept.exit, 0) << kept.err;
     EXPECT_EQ(kept.err, "");
     EXPECT_EQ(desk.json("a.json").at("budget").at("position_error").at("kept"), true);
-    // An error of first order: a tenth of the step is a tenth of 19.8 m, more or less.
+    // First order: a tenth of the step has about a tenth of the error of 19.8 m.
     EXPECT_EQ(desk.run(command + " --rate 1000").exit, 0);
     EXPECT_NEAR(desk.json("a.json").at("budget").at("position_error").at("measured").get<double>(),
                 1.98, 0.1);
@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(All, BudgetOfPlay,
                          testing::Values("--headless --frames 2 --size 64x36 --out frames",
                                          "--steps 20"));
 
-TEST(PlayBudget, IsCheckedWithoutAScreenAndNotForPlayers) {
+TEST(PlayBudget, IsCheckedHeadlessButNotInAWindow) {
     const Desk desk(spring_scene("[budget]\nposition_error = 5.0\n"));
     const Outcome run =
         desk.run("oiler play scene.toml --headless --frames 2 --size 64x36 --out frames");
@@ -215,7 +215,7 @@ TEST(PlayBudget, IsCheckedWithoutAScreenAndNotForPlayers) {
     EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 20 --trace t.csv").exit, 0);
 }
 
-TEST(PlayBudget, ThatIsNoneIsNotReported) {
+TEST(PlayBudget, AbsentIsNotReported) {
     const Desk desk;
     EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 3 --json a.json").exit, 0);
     EXPECT_FALSE(desk.json("a.json").contains("budget"));

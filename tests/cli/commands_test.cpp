@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program `oiler` as its users run it.
+// Runs the program `oiler` as users do.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> words_of(const std::string& line) {
+std::vector<std::string> split(const std::string& line) {
     std::istringstream stream(line);
     return {std::istream_iterator<std::string>(stream), {}};
 }
@@ -34,7 +34,7 @@ TEST(Oiler, ListsEveryMethodOnALine) {
     EXPECT_EQ(run.err, "");
 }
 
-TEST(Oiler, ListsMethodsForPrograms) {
+TEST(Oiler, ListsMethodsAsJson) {
     const Outcome run = shell("oiler methods --json -");
     const Json list = Json::parse(run.out);
     EXPECT_EQ(list.size(), methods().size());
@@ -47,7 +47,7 @@ TEST(Oiler, ListsMethodsForPrograms) {
     EXPECT_NEAR(rk4->at("stability_limit").get<double>(), 2.828427124746, 1e-11);
 }
 
-/// A method's line as its JSON has it, up to the source.
+/// The cells of a method's line, computed from its JSON, without the source.
 std::vector<std::string> line_of(const Json& method) {
     const auto cell = [&](const char* name, const char* without) {
         const Json& value = method.at(name);
@@ -68,23 +68,22 @@ std::vector<std::string> line_of(const Json& method) {
                               : fmt::format("{:.10g}", limit.get<double>())};
 }
 
-TEST(Oiler, ListsInATableWhatItListsForPrograms) {
+TEST(Oiler, ListsTheSameInTableAndJson) {
     const std::string table = shell("oiler methods").out;
-    std::vector<std::string> names = words_of(table.substr(0, table.find('\n')));
-    EXPECT_EQ(names, words_of("method order damped dragged forces symplectic symmetric stable ω·dt "
-                              "source"));
+    std::vector<std::string> names = split(table.substr(0, table.find('\n')));
+    EXPECT_EQ(names, split("method order damped dragged forces symplectic symmetric stable ω·dt "
+                           "source"));
     for (const Json& method : Json::parse(shell("oiler methods --json -").out)) {
         const std::string name = method.at("name");
         const std::size_t at = table.find("\n" + name + " ");
         ASSERT_NE(at, std::string::npos) << name;
-        std::vector<std::string> cells =
-            words_of(table.substr(at + 1, table.find('\n', at + 1) - at));
+        std::vector<std::string> cells = split(table.substr(at + 1, table.find('\n', at + 1) - at));
         cells.resize(8);
         EXPECT_EQ(cells, line_of(method));
     }
 }
 
-TEST(Oiler, CertifiesThoseThatAreNamed) {
+TEST(Oiler, CertifiesTheNamedMethods) {
     const Outcome run = shell("oiler certify rk4 exact --steps 10000 --quiet");
     EXPECT_EQ(run.exit, 0) << run.err;
     EXPECT_TRUE(holds(run.out, "\nrk4 "));
@@ -94,7 +93,7 @@ TEST(Oiler, CertifiesThoseThatAreNamed) {
     EXPECT_FALSE(holds(run.out, "FAILS"));
 }
 
-TEST(Oiler, CertifiesForPrograms) {
+TEST(Oiler, CertifiesAsJson) {
     const Outcome run =
         shell("oiler certify velocity_verlet --steps 10000 --json - --damping kick");
     EXPECT_EQ(run.exit, 0) << run.err;
@@ -106,17 +105,16 @@ TEST(Oiler, CertifiesForPrograms) {
     EXPECT_EQ(certificate.at("energy").at("steps"), 10000);
 }
 
-// Runge and Kutta's method evaluates four times a step, is stable up to ω·dt = √8, and runs at
-// 0.45; what is measured is the same for people and for programs.
-TEST(Oiler, CertifiesInATableWhatItCertifiesForPrograms) {
+// rk4 has four evaluations per step, is stable up to ω·dt = √8, and is run at 0.45. The table and
+// the JSON have the same measurements.
+TEST(Oiler, CertifiesTheSameInTableAndJson) {
     const std::string command = "oiler certify rk4 --steps 10000 --quiet";
     const Json json = Json::parse(shell(command + " --json -").out).at(0);
     const std::string table = shell(command).out;
-    const std::vector<std::string> names = words_of(table.substr(0, table.find('\n')));
-    EXPECT_EQ(names,
-              words_of("method order spring orbit damped dragged forces alone MᵀJM−J reversal "
-                       "stable ω·dt ω·dt lowest highest trend"));
-    const std::vector<std::string> cells = words_of(table.substr(table.find("\nrk4 ")));
+    const std::vector<std::string> names = split(table.substr(0, table.find('\n')));
+    EXPECT_EQ(names, split("method order spring orbit damped dragged forces alone MᵀJM−J reversal "
+                           "stable ω·dt ω·dt lowest highest trend"));
+    const std::vector<std::string> cells = split(table.substr(table.find("\nrk4 ")));
     ASSERT_GE(cells.size(), 16U) << table;
     const auto small = [](const Json& number) {
         return fmt::format("{:.1e}", number.get<double>());
@@ -160,7 +158,7 @@ TEST(Oiler, MeasuresStability) {
 
 const std::string scenes = OILER_SOURCE "/assets/scenes/";
 
-TEST(Oiler, KeepsALedgerOfEveryScene) {
+TEST(Oiler, LedgerRunsEveryScene) {
     for (const std::string& name : names_in(scenes)) {
         if (!name.ends_with(".toml")) continue;
         const Outcome run =
@@ -177,7 +175,7 @@ TEST(Oiler, KeepsALedgerOfEveryScene) {
 }
 
 // In float with two axes: 4 numbers of 4 bytes, and the handle; all bodies share mass and forces.
-TEST(Oiler, KeepsALedgerForPrograms) {
+TEST(Oiler, LedgerWritesJson) {
     const Outcome run =
         shell("oiler ledger --steps 60 --json - '" + scenes + "hundred_thousand.toml'");
     const Json ledger = Json::parse(run.out);
@@ -197,7 +195,7 @@ TEST(Oiler, KeepsALedgerForPrograms) {
     EXPECT_EQ(ledger.at("flags"), Json::array());
 }
 
-TEST(Oiler, KeepsALedgerForPeople) {
+TEST(Oiler, LedgerPrintsATable) {
     const Outcome run = shell("oiler ledger --steps 60 '" + scenes + "salvo.toml'");
     EXPECT_EQ(run.exit, 0) << run.err;
     EXPECT_LE(lines(run.out), 40);
@@ -214,7 +212,7 @@ TEST(Oiler, KeepsALedgerForPeople) {
     EXPECT_TRUE(holds(run.out, "\n  quadratic_drag "));
 }
 
-TEST(Oiler, KeepsALedgerUpToADivergence) {
+TEST(Oiler, LedgerReportsADivergence) {
     const Folder folder;
     put(folder / "bad.toml",
         "[scene]\naxes = 1\n[[body]]\nname = \"a\"\nposition = [1.0]\n"
@@ -259,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"ledger", "SCENE"}, std::pair{"ledger no.toml --steps 1", "--steps"},
                     std::pair{"ledger '" OILER_SOURCE "/README.md'", "README.md"}));
 
-TEST(Oiler, AFolderThatCannotBeMadeIsNamed) {
+TEST(Oiler, NamesAFolderThatCannotBeCreated) {
     const Outcome run = shell("oiler figures --out /proc/nowhere");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 4);

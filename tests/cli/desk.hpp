@@ -11,7 +11,7 @@ namespace oiler::test {
 
 using Json = nlohmann::json;
 
-/// Ten seconds of the article's spring, with remarks to keep and a budget.
+/// Ten seconds of the article's spring, with comments and a budget.
 inline std::string spring_scene(const std::string& budget) {
     return "# A remark at the top.\n[scene]\ntitle = \"A <spring> & \\\"damper\\\"\"\naxes = 1\n"
            "rate   = 100      # how often\n"

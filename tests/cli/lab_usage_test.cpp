@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the lab's commands say of themselves, and to those who use them wrongly.
+// Tests the help and the usage errors of the lab's commands.
 #include <gtest/gtest.h>
 
 #include "cli/desk.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `oiler play` as its users run it.
+// Runs `oiler play` as users do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -44,7 +44,7 @@ TEST(Play, EveryScene) {
     }
 }
 
-TEST(Play, AsTheSceneSaysUnlessTheCommandLineDoes) {
+TEST(Play, OptionsOverrideTheScene) {
     const Json own = report_of(scene("chain") + " --steps 5");
     EXPECT_EQ(own.at("method"), "blanes_moan_srkn6b");
     EXPECT_EQ(own.at("rate"), 1000);
@@ -57,20 +57,20 @@ TEST(Play, AsTheSceneSaysUnlessTheCommandLineDoes) {
     EXPECT_EQ(report_of(scene("million") + " --steps 0").at("precision"), "float");
 }
 
-TEST(Play, HeadlessStepsAreSteps) {
+TEST(Play, StepsTakesThatManySteps) {
     const Json report = report_of(scene("salvo") + " --headless --steps 60");
     EXPECT_EQ(report.at("steps"), 60);
     EXPECT_EQ(report.at("state_hash"), report_of(scene("salvo") + " --steps 60").at("state_hash"));
 }
 
-TEST(Play, AnotherSeedIsAnotherScatter) {
+TEST(Play, SeedChangesTheScatter) {
     const std::string words = scene("hundred_thousand") + " --steps 0 --seed ";
     EXPECT_NE(report_of(words + "1").at("state_hash"), report_of(words + "2").at("state_hash"));
     EXPECT_EQ(report_of(words + "0").at("state_hash"),
               report_of(scene("hundred_thousand") + " --steps 0").at("state_hash"));
 }
 
-TEST(Play, FilmsTheDurationOfTheScene) {
+TEST(Play, FilmLastsTheDurationOfTheScene) {
     const Folder folder;
     put(folder / "short.toml", altered(everything, "scene", "duration", "1.2"));
     const Outcome run = shell("cd '" + folder.path().string() +
@@ -83,7 +83,7 @@ TEST(Play, FilmsTheDurationOfTheScene) {
     EXPECT_EQ(manifest.at("frames").back().at("tick"), 110);
 }
 
-TEST(Play, AFilmWithoutEndAsksForItsLength) {
+TEST(Play, FilmWithoutDurationNeedsFrames) {
     const Folder folder;
     put(folder / "long.toml", altered(everything, "scene", "duration", "1e9"));
     const Outcome run = play("'" + (folder / "long.toml").string() +
@@ -99,7 +99,7 @@ TEST(Play, RefusesAMethodOfTheCommandLineThatCannotStepTheScene) {
     EXPECT_TRUE(holds(run.err, "attractor is not linear")) << run.err;
 }
 
-TEST(Play, ANameThatIsNotUtf8StaysReadable) {
+TEST(Play, EscapesNamesThatAreNotUtf8) {
     const Folder folder;
     put(folder / "\xff.toml", "[scene]\naxes = 1\n[[body]]\n");
     EXPECT_EQ(report_of("'" + (folder / "\xff.toml").string() + "' --steps 1").at("scene"),
@@ -114,7 +114,7 @@ TEST(Play, HelpNeedsNoScene) {
         EXPECT_TRUE(holds(help.out, part)) << part;
 }
 
-TEST(Play, WrongUseIsOneLineAndExitTwo) {
+TEST(Play, UsageErrorsAreOneLineAndExit2) {
     for (const std::string& words :
          {std::string(), std::string("none.toml"), std::string("/"), std::string("/dev/zero"),
           scene("orbit") + " " + scene("salvo"), scene("orbit") + " --rate 0"}) {
@@ -131,7 +131,7 @@ struct Cost {
     double mebibytes = 0;
 };
 
-/// Runs `oiler play PATH --steps 1` without a shell, for at most 10 s of the processor.
+/// Runs `oiler play PATH --steps 1` without a shell and with at most 10 s of processor time.
 Cost cost_of(const std::string& path) {
     const auto start = std::chrono::steady_clock::now();
     const pid_t child = fork();
@@ -149,7 +149,7 @@ Cost cost_of(const std::string& path) {
             static_cast<double>(usage.ru_maxrss) / 1024};
 }
 
-TEST(Play, RefusesBadScenesAtOnceAndInLittleMemory) {
+TEST(Play, RefusesInvalidScenesQuicklyInLittleMemory) {
     Cost largest;
     for (const BadFile& file : bad_files()) {
         const Cost cost = cost_of(file.path);

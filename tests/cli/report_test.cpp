@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `oiler rates` and `oiler report` as their users run them.
+// Runs `oiler rates` and `oiler report` as users do.
 #include <gtest/gtest.h>
 
 #include "cli/desk.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 // ---- rates
 
-TEST(RatesCommand, HasTheContractsJson) {
+TEST(RatesCommand, JsonHasTheKeysOfTheContract) {
     const Outcome run =
         shell("oiler rates '" OILER_SOURCE
               "/assets/scenes/jump.toml' --rates 50,60 --methods semi_implicit_euler,exact "
@@ -32,7 +32,7 @@ TEST(RatesCommand, HasTheContractsJson) {
     EXPECT_EQ(apex.at("methods").at(1).at("method"), "exact");
 }
 
-// As above; 2.025 m is the true apex, and from 1.936 to 1.95 m are 0.69 % of it.
+// As above. The true apex is 2.025 m; 1.95 m − 1.936 m is 0.69 % of it.
 TEST(RatesCommand, PrintsEachQuantityInItsUnit) {
     const Outcome run =
         shell("oiler rates '" OILER_SOURCE
@@ -43,7 +43,7 @@ TEST(RatesCommand, PrintsEachQuantityInItsUnit) {
     EXPECT_TRUE(holds(run.out, " 1.936     1.95   0.69%\n")) << run.out;
 }
 
-/// A body at rest before one on a spring of ω = 2π rad/s, and a third that swings less.
+/// A body at rest, one on a spring of ω = 2π rad/s, and a third with a smaller amplitude.
 const std::string still_and_swinging =
     "[scene]\naxes = 1\nrate = 100\nduration = 7.0\nmethod = \"velocity_verlet\"\n"
     "[[body]]\nname = \"still\"\nposition = [7.0]\n"
@@ -52,7 +52,7 @@ const std::string still_and_swinging =
     "[[body]]\nname = \"slow\"\nposition = [0.5]\n"
     "[[spring]]\nbody = \"slow\"\nanchor = [0.0]\nstiffness = 9.869604401089358\n";
 
-/// What `oiler rates` measures of that scene, with these options.
+/// The JSON of `oiler rates` for that scene with these options.
 Json rates_with(const std::string& options) {
     const Desk desk(still_and_swinging);
     const Outcome run = desk.run(
@@ -63,7 +63,7 @@ Json rates_with(const std::string& options) {
 
 // The period of ω = 2π rad/s is 1 s, that of π rad/s 2 s; cubics between samples 50 times a second
 // are right to (ωh)⁴/384 of a radian.
-TEST(RatesCommand, MeasuresTheBodyThatSwingsMostUnlessAnotherIsAsked) {
+TEST(RatesCommand, MeasuresTheLargestAmplitudeOrTheGivenBody) {
     for (const char* options : {"", "--body mass", "--body 1"}) {
         const Json period = rates_with(options).at("quantities").at(0);
         EXPECT_EQ(period.at("name"), "period");
@@ -80,19 +80,19 @@ TEST(RatesCommand, MeasuresTheBodyThatSwingsMostUnlessAnotherIsAsked) {
     EXPECT_EQ(rates_with("--body still").at("quantities"), Json::array());
 }
 
-// Two seconds have two crossings upwards, at 0.75 and 1.75 s, and three are needed for a swing.
-TEST(RatesCommand, MeasuresTheSecondsThatAreAsked) {
+// In two seconds x crosses 0 upwards twice, at 0.75 and 1.75 s. A period needs three crossings.
+TEST(RatesCommand, MeasuresTheGivenDuration) {
     EXPECT_EQ(rates_with("--body mass --duration 2").at("quantities"), Json::array());
     EXPECT_EQ(rates_with("--body mass --duration 3").at("quantities").at(0).at("name"), "period");
 }
 
 // ---- report
 
-TEST(Report, IsOneFileThatNeedsNoOther) {
+TEST(Report, IsOneSelfContainedFile) {
     std::string scene = spring_scene("[budget]\nposition_error = 25.0\n");
     scene.replace(scene.find("100 "), 4, "20 ");
     scene.replace(scene.find("10.0"), 4, "1.5");
-    // √144 = 12 rad/s: three times upwards through its rest in 1.5 s.
+    // √144 = 12 rad/s: three upward crossings of the equilibrium in 1.5 s.
     scene.replace(scene.find("15.0"), 4, "144.0");
     scene.replace(scene.find("[[body]]"), 0, "[[body]]\nname = \"still\"\n\n");
     const Desk desk(scene);
@@ -101,7 +101,7 @@ TEST(Report, IsOneFileThatNeedsNoOther) {
     EXPECT_EQ(run.exit, 0) << run.err;
     EXPECT_EQ(desk.names(), (std::vector<std::string>{"a.json", "page.html", "scene.toml"}));
     std::string page = desk.text("page.html");
-    // The library that draws the charts begins with its licence and ends with its script.
+    // The comments of Chart.js have URLs, which load no file.
     const std::string begin = "<script>/*!";
     const std::size_t library = page.find(begin);
     ASSERT_NE(library, std::string::npos);
@@ -119,10 +119,10 @@ TEST(Report, IsOneFileThatNeedsNoOther) {
          {"advice", "tradeoff", "stability", "rates", "ledger", "obvious_methods"})
         EXPECT_TRUE(data.contains(part)) << part;
     EXPECT_TRUE(data["tradeoff"].contains("today"));
-    // The scene's budget is what the page advises on.
+    // The tolerance of the advice is the scene's budget.
     EXPECT_EQ(data["advice"]["wish"]["position_error"], 25);
     EXPECT_EQ(data["advice"]["wish"]["energy_drift"], nullptr);
-    // Its springs and what a player notices are of the second body.
+    // Springs and rates are those of the second body.
     const Json& spring = data["stability"]["springs"][0];
     EXPECT_EQ(spring["name"], "springs of mass");
     EXPECT_DOUBLE_EQ(spring["omega"].get<double>(), 12);
@@ -132,7 +132,7 @@ TEST(Report, IsOneFileThatNeedsNoOther) {
     EXPECT_EQ(data["rates"]["quantities"][0]["body"], "mass");
 }
 
-TEST(Report, OfABadSceneLeavesNothing) {
+TEST(Report, OfAnInvalidSceneWritesNothing) {
     const Desk desk("[scene]\naxes = 7\n");
     const Outcome run = desk.run("oiler report scene.toml --out page.html --json a.json");
     EXPECT_EQ(run.exit, 2);

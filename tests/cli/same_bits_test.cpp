@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every scene in assets, played with any number of threads and any set of instructions.
+// Plays every scene in assets/scenes with several numbers of threads and instruction sets.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,17 +14,18 @@ namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(OILER_SOURCE) / "assets/scenes";
 
-/// Empty where the machine does not have the instructions.
+/// Empty if the machine lacks the instructions.
 std::string hash_of(const std::filesystem::path& scene, const std::string& environment,
                     const std::string& options) {
     const Outcome run = shell(environment + " oiler play " + scene.string() +
                               " --steps 100 --quiet --json - " + options);
-    if (run.exit == 2 && run.err.find("which this build and machine have") != std::string::npos) return {};
+    if (run.exit == 2 && run.err.find("which this build and machine have") != std::string::npos)
+        return {};
     EXPECT_EQ(run.exit, 0) << run.err;
     return nlohmann::json::parse(run.out).at("state_hash");
 }
 
-TEST(SameBits, OfEveryScene) {
+TEST(SameBits, InEveryScene) {
     int played = 0;
     for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
         if (entry.path().extension() != ".toml") continue;
@@ -43,7 +44,7 @@ TEST(SameBits, OfEveryScene) {
     EXPECT_GE(played, 10);
 }
 
-TEST(SameBits, AnUnknownSetOfInstructionsIsRefused) {
+TEST(SameBits, RefusesAnUnknownInstructionSet) {
     const Outcome run = shell("OILER_INSTRUCTIONS=mmx oiler play " +
                               (scenes / "orbit.toml").string() + " --steps 1");
     EXPECT_EQ(run.exit, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `oiler tradeoff` and `oiler merge` as their users run them.
+// Runs `oiler tradeoff` and `oiler merge` as users do.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -15,7 +15,7 @@ using namespace lab;
 
 const std::string few = "--methods semi_implicit_euler,velocity_verlet,rk4,exact --max-rate 400 ";
 
-/// All but times and what is best by them.
+/// The JSON without timings and the Pareto front.
 Json accuracy_of(Json tradeoff) {
     for (Json& row : tradeoff.at("rows"))
         for (const char* name : {"ns_per_second", "ns_spread", "pareto"}) row.erase(name);
@@ -48,8 +48,8 @@ TEST(TradeoffCommand, WritesATableAndItsPictures) {
     EXPECT_EQ(desk.text("copy.json"), desk.text("t/tradeoff.json"));
 }
 
-// The file is there as soon as a method is done; then there is a second and more to go.
-TEST(TradeoffCommand, InterruptedGoesOnWhereItWas) {
+// The file appears after the first method; the rest of the sweep takes a second or more.
+TEST(TradeoffCommand, InterruptedIsResumed) {
     const Desk desk;
     const std::string command =
         "oiler tradeoff scene.toml --methods splitting --max-rate 6400 --size 64x36 --quiet --out ";
@@ -60,7 +60,7 @@ TEST(TradeoffCommand, InterruptedGoesOnWhereItWas) {
     const Json part = desk.json("a/tradeoff.json");
     EXPECT_EQ(desk.names("a"), std::vector<std::string>{"tradeoff.json"});
     EXPECT_GE(part.at("rows").size(), 1U);
-    // What it goes on with is not measured again: a mark in it stays.
+    // Rows in the file are not measured again: a changed number stays.
     Json marked = part;
     marked.at("rows").at(0).at("velocity_error") = 4242;
     desk.put("a/tradeoff.json", marked.dump());
@@ -82,14 +82,14 @@ TEST(TradeoffCommand, InterruptedGoesOnWhereItWas) {
     EXPECT_EQ(desk.names("a").size(), 5U);
 }
 
-/// The velocity errors of a part's rows, and whether any bears the mark.
+/// The velocity errors of a file's rows, and whether one has the changed number.
 bool has_mark(const Json& part) {
     for (const Json& row : part.at("rows"))
         if (row.at("velocity_error") == 4242) return true;
     return false;
 }
 
-/// Half of a sweep of the desk's scene, in whose file a row is marked.
+/// A half-finished sweep in whose file one number is changed.
 class UnfinishedSweep : public testing::Test {
 protected:
     UnfinishedSweep() {
@@ -97,7 +97,7 @@ protected:
         part.at("rows").at(0).at("velocity_error") = 4242;
         desk_.put("a/part-1-of-2.json", part.dump());
     }
-    /// Returns the rows of the file that the command leaves.
+    /// Returns the rows of the finished file.
     [[nodiscard]] Json measure(const std::string& options = "--max-rate 60 --duration 1",
                                const std::string& folder = "a") const {
         const Outcome run =
@@ -116,18 +116,18 @@ protected:
 
 TEST_F(UnfinishedSweep, IsResumedWithItsRows) { EXPECT_TRUE(has_mark(measure())); }
 
-// Rows of a softer spring say nothing of the one in the file, however alike the two scenes are.
-TEST_F(UnfinishedSweep, OfAnotherSceneIsMeasuredAnew) {
+// Rows measured with another stiffness are not resumed, although all else is equal.
+TEST_F(UnfinishedSweep, OfAnotherSceneIsMeasuredAgain) {
     desk_.put("scene.toml", changed("15.0", "14.0"));
     const Json anew = measure();
     EXPECT_FALSE(has_mark(anew));
     EXPECT_EQ(accuracy_of(anew), accuracy_of(measure("--max-rate 60 --duration 1", "b")));
 }
 
-TEST_F(UnfinishedSweep, OfOtherOptionsIsMeasuredAnew) {
+TEST_F(UnfinishedSweep, WithOtherOptionsIsMeasuredAgain) {
     const Json lower = measure("--max-rate 30 --duration 1");
     EXPECT_FALSE(has_mark(lower));
-    // Up to 30 Hz, beside the scene's own 100 Hz.
+    // Up to 30 Hz, and the scene's own 100 Hz.
     for (const Json& row : lower.at("rows"))
         EXPECT_TRUE(row.at("rate") <= 30 || row.at("rate") == 100) << row;
     const Json shorter = measure("--max-rate 30 --duration 0.5");
@@ -135,7 +135,7 @@ TEST_F(UnfinishedSweep, OfOtherOptionsIsMeasuredAnew) {
     EXPECT_EQ(shorter.at("reference").at("meaningful_until"), 0.5);
 }
 
-TEST(TradeoffCommand, InShardsAndMergedIsOneRun) {
+TEST(TradeoffCommand, MergedShardsEqualOneRun) {
     const Desk desk;
     const std::string command = "oiler tradeoff scene.toml " + few + "--size 64x36 --quiet --out ";
     for (const char* shard : {"1/4", "2/4", "3/4", "4/4"}) {
@@ -158,12 +158,12 @@ TEST(TradeoffCommand, InShardsAndMergedIsOneRun) {
               accuracy_of(desk.json("whole/tradeoff.json")));
     EXPECT_EQ(desk.text("merged/tradeoff.csv").substr(0, 60),
               desk.text("whole/tradeoff.csv").substr(0, 60));
-    // Parts of another duration are of another sweep.
+    // Parts with another duration cannot be merged.
     EXPECT_EQ(desk.run(command + "parts --shard 2/4 --duration 9").exit, 0);
     EXPECT_EQ(desk.run("oiler merge parts/part-*.json --out merged").exit, 2);
 }
 
-TEST(TradeoffCommand, MeasuresAMethodThatIsNamedTwiceOnce) {
+TEST(TradeoffCommand, MeasuresARepeatedMethodOnce) {
     const Desk desk;
     const std::string command =
         "oiler tradeoff scene.toml --max-rate 200 --shard 1/1 --quiet "
@@ -175,7 +175,7 @@ TEST(TradeoffCommand, MeasuresAMethodThatIsNamedTwiceOnce) {
               desk.json("once/tradeoff.json").at("rows").size());
 }
 
-/// Words with one space between them.
+/// The text with single spaces between words.
 std::string squeezed(const std::string& line) {
     std::istringstream stream(line);
     std::string all;
@@ -183,7 +183,7 @@ std::string squeezed(const std::string& line) {
     return all;
 }
 
-/// The line of a text that has these words in it.
+/// The line that contains these words.
 std::string line_with(const std::string& text, const std::string& words) {
     std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);)
@@ -219,10 +219,10 @@ Tradeoff made_up() {
     return tradeoff;
 }
 
-// 36,000 ns for a second of the scene are 36 µs, and half of what lies between the quartiles is
-// 1800 of them: 5 %; 11,250 of 45,000 are 25 %. A mark, the rate and a tilde where samples miss
-// steps come first.
-TEST(TradeoffTable, HasCellsInTheUnitsOfTheirHeadings) {
+// 36,000 ns per second of the scene are 36 µs; half of the interquartile range, 1800 ns, is 5 % of
+// it. 11,250 of 45,000 ns are 25 %. A line begins with its mark, its rate, and a tilde if samples
+// lie between steps.
+TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
     const Desk desk;
     desk.put("part.json", to_json(made_up()));
     const Outcome run = desk.run("oiler merge part.json --all --out t --size 64x36 --quiet");
@@ -235,8 +235,8 @@ TEST(TradeoffTable, HasCellsInTheUnitsOfTheirHeadings) {
     EXPECT_EQ(line_with(run.out, " 10~"), "rk4 10~ double unstable - - - - - -");
 }
 
-// What else there is is done by threads; an error of writing is one line from any of them.
-TEST(TradeoffCommand, ThatCannotWriteSaysSo) {
+// Worker threads write the file; a write error is one line from any of them.
+TEST(TradeoffCommand, ReportsAWriteError) {
     const Desk desk;
     const Outcome run =
         desk.run("trap '' XFSZ; ulimit -f 4; oiler tradeoff scene.toml " + few + "--out t --quiet");
@@ -244,8 +244,8 @@ TEST(TradeoffCommand, ThatCannotWriteSaysSo) {
     EXPECT_EQ(lines(run.err), 1) << run.err;
 }
 
-// Where nothing moves there is no energy to tell drifts by; what is written is read again.
-TEST(TradeoffCommand, OfASceneAtRestIsReadBack) {
+// A scene at rest has no energy scale and no drifts; its file can be read again.
+TEST(TradeoffCommand, FileOfASceneAtRestCanBeRead) {
     const Desk desk("[scene]\naxes = 1\nduration = 1.0\n[[body]]\nname = \"a\"\n");
     const Outcome run = desk.run(
         "oiler tradeoff scene.toml --methods rk4 --max-rate 100 --out t --shard 1/1 "

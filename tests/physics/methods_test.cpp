@@ -153,9 +153,10 @@ TEST(Methods, EvaluateAtEveryKickIfForcesDependOnVelocity) {
 // A step that conserves area has an error of round-off, about 1e-18. Other methods of order p have
 // an error of about h^(p+1) or h^(p+2)/72, at h = 0.8 far more than 1e-9.
 TEST(Methods, ConserveAreaIfTheySaySo) {
-    const oiler::Oscillation swing{0.64, 0};
+    const oiler::Oscillation oscillation{0.64, 0};
     for (const Method& method : methods()) {
-        const auto matrix = oiler::step_matrices(method, method.damping, std::span(&swing, 1))[0];
+        const auto matrix =
+            oiler::step_matrices(method, method.damping, std::span(&oscillation, 1))[0];
         if (method.symplectic)
             EXPECT_LT(std::abs(matrix.determinant() - 1), 1e-17L) << method.name;
         else

@@ -215,10 +215,11 @@ TEST(Coincident, LinkedBodiesFlyAsOne) {
 // k·dt/b of true creep; creep_test covers damping in the drifts.
 TEST(HugeDamping, OfACoilSpringMakesEveryStepOfASplittingStartFromRest) {
     constexpr int steps = 60;
-    const oiler::Oscillation swing{15 * rate.dt() * rate.dt(), 0};
+    const oiler::Oscillation oscillation{15 * rate.dt() * rate.dt(), 0};
     for (const Method& method : methods()) {
         if (!is_splitting(method)) continue;
-        const auto matrix = step_matrices(method, Damping::in_drift, std::span(&swing, 1)).front();
+        const auto matrix =
+            step_matrices(method, Damping::in_drift, std::span(&oscillation, 1)).front();
         for (const Precision precision : precisions) {
             Bodies bodies(1, precision);
             bodies.add({.position = {2}, .velocity = {1}}, CoilSpring{{}, 15, 1e12, 1});

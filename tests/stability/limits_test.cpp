@@ -36,8 +36,8 @@ double limit_of(const Method& method) {
 }
 
 StepMatrix matrix_of(const Method& method, double h) {
-    const Oscillation swing{h * h, 0};
-    return step_matrices(method, method.damping, std::span(&swing, 1)).front();
+    const Oscillation oscillation{h * h, 0};
+    return step_matrices(method, method.damping, std::span(&oscillation, 1)).front();
 }
 
 /// Row 0 starts with x = 1, row 1 with equal energy in v.

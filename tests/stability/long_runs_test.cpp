@@ -41,8 +41,8 @@ struct Form {
 };
 
 StepMatrix matrix_of(const Method& method, double h) {
-    const Oscillation swing{h * h, 0};
-    return step_matrices(method, method.damping, std::span(&swing, 1)).front();
+    const Oscillation oscillation{h * h, 0};
+    return step_matrices(method, method.damping, std::span(&oscillation, 1)).front();
 }
 
 /// The slope of the line through `values` at 0, 1, 2, … by least squares.

@@ -88,8 +88,8 @@ TEST(Warning, NamesNoRateAtTheLimit) {
 }
 
 bool is_stable_at(const Method& method, double h) {
-    const oiler::Oscillation swing{h * h, 0};
-    return is_stable(step_matrices(method, method.damping, std::span(&swing, 1)).front());
+    const oiler::Oscillation oscillation{h * h, 0};
+    return is_stable(step_matrices(method, method.damping, std::span(&oscillation, 1)).front());
 }
 
 // The limit is 60.5 Hz. At 61 Hz, motion stays within the method's ellipse, about 100 times as long

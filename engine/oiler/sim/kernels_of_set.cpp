@@ -122,10 +122,13 @@ template <class V, class Fixed, unsigned Kinds, class T, int Axes, class Rule>
     return step_batches<V, SharedForces<V, Axes, Kinds>>(columns, fixed, steps, begin, end);
 }
 
+/// With three axes, the forces leave too few registers for Wide: splittings of six stages would take
+/// 2.5 times as long.
 template <class V, class Rule, class T, int Axes>
 [[gnu::flatten]] std::size_t step_any(Columns<T, Axes>& columns, const Rule& rule,
                                       const Steps& steps, std::size_t begin, std::size_t end) {
-    return step_batches<V, ForcesOfRow<V, T, Axes>>(columns, rule, steps, begin, end);
+    using Fitting = std::conditional_t<Axes == 3, Narrow<T, Axes>, V>;
+    return step_batches<Fitting, ForcesOfRow<Fitting, T, Axes>>(columns, rule, steps, begin, end);
 }
 
 /// Has fast paths for the forces of most scenes: gravity alone, or springs alone.
