@@ -82,6 +82,11 @@ void draw(Picture& picture, const World& world, Entity body, std::vector<Point> 
         text({0.81F, 0.47F}, feet.y < ledge ? "misses" : "lands", 19, colour);
 }
 
+Settings with_rate(Settings settings, std::int64_t rate) {
+    settings.stepping.rate = {rate};
+    return settings;
+}
+
 }  // namespace
 
 struct Jump {
@@ -94,10 +99,7 @@ struct Jump {
 
     explicit Jump(const Settings& settings)
         : world(2, settings),
-          slow_world(2,
-                     {.method = settings.stepping.method,
-                      .rate = {slow},
-                      .precision = settings.stepping.precision}) {
+          slow_world(2, with_rate(settings, slow)) {
         world.set_gravity({0, -gravity});
         slow_world.set_gravity({0, -gravity});
         jump();

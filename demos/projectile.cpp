@@ -9,9 +9,9 @@
 #include <random>
 
 #include "oiler/app/run.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/physics/closed_forms.hpp"
 
 using namespace oiler;
 
@@ -177,8 +177,8 @@ struct Projectile {
         picture.labels.push_back(
             {.at = {16, 340},
              .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
-                                 settings.stepping.rate.steps,
-                                 name_of(settings.stepping.precision), world.time()),
+                                 settings.stepping.rate.steps, name_of(settings.stepping.precision),
+                                 world.time()),
              .size = 13,
              .colour = palette::ink});
         float y = 296;

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "oiler/app/run.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/physics/closed_forms.hpp"
 
 using namespace oiler;
 
@@ -139,9 +139,9 @@ struct SpringDamper {
         const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}", settings.stepping.method->name,
-                                 settings.stepping.rate.steps,
-                                 name_of(settings.stepping.precision)),
+             .text =
+                 fmt::format("{} at {} Hz, {}", settings.stepping.method->name,
+                             settings.stepping.rate.steps, name_of(settings.stepping.precision)),
              .size = 13,
              .colour = palette::ink});
         picture.labels.push_back({.at = {624, 340},

@@ -34,7 +34,7 @@ struct Case {
     Scene scene;
     Truth truth;
     double samples_per_second = 0;  ///< 0 for a sample at every step
-    double most_work = 1e9;  ///< see SweepPlan
+    double most_work = 1e9;         ///< see SweepPlan
     std::int64_t max_rate = 1'000'000;
 };
 
@@ -223,8 +223,9 @@ double independent_error(const Case& one, const Stepping& choice) {
     const auto steps = static_cast<std::int64_t>(
         std::floor(one.scene.duration * static_cast<double>(choice.rate.steps) * (1 + 1e-12)));
     const std::int64_t stride =
-        one.samples_per_second > 0 ? choice.rate.steps / static_cast<std::int64_t>(one.samples_per_second)
-                                   : 1;
+        one.samples_per_second > 0
+            ? choice.rate.steps / static_cast<std::int64_t>(one.samples_per_second)
+            : 1;
     Real most = 0;
     for (std::int64_t tick = 0; tick <= steps; tick += stride) {
         if (tick > 0) world.step(stride);

@@ -33,7 +33,8 @@ template <class T>
 void agree(Bench& bench, Scene scene) {
     constexpr std::size_t bodies = 1000;
     constexpr int rounds = 4;
-    World world = make_world(scene, 3, bodies, {.stepping = {.rate = rate, .precision = precision_of<T>}});
+    World world =
+        make_world(scene, 3, bodies, {.stepping = {.rate = rate, .precision = precision_of<T>}});
     const HandBodies<T> one(3, bodies);
     const HandBodies<T> many(3, bodies);
     const HandLoops<T>& loops = bench.limits.loops<T>();

@@ -22,7 +22,8 @@ struct Costs {
 
 template <class T>
 Costs race_steps(const Bench& bench, Scene scene, int axes, std::size_t bodies, bool with_many) {
-    World world = make_world(scene, axes, bodies, {.stepping = {.rate = rate, .precision = precision_of<T>}});
+    World world =
+        make_world(scene, axes, bodies, {.stepping = {.rate = rate, .precision = precision_of<T>}});
     World far = world;
     const HandBodies<T> swept(axes, bodies);
     const HandBodies<T> hand(axes, bodies);

@@ -8,8 +8,6 @@
 
 namespace {
 
-using oiler::certify::Certificate;
-using oiler::certify::certify;
 using oiler::Damping;
 using oiler::find_method;
 using oiler::Method;
@@ -17,6 +15,8 @@ using oiler::Move;
 using oiler::Splitting;
 using oiler::Stage;
 using oiler::Tableau;
+using oiler::certify::Certificate;
+using oiler::certify::certify;
 
 constexpr std::int64_t steps = 50'000;
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "oiler/picture/palette.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/picture/palette.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
 

@@ -56,6 +56,6 @@ inline constexpr std::array providers{"platform/sdl2.cpp", "platform/osmesa.cpp"
 /// Folders whose targets depend on options, presets and installed libraries. CMake's list of
 /// compile commands may lack their files; then the CMake files of the folder must name them.
 inline constexpr std::array optional_folders{"tests/bench", "tests/bits", "tests/fuzz",
-                                            "tests/install"};
+                                             "tests/install"};
 
 }  // namespace oiler::house

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "oiler/render/polyline_mesh.hpp"
 #include "oiler/core/utf8.hpp"
+#include "oiler/render/polyline_mesh.hpp"
 #include "render/drawing.hpp"
 
 namespace oiler {

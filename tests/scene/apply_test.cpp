@@ -16,8 +16,7 @@
 namespace oiler::test {
 namespace {
 
-const Stepping choice{
-    .method = &find_method("rk4"), .rate = 120, .precision = Precision::single};
+const Stepping choice{.method = &find_method("rk4"), .rate = 120, .precision = Precision::single};
 constexpr std::string_view body = "\n[[body]]\nvelocity = [1.0]\n";
 
 std::string applied(std::string_view text) { return apply(text, "test.toml", choice); }

@@ -94,9 +94,10 @@ bool cannot_change_alone(const SceneKey& key) {
 
 TEST(Read, ReadsTheStepping) {
     const Stepping given =
-        parse_scene("[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n"
-                    "damping = 'kick'\n[[body]]\n",
-                    "test.toml")
+        parse_scene(
+            "[scene]\naxes = 1\nrate = 240\nmethod = 'rk4'\nprecision = 'float'\n"
+            "damping = 'kick'\n[[body]]\n",
+            "test.toml")
             .stepping;
     EXPECT_EQ(given, (Stepping{&find_method("rk4"), {240}, Precision::single, Damping::in_kick}));
     const Stepping own = parse_scene("[scene]\naxes = 1\n[[body]]\n", "test.toml").stepping;

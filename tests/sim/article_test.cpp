@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "oiler/sim/bodies.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
 

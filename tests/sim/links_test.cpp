@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "oiler/sim/bodies.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/convergence.hpp"
 
 namespace {

@@ -21,8 +21,8 @@ Bodies assorted(int count, bool linear) {
     Bodies bodies(2, Precision::single);
     bodies.set_gravity({0, -9.81, 0});
     for (int i = 0; i < count; ++i) {
-        const std::size_t row =
-            bodies.add({.mass = 1.0 + i % 3, .position = {i / 8.0, 1}, .velocity = {i % 7 / 4.0, 3}});
+        const std::size_t row = bodies.add(
+            {.mass = 1.0 + i % 3, .position = {i / 8.0, 1}, .velocity = {i % 7 / 4.0, 3}});
         if (i % 2 == 0) bodies.attach(row, Spring{.stiffness = 4.0 + i % 5, .damping = 0.25});
         if (!linear && i % 5 == 0) bodies.attach(row, QuadraticDrag{0.125});
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <tuple>
 
-#include "oiler/sim/bodies.hpp"
 #include "oiler/physics/forces/forces.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace {
 

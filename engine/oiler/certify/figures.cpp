@@ -9,10 +9,10 @@
 #include <numbers>
 #include <string_view>
 
+#include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/physics/closed_forms.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {

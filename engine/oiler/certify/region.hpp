@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "oiler/picture/picture.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "oiler/picture/picture.hpp"
 
 namespace oiler::certify {
 

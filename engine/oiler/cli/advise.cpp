@@ -16,7 +16,8 @@ namespace {
 
 constexpr double frames_per_second = 60;
 
-Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements, bool quiet) {
+Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements,
+              bool quiet) {
     Percent percent(quiet, "of the settings, most of which need no run");
     SweepWatch watch;
     watch.progress = [&](double fraction) { percent(fraction); };
@@ -57,7 +58,7 @@ struct AdviseCommand {
     /// Throws Error{usage} without a tolerance and a budget.
     [[nodiscard]] Requirements requirements() const {
         Requirements requirements{.position_error = tolerances.position_error,
-                  .energy_drift = tolerances.energy_drift};
+                                  .energy_drift = tolerances.energy_drift};
         if (budget_us) requirements.ns_per_second = *budget_us * (1e3 * frames_per_second);
         if (!requirements.has_tolerance() && !requirements.ns_per_second)
             fail(Exit::usage,
@@ -90,7 +91,8 @@ struct AdviseCommand {
         const Scene scene = scene_options.read();
         const Requirements requirements = this->requirements();
         const Reference reference =
-            measure_reference(scene, sample_times_of(scene), required_reference_error(requirements) / 2, scene_options.quiet);
+            measure_reference(scene, sample_times_of(scene),
+                              required_reference_error(requirements) / 2, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         const Advice advice = search(scene, reference, requirements, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;

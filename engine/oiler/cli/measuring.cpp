@@ -9,7 +9,8 @@ namespace oiler::cli {
 
 using namespace lab;
 
-Reference measure_reference(const Scene& scene, const SampleTimes& samples, double wanted, bool quiet) {
+Reference measure_reference(const Scene& scene, const SampleTimes& samples, double wanted,
+                            bool quiet) {
     Percent percent(quiet, "of the work limit of the reference");
     ReferenceEffort effort{.wanted = wanted};
     effort.progress = [&](double fraction) { percent(fraction); };

@@ -68,7 +68,8 @@ private:
 /// Takes the tolerance of the options, else of the budget, else the largest power of ten within
 /// `usual_tolerance`.
 Requirements ReportCommand::requirements(const Scene& scene, const Reference& reference) const {
-    Requirements requirements{.position_error = tolerances.position_error, .energy_drift = tolerances.energy_drift};
+    Requirements requirements{.position_error = tolerances.position_error,
+                              .energy_drift = tolerances.energy_drift};
     if (!requirements.has_tolerance()) {
         requirements.position_error = scene.budget.position_error;
         requirements.energy_drift = scene.budget.energy_drift;

@@ -79,9 +79,7 @@ Json::Json(std::initializer_list<Member> members) : kind_(Kind::object) {
     for (const Member& member : members) (*this)[member.name] = member.value;
 }
 
-Json Json::array(std::initializer_list<Json> items) {
-    return std::vector<Json>(items);
-}
+Json Json::array(std::initializer_list<Json> items) { return std::vector<Json>(items); }
 
 void Json::push_back(Json item) {
     require(kind_ == Kind::array, "only a JSON array takes items");
@@ -111,9 +109,9 @@ void Json::append_to(std::string& text, int indent, int level, Characters charac
     } else {
         const auto new_line = [&](int depth) {
             if (indent >= 0)
-                (text += '\n').append(static_cast<std::size_t>(indent) *
-                                          static_cast<std::size_t>(depth),
-                                      ' ');
+                (text += '\n')
+                    .append(static_cast<std::size_t>(indent) * static_cast<std::size_t>(depth),
+                            ' ');
         };
         const bool object = kind_ == Kind::object;
         text += object ? '{' : '[';

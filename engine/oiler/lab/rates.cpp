@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/path.hpp"
 
 namespace oiler::lab {
 namespace {

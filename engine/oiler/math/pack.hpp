@@ -80,9 +80,7 @@ public:
         return all != 0;
     }
 
-    [[gnu::always_inline]] friend Pack abs(Pack a) {
-        return select(a < Pack(T(0)), -a, a);
-    }
+    [[gnu::always_inline]] friend Pack abs(Pack a) { return select(a < Pack(T(0)), -a, a); }
     [[gnu::always_inline]] friend Pack sqrt(Pack a) {
         for (std::size_t i = 0; i < lanes; ++i) a.register_[i] = std::sqrt(a.register_[i]);
         return a;

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "oiler/render/embedded.hpp"
 #include "oiler/core/utf8.hpp"
+#include "oiler/render/embedded.hpp"
 
 namespace oiler {
 namespace {

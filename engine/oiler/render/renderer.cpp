@@ -20,8 +20,7 @@ Gl load_functions(const Renderer::LoadProcedure& load) {
     const int version =
         gladLoadGLContextUserPtr(&gl, call, const_cast<Renderer::LoadProcedure*>(&load));
     if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33) {
-        fail(Exit::no_display,
-             "this surface offers OpenGL {}.{}; Oiler needs 3.3; try --headless",
+        fail(Exit::no_display, "this surface offers OpenGL {}.{}; Oiler needs 3.3; try --headless",
              GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
     }
     return gl;

@@ -21,7 +21,8 @@ Value word(std::string_view key, std::string_view text) {
 std::vector<Value> values_of(const Stepping& stepping) {
     std::vector<Value> values{
         {.key = "rate", .kind = ValueKind::whole, .whole = stepping.rate.steps},
-        word("method", stepping.method->name), word("precision", name_of(stepping.precision))};
+        word("method", stepping.method->name),
+        word("precision", name_of(stepping.precision))};
     if (stepping.damping) values.push_back(word("damping", name_of(*stepping.damping)));
     return values;
 }

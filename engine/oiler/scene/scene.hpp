@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/physics/stepping.hpp"
 
 namespace oiler {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "oiler/math/vec.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/scene/document.hpp"
 #include "oiler/scene/keys.hpp"
 #include "oiler/scene/refuse.hpp"
-#include "oiler/math/vec.hpp"
 
 namespace oiler {
 

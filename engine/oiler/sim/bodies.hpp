@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "oiler/core/state_hash.hpp"
-#include "oiler/sim/body.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "oiler/sim/body.hpp"
 #include "oiler/sim/steps.hpp"
 
 namespace oiler {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "oiler/sim/column.hpp"
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
+#include "oiler/sim/column.hpp"
 
 namespace oiler {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "oiler/sim/columns.hpp"
 #include "oiler/physics/plan.hpp"
+#include "oiler/sim/columns.hpp"
 
 namespace oiler {
 

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "oiler/sim/columns.hpp"
 #include "oiler/physics/plan.hpp"
+#include "oiler/sim/columns.hpp"
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {

@@ -26,7 +26,8 @@ template <class T, int Axes>
 constexpr std::size_t most_packs() {
     constexpr std::size_t room = register_bytes == 64 ? 24 : 12;
     std::size_t packs = 1;
-    while (2 * Axes * packs * 2 <= room && 2 * packs * Register<T>::lanes <= row_padding) packs *= 2;
+    while (2 * Axes * packs * 2 <= room && 2 * packs * Register<T>::lanes <= row_padding)
+        packs *= 2;
     return packs;
 }
 template <class T, int Axes>
@@ -122,8 +123,8 @@ template <class V, class Fixed, unsigned Kinds, class T, int Axes, class Rule>
     return step_batches<V, SharedForces<V, Axes, Kinds>>(columns, fixed, steps, begin, end);
 }
 
-/// With three axes, the forces leave too few registers for Wide: splittings of six stages would take
-/// 2.5 times as long.
+/// With three axes, the forces leave too few registers for Wide: splittings of six stages would
+/// take 2.5 times as long.
 template <class V, class Rule, class T, int Axes>
 [[gnu::flatten]] std::size_t step_any(Columns<T, Axes>& columns, const Rule& rule,
                                       const Steps& steps, std::size_t begin, std::size_t end) {

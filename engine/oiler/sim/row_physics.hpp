@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "oiler/math/batch.hpp"
-#include "oiler/sim/columns.hpp"
 #include "oiler/physics/plan.hpp"
+#include "oiler/sim/columns.hpp"
 
 namespace oiler {
 

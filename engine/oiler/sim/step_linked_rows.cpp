@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "oiler/physics/advance.hpp"
+#include "oiler/physics/response.hpp"
 #include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
-#include "oiler/physics/response.hpp"
 #include "oiler/sim/take_steps.hpp"
 
 namespace oiler {

@@ -32,8 +32,8 @@ std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size
 /// Never inlined: it is large, and both callers instantiate it for each type and rule.
 template <std::floating_point T, int Axes, class Rule>
 [[gnu::noinline]] bool take_steps_of_row(const Columns<T, Axes>& columns, const Rule& rule,
-                                         const Steps& steps, std::size_t row,
-                                         State<T, Axes>& state, std::int64_t& evaluations) {
+                                         const Steps& steps, std::size_t row, State<T, Axes>& state,
+                                         std::int64_t& evaluations) {
     RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
     const bool found = take_steps(rule, state, physics, steps);
     evaluations += physics.evaluations();

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "oiler/core/team.hpp"
-#include "oiler/sim/columns.hpp"
 #include "oiler/physics/plan.hpp"
+#include "oiler/sim/columns.hpp"
 #include "oiler/sim/steps.hpp"
 
 namespace oiler {

@@ -12,7 +12,8 @@ std::string describe(const Divergence& at, const Method& method, const Rate& rat
     const std::string when =
         fmt::format("diverged at step {} (t = {} s)", at.tick, rate.time(at.tick));
     if (at.of == Divergence::Of::solution) {
-        const std::string whose = linked ? "the linked bodies" : fmt::format("body {}", name(at.row));
+        const std::string whose =
+            linked ? "the linked bodies" : fmt::format("body {}", name(at.row));
         return fmt::format("{}: {} found no solution of the equations of {}", when, method.name,
                            whose);
     }

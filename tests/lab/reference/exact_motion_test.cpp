@@ -17,7 +17,6 @@ namespace {
 using oiler::Attractor;
 using oiler::Bodies;
 using oiler::CoilSpring;
-using oiler::lab::exact_motions;
 using oiler::LinearDrag;
 using oiler::Precision;
 using oiler::QuadraticDrag;
@@ -25,6 +24,7 @@ using oiler::Spring;
 using oiler::State;
 using oiler::Vec;
 using oiler::Vec3;
+using oiler::lab::exact_motions;
 using Real = long double;
 using State3 = State<Real, 3>;
 using Complex = std::complex<Real>;

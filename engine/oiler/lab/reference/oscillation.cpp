@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/path.hpp"
 
 namespace oiler::lab {
 namespace {

@@ -51,8 +51,9 @@ struct Reference {
     double extent = 0;                       ///< m, the largest distance of any body from its start
     double energy_scale = 0;                 ///< J, the unit of energy drifts
     std::optional<PeriodicCoordinate> oscillation{};
-    /// The number of samples up to which errors are meaningful. It is fewer than all if the scene is
-    /// chaotic: its motion then diverges from any reference, or changes by round-off to double alone.
+    /// The number of samples up to which errors are meaningful. It is fewer than all if the scene
+    /// is chaotic: its motion then diverges from any reference, or changes by round-off to double
+    /// alone.
     std::int64_t meaningful = 0;
     std::string why_no_longer{};  ///< empty if errors are meaningful to the end
 

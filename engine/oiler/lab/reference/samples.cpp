@@ -49,7 +49,8 @@ SampleTimes sample_times_of(const Scene& scene) {
     const std::int64_t bodies = scene.body_count();
     if (bodies > most_followed_bodies)
         fail(Exit::usage,
-             "{} bodies: at most {} can be compared with a reference; take a scene with fewer bodies "
+             "{} bodies: at most {} can be compared with a reference; take a scene with fewer "
+             "bodies "
              "of the same kind",
              bodies, most_followed_bodies);
     if (!(scene.duration > 0) || scene.duration > longest)

@@ -81,9 +81,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}",
 
 }  // namespace
 
-std::string to_json(const Tradeoff& tradeoff) {
-    return json_of(tradeoff).dump(1) + "\n";
-}
+std::string to_json(const Tradeoff& tradeoff) { return json_of(tradeoff).dump(1) + "\n"; }
 
 Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
     const Parsed json = Parsed::parse(text);
