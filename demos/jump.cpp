@@ -98,8 +98,7 @@ struct Jump {
     Jumper jumper, slow_jumper;
 
     explicit Jump(const Settings& settings)
-        : world(2, settings),
-          slow_world(2, with_rate(settings, slow)) {
+        : world(2, settings), slow_world(2, with_rate(settings, slow)) {
         world.set_gravity({0, -gravity});
         slow_world.set_gravity({0, -gravity});
         jump();
