@@ -100,7 +100,8 @@ CommandLine parse_file(std::vector<std::string> words) {
                                                .rate = 7,
                                                .method = "rk4",
                                                .precision = Precision::single,
-                                               .duration = 12};
+                                               .duration = 12,
+                                               .damping = "kick"};
                               });
 }
 
@@ -111,13 +112,15 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     EXPECT_EQ(own.options.settings.stepping.rate, Rate{7});
     EXPECT_EQ(own.options.settings.stepping.method->name, "rk4");
     EXPECT_EQ(own.options.settings.stepping.precision, Precision::single);
+    EXPECT_EQ(own.options.settings.stepping.damping, Damping::in_kick);
     EXPECT_EQ(own.options.out, "frames/scene");
-    const Settings given = parse_file({"demo", "--rate", "8", "--method", "exact",
-                                       "some scene.toml", "--precision", "double"})
+    const Settings given = parse_file({"demo", "--rate", "8", "--method", "exact", "--damping",
+                                       "drift", "some scene.toml", "--precision", "double"})
                                .options.settings;
     EXPECT_EQ(given.stepping.rate, Rate{8});
     EXPECT_EQ(given.stepping.method->name, "exact");
     EXPECT_EQ(given.stepping.precision, Precision::double_);
+    EXPECT_EQ(given.stepping.damping, Damping::in_drift);
     EXPECT_NE(parse_file({"demo", "--help"}).text.find("SCENE"), std::string::npos);
 }
 

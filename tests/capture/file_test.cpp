@@ -168,12 +168,15 @@ TEST(File, StandardOutputIsWrittenInPlaceEvenWhenItIsAFile) {
     EXPECT_EQ(text_of(folder / "out"), "before data after");
 }
 
+TEST(File, MakesItsFolder) {
+    const Folder folder;
+    write_file(folder / "new/folder/a", bytes_of("data"));
+    EXPECT_EQ(text_of(folder / "new/folder/a"), "data");
+}
+
 TEST(File, NamesTheReasonWhyItCannotBeOpened) {
     const Folder folder;
     put(folder / "file", "");
-    EXPECT_EQ(io_error_of([&] { File(folder / "none/a"); }),
-              "cannot write " + (folder / "none/a").string() +
-                  ": No such file or directory; make its folder first");
     EXPECT_EQ(
         io_error_of([&] { File{folder.path()}; }),
         "cannot write " + folder.path().string() + ": Is a directory; name a file, not a folder");

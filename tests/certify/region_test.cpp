@@ -38,6 +38,19 @@ void expect_region(const char* name, Damping damping, const Formula& formula) {
     EXPECT_GT(sure, 300);
 }
 
+// A cell whose columns all differ from their neighbours.
+TEST(Region, HasALineOfCsvPerCell) {
+    const StabilityRegion region{.method = &find_method("rk4"),
+                                 .damping = Damping::in_drift,
+                                 .spectral_radius = {0.5},
+                                 .stable = {true},
+                                 .bounded_double = {false},
+                                 .bounded_float = {true}};
+    EXPECT_EQ(to_csv({region}, {.columns = 1, .rows = 1}),
+              "method,damping,omega_dt,zeta,spectral_radius,stable,bounded_double,bounded_float\n"
+              "rk4,drift,3,0,0.5,1,0,1\n");
+}
+
 // k·dt² + 2b·dt < 4, with m = 1.
 TEST(Region, OfSemiImplicitEulerWithDampingInTheKicks) {
     expect_region("semi_implicit_euler", Damping::in_kick,

@@ -156,6 +156,17 @@ TEST(Oiler, MeasuresStability) {
     EXPECT_EQ(lines(text_of(folder / "s" / "stability.csv")), 1 + 2 * 150 * 50);
 }
 
+TEST(Oiler, MeasuresStabilityWithTheGivenDamping) {
+    for (const std::string damping : {"kick", "drift"}) {
+        const Folder folder;
+        const Outcome run = shell("oiler stability velocity_verlet --damping " + damping +
+                                  " --quiet --size 64x36 --out '" + folder.path().string() + "'");
+        if (run.exit == 3) GTEST_SKIP() << run.err;
+        EXPECT_NE(text_of(folder / "stability.csv").find("\nvelocity_verlet," + damping + ",0.02,"),
+                  std::string::npos);
+    }
+}
+
 const std::string scenes = OILER_SOURCE "/assets/scenes/";
 
 TEST(Oiler, LedgerRunsEveryScene) {

@@ -217,6 +217,17 @@ TEST(RequireJudgeable, ComparesEachToleranceWithItsOwnFloor) {
     EXPECT_FALSE(is_judgeable({.position_error = 0.99, .energy_drift = 1.01e-3}, reference));
 }
 
+TEST(Summary, HasTheOwnErrorsOfTheLastMeaningfulSample) {
+    Reference reference = uncertain(0, 0);
+    reference.samples.count = 3;
+    reference.meaningful = 2;
+    reference.uncertainties = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    const ReferenceSummary own = summary(reference);
+    EXPECT_EQ(own.position_error, 4);
+    EXPECT_EQ(own.velocity_error, 5);
+    EXPECT_EQ(own.floor.energy, 600);
+}
+
 // The reference must use the bodies that the scatter makes with the run's seed.
 TEST(Budget, OfAScatterHoldsForEverySeed) {
     const Scene scene = parse_scene(

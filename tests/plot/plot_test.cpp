@@ -217,6 +217,7 @@ void expect_near(const std::vector<double>& at, const std::vector<double>& expec
 
 TEST(LogarithmicTicks, ArePowersOfTenInTheRequestedNumber) {
     expect_near(logarithmic_ticks({1, 1000}, 4), {1, 10, 100, 1000});
+    expect_near(logarithmic_ticks({1, 100}, 4), {1, 10, 100});
     expect_near(logarithmic_ticks({0.5, 2e3}, 4), {1, 10, 100, 1000});
     expect_near(logarithmic_ticks({1e-6, 1e6}, 6), {1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6});
     expect_near(logarithmic_ticks({1e-7, 1e5}, 4), {1e-6, 1e-3, 1, 1e3});

@@ -130,6 +130,16 @@ TEST(MakeWorld, LinksAGridRowByRowAndKindByKind) {
     EXPECT_NEAR(bodies.energy().potential, 0, 1e-30);
 }
 
+// The diagonal of a square of springs at their rest length.
+TEST(MakeWorld, AGridOfStretchedSpringsHasDiagonalsOfTheirRestLength) {
+    const World world = world_of(
+        "[scene]\naxes = 2\n[[grid]]\ncount = [2, 2]\nspacing = 0.5\nrest_length = 0.25\n"
+        "stiffness = 7\ndiagonals = true\n");
+    ASSERT_EQ(world.bodies().link_count(), 6U);
+    EXPECT_EQ(world.bodies().link_at(0).rest_length, 0.25);
+    EXPECT_EQ(world.bodies().link_at(5).rest_length, 0.25 * std::sqrt(2.0));
+}
+
 TEST(MakeWorld, AGridWithoutDiagonalsHasNone) {
     EXPECT_EQ(world_of("[scene]\naxes = 2\n[[grid]]\ncount = [4, 3]\nspacing = 1\nstiffness = 1\n")
                   .bodies()
@@ -219,6 +229,15 @@ TEST(MakeWorld, ASceneWithTheSeedOfARunScattersAsTheRunDoes) {
         settings.seed = seed;
         EXPECT_EQ(of_scene, make_world(scene, settings).state_hash()) << seed;
     }
+}
+
+TEST(MakeWorld, TheSeedOfARunChangesEveryScatter) {
+    const Scene scene =
+        parsed(scatter +
+               "[[scatter]]\ncount = 3\nseed = 7\nposition_from = [0, 0]\nposition_to = [1, 1]\n");
+    const Scene changed = with_seed(scene, 9);
+    EXPECT_NE(changed.scatters[0].seed, scene.scatters[0].seed);
+    EXPECT_NE(changed.scatters[1].seed, scene.scatters[1].seed);
 }
 
 TEST(MakeWorld, TakesThePrecisionOfTheRun) {

@@ -151,6 +151,14 @@ TEST(Warning, HasTheWorstFirst) {
     EXPECT_TRUE(lines[2].starts_with("spring of body 0: ω·dt = 2.1, ")) << lines[2];
 }
 
+TEST(Warning, CountsADamperByItsDampingRate) {
+    Bodies bodies = swinging(2.1);
+    bodies.add({}, Spring{.stiffness = 3600, .damping = 8 * 60});
+    const auto lines = warnings(bodies, find_method("explicit_euler"), rate);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_TRUE(lines[0].starts_with("spring of body 1: ω·dt = 1 ")) << lines[0];
+}
+
 TEST(Warning, ChangesNothing) {
     for (const Method& method : methods()) {
         Bodies asked = swinging(2.4);

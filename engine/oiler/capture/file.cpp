@@ -26,8 +26,6 @@ std::string_view remedy(int error_number) {
         case EPERM:
         case EROFS:
             return "choose a place that you may write to";
-        case ENOENT:
-            return "make its folder first";
         case EISDIR:
             return "name a file, not a folder";
         default:
@@ -65,6 +63,7 @@ File::File(const fs::path& path) : path_(path), target_(path) {
     if (fs::path followed = fs::canonical(path, missing); !missing) target_ = std::move(followed);
     if (missing && fs::is_symlink(fs::symlink_status(path, missing))) fail_write(path_, ENOENT);
     const std::optional<int> in_place = open_in_place(path);
+    if (!in_place && target_.has_parent_path()) make_folder(target_.parent_path());
     const int descriptor = in_place ? *in_place : open_temporary();
     if (descriptor < 0) fail_write(path_, errno);
     file_.reset(fdopen(descriptor, "wb"));

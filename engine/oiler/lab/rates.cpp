@@ -108,7 +108,8 @@ Paths paths_of(const Reference& reference, std::size_t row) {
     return paths;
 }
 
-/// Returns no paths if the run diverges or gets farther than 10 × the reference's extent.
+/// Returns no paths if the run is stopped, diverges, or gets farther than 10 × the reference's
+/// extent.
 std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Reference& reference,
                          std::size_t row, const std::function<bool()>& stopped) try {
     World world = make_world(scene, Settings{choice});
@@ -117,8 +118,8 @@ std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Refer
     Paths paths;
     const auto steps = static_cast<std::int64_t>(
         std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate.steps)));
-    for (std::int64_t tick = 0; tick <= steps && !stopped(); ++tick) {
-        if (tick > 0 && world.try_step()) return std::nullopt;
+    for (std::int64_t tick = 0; tick <= steps; ++tick) {
+        if (stopped() || (tick > 0 && world.try_step())) return std::nullopt;
         const Vec3 at = world.bodies().position(row);
         if (largest(at - start) > 10 * reference.extent) return std::nullopt;
         for (int axis = 0; axis < 3; ++axis) {

@@ -67,8 +67,9 @@ template <Number V, int Axes>
 struct Vec {
     std::array<V, Axes> axis;
 
-    constexpr V& operator[](int i) { return axis[static_cast<std::size_t>(i)]; }
-    constexpr const V& operator[](int i) const { return axis[static_cast<std::size_t>(i)]; }
+    /// Not for temporaries: `world.velocity(mass)[0] += 1` would have no effect.
+    constexpr V& operator[](int i) & { return axis[static_cast<std::size_t>(i)]; }
+    constexpr const V& operator[](int i) const& { return axis[static_cast<std::size_t>(i)]; }
 
     [[gnu::always_inline]] friend constexpr Vec operator+(const Vec& a, const Vec& b) {
         return {generate<Axes>([&](auto i) { return V(a.axis[i] + b.axis[i]); })};

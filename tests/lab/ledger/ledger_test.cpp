@@ -198,6 +198,10 @@ INSTANTIATE_TEST_SUITE_P(
         Flagged{"DampingTooWeakForABit",
                 lone_spring + "damping = 1e-30\n",
                 {"`damping` of [[spring]] 1 (of \"a\") has no effect in 20 steps: leave it out"}},
+        Flagged{"DampingOfTheSecondSpring",
+                lone_spring + "damping = 0.5\n[[spring]]\nbody = \"a\"\nanchor = [3.0]\n"
+                              "stiffness = 2.0\ndamping = 1e-30\n",
+                {"`damping` of [[spring]] 2 (of \"a\") has no effect in 20 steps: leave it out"}},
         Flagged{"ASpringThatOnlyDamps",
                 one_axis + flying +
                     "[[spring]]\nbody = \"a\"\nanchor = [3.0]\nstiffness = 0.0\ndamping = 0.5\n",

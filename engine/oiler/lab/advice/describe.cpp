@@ -16,7 +16,7 @@ std::string describe_error(const Judgement& judgement, const Reference& referenc
 }
 
 std::string describe_cost(const TradeoffRow& row) {
-    return fmt::format("{:.3g} µs of computing for a second of the scene", row.ns_per_second / 1e3);
+    return fmt::format("{:.3g} µs per simulated second", row.ns_per_second / 1e3);
 }
 
 /// The share of each tolerance that is used.
