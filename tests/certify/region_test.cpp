@@ -46,7 +46,7 @@ TEST(Region, HasALineOfCsvPerCell) {
                                  .stable = {true},
                                  .bounded_double = {false},
                                  .bounded_float = {true}};
-    EXPECT_EQ(to_csv({region}, {.columns = 1, .rows = 1}),
+    EXPECT_EQ(oiler::certify::to_csv({region}, {.columns = 1, .rows = 1}),
               "method,damping,omega_dt,zeta,spectral_radius,stable,bounded_double,bounded_float\n"
               "rk4,drift,3,0,0.5,1,0,1\n");
 }
