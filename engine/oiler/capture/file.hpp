@@ -12,8 +12,9 @@ namespace oiler {
 
 /// A file that is written completely or not at all, so that a failed or interrupted run leaves no
 /// partial frame. Bytes go to a temporary file in the same folder. commit() renames it to its final
-/// name; without commit() it is deleted. A missing folder is made. "-" is the standard output. Devices, pipes and the targets
-/// of standard output and standard error (/dev/stdout) cannot be replaced and are written in place.
+/// name; without commit() it is deleted. A missing folder is made. "-" is the standard output.
+/// Devices, pipes and the targets of standard output and standard error (/dev/stdout) cannot be
+/// replaced and are written in place.
 /// Every failure throws Error(Exit::io) with the path, the reason and a remedy.
 class File {
 public:

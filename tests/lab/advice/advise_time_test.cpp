@@ -177,9 +177,9 @@ TEST(DescribeAdvice, SayCostsForASecondAndForAFrame) {
                                     .meets = true,
                                     .runner_up = costing("velocity_verlet", 72),
                                     .current = costing("semi_implicit_euler", 9)});
-    for (const char* part : {" 36 µs per simulated second", " 0.6 µs per frame",
-                             " 72 µs per simulated second", " 2 times the cost",
-                             " 9 µs per simulated second", " 0.25 times the cost", "50 % of"})
+    for (const char* part :
+         {" 36 µs per simulated second", " 0.6 µs per frame", " 72 µs per simulated second",
+          " 2 times the cost", " 9 µs per simulated second", " 0.25 times the cost", "50 % of"})
         EXPECT_TRUE(holds(words, part)) << part << "\n" << words;
     EXPECT_EQ(count_of(words, "per frame"), 1U) << words;
 }

@@ -50,8 +50,7 @@ SampleTimes sample_times_of(const Scene& scene) {
     if (bodies > most_followed_bodies)
         fail(Exit::usage,
              "{} bodies: at most {} can be compared with a reference; take a scene with fewer "
-             "bodies "
-             "of the same kind",
+             "bodies of the same kind",
              bodies, most_followed_bodies);
     if (!(scene.duration > 0) || scene.duration > longest)
         fail(Exit::usage, "a duration of {} s cannot be measured: give --duration from 0 to {:g} s",

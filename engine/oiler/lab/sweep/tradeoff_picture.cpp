@@ -76,8 +76,7 @@ public:
         plot_.y_label = "largest position error over the run, m";
         plot_.caption = fmt::format(
             "Each mark is a rate, in double; the dashed line has both precisions. Errors over "
-            "{:.4g} s "
-            "against {}.",
+            "{:.4g} s against {}.",
             tradeoff_.reference.meaningful_until,
             tradeoff_.reference.closed_form ? "the closed form of the motion"
                                             : "fine steps in long double");
