@@ -2,11 +2,13 @@
 #include "oiler/lab/advice/advise.hpp"
 
 #include "oiler/app/interrupt.hpp"
+#include "oiler/app/parse_size.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/lab/advice/json.hpp"
 #include "oiler/scene/apply.hpp"
+#include "oiler/scene/draw.hpp"
 
 namespace oiler::cli {
 
@@ -15,6 +17,16 @@ using namespace lab;
 namespace {
 
 constexpr double frames_per_second = 60;
+
+/// The frames per second of `--display`, 0 for any time. Throws Error{usage}.
+std::int64_t frames_of(const std::string& words) {
+    if (words == "any") return 0;
+    const int frames = parse_integer(words);
+    if (frames < 1 || frames > 1000)
+        fail(Exit::usage, "--display: expected any or frames per second from 1 to 1000, got {}",
+             words);
+    return frames;
+}
 
 Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements,
               bool quiet) {
@@ -38,35 +50,70 @@ struct AdviseCommand {
 
     SceneOptions scene_options;
     ToleranceOptions tolerances;
+    double longer = 0;                ///< s; 0: the scene's duration
+    std::optional<double> pixels;     ///< tolerance, in pixels of a picture of `size`
+    std::string size_words = "1280x720";
+    bool at_steps = false;
+    std::string display = "any";
     std::optional<double> budget_us;  ///< per frame of 1/60 s
-    std::int64_t min_rate = 1;        ///< Hz
+    std::int64_t min_rate = 30;       ///< Hz
     std::string methods = "all";
     bool writes_scene = false;
 
     void declare(Arguments& arguments) {
         scene_options.declare(arguments);
+        arguments.add_positive("--for", longer, "S",
+                               "simulated seconds for which the setting must hold");
         tolerances.declare(arguments);
+        arguments.add_positive("--pixels", pixels, "N",
+                               "tolerance: the position error in pixels of a picture of --size");
+        arguments.add_option("--size", size_words, "WxH", "size of that picture");
+        arguments.add_flag("--at-steps", at_steps,
+                           "the tolerance is that at the steps, not that of the drawn lines");
+        arguments.add_option("--display", display, "60|144|any",
+                             "compare drawn lines at the times of frames, or at any time");
         arguments.add_positive("--budget-us", budget_us, "US",
                                "largest computing time in µs for a frame of 1/60 s");
         arguments.add_integer("--min-rate", min_rate, 1, 1'000'000,
-                              "lowest rate in Hz, 1 if not given");
+                              "lowest rate in Hz, 30 if not given");
         add_method_list(arguments, methods);
         arguments.add_flag("--apply", writes_scene,
                            "write the setting into the scene file and keep its comments");
     }
 
     /// Throws Error{usage} without a tolerance and a budget.
-    [[nodiscard]] Requirements requirements() const {
+    [[nodiscard]] Requirements requirements(const Scene& scene) const {
         Requirements requirements{.position_error = tolerances.position_error,
-                                  .energy_drift = tolerances.energy_drift};
+                                  .energy_drift = tolerances.energy_drift,
+                                  .at_steps = at_steps,
+                                  .display = frames_of(display)};
+        if (pixels && requirements.position_error)
+            fail(Exit::usage, "give one of --position-error and --pixels");
+        if (pixels) requirements.position_error = *pixels * metres_per_pixel(scene);
         if (budget_us) requirements.ns_per_second = *budget_us * (1e3 * frames_per_second);
         if (!requirements.has_tolerance() && !requirements.ns_per_second)
             fail(Exit::usage,
-                 "give a tolerance or a budget: --position-error, --energy-drift or --budget-us "
+                 "give a tolerance or a budget: --position-error, --pixels, --energy-drift or "
+                 "--budget-us "
                  "(see oiler advise --help)");
         requirements.min_rate = min_rate;
         requirements.methods = parse_methods(methods);
         return requirements;
+    }
+
+    [[nodiscard]] Scene read_scene() const {
+        Scene scene = scene_options.read();
+        if (longer > 0 && scene_options.duration > 0)
+            fail(Exit::usage, "give one of --for and --duration");
+        if (longer > 0) scene.duration = longer;
+        return scene;
+    }
+
+    /// The size of a pixel of the scene's picture, m.
+    [[nodiscard]] double metres_per_pixel(const Scene& scene) const {
+        const World world = make_world(scene, Settings{scene.stepping});
+        const double height = camera_of(scene, world).height;
+        return height / parse_size(size_words).height;
     }
 
     void show(const Advice& advice, const Scene& scene, const Reference& reference,
@@ -88,11 +135,10 @@ struct AdviseCommand {
 
     [[nodiscard]] Exit run() const {
         const Interrupt interrupt;
-        const Scene scene = scene_options.read();
-        const Requirements requirements = this->requirements();
-        const Reference reference =
-            measure_reference(scene, sample_times_of(scene),
-                              required_reference_error(requirements) / 2, scene_options.quiet);
+        const Scene scene = read_scene();
+        const Requirements requirements = this->requirements(scene);
+        const Reference reference = measure_reference(
+            scene, required_reference_error(requirements) / 2, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         const Advice advice = search(scene, reference, requirements, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;

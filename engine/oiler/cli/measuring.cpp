@@ -9,13 +9,12 @@ namespace oiler::cli {
 
 using namespace lab;
 
-Reference measure_reference(const Scene& scene, const SampleTimes& samples, double wanted,
-                            bool quiet) {
+Reference measure_reference(const Scene& scene, double wanted, bool quiet) {
     Percent percent(quiet, "of the work limit of the reference");
     ReferenceEffort effort{.wanted = wanted};
     effort.progress = [&](double fraction) { percent(fraction); };
     effort.stopped = Interrupt::requested;
-    return make_reference(scene, samples, effort);
+    return make_reference(scene, effort);
 }
 
 void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,

@@ -33,7 +33,6 @@ void measure_tradeoff(
     const std::function<void(const lab::Tradeoff&)>& ladder_done = [](const auto&) {});
 
 /// Computes a scene's reference. `wanted` is the error to reach in m, 0 for the smallest.
-[[nodiscard]] lab::Reference measure_reference(const Scene& scene, const lab::SampleTimes& samples,
-                                               double wanted, bool quiet);
+[[nodiscard]] lab::Reference measure_reference(const Scene& scene, double wanted, bool quiet);
 
 }  // namespace oiler::cli

@@ -107,11 +107,11 @@ struct RatesCommand {
         const Interrupt interrupt;
         const Scene scene = scene_options.read();
         const Reference reference =
-            measure_reference(scene, sample_times_of(scene), 0, scene_options.quiet);
+            measure_reference(scene, 0, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         if (!reference.why_no_longer.empty())
             remark(scene_options.quiet, "measures only the first {:.4g} s of {:.4g} s: {}",
-                   reference.meaningful_until(), scene.duration, reference.why_no_longer);
+                   reference.meaningful_until, scene.duration, reference.why_no_longer);
         const Rates measured = measure(scene, reference, wanted);
         if (Interrupt::requested()) return Exit::interrupted;
         show(scene, measured);

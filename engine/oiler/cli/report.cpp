@@ -25,7 +25,8 @@ using namespace lab;
 namespace {
 
 // A page is an overview, so its sweep ends earlier than that of `oiler tradeoff`.
-constexpr std::int64_t highest_multiple = 128;  ///< largest rate over the sample rate
+constexpr std::int64_t highest_rate = 7680;  ///< Hz
+constexpr std::int64_t highest_multiple = 8;    ///< rates over the samples of fast motion
 constexpr double most_work = 5e7;               ///< see SweepPlan
 constexpr Size frame_size{960, 540};
 constexpr double usual_tolerance = 1e-3;  ///< relative to the extent of the motion
@@ -84,23 +85,23 @@ Requirements ReportCommand::requirements(const Scene& scene, const Reference& re
 /// Shortens the scene to the time for which its reference is meaningful.
 Reference ReportCommand::measure_meaningful(Scene& scene) const {
     const bool quiet = scene_options.quiet;
-    Reference reference = measure_reference(scene, sample_times_of(scene), 0, quiet);
+    Reference reference = measure_reference(scene, 0, quiet);
     if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
-    remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until(),
+    remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until,
            reference.why_no_longer);
-    scene.duration = reference.meaningful_until();
-    return measure_reference(scene, sample_times_of(scene), 0, quiet);
+    scene.duration = reference.meaningful_until;
+    return measure_reference(scene, 0, quiet);
 }
 
 ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
                                      const Requirements& requirements) const {
-    const SampleTimes& samples = reference.samples;
     const SweepPlan plan{
         .methods = parse_methods("all"),
         .max_rate = std::min<std::int64_t>(
-            1'000'000, std::max(scene.stepping.rate.steps, highest_multiple * samples.per_second)),
+            1'000'000, std::max({scene.stepping.rate.steps, highest_rate,
+                                 highest_multiple * reference.samples.per_second})),
         .most_work = most_work};
-    ReportResults results{start_tradeoff(scene, samples, reference, plan), {}, {}};
+    ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
     results.tradeoff.scene = scene_options.name();
     measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
     SweepWatch watch;

@@ -98,8 +98,7 @@ struct TradeoffCommand {
         add_method_list(arguments, methods);
         arguments.add_integer(
             "--max-rate", max_rate, 1, 1'000'000,
-            "highest rate in Hz besides the scene's own, 1024 × the sample rate if "
-            "not given");
+            "highest rate in Hz besides the scene's own, 61,440 or more if not given");
         arguments.add_option("--shard", shard_words, "K/N", "measure part K of N");
         arguments.add_flag("--all", all, "print all rows");
         pictures.declare(arguments);
@@ -118,7 +117,6 @@ public:
           shard_(shard),
           size_(size),
           scene_(options.scene_options.read()),
-          samples_(sample_times_of(scene_)),
           plan_{.methods = parse_methods(options.methods),
                 .max_rate = options.max_rate,
                 .shard = shard.index,
@@ -127,11 +125,11 @@ public:
 
     [[nodiscard]] Exit run() {
         const std::string inputs =
-            fingerprint(read_text(options_.scene_options.file), scene_, samples_, plan_);
+            fingerprint(read_text(options_.scene_options.file), scene_, plan_);
         const std::optional<Tradeoff> unfinished = find_unfinished(part_, inputs, quiet());
-        const Reference reference = measure_reference(scene_, samples_, 0, quiet());
+        const Reference reference = measure_reference(scene_, 0, quiet());
         if (Interrupt::requested()) return Exit::interrupted;
-        Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, samples_, reference, plan_));
+        Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, reference, plan_));
         tradeoff.scene = options_.scene_options.name();
         tradeoff.fingerprint = inputs;
         tradeoff.machines = {this_machine()};
@@ -167,7 +165,6 @@ private:
     Shard shard_;
     Size size_;
     Scene scene_;
-    SampleTimes samples_;
     SweepPlan plan_;
     std::filesystem::path part_;
 };

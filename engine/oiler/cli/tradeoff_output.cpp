@@ -19,19 +19,20 @@ using namespace lab;
 namespace {
 
 constexpr auto legend = R"(
-* Pareto front: no cheaper setting is more accurate; > current setting; ~ sampled between steps, on
-the drawn straight line. error and m/s: the largest at any sample time; phase: at the end, + leads;
-energy: relative drift; forces: evaluations in the run; µs per s: computing time per simulated
-second, in frames of 1/60 s; ±: half the interquartile range of repeated times.
+* Pareto front: no cheaper setting is more accurate; > current setting. drawn m: the largest error of
+any body at any time, on straight lines between steps; steps m: at the steps; phase: at the end, +
+leads; energy: relative error at the steps; forces: evaluations in the run; µs per s: computing time
+per simulated second in a game of 60 frames per second, ±: half the interquartile range of repeated
+times; frame: its share of the time; in calls: µs per s at many steps per call.
 {} of {} rows are shown{}
 )";
 
 std::string heading(const Tradeoff& tradeoff) {
     const ReferenceSummary& reference = tradeoff.reference;
     std::string text =
-        fmt::format("{}\n  {:.4g} s, {} samples per second; reference: {}\n",
+        fmt::format("{}\n  {:.4g} s; reference: {}\n",
                     tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
-                    reference.meaningful_until, tradeoff.samples.per_second, reference.words);
+                    reference.meaningful_until, reference.words);
     text += fmt::format(
         "  errors below {:.2g} m, 100 × the reference's own error of {:.2g} m, are shown as < "
         "limit\n",
@@ -48,17 +49,19 @@ std::string heading(const Tradeoff& tradeoff) {
 
 std::string line_of(const TradeoffRow& row, const Tradeoff& tradeoff, char mark) {
     const Judgement& judgement = row.judgement;
-    const std::string error = !judgement.stable ? "unstable"
-                              : judgement.below_floor()
-                                  ? fmt::format("<{:.1e}", tradeoff.reference.floor.position)
-                                  : fmt::format("{:.3g}", judgement.position_error);
+    const auto error = [&](double metres) {
+        if (!judgement.stable) return std::string("unstable");
+        return std::isnan(metres) ? fmt::format("<{:.1e}", tradeoff.reference.floor.position)
+                                  : fmt::format("{:.3g}", metres);
+    };
     return fmt::format(
-        "{} {:<30} {:>7}{} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", mark,
-        row.stepping.method->name, row.stepping.rate.steps, row.meets_steps ? ' ' : '~',
-        name_of(row.stepping.precision), error, cell(judgement.velocity_error, "{:.3g}"),
+        "{} {:<30} {:>7} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>4} {:>8} {:>9}\n", mark,
+        row.stepping.method->name, row.stepping.rate.steps, name_of(row.stepping.precision),
+        error(judgement.position_error), error(judgement.step_error),
         cell(judgement.phase_error, "{:.2g}"), cell(judgement.energy_drift, "{:.2g}"),
         cell(judgement.evaluations, "{:.4g}"), cell(row.ns_per_second / 1e3, "{:.4g}"),
-        cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"));
+        cell(100 * row.ns_spread / row.ns_per_second, "{:.0f}%"),
+        cell(row.ns_per_second / 1e7, "{:.2g}%"), cell(row.ns_together / 1e3, "{:.4g}"));
 }
 
 /// Returns the cheapest row of a method for each decade of error.
@@ -100,8 +103,9 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
 std::string table_of(const Tradeoff& tradeoff, bool all) {
     std::string text = heading(tradeoff);
     text +=
-        fmt::format("\n  {:<30} {:>8} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>10} {:>4}\n", "method",
-                    "Hz", "", "error m", "m/s", "phase °", "energy", "forces", "µs per s", "±");
+        fmt::format("\n  {:<30} {:>7} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>4} {:>8} {:>9}\n",
+                    "method", "Hz", "", "drawn m", "steps m", "phase °", "energy", "forces",
+                    "µs per s", "±", "frame", "in calls");
     const auto front = pareto(tradeoff, time_of);
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {

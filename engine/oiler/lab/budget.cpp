@@ -36,14 +36,14 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
     if (!budget.position_error && !budget.energy_drift) return lines;
     ReferenceEffort effort{.stopped = stopped};
     if (budget.position_error) effort.wanted = *budget.position_error / 200;
-    const Reference reference = make_reference(scene, sample_times_of(scene), effort);
+    const Reference reference = make_reference(scene, effort);
     if (stopped()) return lines;
-    if (reference.meaningful < reference.samples.count)
+    if (!reference.why_no_longer.empty())
         fail(Exit::usage,
              "[budget]: errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; "
              "give it a shorter duration",
-             reference.meaningful_until(), scene.duration, reference.why_no_longer);
-    const Judgement judgement = judge(scene, settings, reference, stopped);
+             reference.meaningful_until, scene.duration, reference.why_no_longer);
+    const Judgement judgement = judge(scene, settings, reference, {.stopped = stopped});
     if (stopped()) return lines;
     const Uncertainty floor = reference.floor();
     if (budget.position_error)

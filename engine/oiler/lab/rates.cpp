@@ -104,7 +104,7 @@ Paths paths_of(const Reference& reference, std::size_t row) {
     Paths paths;
     for (int axis = 0; axis < 3; ++axis)
         paths[static_cast<std::size_t>(axis)] =
-            path_of(reference.trajectory, reference.meaningful_samples(), row, axis);
+            path_of(reference, row, axis);
     return paths;
 }
 
@@ -117,7 +117,7 @@ std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Refer
     const Vec3 start = world.bodies().position(row);
     Paths paths;
     const auto steps = static_cast<std::int64_t>(
-        std::ceil(reference.meaningful_until() * static_cast<double>(choice.rate.steps)));
+        std::ceil(reference.meaningful_until * static_cast<double>(choice.rate.steps)));
     for (std::int64_t tick = 0; tick <= steps; ++tick) {
         if (stopped() || (tick > 0 && world.try_step())) return std::nullopt;
         const Vec3 at = world.bodies().position(row);
@@ -162,13 +162,10 @@ Observer observer_of(const Scene& scene, const Reference& reference, std::size_t
         observer.up_sign = (*scene.gravity)[up] > 0 ? -1 : 1;
         if (scene.axes > 1) observer.across = up == 0 ? 1 : 0;
     }
-    observer.oscillation =
-        find_oscillation(reference.trajectory, reference.meaningful_samples(), row);
-    if (observer.oscillation) {
-        observer.rest = rest_of(path_of(reference.trajectory, reference.meaningful_samples(), row,
-                                        observer.oscillation->axis),
+    observer.oscillation = find_oscillation(reference, row);
+    if (observer.oscillation)
+        observer.rest = rest_of(path_of(reference, row, observer.oscillation->axis),
                                 observer.oscillation->band);
-    }
     return observer;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "oiler/core/error.hpp"
 #include "oiler/lab/advice/search.hpp"
@@ -15,13 +16,15 @@ namespace {
 constexpr std::size_t most_contenders = 8;
 constexpr int timing_rounds = 9;
 
-/// The first row of each method in each precision.
+/// The first row of each method in each precision and with each treatment of damping.
 std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) {
     std::vector<TradeoffRow> kept;
+    const auto kind = [](const TradeoffRow& row) {
+        return std::tuple(row.stepping.method, row.stepping.precision, row.stepping.damping);
+    };
     for (const TradeoffRow& row : rows) {
         const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TradeoffRow& one) {
-            return one.stepping.method == row.stepping.method &&
-                   one.stepping.precision == row.stepping.precision;
+            return kind(one) == kind(row);
         });
         if (is_new && kept.size() < most_contenders) kept.push_back(row);
     }
@@ -38,14 +41,12 @@ public:
     Advice run(const SweepWatch& watch) {
         const bool found = requirements_.has_tolerance() && !search_.meeting_rows().empty();
         front_ = contenders_among(found ? search_.meeting_rows() : search_.closest_rows());
+        for (TradeoffRow& row : front_) row = search_.measure(row.stepping);
         if (why_not(scene_, Settings{scene_.stepping}).empty())
-            advice_.current = search_.try_choice(scene_.stepping);
+            advice_.current = search_.measure(scene_.stepping);
         for (const Method* method : obvious_methods()) consider(*method);
         time(watch);
-        const auto by_time = [](const TradeoffRow& a, const TradeoffRow& b) {
-            return a.ns_per_second < b.ns_per_second;
-        };
-        if (found) std::stable_sort(front_.begin(), front_.end(), by_time);
+        if (found) rank();
         choose();
         if (advice_.best) explain();
         advice_.runs = search_.runs();
@@ -65,30 +66,49 @@ private:
             for (const std::int64_t rate : search_.rates())
                 if (search_.cost_of({&method, {rate}, Precision::double_}) <= cost)
                     choice.rate.steps = rate;
-            alternative.row = search_.try_choice(choice);
+            alternative.row = search_.measure(choice);
         }
         advice_.alternatives.push_back(std::move(alternative));
+    }
+    /// Puts the settings that tie with the cheapest before the others: the most accurate first,
+    /// then those of the highest rate.
+    void rank() {
+        std::stable_sort(front_.begin(), front_.end(),
+                         [](const TradeoffRow& a, const TradeoffRow& b) {
+                             return a.ns_per_second < b.ns_per_second;
+                         });
+        const TradeoffRow cheapest = front_.front();
+        const auto others =
+            std::stable_partition(front_.begin(), front_.end(), [&](const TradeoffRow& row) {
+                return in_time(row) && is_tie(row, cheapest);
+            });
+        // Errors that differ by less than a hundredth of the tolerance are equal.
+        const auto merit = [&](const TradeoffRow& row) {
+            return std::tuple(std::round(100 * excess(row.judgement, requirements_)),
+                              -row.stepping.rate.steps, row.stepping.method);
+        };
+        std::stable_sort(front_.begin(), others, [&](const TradeoffRow& a, const TradeoffRow& b) {
+            return merit(a) < merit(b);
+        });
+        for (auto tie = front_.begin(); tie != others; ++tie)
+            if (tie != front_.begin()) advice_.ties.push_back(*tie);
     }
     [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
         const Judgement& judgement = row.judgement;
         const double times = row.ns_per_second / advice_.best->ns_per_second;
         const std::int64_t rate = row.stepping.rate.steps;
-        std::string text =
-            times > 1.1 ? fmt::format("at only {} Hz it costs {:.3g} times as much", rate, times)
-                        : fmt::format("it takes the same time at {} Hz", rate);
         if (!judgement.stable)
-            return fmt::format("it takes the same time at {} Hz, where it is unstable", rate);
+            return fmt::format("at {} Hz, where it costs no more, it is unstable", rate);
+        std::string text =
+            times > 1 && !is_tie(row, *advice_.best)
+                ? fmt::format("at only {} Hz it costs {:.3g} times as much", rate, times)
+                : fmt::format("it costs no more at {} Hz", rate);
         if (!requirements_.has_tolerance())
             return text + fmt::format(", with an error up to {:.3g} m", judgement.position_error);
-        if (search_.meets_tolerance(row)) return text + ", and meets the tolerance, too";
         const double off = excess(judgement, requirements_);
-        text += fmt::format(", with {:.3g} times the error allowed", off);
-        const bool falls = judgement.position_error < largest_converging_error * reference_.extent;
-        if (falls && row.meets_steps && row.stepping.method->order != exact_order)
-            text += fmt::format(
-                "; it would need about {:.2g} Hz",
-                static_cast<double>(rate) * std::pow(off, 1.0 / row.stepping.method->order));
-        return text;
+        if (off > 1) return text + fmt::format(", with {:.3g} times the error allowed", off);
+        const std::string objection = search_.objection(row);
+        return text + (objection.empty() ? ", and meets the tolerance, too" : "; " + objection);
     }
     /// Says why each alternative loses. Removes the advice itself and the runner-up.
     void explain() {
@@ -128,10 +148,17 @@ private:
         std::stable_partition(front_.begin(), front_.end(),
                               [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
+        advice_.growth =
+            fit_growth(advice_.best->judgement.growth, reference_.meaningful_until);
+        const auto is_named = [&](const TradeoffRow& row) {
+            return row.stepping.method == advice_.best->stepping.method ||
+                   std::any_of(advice_.ties.begin(), advice_.ties.end(),
+                               [&](const TradeoffRow& tie) { return tie.stepping == row.stepping; });
+        };
         for (const TradeoffRow& row : front_)
-            if (row.stepping.method != advice_.best->stepping.method && !advice_.runner_up)
-                advice_.runner_up = row;
-        const bool near = lab::meets(advice_.best->judgement, requirements_);
+            if (!is_named(row) && !advice_.runner_up) advice_.runner_up = row;
+        const bool near = lab::meets(advice_.best->judgement, requirements_) &&
+                          search_.objection(*advice_.best).empty();
         advice_.meets = near && in_time(*advice_.best);
         if (!in_time(*advice_.best))
             advice_.obstacles.push_back(
@@ -152,11 +179,14 @@ private:
                 return one.stepping.precision == precision;
             });
             if (row == nearest.end()) continue;
+            const double off = excess(row->judgement, requirements_);
+            const std::string objection = off <= 1 ? search_.objection(*row) : "";
             advice_.obstacles.push_back(fmt::format(
-                "in {}, the closest is {} with {:.3g} times the {} allowed; higher rates, up to {} "
-                "Hz, only add round-off or are too much work",
-                name_of(precision), describe(row->stepping), excess(row->judgement, requirements_),
-                requirements_.position_error ? "error" : "energy drift", search_.rates().back()));
+                "in {}, the closest is {} with {:.3g} times the {} allowed{}; higher rates, up to "
+                "{} Hz, only add round-off or are too much work",
+                name_of(precision), describe(row->stepping), off,
+                requirements_.position_error ? "error" : "energy drift",
+                objection.empty() ? "" : ", but " + objection, search_.rates().back()));
         }
     }
 
@@ -172,12 +202,12 @@ private:
 
 void require_judgeable(const Scene& scene, const Reference& reference,
                        const Requirements& requirements) {
-    if (reference.meaningful < reference.samples.count)
+    if (!reference.why_no_longer.empty())
         fail(Exit::usage,
              "errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; give "
              "--duration {:.4g}",
-             reference.meaningful_until(), scene.duration, reference.why_no_longer,
-             reference.meaningful_until());
+             reference.meaningful_until, scene.duration, reference.why_no_longer,
+             reference.meaningful_until);
     const Uncertainty floor = reference.floor();
     const auto require = [](const std::optional<double>& wanted, double least, const char* what,
                             const char* unit) {
@@ -189,6 +219,14 @@ void require_judgeable(const Scene& scene, const Reference& reference,
     };
     require(requirements.position_error, floor.position, "position error", " m");
     require(requirements.energy_drift, floor.energy, "energy drift", "");
+}
+
+bool is_tie(const TradeoffRow& a, const TradeoffRow& b) {
+    // Medians of repeated times differ by this much from one measurement to the next.
+    constexpr double repeatable = 0.03;
+    const double spread =
+        std::max(a.ns_spread + b.ns_spread, repeatable * std::min(a.ns_per_second, b.ns_per_second));
+    return std::abs(a.ns_per_second - b.ns_per_second) <= spread;
 }
 
 bool meets(const Judgement& judgement, const Requirements& requirements, double slack) {

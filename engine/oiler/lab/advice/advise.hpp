@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/lab/advice/growth.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {
@@ -14,12 +15,18 @@ struct Requirements {
     std::optional<double> position_error{};  ///< m, the tolerance
     std::optional<double> energy_drift{};    ///< relative, the tolerance
     std::optional<double> ns_per_second{};   ///< computing time per second of the scene
-    std::int64_t min_rate = 1;               ///< 1/s
-    std::int64_t max_rate = 1'000'000;       ///< 1/s
+    bool at_steps = false;      ///< position_error is that at the steps, else as drawn
+    std::int64_t display = 0;   ///< frames per second at which lines are drawn, 0 for any time
+    std::int64_t min_rate = 30;         ///< 1/s
+    std::int64_t max_rate = 1'000'000;  ///< 1/s
     std::vector<const Method*> methods{};
     double most_work = 1e9;  ///< see SweepPlan
 
     [[nodiscard]] bool has_tolerance() const { return position_error || energy_drift; }
+    /// The position error that the tolerance limits, m.
+    [[nodiscard]] double error_of(const Judgement& judgement) const {
+        return at_steps ? judgement.step_error : judgement.position_error;
+    }
 };
 
 /// A method that people commonly choose, and why it is not the advice.
@@ -32,6 +39,8 @@ struct Alternative {
 struct Advice {
     std::optional<TradeoffRow> best{};  ///< meets the requirements, or is the closest
     bool meets = false;
+    Growth growth{};                   ///< of the best setting's error
+    std::vector<TradeoffRow> ties{};   ///< settings whose cost does not differ from the best's
     std::optional<TradeoffRow> runner_up{};  ///< of another method
     std::optional<TradeoffRow> current{};    ///< the scene's own setting
     std::vector<Alternative> alternatives{};
@@ -39,8 +48,13 @@ struct Advice {
     std::int64_t runs = 0;                 ///< number of runs that the search took
 };
 
+/// Whether two costs cannot be told apart: their spreads overlap.
+[[nodiscard]] bool is_tie(const TradeoffRow& a, const TradeoffRow& b);
+
 /// Finds the cheapest setting within the tolerances or, without tolerances, the most accurate
-/// within the time. Tries settings from the cheapest up and skips rates that the method's order
+/// within the time. A setting must also meet the tolerances from perturbed starts and raise no
+/// warning before the run. Of settings that cost the same, the most accurate wins, then the one of
+/// the higher rate. Tries settings from the cheapest up and skips rates that the method's order
 /// rules out. Throws Error{usage} for a tolerance that the reference cannot judge. The result of a
 /// stopped call is empty.
 [[nodiscard]] Advice advise(const Scene& scene, const Reference& reference,
@@ -49,6 +63,9 @@ struct Advice {
 /// Throws Error{usage} for a tolerance below 100 × the reference's own error.
 void require_judgeable(const Scene& scene, const Reference& reference,
                        const Requirements& requirements);
+
+/// The largest ratio of an error to its tolerance.
+[[nodiscard]] double excess(const Judgement& judgement, const Requirements& requirements);
 
 /// Whether errors are within (1 − slack) × the tolerances.
 [[nodiscard]] bool meets(const Judgement& judgement, const Requirements& requirements,

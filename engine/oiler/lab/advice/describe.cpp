@@ -10,13 +10,18 @@ namespace {
 
 std::string describe_error(const Judgement& judgement, const Reference& reference) {
     if (!judgement.stable) return "unstable";
-    if (judgement.below_floor())
-        return fmt::format("error below {:.2g} m", reference.floor().position);
-    return fmt::format("error up to {:.3g} m", judgement.position_error);
+    const double floor = reference.floor().position;
+    const auto error = [&](double metres) {
+        return std::isnan(metres) ? fmt::format("below {:.2g} m", floor)
+                                  : fmt::format("{:.3g} m", metres);
+    };
+    return fmt::format("error {} as drawn, {} at the steps", error(judgement.position_error),
+                       error(judgement.step_error));
 }
 
 std::string describe_cost(const TradeoffRow& row) {
-    return fmt::format("{:.3g} µs per simulated second", row.ns_per_second / 1e3);
+    return fmt::format("{:.3g} µs per simulated second, {:.2g} % of a frame",
+                       row.ns_per_second / 1e3, row.ns_per_second / 1e7);
 }
 
 /// The share of each tolerance that is used.
@@ -30,7 +35,8 @@ std::string describe_margin(const Judgement& judgement, const Requirements& requ
                 ? fmt::format("less than the reference resolves of the {:g}{} allowed", *most, of)
                 : fmt::format("{:.3g} % of the {:g}{} allowed", 100 * error / *most, *most, of);
     };
-    add(requirements.position_error, judgement.position_error, " m");
+    add(requirements.position_error, requirements.error_of(judgement),
+        requirements.at_steps ? " m at the steps" : " m");
     add(requirements.energy_drift, judgement.energy_drift, " of energy drift");
     return text;
 }
@@ -55,7 +61,7 @@ std::string conclusion(const Advice& advice, const Reference& reference,
         fmt::format("{}: {}, {}{}", describe(advice.best->stepping),
                     describe_error(advice.best->judgement, reference), describe_cost(*advice.best),
                     requirements.ns_per_second
-                        ? fmt::format(", {:.3g} µs per frame", advice.best->ns_per_second / 60'000)
+                        ? fmt::format(" ({:.3g} µs)", advice.best->ns_per_second / 60'000)
                         : "");
     if (!advice.meets)
         return fmt::format("No setting meets {}. Closest: {}.", describe_requirements(requirements),
@@ -66,21 +72,56 @@ std::string conclusion(const Advice& advice, const Reference& reference,
                           : fmt::format("{}; that is {}.", what, margin);
 }
 
+std::string describe_ratio(const TradeoffRow& row, const TradeoffRow& best) {
+    const double times = row.ns_per_second / best.ns_per_second;
+    if (!std::isfinite(times)) return "";
+    return is_tie(row, best) ? ", the same cost" : fmt::format(", {:.3g} times the cost", times);
+}
+
 std::string beside(const char* role, const TradeoffRow& row, const Advice& advice,
                    const Reference& reference) {
     if (!row.judgement.stable)
         return fmt::format("{}: {}, unstable.", role, describe(row.stepping));
-    const double times = row.ns_per_second / advice.best->ns_per_second;
     return fmt::format("{}: {}, {}, {}{}.", role, describe(row.stepping),
                        describe_error(row.judgement, reference), describe_cost(row),
-                       std::isfinite(times) ? fmt::format(", {:.3g} times the cost", times) : "");
+                       describe_ratio(row, *advice.best));
+}
+
+/// The latency and how long the setting holds.
+std::string describe_hold(const Advice& advice, const Scene& scene,
+                          const Requirements& requirements) {
+    std::string text = fmt::format("Input shows up to {:.3g} ms late, one step.",
+                                   1e3 / static_cast<double>(advice.best->stepping.rate.steps));
+    if (!advice.meets || !requirements.position_error ||
+        advice.growth.law == Growth::Law::unfit)
+        return text;
+    const double until = advice.growth.holds_until(*requirements.position_error);
+    text += fmt::format(" It holds for this scene's {:.4g} s; the error ", scene.duration);
+    if (advice.growth.law == Growth::Law::bounded) return text + "does not grow.";
+    return text + fmt::format("{} and passes {:g} m at {:.3g} s.", describe(advice.growth.law),
+                              *requirements.position_error, until);
+}
+
+std::string describe_ties(const Advice& advice) {
+    std::string text;
+    for (const TradeoffRow& row : advice.ties)
+        text += (text.empty() ? "" : "; ") + describe(row.stepping);
+    return text;
+}
+
+/// The times at which errors are compared.
+std::string describe_times(const Requirements& requirements) {
+    if (requirements.display > 0)
+        return fmt::format("at the times of {} frames per second", requirements.display);
+    return "at any time";
 }
 
 }  // namespace
 
 std::string describe(const Stepping& choice) {
-    return fmt::format("{} at {} Hz in {}", choice.method->name, choice.rate.steps,
-                       name_of(choice.precision));
+    return fmt::format(
+        "{} at {} Hz in {}{}", choice.method->name, choice.rate.steps, name_of(choice.precision),
+        choice.damping ? fmt::format(", damping in the {}", name_of(*choice.damping)) : "");
 }
 
 std::vector<std::string> describe(const Advice& advice, const Scene& scene,
@@ -89,6 +130,10 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     for (const std::string& obstacle : advice.obstacles)
         words.push_back("Obstacle: " + obstacle + ".");
     if (!advice.best) return words;
+    words.push_back(describe_hold(advice, scene, requirements));
+    if (!advice.ties.empty())
+        words.push_back(fmt::format("Ties, at the same cost: {}.",
+                                    describe_ties(advice)));
     if (advice.runner_up)
         words.push_back(beside("Runner-up", *advice.runner_up, advice, reference));
     if (advice.current)
@@ -96,10 +141,10 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     for (const Alternative& alternative : advice.alternatives)
         words.push_back(fmt::format("Not {}: {}.", alternative.method->name, alternative.why));
     words.push_back(fmt::format(
-        "Errors are the largest distance of any body from the reference in {:.4g} s, sampled {} "
-        "times per second; between steps, runs follow the straight line that is drawn. Reference: "
-        "{}.",
-        std::min(scene.duration, reference.meaningful_until()), reference.samples.per_second,
+        "Errors are the largest distance of any body from the reference in {:.4g} s: as drawn, on "
+        "straight lines between steps {}. Costs are those of a game of 60 frames per second. "
+        "Reference: {}.",
+        std::min(scene.duration, reference.meaningful_until), describe_times(requirements),
         reference.words));
     return words;
 }

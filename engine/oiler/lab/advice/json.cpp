@@ -13,11 +13,26 @@ Json optional_number(const std::optional<double>& value) {
 Json with_frame(const TradeoffRow& row) {
     Json json = lab::json_of(row);
     json["us_per_frame"] = number_or_null(row.ns_per_second / 60'000);
+    json["share_of_frame"] = number_or_null(row.ns_per_second / 1e9);
+    json["latency_ms"] = 1e3 / static_cast<double>(row.stepping.rate.steps);
     return json;
 }
 
 Json with_frame(const std::optional<TradeoffRow>& row) {
     return row ? with_frame(*row) : Json(nullptr);
+}
+
+Json ties_of(const Advice& advice) {
+    Json list = Json::array();
+    for (const TradeoffRow& row : advice.ties) list.push_back(with_frame(row));
+    return list;
+}
+
+Json growth_of(const Advice& advice, const Requirements& requirements) {
+    if (!advice.best || !requirements.position_error) return nullptr;
+    return {{"law", describe(advice.growth.law)},
+            {"holds_until",
+             number_or_null(advice.growth.holds_until(*requirements.position_error))}};
 }
 
 Json alternatives_of(const Advice& advice) {
@@ -38,12 +53,16 @@ Json json_of(const Advice& advice, const Scene& scene, const Reference& referenc
     const Uncertainty floor = reference.floor();
     return {{"meets", advice.meets},
             {"advice", with_frame(advice.best)},
+            {"growth", growth_of(advice, requirements)},
+            {"ties", ties_of(advice)},
             {"runner_up", with_frame(advice.runner_up)},
             {"today", with_frame(advice.current)},
             {"alternatives", alternatives_of(advice)},
             {"obstacles", advice.obstacles},
             {"wish",
              {{"position_error", optional_number(requirements.position_error)},
+              {"at_steps", requirements.at_steps},
+              {"display", requirements.display > 0 ? Json(requirements.display) : Json("any")},
               {"energy_drift", optional_number(requirements.energy_drift)},
               {"us_per_frame",
                requirements.ns_per_second ? Json(*requirements.ns_per_second / 60'000) : Json()}}},
@@ -52,7 +71,7 @@ Json json_of(const Advice& advice, const Scene& scene, const Reference& referenc
               {"closed_form", reference.closed_form},
               {"position_floor", floor.position},
               {"energy_floor", floor.energy},
-              {"meaningful_until", reference.meaningful_until()}}},
+              {"meaningful_until", reference.meaningful_until}}},
             {"runs", advice.runs},
             {"words", describe(advice, scene, reference, requirements)}};
 }

@@ -21,30 +21,35 @@ double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
 }
 
-/// The largest distance of a coordinate from the nearest float, m, at whole seconds. All rates have
-/// a step there, and no run in float has a smaller error.
+/// The largest distance of a coordinate from the nearest float, m, at some times of the run. No run
+/// in float has a smaller error at the steps there.
 double rounding_to_float(const Reference& reference) {
+    constexpr double golden = 0.6180339887498949;
+    constexpr int times = 16;
     long double most = 0;
-    for (std::int64_t sample = 0; sample < reference.samples.count;
-         sample += reference.samples.per_second)
-        for (std::size_t row = 0; row < reference.trajectory.bodies; ++row)
-            for (int axis = 0; axis < 3; ++axis) {
-                const long double x = reference.trajectory.at(sample, row).x[axis];
-                most = std::max(most, std::abs(x - static_cast<float>(x)));
-            }
+    std::vector<State<long double, 3>> states(reference.motion->bodies());
+    for (int i = 0; i < times; ++i) {
+        reference.motion->all_at(std::fmod(i * golden, 1.0) * reference.meaningful_until, states);
+        for (const State<long double, 3>& state : states)
+            for (int axis = 0; axis < 3; ++axis)
+                most = std::max(most,
+                                std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
+    }
     return static_cast<double>(most);
 }
 
 }  // namespace
 
 double excess(const Judgement& judgement, const Requirements& requirements) {
-    return std::max(share_of(judgement.position_error, requirements.position_error),
+    return std::max(share_of(requirements.error_of(judgement), requirements.position_error),
                     share_of(judgement.energy_drift, requirements.energy_drift));
 }
 
 double Search::Candidate::cost(std::int64_t rate) const {
-    const double share = 1 / static_cast<double>(steps_per_call(rate));
-    return static_cast<double>(rate) * (together + (alone - together) * share);
+    constexpr double frames_per_second = 60;
+    const auto steps = static_cast<double>(rate);
+    const double frames = std::min(steps, frames_per_second);
+    return frames * first + (steps - frames) * further;
 }
 
 Search::Search(const Scene& scene, const Reference& reference, const Requirements& requirements,
@@ -53,8 +58,9 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
       reference_(reference),
       requirements_(requirements),
       watch_(watch),
-      work_(scene) {
-    for (const std::int64_t rate : lab::rungs(scene, reference.samples, requirements.max_rate))
+      work_(scene),
+      ensemble_(scene, reference, requirements, watch.stopped) {
+    for (const std::int64_t rate : lab::rungs(scene, requirements.max_rate))
         if (rate >= requirements.min_rate && rate <= requirements.max_rate) rungs_.push_back(rate);
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate",
@@ -64,23 +70,39 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
         too_coarse_float_ = rounding;
     for (const Method* method : requirements.methods)
         for (const Precision precision : {Precision::single, Precision::double_})
-            if (!(precision == Precision::single && too_coarse_float_) &&
-                why_not(scene, Settings{{method, {rungs_.back()}, precision}}).empty())
-                add_candidate(*method, precision);
+            if (!(precision == Precision::single && too_coarse_float_))
+                add_candidates(*method, precision);
 }
 
-void Search::add_candidate(const Method& method, Precision precision) {
+void Search::add_candidates(const Method& method, Precision precision) {
+    if (!why_not(scene_, Settings{{&method, {rungs_.back()}, precision}}).empty()) return;
+    add_candidate(method, precision, std::nullopt);
+    if (reference_.conservative || !std::holds_alternative<Splitting>(method.rule)) return;
+    const Damping other =
+        method.damping == Damping::in_kick ? Damping::in_drift : Damping::in_kick;
+    if (why_not(scene_, Settings{{&method, {rungs_.back()}, precision, other}}).empty())
+        add_candidate(method, precision, other);
+}
+
+void Search::add_candidate(const Method& method, Precision precision,
+                           std::optional<Damping> damping) {
     // All steps cost the same. A short one is stable.
     constexpr std::int64_t rate = 1 << 16;
-    constexpr std::int64_t many = 64;
-    constexpr double expensive = 5e6;  // ns; the cost of a call is negligible beside it
-    Candidate candidate{.method = &method, .precision = precision};
-    candidate.alone = candidate.together = watch_.ns_per_step(scene_, candidate.at(rate), 1);
-    if (std::isnan(candidate.alone)) return;
-    candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until();
-    if (candidate.alone < expensive)
-        candidate.together =
-            std::min(candidate.alone, watch_.ns_per_step(scene_, candidate.at(rate), many));
+    constexpr std::int64_t many = 16;
+    constexpr double expensive = 2e5;  // ns; the cost of a frame is negligible beside it
+    Candidate candidate{.method = &method,
+                        .precision = precision,
+                        .damping = damping,
+                        .convergence =
+                            Convergence(largest_converging_error * reference_.extent)};
+    candidate.first = candidate.further = watch_.ns_per_step(scene_, candidate.at(rate), 1);
+    if (std::isnan(candidate.first)) return;
+    candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until;
+    if (candidate.first < expensive) {
+        const double in_many = watch_.ns_per_step(scene_, candidate.at(rate), many);
+        candidate.further =
+            std::clamp((many * in_many - candidate.first) / (many - 1), 0.0, candidate.first);
+    }
     candidates_.push_back(candidate);
 }
 
@@ -89,12 +111,29 @@ void Search::run() {
     if (requirements_.has_tolerance()) refine();
 }
 
+TradeoffRow Search::judged(const Stepping& choice, double enough) {
+    return {.stepping = choice,
+            .judgement = judge(scene_, Settings{choice}, reference_,
+                               {.display = requirements_.display,
+                                .enough = enough,
+                                .stopped = watch_.stopped})};
+}
+
 TradeoffRow Search::try_choice(const Stepping& choice) {
+    constexpr double far = 100;
     for (const TradeoffRow& row : rows_)
         if (row.stepping == choice) return row;
-    rows_.push_back({.stepping = choice,
-                     .judgement = judge(scene_, Settings{choice}, reference_, watch_.stopped),
-                     .meets_steps = reference_.samples.meet_steps(choice.rate.steps)});
+    rows_.push_back(judged(choice, far * requirements_.position_error.value_or(INFINITY)));
+    return rows_.back();
+}
+
+TradeoffRow Search::measure(const Stepping& choice) {
+    for (TradeoffRow& row : rows_)
+        if (row.stepping == choice) {
+            if (!row.judgement.complete) row = judged(choice, INFINITY);
+            return row;
+        }
+    rows_.push_back(judged(choice, INFINITY));
     return rows_.back();
 }
 
@@ -102,8 +141,8 @@ TradeoffRow Search::try_next(const Candidate& candidate) {
     return try_choice(candidate.at(rungs_[candidate.next]));
 }
 
-bool Search::meets_tolerance(const TradeoffRow& row) const {
-    return meets(row.judgement, requirements_, safety_margin);
+bool Search::meets_tolerance(const TradeoffRow& row) {
+    return meets(row.judgement, requirements_, safety_margin) && objection(row).empty();
 }
 
 double Search::cost_of(const Stepping& choice) const {
@@ -124,16 +163,31 @@ Search::Candidate* Search::cheapest_next() {
     return cheapest;
 }
 
-/// The lowest rate above `row` that can meet the tolerance if the error falls by one order more
-/// than the method's.
+/// The lowest rate above `row` that can meet the tolerance.
 std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& row,
                                 double excess) const {
     const std::int64_t next = row.stepping.rate.steps + 1;
-    const bool falls = row.judgement.position_error < largest_converging_error * reference_.extent;
+    const bool falls =
+        requirements_.error_of(row.judgement) < largest_converging_error * reference_.extent;
     if (!falls || excess <= 1) return next;
-    const double order = candidate.method->order + 1;
     return std::max(next, static_cast<std::int64_t>(static_cast<double>(row.stepping.rate.steps) *
-                                                    std::pow(excess, 1 / order)));
+                                                    least_factor(candidate, row, excess)));
+}
+
+/// The factor on the rate if the error at the steps falls by one order more than the method's, and
+/// the rest of the error, that of the drawn lines, with the square of the step.
+double Search::least_factor(const Candidate& candidate, const TradeoffRow& row,
+                            double excess) const {
+    constexpr double safety = 0.7;
+    const double steps =
+        candidate.method->order == exact_order ? 1 : std::pow(excess, 1.0 / (candidate.method->order + 1));
+    const Judgement& judgement = row.judgement;
+    if (requirements_.at_steps || !requirements_.position_error || requirements_.display > 0)
+        return steps;
+    const double at_steps = std::isnan(judgement.step_error) ? 0 : judgement.step_error;
+    const double lines = (judgement.position_error - at_steps) / *requirements_.position_error;
+    const bool by_steps = at_steps > lines * *requirements_.position_error;
+    return std::max(by_steps ? steps : 1, lines > 1 ? safety * std::sqrt(lines) : 1);
 }
 
 bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
@@ -143,13 +197,16 @@ bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
 /// Moves a candidate to the next rung that is worth a run, or marks it as over.
 void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess) {
     std::int64_t least = row.stepping.rate.steps + 1;
-    if (row.judgement.stable && row.meets_steps) {
-        const double error = row.judgement.position_error;
+    if (row.judgement.stable) {
+        const double error = requirements_.error_of(row.judgement);
         candidate.convergence.take(error);
         candidate.tried = row.stepping.rate.steps;
         candidate.error = error;
-        const bool only_rounding = candidate.method->order == exact_order;
-        candidate.over = only_rounding || candidate.convergence.ended();
+        if (candidate.convergence.stalled()) {
+            candidate.rounded = is_round_off(scene_, row, reference_, watch_.stopped);
+            candidate.over = candidate.rounded;
+            candidate.convergence.restart();
+        }
         if (!candidate.over) least = least_rate(candidate, row, excess);
     }
     while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
@@ -195,11 +252,10 @@ void Search::try_highest() {
         std::int64_t rate = candidate.tried;
         for (const std::int64_t rung : rungs_)
             if (affordable(candidate, rung)) rate = std::max(rate, rung);
-        if (candidate.tried == 0 || rate == candidate.tried || candidate.convergence.ended())
-            continue;
+        if (candidate.tried == 0 || rate == candidate.tried || candidate.rounded) continue;
         const double times = static_cast<double>(rate) / static_cast<double>(candidate.tried);
-        highest.emplace_back(candidate.error / std::pow(times, candidate.method->order),
-                             candidate.at(rate));
+        const int order = std::min(candidate.method->order, requirements_.at_steps ? 8 : 2);
+        highest.emplace_back(candidate.error / std::pow(times, order), candidate.at(rate));
     }
     std::stable_sort(highest.begin(), highest.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -228,28 +284,24 @@ void Search::find_most_accurate() {
 void Search::refine() {
     std::vector<TradeoffRow> found = meeting_rows();
     found.resize(std::min(found.size(), most_refined));
-    for (const TradeoffRow& row : found)
-        if (row.meets_steps) refine(row);
+    for (const TradeoffRow& row : found) refine(row);
 }
 
-/// Bisects between a rung that meets the tolerance and the one below, over multiples of the samples
-/// per second.
+/// Bisects between a rung that meets the tolerance and the one below.
 void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
     if (rung == rungs_.begin()) return;
-    const std::int64_t unit = reference_.samples.per_second;
-    std::int64_t low = *std::prev(rung) / unit;
-    std::int64_t high = row.stepping.rate.steps / unit;
+    std::int64_t low = *std::prev(rung);
+    std::int64_t high = row.stepping.rate.steps;
     Stepping choice = row.stepping;
     // Below 1/32 of the rate, the gain is not worth a run.
     while (high - low > std::max<std::int64_t>(1, high / 32) && !watch_.stopped()) {
-        const std::int64_t middle = (low + high) / 2;
-        choice.rate.steps = middle * unit;
-        (meets_tolerance(try_choice(choice)) ? high : low) = middle;
+        choice.rate.steps = (low + high) / 2;
+        (meets_tolerance(try_choice(choice)) ? high : low) = choice.rate.steps;
     }
 }
 
-std::vector<TradeoffRow> Search::meeting_rows() const {
+std::vector<TradeoffRow> Search::meeting_rows() {
     std::vector<TradeoffRow> found;
     for (const TradeoffRow& row : rows_)
         if (meets_tolerance(row)) found.push_back(row);
@@ -259,14 +311,15 @@ std::vector<TradeoffRow> Search::meeting_rows() const {
     return found;
 }
 
-std::vector<TradeoffRow> Search::closest_rows() const {
+std::vector<TradeoffRow> Search::closest_rows() {
     const auto off = [&](const TradeoffRow& row) {
         if (requirements_.has_tolerance()) return excess(row.judgement, requirements_);
         return row.judgement.below_floor() ? 0 : row.judgement.position_error;
     };
     std::vector<TradeoffRow> found;
     for (const TradeoffRow& row : rows_)
-        if (row.judgement.stable) found.push_back(row);
+        if (row.judgement.stable && (requirements_.has_tolerance() || objection(row).empty()))
+            found.push_back(row);
     std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
         return std::pair(off(a), cost_of(a.stepping)) < std::pair(off(b), cost_of(b.stepping));
     });

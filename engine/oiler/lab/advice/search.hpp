@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "oiler/lab/advice/advise.hpp"
+#include "oiler/lab/advice/ensemble.hpp"
 #include "oiler/lab/sweep/convergence.hpp"
 
 namespace oiler::lab {
@@ -20,18 +21,27 @@ public:
     /// Without tolerances: the most accurate setting within the time.
     void run();
 
-    /// Judges a setting, once however often it is asked for.
+    /// Judges a setting, once however often it is asked for. An error far above the tolerance ends
+    /// its run early.
     TradeoffRow try_choice(const Stepping& choice);
+    /// Judges a setting to the end of its run.
+    TradeoffRow measure(const Stepping& choice);
     /// The estimated computing time for a second of the scene, ns.
     [[nodiscard]] double cost_of(const Stepping& choice) const;
-    /// Whether a row is within 98 % of the tolerances. An independent run may sample other times.
-    [[nodiscard]] bool meets_tolerance(const TradeoffRow& row) const;
+    /// Whether a row is within 98 % of the tolerances, as errors between cubics are known to 1 %,
+    /// and holds for perturbed starts.
+    [[nodiscard]] bool meets_tolerance(const TradeoffRow& row);
+    /// Why a row that is within the tolerances does not hold; empty if it does.
+    [[nodiscard]] std::string objection(const TradeoffRow& row) {
+        return ensemble_.objection(row.stepping);
+    }
+    [[nodiscard]] std::size_t perturbed_starts() const { return ensemble_.size(); }
 
     /// The tried rows that meet the tolerance, the cheapest first.
-    [[nodiscard]] std::vector<TradeoffRow> meeting_rows() const;
+    [[nodiscard]] std::vector<TradeoffRow> meeting_rows();
     /// The stable rows, by their errors relative to the tolerances; without tolerances, by position
     /// error.
-    [[nodiscard]] std::vector<TradeoffRow> closest_rows() const;
+    [[nodiscard]] std::vector<TradeoffRow> closest_rows();
 
     /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
     [[nodiscard]] std::optional<double> too_coarse_float() const { return too_coarse_float_; }
@@ -43,26 +53,34 @@ private:
     struct Candidate {
         const Method* method = nullptr;
         Precision precision = Precision::double_;
-        double alone = unknown;     ///< one step per call
-        double together = unknown;  ///< a step, at many per call
+        std::optional<Damping> damping{};
+        double first = unknown;     ///< the only step of a frame
+        double further = unknown;   ///< each further step of a frame
         double work_per_hertz = 0;  ///< work of a run at 1 Hz
         std::size_t next = 0;       ///< index of the next rung
-        Convergence convergence{};
-        std::int64_t tried = 0;  ///< last stable rate with a step at every sample
+        Convergence convergence;
+        std::int64_t tried = 0;  ///< the last stable rate
         double error = unknown;  ///< m, at that rate
+        bool rounded = false;    ///< only round-off causes the error
         bool over = false;
 
-        [[nodiscard]] Stepping at(std::int64_t rate) const { return {method, {rate}, precision}; }
+        [[nodiscard]] Stepping at(std::int64_t rate) const {
+            return {method, {rate}, precision, damping};
+        }
         [[nodiscard]] double cost(std::int64_t rate) const;
     };
 
-    void add_candidate(const Method& method, Precision precision);
+    void add_candidates(const Method& method, Precision precision);
+    void add_candidate(const Method& method, Precision precision, std::optional<Damping> damping);
     Candidate* cheapest_next();
     [[nodiscard]] double next_cost(const Candidate& candidate) const;
+    TradeoffRow judged(const Stepping& choice, double enough);
     TradeoffRow try_next(const Candidate& candidate);
     void advance(Candidate& candidate, const TradeoffRow& row, double excess);
     [[nodiscard]] std::int64_t least_rate(const Candidate& candidate, const TradeoffRow& row,
                                           double excess) const;
+    [[nodiscard]] double least_factor(const Candidate& candidate, const TradeoffRow& row,
+                                      double excess) const;
     [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
     /// Reports the share of settings that were tried or ruled out.
     void report_progress() const;
@@ -79,14 +97,9 @@ private:
     RunWork work_;
     std::vector<std::int64_t> rungs_;
     std::vector<Candidate> candidates_;
+    Ensemble ensemble_;
     std::optional<double> too_coarse_float_;
     std::vector<TradeoffRow> rows_;
 };
-
-/// The largest ratio of an error to its tolerance.
-[[nodiscard]] double excess(const Judgement& judgement, const Requirements& requirements);
-
-/// Errors above this fraction of the extent do not follow the method's order.
-inline constexpr double largest_converging_error = 0.1;
 
 }  // namespace oiler::lab

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/exact_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 #include "oiler/physics/closed_forms.hpp"
 
@@ -10,6 +13,7 @@ namespace {
 
 using Real = long double;
 using Real3 = Vec<Real, 3>;
+using State3 = State<Real, 3>;
 
 Real3 to_real(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -46,48 +50,101 @@ void add(Influence& influence, const GivenForces& forces) {
         if (attractor->gm != 0) influence.attractors.push_back(*attractor);
 }
 
-Motion<Real> along(const State<Real, 3>& start, int axis) { return {start.x[axis], start.v[axis]}; }
+/// The motions from (1 m, 0 m/s), from (0 m, 1 m/s), and from rest under 1 m/s². Each motion with
+/// these k and c is a sum of them.
+struct Factors {
+    oiler::Motion<Real> from_x;
+    oiler::Motion<Real> from_v;
+    oiler::Motion<Real> pushed;
+};
 
-/// The oscillation around the point where the spring balances the constant acceleration.
-Motion<Real> oscillation(const Influence& influence, const State<Real, 3>& start, int axis,
-                         Real t) {
-    const Real rest = influence.acceleration[axis] / influence.stiffness;
-    const Motion<Real> from{start.x[axis] - rest, start.v[axis]};
-    const Motion<Real> to =
-        damped_oscillator<Real>(1, influence.stiffness, influence.damping, from, t);
-    return {rest + to.x, to.v};
+Factors factors_at(const LinearMotion& motion, Real t) {
+    if (motion.k == 0)
+        return {{1, 0},
+                linear_drag_motion<Real>({0, 1}, 0, motion.c, t),
+                linear_drag_motion<Real>({0, 0}, 1, motion.c, t)};
+    // The velocity of the second motion plus c times its position is the position of the first.
+    const oiler::Motion<Real> from_v = damped_oscillator<Real>(1, motion.k, motion.c, {0, 1}, t);
+    return {{from_v.v + motion.c * from_v.x, -motion.k * from_v.x}, from_v, {}};
 }
 
-ExactMotion linear_motion(const Influence& influence, const State<Real, 3>& start) {
-    return [=](Real t) {
-        State<Real, 3> state{};
-        for (int axis = 0; axis < 3; ++axis) {
-            const Motion<Real> motion =
-                influence.stiffness > 0
-                    ? oscillation(influence, start, axis, t)
-                    : linear_drag_motion(along(start, axis), influence.acceleration[axis],
-                                         influence.damping, t);
-            state.x[axis] = motion.x;
-            state.v[axis] = motion.v;
-        }
-        return state;
-    };
+/// The motion's state after `start`.
+State3 combined(const LinearMotion& motion, const State3& start, const Factors& factors) {
+    if (motion.k == 0)
+        return {start.x + start.v * factors.from_v.x + motion.acceleration * factors.pushed.x,
+                start.v * factors.from_v.v + motion.acceleration * factors.pushed.v};
+    const Real3 from = start.x - motion.rest;
+    return {motion.rest + from * factors.from_x.x + start.v * factors.from_v.x,
+            from * factors.from_x.v + start.v * factors.from_v.v};
 }
+
+State3 state_at(const LinearMotion& motion, Real t) {
+    return combined(motion, motion.start, factors_at(motion, t));
+}
+
+State3 state_at(const OrbitMotion& motion, Real t) {
+    State3 state = kepler(motion.gm, motion.start, t);
+    state.x = state.x + motion.centre;
+    return state;
+}
+
+State3 state_at(const GivenMotion& motion, Real t) { return motion(t); }
+
+double length(const Real3& a) { return static_cast<double>(std::sqrt(squared_length(a))); }
+
+/// A bound of the fourth derivative from a state on, m/s⁴. Each derivative z of the motion obeys
+/// the same equation, so that z² + z'²/k never grows.
+double snap_of(const LinearMotion& motion, const State3& state, Real, Real) {
+    const Real k = motion.k;
+    const Real c = motion.c;
+    if (k == 0) return static_cast<double>(c * c) * length(motion.acceleration - state.v * c);
+    const Real3 y = state.x - motion.rest;
+    const Real3 jerk = y * (c * k) + state.v * (c * c - k);
+    const Real3 snap = y * (k * (k - c * c)) + state.v * (c * (2 * k - c * c));
+    const Real3 crackle = jerk * -k - snap * c;
+    const auto size = squared_length(snap) + squared_length(crackle) * (1 / k);
+    return static_cast<double>(std::sqrt(size));
+}
+
+/// The distance from the centre is smallest at the pericentre or at one of the two times.
+Real nearest_between(const OrbitMotion& motion, const State3& state, Real from, Real to) {
+    const State3 end = state_at(motion, to);
+    const Real3 here = state.x - motion.centre;
+    const Real3 there = end.x - motion.centre;
+    const Real a = 1 / (2 / std::sqrt(squared_length(motion.start.x)) -
+                        squared_length(motion.start.v) / motion.gm);
+    const Real half_period = std::numbers::pi_v<Real> * a * std::sqrt(a / motion.gm);
+    const bool passes = to - from >= half_period ||
+                        (dot(here, state.v) <= 0 && dot(there, end.v) >= 0);
+    if (passes) return motion.nearest;
+    return std::sqrt(std::min(squared_length(here), squared_length(there)));
+}
+
+/// With |a| ≤ gm/r² and v² ≤ 2·gm/r, the fourth derivative is at most 14·gm²/r⁵.
+double snap_of(const OrbitMotion& motion, const State3& state, Real from, Real to) {
+    const Real r = nearest_between(motion, state, from, to);
+    return static_cast<double>(14 * motion.gm * motion.gm / (r * r * r * r * r));
+}
+
+double snap_of(const GivenMotion&, const State3&, Real, Real) { return 0; }
 
 /// Returns none for a body that escapes, falls straight in, or feels any other force.
-std::optional<ExactMotion> orbit_motion(const Influence& influence, const State<Real, 3>& start) {
+std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3& start) {
     if (influence.attractors.size() != 1 || influence.stiffness != 0 || influence.damping != 0 ||
         largest(influence.acceleration) != 0)
         return std::nullopt;
-    const Real gm = influence.attractors[0].gm;
-    const Real3 centre = to_real(influence.attractors[0].centre);
-    const State<Real, 3> from{start.x - centre, start.v};
-    if (!is_elliptic(gm, from)) return std::nullopt;
-    return [=](Real t) {
-        State<Real, 3> state = kepler(gm, from, t);
-        state.x = state.x + centre;
-        return state;
-    };
+    OrbitMotion motion{.gm = influence.attractors[0].gm,
+                       .centre = to_real(influence.attractors[0].centre)};
+    motion.start = {start.x - motion.centre, start.v};
+    if (!is_elliptic(motion.gm, motion.start)) return std::nullopt;
+    const Real speed2 = squared_length(motion.start.v);
+    const Real distance = std::sqrt(squared_length(motion.start.x));
+    const Real along = dot(motion.start.x, motion.start.v);
+    const Real area2 = distance * distance * speed2 - along * along;
+    const Real inverse_a = 2 / distance - speed2 / motion.gm;
+    const Real e = std::sqrt(std::max(Real(0), 1 - area2 * inverse_a / motion.gm));
+    motion.nearest = area2 / motion.gm / (1 + e);
+    return motion;
 }
 
 std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row) {
@@ -95,13 +152,103 @@ std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row) {
     for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
         add(influence, bodies.forces_per_mass(row, index));
     if (influence.other) return std::nullopt;
-    const State<Real, 3> start = bodies.state(row);
+    const State3 start = bodies.state(row);
     if (!influence.attractors.empty()) return orbit_motion(influence, start);
     if (influence.stiffness < 0 || influence.damping < 0) return std::nullopt;
-    return linear_motion(influence, start);
+    return LinearMotion{influence.acceleration, influence.stiffness, influence.damping, start};
 }
 
 }  // namespace
+
+State3 ExactMotion::operator()(Real t) const {
+    return std::visit([&](const auto& motion) { return state_at(motion, t); }, motion_);
+}
+
+// The remainder of Hermite's cubic: h⁴/384 times the fourth derivative.
+double ExactMotion::bend(const State3& state, Real from, Real to) const {
+    const double snap = std::visit(
+        [&](const auto& motion) { return snap_of(motion, state, from, to); }, motion_);
+    const auto h = static_cast<double>(to - from);
+    return h * h * h * h / 384 * snap;
+}
+
+Ball ExactMotion::enclosure(const State3& state) const {
+    const LinearMotion* const motion = linear();
+    if (!motion || motion->k == 0) return {};
+    return {motion->rest, std::hypot(length(state.x - motion->rest),
+                             length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
+}
+
+ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::move(motions)) {
+    std::map<std::pair<Real, Real>, std::size_t> groups;
+    for (std::size_t row = 0; row < motions_.size(); ++row) {
+        const LinearMotion* const motion = motions_[row].linear();
+        group_.push_back(alone);
+        // The bend of a linear motion never grows.
+        steady_bends_.push_back(motion ? motions_[row].bend(motion->start, 0, 1) : INFINITY);
+        if (!motion) continue;
+        const auto [at, is_new] =
+            groups.try_emplace(std::pair(motion->k, motion->c), first_of_group_.size());
+        if (is_new) first_of_group_.push_back(row);
+        group_.back() = at->second;
+    }
+}
+
+void ExactMotions::all_at(Real t, std::span<State3> states) const {
+    std::vector<Factors> factors;
+    for (const std::size_t row : first_of_group_)
+        factors.push_back(factors_at(*motions_[row].linear(), t));
+    for (std::size_t row = 0; row < states.size(); ++row) {
+        const LinearMotion* const motion = motions_[row].linear();
+        states[row] = motion ? combined(*motion, motion->start, factors[group_[row]])
+                             : motions_[row](t);
+    }
+}
+
+/// Linear motions at consecutive ticks: from the states at the start of a block of ticks, with
+/// factors that all blocks share.
+class ExactMotions::Blocks {
+public:
+    Blocks(const ExactMotions& motions, std::int64_t rate)
+        : motions_(motions), rate_(static_cast<Real>(rate)) {
+        constexpr std::size_t most_factors = 1 << 16;
+        const std::size_t groups = std::max<std::size_t>(1, motions.first_of_group_.size());
+        length_ = std::clamp<std::int64_t>(static_cast<std::int64_t>(most_factors / groups), 1, 64);
+        for (std::int64_t tick = 0; tick < length_; ++tick)
+            for (const std::size_t row : motions.first_of_group_)
+                factors_.push_back(
+                    factors_at(*motions.motions_[row].linear(), static_cast<Real>(tick) / rate_));
+    }
+
+    void write(std::int64_t tick, std::span<State3> states) {
+        if (const std::int64_t block = tick / length_; block != block_) {
+            block_ = block;
+            starts_.resize(states.size());
+            motions_.all_at(static_cast<Real>(block * length_) / rate_, starts_);
+        }
+        const auto first = static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();
+        for (std::size_t row = 0; row < states.size(); ++row) {
+            const LinearMotion* const motion = motions_.motions_[row].linear();
+            states[row] = motion ? combined(*motion, starts_[row],
+                                            factors_[first + motions_.group_[row]])
+                                 : motions_.motions_[row](static_cast<Real>(tick) / rate_);
+        }
+    }
+
+private:
+    const ExactMotions& motions_;
+    Real rate_;
+    std::int64_t length_ = 1;
+    std::vector<Factors> factors_;  ///< of each tick of a block, for each group
+    std::int64_t block_ = -1;
+    std::vector<State3> starts_;
+};
+
+Motion::Walk ExactMotions::walk(std::int64_t rate) const {
+    return [blocks = Blocks(*this, rate)](std::int64_t tick, std::span<State3> states) mutable {
+        blocks.write(tick, states);
+    };
+}
 
 std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies) {
     if (bodies.link_count() > 0) return std::nullopt;

@@ -44,22 +44,36 @@ Trajectory extrapolated(const Trajectory& fine, const Trajectory& coarse, Real d
         const State<Real, 3>& b = coarse.states[i];
         better.states[i] = {a.x + (a.x - b.x) * (1 / divisor), a.v + (a.v - b.v) * (1 / divisor)};
     }
-    for (std::size_t i = 0; i < better.energies.size(); ++i)
-        better.energies[i] +=
-            (fine.energies[i] - coarse.energies[i]) / static_cast<double>(divisor);
     return better;
 }
 
-/// The largest differences of two trajectories up to each sample; energies in J.
-std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b) {
+double extent_of(const Trajectory& trajectory) {
+    double extent = 0;
+    for (std::size_t i = 0; i < trajectory.states.size(); ++i)
+        extent = std::max(
+            extent, distance(trajectory.states[i].x, trajectory.states[i % trajectory.bodies].x));
+    return extent;
+}
+
+/// The largest differences of two trajectories up to each sample; energies in J, from those of
+/// `bodies` in both states.
+std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b, Bodies bodies) {
     std::vector<Uncertainty> uncertainties;
     Uncertainty most;
-    for (std::size_t sample = 0; sample < a.energies.size(); ++sample) {
-        for (std::size_t i = sample * a.bodies; i < (sample + 1) * a.bodies; ++i) {
-            most.position = larger(most.position, distance(a.states[i].x, b.states[i].x));
-            most.velocity = larger(most.velocity, distance(a.states[i].v, b.states[i].v));
+    const auto energy_of = [&](const Trajectory& trajectory, std::int64_t sample) {
+        for (std::size_t row = 0; row < trajectory.bodies; ++row)
+            bodies.set_state(row, trajectory.at(sample, row));
+        return bodies.energy().total();
+    };
+    for (std::int64_t sample = 0; sample < a.samples(); ++sample) {
+        for (std::size_t row = 0; row < a.bodies; ++row) {
+            const State<Real, 3>& one = a.at(sample, row);
+            const State<Real, 3>& other = b.at(sample, row);
+            most.position = larger(most.position, distance(one.x, other.x));
+            most.velocity = larger(most.velocity, distance(one.v, other.v));
         }
-        most.energy = larger(most.energy, std::abs(a.energies[sample] - b.energies[sample]));
+        most.energy =
+            larger(most.energy, std::abs(energy_of(a, sample) - energy_of(b, sample)));
         uncertainties.push_back(most);
     }
     return uncertainties;
@@ -86,8 +100,13 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
 /// Romberg's table of runs, each of half the step of the one before.
 class Table {
 public:
-    Table(const Scene& scene, const SampleTimes& samples, const ReferenceEffort& effort)
-        : scene_(scene), samples_(samples), effort_(effort), method_(finest_method(scene)) {}
+    Table(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
+          const ReferenceEffort& effort)
+        : scene_(scene),
+          start_(start),
+          samples_(samples),
+          effort_(effort),
+          method_(finest_method(scene)) {}
 
     /// Returns false and empties the table if the run diverged or was stopped.
     bool add_run(std::int64_t rate) {
@@ -110,7 +129,9 @@ public:
     [[nodiscard]] const Trajectory& best() const { return row_.back(); }
     [[nodiscard]] const Trajectory& finest_run() const { return row_.front(); }
     [[nodiscard]] std::vector<Uncertainty> uncertainties() const {
-        std::vector<Uncertainty> uncertainties = differences(best(), before_);
+        const Settings settings{{&method_, scene_.stepping.rate, Precision::extended}};
+        std::vector<Uncertainty> uncertainties =
+            differences(best(), before_, make_world(scene_, settings, start_).bodies());
         add_rounding(uncertainties, best(), samples_);
         return uncertainties;
     }
@@ -122,20 +143,20 @@ private:
         return method_.order + static_cast<int>(k) * (method_.symmetric ? 2 : 1);
     }
     [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) const {
-        Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}},
+        Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}}, start_,
                           samples_.per_second);
         Trajectory trajectory{.bodies = follower.bodies().size()};
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
                 trajectory.states.push_back(follower.state(row));
-            trajectory.energies.push_back(follower.energy());
-            if (!std::isfinite(trajectory.energies.back())) return std::nullopt;
+            if (!std::isfinite(follower.energy())) return std::nullopt;
         }
         return trajectory;
     }
 
     const Scene& scene_;
+    const Perturbation& start_;
     const SampleTimes& samples_;
     const ReferenceEffort& effort_;
     const Method& method_;
@@ -152,9 +173,9 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
 
 }  // namespace
 
-FineSteps fine_steps(const Scene& scene, const SampleTimes& samples,
+FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
                      const ReferenceEffort& effort) {
-    Table table(scene, samples, effort);
+    Table table(scene, start, samples, effort);
     const double work_per_step = RunWork(scene).per_step(table.method());
     FineSteps finest;
     bool affordable = false;

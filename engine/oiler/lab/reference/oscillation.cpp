@@ -4,6 +4,7 @@
 
 #include "oiler/lab/reference/parts.hpp"
 #include "oiler/lab/reference/path.hpp"
+#include "oiler/lab/reference/scales.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -35,29 +36,45 @@ std::optional<PeriodicCoordinate> oscillation_of(const Path& path, double per_se
     return oscillation;
 }
 
+/// The row and the axis with the largest range.
+struct Widest {
+    std::size_t row = 0;
+    int axis = 0;
+};
+
+Widest find_widest(const Reference& reference, std::optional<std::size_t> only) {
+    const std::size_t bodies = reference.motion->bodies();
+    std::vector<State<long double, 3>> low(bodies);
+    reference.motion->all_at(0, low);
+    std::vector<State<long double, 3>> high = low;
+    std::vector<State<long double, 3>> states = low;
+    for (const double t : probe_times(reference.meaningful_until, 0, bodies)) {
+        reference.motion->all_at(t, states);
+        for (std::size_t row = 0; row < bodies; ++row)
+            for (int axis = 0; axis < 3; ++axis) {
+                low[row].x[axis] = std::min(low[row].x[axis], states[row].x[axis]);
+                high[row].x[axis] = std::max(high[row].x[axis], states[row].x[axis]);
+            }
+    }
+    Widest widest{.row = only.value_or(0)};
+    long double most = 0;
+    for (std::size_t row = widest.row; row < (only ? *only + 1 : bodies); ++row)
+        for (int axis = 0; axis < 3; ++axis)
+            if (high[row].x[axis] - low[row].x[axis] > most) {
+                most = high[row].x[axis] - low[row].x[axis];
+                widest = {row, axis};
+            }
+    return widest;
+}
+
 }  // namespace
 
-std::optional<PeriodicCoordinate> find_oscillation(const Trajectory& trajectory,
-                                                   const SampleTimes& samples,
+std::optional<PeriodicCoordinate> find_oscillation(const Reference& reference,
                                                    std::optional<std::size_t> only) {
-    std::size_t row = only.value_or(0);
-    int axis = 0;
-    long double widest = 0;
-    for (std::size_t body = only.value_or(0); body < (only ? *only + 1 : trajectory.bodies); ++body)
-        for (int along = 0; along < 3; ++along) {
-            long double low = trajectory.at(0, body).x[along];
-            long double high = low;
-            for (std::int64_t sample = 1; sample < samples.count; ++sample) {
-                low = std::min(low, trajectory.at(sample, body).x[along]);
-                high = std::max(high, trajectory.at(sample, body).x[along]);
-            }
-            if (high - low <= widest) continue;
-            widest = high - low;
-            row = body;
-            axis = along;
-        }
-    std::optional<PeriodicCoordinate> oscillation = oscillation_of(
-        path_of(trajectory, samples, row, axis), static_cast<double>(samples.per_second));
+    const auto [row, axis] = find_widest(reference, only);
+    std::optional<PeriodicCoordinate> oscillation =
+        oscillation_of(path_of(reference, row, axis),
+                       static_cast<double>(reference.samples.per_second));
     if (oscillation) {
         oscillation->row = row;
         oscillation->axis = axis;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oiler/lab/reference/reference.hpp"
+#include "oiler/lab/reference/sampled_motion.hpp"
 
 namespace oiler::lab {
 
@@ -23,8 +24,8 @@ struct FineSteps {
 
 /// Halves the step until the Romberg extrapolation changes by no more than the wanted error. Stops
 /// earlier if the work limit is reached or if two halvings in a row bring no improvement.
-[[nodiscard]] FineSteps fine_steps(const Scene& scene, const SampleTimes& samples,
-                                   const ReferenceEffort& effort);
+[[nodiscard]] FineSteps fine_steps(const Scene& scene, const Perturbation& start,
+                                   const SampleTimes& samples, const ReferenceEffort& effort);
 
 /// A reference is usable while it resolves errors of this fraction of its extent.
 inline constexpr double resolution = 1e-3;
@@ -34,14 +35,10 @@ inline constexpr double margin = 100;
 [[nodiscard]] inline double distance(const Vec<long double, 3>& a, const Vec<long double, 3>& b) {
     return static_cast<double>(std::sqrt(squared_length(a - b)));
 }
-/// The largest distance of any body from its start, m.
-[[nodiscard]] double extent_of(const Trajectory& trajectory);
-
-/// The oscillation of the coordinate with the largest range, of row `only` or of all rows. Returns
-/// none if it does not oscillate, or has fewer than 8 samples per period.
+/// The oscillation of the coordinate with the largest range, of row `only` or of all rows, over the
+/// meaningful time. Returns none if it does not oscillate, or has fewer than 8 samples per period.
 [[nodiscard]] std::optional<PeriodicCoordinate> find_oscillation(
-    const Trajectory& trajectory, const SampleTimes& samples,
-    std::optional<std::size_t> only = std::nullopt);
+    const Reference& reference, std::optional<std::size_t> only = std::nullopt);
 
 /// Dead band: the fraction of a coordinate's range that counts as rest.
 inline constexpr double dead_band = 1e-6;

@@ -67,14 +67,19 @@ std::vector<double> upward_crossings(const Path& path, double level, double band
     return at;
 }
 
-Path path_of(const Trajectory& trajectory, const SampleTimes& samples, std::size_t row, int axis) {
+Path path_of(const Reference& reference, std::size_t row, int axis) {
     Path path;
-    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
-        const State<long double, 3>& state = trajectory.at(sample, row);
-        path.t.push_back(samples.time(sample));
+    const auto add = [&](double t) {
+        const State<long double, 3> state = reference.motion->at(row, t);
+        path.t.push_back(t);
         path.x.push_back(static_cast<double>(state.x[axis]));
         path.v.push_back(static_cast<double>(state.v[axis]));
-    }
+    };
+    for (std::int64_t sample = 0; sample < reference.samples.count &&
+                                  reference.samples.time(sample) < reference.meaningful_until;
+         ++sample)
+        add(reference.samples.time(sample));
+    add(reference.meaningful_until);
     return path;
 }
 

@@ -41,8 +41,7 @@ struct Peak {
 /// level by at least `band`, so that the round-off of a resting body is no oscillation.
 [[nodiscard]] std::vector<double> upward_crossings(const Path& path, double level, double band);
 
-/// One coordinate of a body at the sample times.
-[[nodiscard]] Path path_of(const Trajectory& trajectory, const SampleTimes& samples,
-                           std::size_t row, int axis);
+/// One coordinate of a body's true motion, at the samples of the meaningful time.
+[[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis);
 
 }  // namespace oiler::lab

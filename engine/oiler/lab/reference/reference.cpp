@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/reference/fastest_motion.hpp"
 #include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/scales.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -32,67 +34,35 @@ double rounding_of(const Bodies& bodies) {
     return static_cast<double>(std::numeric_limits<Real>::epsilon());
 }
 
-Trajectory trajectory_of(const std::vector<ExactMotion>& motions, const SampleTimes& samples,
-                         Bodies bodies) {
-    Trajectory trajectory{.bodies = motions.size()};
-    for (std::int64_t sample = 0; sample < samples.count; ++sample) {
-        const Real t = static_cast<Real>(sample) / static_cast<Real>(samples.per_second);
-        for (std::size_t row = 0; row < motions.size(); ++row) {
-            trajectory.states.push_back(motions[row](t));
-            bodies.set_state(row, trajectory.states.back());
-        }
-        trajectory.energies.push_back(bodies.energy().total());
-    }
-    return trajectory;
-}
-
 /// The round-off of a closed form: a few roundings of the position and of the elapsed time.
-std::vector<Uncertainty> uncertainties_of(const Trajectory& trajectory, const SampleTimes& samples,
+std::vector<Uncertainty> uncertainties_of(const Scales& scales, const SampleTimes& samples,
                                           double rounding) {
     std::vector<Uncertainty> uncertainties;
-    Uncertainty most{.energy = 8 * std::numeric_limits<double>::epsilon()};
-    double x = 0;
-    double v = 0;
+    const double x = scales.coordinate;
+    const double v = scales.speed;
     for (std::int64_t sample = 0; sample < samples.count; ++sample) {
-        for (std::size_t row = 0; row < trajectory.bodies; ++row) {
-            x = std::max(x, static_cast<double>(largest(trajectory.at(sample, row).x)));
-            v = std::max(v, static_cast<double>(largest(trajectory.at(sample, row).v)));
-        }
-        const double turned = x > 0 ? 1 + v * samples.time(sample) / x : 1;
-        most.position = rounding * (8 * x + v * samples.time(sample));
-        most.velocity = rounding * v * (8 + turned);
-        uncertainties.push_back(most);
+        const double way = v * samples.time(sample);
+        const double turned = x > 0 ? 1 + way / x : 1;
+        uncertainties.push_back({.position = rounding * (8 * x + way),
+                                 .velocity = rounding * v * (8 + turned),
+                                 .energy = 0});
     }
     return uncertainties;
 }
 
-double largest_coordinate(const Trajectory& trajectory) {
+/// The largest distance of a motion from the trajectory in its first samples.
+double largest_difference(const Motion& motion, const Trajectory& trajectory,
+                          std::int64_t per_second, std::int64_t samples) {
+    constexpr std::int64_t most_states = 200'000;
+    const std::int64_t stride =
+        1 + samples * static_cast<std::int64_t>(trajectory.bodies) / most_states;
     double most = 0;
-    for (const State3& state : trajectory.states)
-        most = std::max(most, static_cast<double>(largest(state.x)));
-    return most;
-}
-
-/// The energy at the start. If it is below a hundredth of the largest kinetic energy, because the
-/// zero of potential energy is arbitrary: that kinetic energy.
-double energy_scale_of(const Trajectory& trajectory, Bodies bodies) {
-    const std::size_t samples = trajectory.energies.size();
-    double kinetic = 0;
-    for (std::size_t sample = 0; sample < samples;
-         sample += std::max<std::size_t>(1, samples / 200)) {
+    std::vector<State3> states(trajectory.bodies);
+    for (std::int64_t sample = 0; sample < samples; sample += stride) {
+        motion.all_at(static_cast<Real>(sample) / static_cast<Real>(per_second), states);
         for (std::size_t row = 0; row < trajectory.bodies; ++row)
-            bodies.set_state(row, trajectory.at(static_cast<std::int64_t>(sample), row));
-        kinetic = std::max(kinetic, bodies.energy().kinetic);
+            most = std::max(most, distance(states[row].x, trajectory.at(sample, row).x));
     }
-    const double at_start = std::abs(trajectory.energies.front());
-    return at_start > kinetic / 100 ? at_start : kinetic;
-}
-
-double largest_difference(const Trajectory& a, const Trajectory& b, std::int64_t samples) {
-    double most = 0;
-    for (std::int64_t sample = 0; sample < samples; ++sample)
-        for (std::size_t row = 0; row < a.bodies; ++row)
-            most = std::max(most, distance(a.at(sample, row).x, b.at(sample, row).x));
     return most;
 }
 
@@ -105,49 +75,81 @@ std::int64_t count_usable(const std::vector<Uncertainty>& uncertainties, double 
     return std::max<std::int64_t>(1, bad - uncertainties.begin());
 }
 
+/// The times of all samples up to `until`, s.
+std::vector<double> times_of(const SampleTimes& samples, double until) {
+    std::vector<double> times;
+    for (std::int64_t sample = 0; sample < samples.count && samples.time(sample) < until; ++sample)
+        times.push_back(samples.time(sample));
+    times.push_back(until);
+    return times;
+}
+
 class ReferenceBuilder {
 public:
-    ReferenceBuilder(const Scene& scene, const SampleTimes& samples, const ReferenceEffort& effort)
+    ReferenceBuilder(const Scene& scene, const ReferenceEffort& effort, const Perturbation& start)
         : scene_(scene),
           effort_(effort),
-          start_(make_world(scene, Settings{{scene.stepping.method, scene.stepping.rate,
-                                             Precision::extended}})
+          start_(make_world(
+                     scene,
+                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
+                     start)
                      .bodies()) {
-        reference_.samples = samples;
+        require_measurable(scene);
+        reference_.start = start;
+        reference_.conservative = is_conservative(start_);
     }
 
     Reference run(const ClosedForm& closed_form) {
-        const auto motions = closed_form(start_);
+        auto motions = closed_form(start_);
         if (motions)
-            take(*motions);
+            take(std::make_shared<ExactMotions>(std::move(*motions)));
         else
-            take(fine_steps(scene_, reference_.samples, effort_));
+            take_fine_steps();
         return finish();
     }
 
 private:
-    void take(const std::vector<ExactMotion>& motions) {
+    [[nodiscard]] std::vector<double> probes(double until) const {
+        return reference_.closed_form
+                   ? probe_times(until, fastest_motion(start_), start_.size())
+                   : times_of(reference_.samples, until);
+    }
+
+    void take(std::shared_ptr<const Motion> motion) {
         reference_.closed_form = true;
-        reference_.trajectory = trajectory_of(motions, reference_.samples, start_);
+        reference_.motion = std::move(motion);
+        reference_.samples = sample_times_of(scene_, start_, 1);
         reference_.uncertainties =
-            uncertainties_of(reference_.trajectory, reference_.samples, rounding_of(start_));
+            uncertainties_of(scales_of(*reference_.motion, probes(scene_.duration), start_),
+                             reference_.samples, rounding_of(start_));
         reference_.words = "the closed form of the motion";
         check();
     }
-    void take(FineSteps&& fine) {
+    void take_fine_steps() {
         reference_.closed_form = false;
-        affordable_ = fine.affordable;
-        if (!fine.trajectory.states.empty()) followed_ = count_followed(fine);
-        reference_.trajectory = std::move(fine.trajectory);
+        reference_.samples =
+            sample_times_of(scene_, start_, static_cast<std::int64_t>(start_.size()));
+        FineSteps fine = fine_steps(scene_, reference_.start, reference_.samples, effort_);
+        require_finite(fine);
+        if (effort_.stopped()) return;
+        follow(fine);
         reference_.uncertainties = std::move(fine.uncertainties);
+        const std::vector<double> between =
+            interpolation_errors(fine.trajectory, reference_.samples.per_second);
+        for (std::size_t sample = 0; sample < between.size(); ++sample)
+            reference_.uncertainties[sample].position += between[sample];
         reference_.words = std::move(fine.words);
+        reference_.motion = std::make_shared<SampledMotion>(std::move(fine.trajectory),
+                                                            reference_.samples.per_second);
     }
 
     void check() {
         ReferenceEffort effort = effort_;
-        effort.wanted = checked_to * extent_of(reference_.trajectory);
+        const Scales scales = scales_of(*reference_.motion, probes(scene_.duration), start_);
+        effort.wanted = checked_to * scales.extent;
         effort.most_work = std::min(effort.most_work, checking_work);
-        FineSteps fine = fine_steps(scene_, reference_.samples, effort);
+        const SampleTimes samples = check_times_of(scene_, start_);
+        FineSteps fine = fine_steps(scene_, reference_.start, samples, effort);
         if (fine.trajectory.states.empty()) {
             reference_.words += "; not checked by fine steps: too much work";
             return;
@@ -157,81 +159,102 @@ private:
             reference_.words += "; not checked by fine steps: too coarse";
             return;
         }
-        const double apart = largest_difference(reference_.trajectory, fine.trajectory, usable);
+        const double apart =
+            largest_difference(*reference_.motion, fine.trajectory, samples.per_second, usable);
         const auto last = static_cast<std::size_t>(usable - 1);
-        const double allowed =
-            margin * (fine.uncertainties[last].position + reference_.uncertainties[last].position);
+        const double own = reference_.uncertainties.back().position;
+        const double allowed = margin * (fine.uncertainties[last].position + own);
         if (apart <= allowed) {
             reference_.words += fmt::format(", confirmed by fine steps to {:.2g} m",
                                             std::max(apart, fine.uncertainties[last].position));
-            if (usable < reference_.samples.count)
+            if (usable < samples.count)
                 reference_.words +=
-                    fmt::format(" for the first {:.3g} s", reference_.samples.time(usable - 1));
+                    fmt::format(" for the first {:.3g} s", samples.time(usable - 1));
             return;
         }
-        take(fine_steps(scene_, reference_.samples, effort_));
+        take_fine_steps();
         reference_.words += fmt::format(
             "; closed form rejected: it differs by {:.3g} m from fine steps, whose own error is "
             "{:.2g} m",
             apart, fine.uncertainties[last].position);
     }
 
-    /// The number of samples before a run of the same steps in double deviates by more than `most`.
-    [[nodiscard]] std::int64_t count_followed(const FineSteps& fine) const {
-        const double most = std::max(
-            resolution * extent_of(fine.trajectory),
-            margin * std::numeric_limits<double>::epsilon() * largest_coordinate(fine.trajectory));
+    /// Measures the distances of a run of the same steps in double, sample by sample.
+    void follow(const FineSteps& fine) {
         Follower follower(scene_, Settings{{fine.method, {fine.rate}, Precision::double_}},
-                          reference_.samples.per_second);
+                          reference_.start, reference_.samples.per_second);
+        double most = 0;
         for (std::int64_t sample = 0; sample < reference_.samples.count && !effort_.stopped();
              ++sample) {
-            if (!follower.go_to(sample)) return sample;
+            if (!follower.go_to(sample)) break;
             for (std::size_t row = 0; row < fine.trajectory.bodies; ++row)
-                if (!(distance(follower.state(row).x, fine.finest_run.at(sample, row).x) <= most))
-                    return sample;
+                most = larger(most, distance(follower.state(row).x,
+                                             fine.finest_run.at(sample, row).x));
+            round_off_.push_back(most);
         }
-        return reference_.samples.count;
+    }
+    [[nodiscard]] std::int64_t count_followed(double most) const {
+        if (reference_.closed_form) return reference_.samples.count;
+        return std::count_if(round_off_.begin(), round_off_.end(),
+                             [&](double error) { return error <= most; });
     }
 
+    /// Shortens the meaningful time until the scales of what remains do not shorten it further.
     void find_meaningful() {
-        // Round-off does not make a scene with little motion chaotic.
-        const double most = std::max(resolution * reference_.extent,
-                                     margin * std::numeric_limits<double>::epsilon() *
-                                         largest_coordinate(reference_.trajectory));
-        const std::int64_t usable = count_usable(reference_.uncertainties, most);
-        reference_.meaningful = std::max<std::int64_t>(1, std::min(usable, followed_));
-        if (reference_.meaningful == reference_.samples.count) return;
-        reference_.why_no_longer =
-            followed_ < usable
-                ? fmt::format(
-                      "round-off of double alone then moves bodies by more than {:.2g} m: the "
-                      "motion is chaotic",
-                      most)
-                : fmt::format(
-                      "the reference's own error then exceeds {:.2g} m: the motion is chaotic, or "
-                      "a finer reference is too much work",
-                      most / margin);
+        std::int64_t count = reference_.samples.count;
+        reference_.meaningful_until = scene_.duration;
+        for (;;) {
+            const Scales scales =
+                scales_of(*reference_.motion, probes(reference_.meaningful_until), start_);
+            reference_.extent = scales.extent;
+            reference_.coordinate = scales.coordinate;
+            reference_.speed = scales.speed;
+            reference_.energy_scale = scales.energy;
+            // Round-off does not make a scene with little motion chaotic.
+            const double most =
+                std::max(resolution * scales.extent,
+                         margin * std::numeric_limits<double>::epsilon() * scales.coordinate);
+            const std::int64_t usable = count_usable(reference_.uncertainties, most);
+            const std::int64_t followed = count_followed(most);
+            const std::int64_t left = std::max<std::int64_t>(2, std::min(usable, followed));
+            if (left >= count) return;
+            count = left;
+            reference_.meaningful_until =
+                std::min(scene_.duration, reference_.samples.time(count - 1));
+            reference_.why_no_longer = explain(most, followed < usable);
+        }
+    }
+    [[nodiscard]] static std::string explain(double most, bool by_round_off) {
+        return by_round_off
+                   ? fmt::format(
+                         "round-off of double alone then moves bodies by more than {:.2g} m: the "
+                         "motion is chaotic",
+                         most)
+                   : fmt::format(
+                         "the reference's own error then exceeds {:.2g} m: the motion is chaotic, "
+                         "or a finer reference is too much work",
+                         most / margin);
+    }
+
+    void require_finite(const FineSteps& fine) const {
+        if (effort_.stopped() || !fine.trajectory.states.empty()) return;
+        if (!fine.affordable)
+            fail(Exit::usage,
+                 "a reference for {} s takes too much work: shorten it with --duration",
+                 scene_.duration);
+        fail(Exit::diverged,
+             "no reference stays finite over {} s: the scene is too stiff, or a body hits an "
+             "attractor; shorten it with --duration",
+             scene_.duration);
     }
 
     Reference finish() {
         if (effort_.stopped()) return std::move(reference_);
-        if (reference_.trajectory.states.empty() && !affordable_)
-            fail(Exit::usage,
-                 "a reference for {} s takes too much work: shorten it with --duration",
-                 scene_.duration);
-        if (reference_.trajectory.states.empty())
-            fail(Exit::diverged,
-                 "no reference stays finite over {} s: the scene is too stiff, or a body hits an "
-                 "attractor; shorten it with --duration",
-                 scene_.duration);
-        reference_.extent = extent_of(reference_.trajectory);
-        reference_.energy_scale = energy_scale_of(reference_.trajectory, start_);
+        find_meaningful();
         for (Uncertainty& uncertainty : reference_.uncertainties)
             uncertainty.energy = std::max(reference_.share_of_energy(uncertainty.energy),
                                           8 * std::numeric_limits<double>::epsilon());
-        find_meaningful();
-        reference_.oscillation =
-            find_oscillation(reference_.trajectory, reference_.meaningful_samples());
+        reference_.oscillation = find_oscillation(reference_);
         return std::move(reference_);
     }
 
@@ -239,8 +262,7 @@ private:
     const ReferenceEffort& effort_;
     Bodies start_;
     Reference reference_;
-    bool affordable_ = true;
-    std::int64_t followed_ = std::numeric_limits<std::int64_t>::max();
+    std::vector<double> round_off_;  ///< m, of a run of the fine steps in double, up to each sample
 };
 
 }  // namespace
@@ -249,22 +271,18 @@ double Reference::share_of_energy(double joules) const {
     return energy_scale > 0 ? joules / energy_scale : joules;
 }
 
-double extent_of(const Trajectory& trajectory) {
-    double extent = 0;
-    for (std::size_t i = 0; i < trajectory.states.size(); ++i)
-        extent = std::max(
-            extent, distance(trajectory.states[i].x, trajectory.states[i % trajectory.bodies].x));
-    return extent;
-}
-
 Uncertainty Reference::floor() const {
-    const Uncertainty& last = uncertainties[static_cast<std::size_t>(meaningful - 1)];
-    return {margin * last.position, margin * last.velocity, margin * last.energy};
+    const auto last = static_cast<std::size_t>(std::min(
+        samples.count - 1,
+        static_cast<std::int64_t>(
+            std::ceil(meaningful_until * static_cast<double>(samples.per_second) * (1 - 1e-12)))));
+    const Uncertainty& most = uncertainties[last];
+    return {margin * most.position, margin * most.velocity, margin * most.energy};
 }
 
-Reference make_reference(const Scene& scene, const SampleTimes& samples,
-                         const ReferenceEffort& effort, const ClosedForm& closed_form) {
-    return ReferenceBuilder(scene, samples, effort).run(closed_form);
+Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
+                         const Perturbation& start, const ClosedForm& closed_form) {
+    return ReferenceBuilder(scene, effort, start).run(closed_form);
 }
 
 RunWork::RunWork(const Scene& scene) {

@@ -2,26 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "oiler/lab/reference/exact_motion.hpp"
+#include "oiler/lab/reference/perturbation.hpp"
 #include "oiler/lab/reference/samples.hpp"
 
 namespace oiler::lab {
-
-/// Positions and velocities of all bodies at every sample, and the energy in J.
-struct Trajectory {
-    std::size_t bodies = 0;
-    /// Of all bodies at the first sample, then at the next.
-    std::vector<State<long double, 3>> states{};
-    std::vector<double> energies{};
-
-    [[nodiscard]] const State<long double, 3>& at(std::int64_t sample, std::size_t row) const {
-        return states[static_cast<std::size_t>(sample) * bodies + row];
-    }
-};
 
 /// Bounds of the error up to a sample.
 struct Uncertainty {
@@ -43,29 +33,28 @@ struct PeriodicCoordinate {
 /// The motion with which runs of a scene are compared: the closed form if the scene has one, else
 /// steps in long double so fine that their own error is known.
 struct Reference {
-    SampleTimes samples;
-    Trajectory trajectory;
+    std::shared_ptr<const Motion> motion;
+    Perturbation start{};  ///< of the scene's start
+    SampleTimes samples;   ///< of the uncertainties
     bool closed_form = false;
     std::string words;                       ///< kind and own error, for people
     std::vector<Uncertainty> uncertainties;  ///< for each sample, the largest up to it
-    double extent = 0;                       ///< m, the largest distance of any body from its start
-    double energy_scale = 0;                 ///< J, the unit of energy drifts
+    double extent = 0;        ///< m, the largest distance of any body from its start
+    double coordinate = 0;    ///< m, the largest coordinate of any body
+    double speed = 0;         ///< m/s, the largest component of a velocity
+    double energy_scale = 0;  ///< J, the unit of energy drifts, see scales_of
+    bool conservative = false;  ///< no force takes or gives energy
     std::optional<PeriodicCoordinate> oscillation{};
-    /// The number of samples up to which errors are meaningful. It is fewer than all if the scene
-    /// is chaotic: its motion then diverges from any reference, or changes by round-off to double
+    /// The last time at which errors are meaningful, s. It is before the end if the scene is
+    /// chaotic: its motion then diverges from any reference, or changes by round-off to double
     /// alone.
-    std::int64_t meaningful = 0;
+    double meaningful_until = 0;
     std::string why_no_longer{};  ///< empty if errors are meaningful to the end
 
     /// The energy relative to energy_scale; unchanged, in J, for a scene without energy.
     [[nodiscard]] double share_of_energy(double joules) const;
     /// The smallest errors that the reference resolves: 100 × its own.
     [[nodiscard]] Uncertainty floor() const;
-    [[nodiscard]] SampleTimes meaningful_samples() const {
-        return {samples.per_second, meaningful};
-    }
-    /// The last time at which errors are meaningful, s.
-    [[nodiscard]] double meaningful_until() const { return samples.time(meaningful - 1); }
 };
 
 /// The accuracy wanted of a reference, and the work it may take.
@@ -86,8 +75,8 @@ using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const B
 /// is rejected, and `words` says so. The result of a stopped call is incomplete. Throws
 /// Error{usage} if the reference takes too much work, and Error{diverged} if no reference stays
 /// finite.
-[[nodiscard]] Reference make_reference(const Scene& scene, const SampleTimes& samples,
-                                       const ReferenceEffort& effort,
+[[nodiscard]] Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
+                                       const Perturbation& start = {},
                                        const ClosedForm& closed_form = exact_motions);
 
 /// Estimates the work of a step: force evaluations, each on one body or link.

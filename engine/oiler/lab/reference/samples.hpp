@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "oiler/scene/make_world.hpp"
+#include "oiler/lab/reference/perturbation.hpp"
 
 namespace oiler::lab {
 
@@ -17,23 +17,30 @@ struct SampleTimes {
     [[nodiscard]] double time(std::int64_t sample) const {
         return static_cast<double>(sample) / static_cast<double>(per_second);
     }
-    /// Whether every sample coincides with a step at that rate.
-    [[nodiscard]] bool meet_steps(std::int64_t rate) const { return rate % per_second == 0; }
     friend bool operator==(const SampleTimes&, const SampleTimes&) = default;
 };
 
-/// Chooses samples per second: the divisor of the scene's rate nearest to 60, so that the scene is
-/// sampled at its own steps. A rate below 15 gives a multiple of the rate; a rate without a divisor
-/// from 15 to 240 gives 60. Short scenes are sampled more often, scenes of many bodies less often.
-/// Throws Error{usage} for a scene that is too long or has too many bodies.
-[[nodiscard]] SampleTimes sample_times_of(const Scene& scene);
+/// Chooses samples that resolve the scene's fastest motion: 48 per period of the highest frequency
+/// of its springs, links and orbits, at least 60 per second and 20 in all. Samples of `kept` bodies
+/// fit into memory: of many bodies, or of very many periods, there are fewer. The last sample is at
+/// the end or after it. Throws Error{usage} for a scene that is too long or has too many bodies.
+[[nodiscard]] SampleTimes sample_times_of(const Scene& scene, const Bodies& start,
+                                          std::int64_t kept);
+
+/// Samples for a comparison at 12 samples per period.
+[[nodiscard]] SampleTimes check_times_of(const Scene& scene, const Bodies& start);
+
+/// Throws Error{usage} for a scene that is too long, too short or has too many bodies to be
+/// compared with a reference.
+void require_measurable(const Scene& scene);
 
 /// A run of a scene as drawn: between two steps, bodies are on the straight line from one to the
 /// next.
 class Follower {
 public:
     /// Throws Error{usage} if the method cannot step the scene.
-    Follower(const Scene& scene, const Settings& settings, std::int64_t samples_per_second);
+    Follower(const Scene& scene, const Settings& settings, const Perturbation& start,
+             std::int64_t samples_per_second);
 
     /// Steps to a sample. Samples must be visited in order. Returns false if the run has diverged.
     [[nodiscard]] bool go_to(std::int64_t sample);

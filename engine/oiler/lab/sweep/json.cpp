@@ -31,16 +31,26 @@ Json json_of(const Machine& machine) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+namespace {
+
+/// Null for methods without a choice.
+Json damping_of(const Stepping& choice) {
+    if (!std::holds_alternative<Splitting>(choice.method->rule)) return nullptr;
+    return name_of(choice.damping.value_or(choice.method->damping));
+}
+
+}  // namespace
+
 Json json_of(const Stepping& choice) {
     return {{"method", choice.method->name},
             {"rate", choice.rate.steps},
-            {"precision", name_of(choice.precision)}};
+            {"precision", name_of(choice.precision)},
+            {"damping", damping_of(choice)}};
 }
 
 Json json_of(const TradeoffRow& row) {
     Json json = json_of(row.stepping);
     json["stable"] = row.judgement.stable;
-    json["meets_steps"] = row.meets_steps;
     json["below_floor"] = row.judgement.below_floor();
     TradeoffRow copy = row;
     for (const RowNumber& one : row_numbers) json[one.name] = number_or_null(one.of(copy));
@@ -54,8 +64,6 @@ Json json_of(const Tradeoff& tradeoff) {
               {"fingerprint", tradeoff.fingerprint},
               {"complete", tradeoff.complete()},
               {"duration", tradeoff.duration},
-              {"looks_per_second", tradeoff.samples.per_second},
-              {"looks", tradeoff.samples.count},
               {"today", json_of(tradeoff.current)},
               {"reference", json_of(tradeoff.reference)},
               {"machines", Json::array()},

@@ -15,12 +15,14 @@ struct RowNumber {
 };
 inline constexpr RowNumber row_numbers[]{
     {"position_error", [](TradeoffRow& row) -> double& { return row.judgement.position_error; }},
+    {"step_error", [](TradeoffRow& row) -> double& { return row.judgement.step_error; }},
     {"velocity_error", [](TradeoffRow& row) -> double& { return row.judgement.velocity_error; }},
     {"phase_error", [](TradeoffRow& row) -> double& { return row.judgement.phase_error; }},
     {"energy_drift", [](TradeoffRow& row) -> double& { return row.judgement.energy_drift; }},
     {"evaluations", [](TradeoffRow& row) -> double& { return row.judgement.evaluations; }},
     {"ns_per_second", [](TradeoffRow& row) -> double& { return row.ns_per_second; }},
     {"ns_spread", [](TradeoffRow& row) -> double& { return row.ns_spread; }},
+    {"ns_together", [](TradeoffRow& row) -> double& { return row.ns_together; }},
 };
 
 /// The value, or null if it is not finite.

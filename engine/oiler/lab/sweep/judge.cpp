@@ -7,6 +7,8 @@
 #include "oiler/core/error.hpp"
 #include "oiler/lab/reference/parts.hpp"
 #include "oiler/lab/reference/path.hpp"
+#include "oiler/lab/reference/true_energy.hpp"
+#include "oiler/lab/sweep/drawn_error.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -14,97 +16,164 @@ namespace {
 /// A run whose error exceeds this multiple of the extent counts as unstable.
 constexpr double lost = 10;
 
-/// The largest errors of a run, sample by sample.
+/// Below this fraction of the largest coordinate, an error is never a loss of stability.
+constexpr double negligible = 1e-9;
+
+using Real = long double;
+using State3 = State<Real, 3>;
+
+/// The times at which a run's oscillation crosses its level upwards, on the drawn lines.
+class Crossings {
+public:
+    explicit Crossings(const std::optional<PeriodicCoordinate>& oscillation)
+        : oscillation_(oscillation) {}
+
+    void add(double t, const State3& state) {
+        path_.t = {path_.t.back(), t};
+        path_.x = {path_.x.back(), static_cast<double>(state.x[oscillation_->axis])};
+        was_below_ = was_below_ || path_.x[0] < oscillation_->level - oscillation_->band;
+        if (!was_below_ || !(path_.x[0] < oscillation_->level && path_.x[1] >= oscillation_->level))
+            return;
+        last_ = path_.time(1, path_.crossing(1, oscillation_->level));
+        was_below_ = false;
+        if (++count_ <= oscillation_->crossings.size())
+            phase_ = 360 * (oscillation_->crossings[count_ - 1] - last_) / oscillation_->period;
+    }
+    void start(const State3& state) {
+        path_ = {.t = {0}, .x = {static_cast<double>(state.x[oscillation_->axis])}};
+    }
+    /// Degrees, at the last crossing that both have.
+    [[nodiscard]] double phase() const { return phase_; }
+
+private:
+    const std::optional<PeriodicCoordinate>& oscillation_;
+    Path path_;
+    bool was_below_ = false;
+    std::size_t count_ = 0;
+    double last_ = 0;
+    double phase_ = unknown;
+};
+
+/// A run beside its reference, step by step.
 class RunErrors {
 public:
-    explicit RunErrors(const Reference& reference) : reference_(reference) {}
+    RunErrors(const Scene& scene, const Settings& settings, const Reference& reference,
+              const JudgeOptions& options)
+        : reference_(reference),
+          options_(options),
+          world_(make_world(scene, settings, reference.start)),
+          true_energy_(scene, reference),
+          walk_(reference.motion->walk(settings.stepping.rate.steps)),
+          floor_(reference.floor()),
+          drawn_(*reference.motion, floor_.position, options.display),
+          crossings_(reference.oscillation),
+          run_(world_.bodies().size()),
+          true_(run_.size()) {
+        world_.require_applicable();
+        read();
+        lost_error_ = lost * reference.extent;
+        for (const State3& state : true_)
+            lost_error_ =
+                std::max(lost_error_, negligible * static_cast<double>(largest(state.x)));
+        if (reference.oscillation) crossings_.start(run_[reference.oscillation->row]);
+        take_state();
+    }
 
     /// Returns false if the run is lost.
-    bool take(std::int64_t sample, const Follower& follower) {
-        for (std::size_t row = 0; row < reference_.trajectory.bodies; ++row) {
-            const State<long double, 3> state = follower.state(row);
-            const State<long double, 3>& exact = reference_.trajectory.at(sample, row);
-            position_ = larger(position_, distance(state.x, exact.x));
-            velocity_ = larger(velocity_, distance(state.v, exact.v));
-            if (reference_.oscillation && row == reference_.oscillation->row)
-                add_to_oscillation(sample, state);
+    bool run() {
+        const double until = reference_.meaningful_until;
+        for (std::int64_t part = 1; part <= growth_parts; ++part) {
+            const double end = part == growth_parts ? until : until * part / growth_parts;
+            while (world_.time() < end && !ends_early())
+                if (!step(until)) return false;
+            growth_.push_back(drawn_.error());
         }
-        const double exact = reference_.trajectory.energies[static_cast<std::size_t>(sample)];
-        energy_ = larger(energy_, std::abs(follower.energy() - exact));
-        return position_ <= lost * reference_.extent;
+        return true;
     }
 
     [[nodiscard]] Judgement judgement() const {
-        const Uncertainty floor = reference_.floor();
         const auto above_floor = [](double error, double least) {
             return error >= least ? error : unknown;
         };
-        return {.position_error = above_floor(position_, floor.position),
-                .velocity_error = above_floor(velocity_, floor.velocity),
-                .phase_error = phase_error(),
-                .energy_drift = above_floor(reference_.share_of_energy(energy_), floor.energy)};
+        const double phase = crossings_.phase();
+        // The phase resolution at the middle, where the speed is largest.
+        const double least_phase = 360 * floor_.position / reference_.extent;
+        return {.complete = !ends_early(),
+                .position_error =
+                    above_floor(std::max(drawn_.error(), position_), floor_.position),
+                .step_error = above_floor(position_, floor_.position),
+                .velocity_error = above_floor(velocity_, floor_.velocity),
+                .phase_error = std::abs(phase) >= least_phase ? phase : unknown,
+                .energy_drift = above_floor(reference_.share_of_energy(energy_), floor_.energy),
+                .growth = growth_};
     }
 
 private:
-    void add_to_oscillation(std::int64_t sample, const State<long double, 3>& state) {
-        oscillation_.t.push_back(reference_.samples.time(sample));
-        oscillation_.x.push_back(static_cast<double>(state.x[reference_.oscillation->axis]));
-        oscillation_.v.push_back(static_cast<double>(state.v[reference_.oscillation->axis]));
+    [[nodiscard]] bool ends_early() const {
+        return std::max(position_, drawn_.error()) > options_.enough || options_.stopped();
     }
-    [[nodiscard]] double phase_error() const {
-        if (!reference_.oscillation) return unknown;
-        const PeriodicCoordinate& oscillation = *reference_.oscillation;
-        const std::vector<double> at =
-            upward_crossings(oscillation_, oscillation.level, oscillation.band);
-        const std::size_t both = std::min(at.size(), oscillation.crossings.size());
-        if (both == 0) return unknown;
-        const double phase =
-            360 * (oscillation.crossings[both - 1] - at[both - 1]) / oscillation.period;
-        // The phase resolution at the middle, where the speed is largest.
-        const double least = 360 * reference_.floor().position / reference_.extent;
-        return std::abs(phase) >= least ? phase : unknown;
+    [[nodiscard]] Real time() const {
+        return static_cast<Real>(world_.tick()) /
+               static_cast<Real>(world_.settings().stepping.rate.steps);
+    }
+    void read() {
+        for (std::size_t row = 0; row < run_.size(); ++row) run_[row] = world_.bodies().state(row);
+        walk_(world_.tick(), true_);
+    }
+    bool step(double until) {
+        const Real from = time();
+        run_before_.swap(run_);
+        true_before_.swap(true_);
+        if (world_.try_step()) return false;
+        read();
+        for (std::size_t row = 0; row < run_.size(); ++row)
+            drawn_.add({row, from, time(), run_before_[row], run_[row], true_before_[row],
+                        true_[row]},
+                       until);
+        if (time() <= until) take_state();
+        return std::max(position_, drawn_.error()) <= lost_error_;
+    }
+    /// Takes the errors at the step.
+    void take_state() {
+        for (std::size_t row = 0; row < run_.size(); ++row) {
+            position_ = larger(position_, distance(run_[row].x, true_[row].x));
+            velocity_ = larger(velocity_, distance(run_[row].v, true_[row].v));
+        }
+        energy_ = larger(
+            energy_, std::abs(world_.bodies().energy().total() - true_energy_.of(true_)));
+        if (reference_.oscillation && world_.tick() > 0)
+            crossings_.add(world_.time(), run_[reference_.oscillation->row]);
     }
 
     const Reference& reference_;
+    const JudgeOptions& options_;
+    World world_;
+    TrueEnergy true_energy_;
+    Motion::Walk walk_;
+    Uncertainty floor_;
+    DrawnError drawn_;
+    Crossings crossings_;
+    std::vector<State3> run_;
+    std::vector<State3> true_;
+    std::vector<State3> run_before_{run_};
+    std::vector<State3> true_before_{true_};
+    double lost_error_ = 0;  ///< m
     double position_ = 0;
     double velocity_ = 0;
     double energy_ = 0;
-    Path oscillation_;
+    std::vector<double> growth_;
 };
-
-/// Whether a run is lost at a step. Most runs at rates below the sampling rate are; this check is
-/// cheaper than sampling between steps.
-bool gets_lost(const Scene& scene, const Settings& settings, const Reference& reference,
-               const std::function<bool()>& stopped) {
-    World world = make_world(scene, settings);
-    world.require_applicable();
-    const auto steps = static_cast<std::int64_t>(reference.meaningful_until() *
-                                                 static_cast<double>(settings.stepping.rate.steps));
-    for (std::int64_t tick = 0; tick < steps && !stopped(); ++tick) {
-        if (world.try_step()) return true;
-        for (std::size_t row = 0; row < reference.trajectory.bodies; ++row)
-            if (!(distance(world.bodies().state(row).x, reference.trajectory.at(0, row).x) <=
-                  (lost + 1) * reference.extent))
-                return true;
-    }
-    return false;
-}
 
 }  // namespace
 
 Judgement judge(const Scene& scene, const Settings& settings, const Reference& reference,
-                const std::function<bool()>& stopped) {
-    if (settings.stepping.rate.steps < reference.samples.per_second &&
-        gets_lost(scene, settings, reference, stopped))
-        return {.stable = false};
-    Follower follower(scene, settings, reference.samples.per_second);
-    RunErrors errors(reference);
-    for (std::int64_t sample = 0; sample < reference.meaningful && !stopped(); ++sample)
-        if (!follower.go_to(sample) || !errors.take(sample, follower)) return {.stable = false};
+                const JudgeOptions& options) {
+    RunErrors errors(scene, settings, reference, options);
+    if (!errors.run()) return {.stable = false};
     Judgement judgement = errors.judgement();
     judgement.evaluations =
         evaluations_per_step(scene, settings) *
-        std::ceil(reference.meaningful_until() * static_cast<double>(settings.stepping.rate.steps));
+        std::ceil(reference.meaningful_until * static_cast<double>(settings.stepping.rate.steps));
     return judgement;
 }
 

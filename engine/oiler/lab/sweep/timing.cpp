@@ -11,19 +11,77 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t frames_per_second = 60;
-/// The shortest measurement, long against a clock resolution of tens of ns.
-constexpr double shortest = 100e-6;  // s
-/// The largest number of steps per call. More steps per call cost no less per step.
-constexpr std::int64_t most_steps_per_call = 256;
+constexpr double frames_per_second = 60;
+/// The largest number of steps in a frame and in a call. More cost no less per step.
+constexpr std::int64_t most_steps = 256;
+/// The shortest and the longest measurement, s; a clock's resolution is tens of ns.
+constexpr double shortest = 200e-6;
+constexpr double longest = 50e-3;
+constexpr std::size_t fewest_pieces = 5;
+constexpr std::size_t most_pieces = 300;
 
-/// The longest call. Calls of expensive steps take fewer steps.
-constexpr double longest_call = 50e-3;  // s
-
-double seconds_of(World& world, std::int64_t steps) {
-    const Clock::time_point begin = Clock::now();
-    if (world.try_step(steps)) return unknown;
+double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// The time that two readings of the clock take, s.
+double clock_time() {
+    static const double least = [] {
+        double time = INFINITY;
+        for (int i = 0; i < 1000; ++i) time = std::min(time, seconds_since(Clock::now()));
+        return time;
+    }();
+    return least;
+}
+
+/// The work of a game between two frames: it replaces the fastest cache's content.
+class FrameWork {
+public:
+    void run() {
+        for (std::size_t i = 0; i < memory_.size(); i += line) memory_[i] = memory_[i] + 1;
+    }
+
+private:
+    static constexpr std::size_t line = 64;  // bytes
+    std::vector<unsigned char> memory_ = std::vector<unsigned char>(64 * 1024);
+};
+
+/// A game's frame: steps one by one, with a body read after each. Returns seconds, `unknown` for a
+/// divergence.
+double seconds_of_frame(World& world, std::int64_t steps) {
+    double seen = 0;
+    const Clock::time_point begin = Clock::now();
+    for (std::int64_t step = 0; step < steps; ++step) {
+        if (world.try_step()) return unknown;
+        seen += world.bodies().position(0)[0];
+    }
+    asm volatile("" : : "g"(seen));  // the compiler must not drop the readings
+    return std::max(0.0, seconds_since(begin) - clock_time());
+}
+
+/// Steps worlds from `start` in pieces of `steps` to the scene's end, again and again, until a
+/// measurement is long enough. A run may be unstable after the scene's end. Calls `measure` for
+/// each piece.
+template <class Measure>
+void repeat_scene(const World& start, double duration, std::int64_t steps, Measure measure) {
+    const auto last = std::max<std::int64_t>(
+        start.tick() + steps, static_cast<std::int64_t>(std::floor(
+                                  duration * static_cast<double>(
+                                                 start.settings().stepping.rate.steps))));
+    double seconds = 0;
+    std::size_t pieces = 0;
+    const auto is_enough = [&] {
+        return seconds > longest || pieces >= most_pieces ||
+               (seconds >= shortest && pieces >= fewest_pieces);
+    };
+    while (!is_enough()) {
+        World world = start;
+        for (; world.tick() + steps <= last && !is_enough(); ++pieces) {
+            const double taken = measure(world);
+            if (std::isnan(taken)) return;
+            seconds += taken;
+        }
+    }
 }
 
 double quantile(const std::vector<double>& sorted, double share) {
@@ -35,35 +93,57 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-// Runs restart when the scene ends, because a run may be unstable after that.
-double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t per_call) try {
+double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t per_frame) try {
     World start = make_world(scene, Settings{choice});
-    if (start.try_step()) return unknown;
-    if (per_call > 1) {
-        World probe = start;
-        const double first = seconds_of(probe, 1);
-        const double most = longest_call / std::min(first, seconds_of(probe, 1));
-        if (most < static_cast<double>(per_call))
-            per_call = std::max<std::int64_t>(1, std::llround(most));
-    }
-    const auto last = std::max<std::int64_t>(
-        1 + per_call,
-        static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
-    double seconds = 0;
-    std::int64_t steps = 0;
-    while (seconds < shortest) {
-        World world = start;
-        while (world.tick() + per_call <= last && seconds < shortest)
-            seconds += seconds_of(world, per_call);
-        steps += world.tick() - start.tick();
-    }
-    return 1e9 * seconds / static_cast<double>(steps);
+    if (start.bodies().size() == 0 || start.try_step()) return unknown;
+    FrameWork between;
+    std::vector<double> frames;
+    repeat_scene(start, scene.duration, per_frame, [&](World& world) {
+        between.run();
+        frames.push_back(seconds_of_frame(world, per_frame));
+        return frames.back();
+    });
+    if (frames.empty() || std::isnan(frames.back())) return unknown;
+    std::sort(frames.begin(), frames.end());
+    return 1e9 * quantile(frames, 0.5) / static_cast<double>(per_frame);
 } catch (const Error&) {
     return unknown;
 }
 
-std::int64_t steps_per_call(std::int64_t rate) {
-    return std::clamp<std::int64_t>(rate / frames_per_second, 1, most_steps_per_call);
+double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
+    World start = make_world(scene, Settings{choice});
+    if (start.bodies().size() == 0 || start.try_step()) return unknown;
+    World probe = start;
+    const double first = seconds_of_frame(probe, 1);
+    const std::int64_t steps = std::clamp<std::int64_t>(
+        std::llround(longest / std::max(first, 1e-9)), 1, most_steps);
+    std::vector<double> calls;
+    repeat_scene(start, scene.duration, steps, [&](World& world) {
+        const Clock::time_point begin = Clock::now();
+        calls.push_back(world.try_step(steps) ? unknown : seconds_since(begin));
+        return calls.back();
+    });
+    if (calls.empty() || std::isnan(calls.back())) return unknown;
+    std::sort(calls.begin(), calls.end());
+    return 1e9 * quantile(calls, 0.5) / static_cast<double>(steps);
+} catch (const Error&) {
+    return unknown;
+}
+
+double ns_per_second(const Scene& scene, const Stepping& choice, const SweepWatch& watch) {
+    const auto rate = static_cast<double>(choice.rate.steps);
+    const double in_frame = rate / frames_per_second;
+    const double few = std::floor(in_frame);
+    if (few >= static_cast<double>(most_steps))
+        return rate * watch.ns_per_step(scene, choice, most_steps);
+    const auto frame = [&](double steps) {
+        return steps == 0 ? 0
+                          : steps * watch.ns_per_step(scene, choice,
+                                                      static_cast<std::int64_t>(steps));
+    };
+    const double share = in_frame - few;
+    const double more = share > 0 ? share * frame(few + 1) : 0;
+    return frames_per_second * ((1 - share) * frame(few) + more);
 }
 
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
@@ -73,21 +153,20 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
         if (row->judgement.stable) stable.push_back(row);
     std::vector<std::vector<double>> times(stable.size());
     const auto all = static_cast<double>(stable.size()) * rounds;
-    const auto ns_per_second = [&](const Stepping& choice) {
-        return watch.ns_per_step(scene, choice, steps_per_call(choice.rate.steps)) *
-               static_cast<double>(choice.rate.steps);
-    };
     double done = 0;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < stable.size(); ++i) {
             if (watch.stopped()) return;
-            times[i].push_back(ns_per_second(stable[i]->stepping));
+            times[i].push_back(ns_per_second(scene, stable[i]->stepping, watch));
             watch.progress(++done / all);
         }
     for (std::size_t i = 0; i < stable.size(); ++i) {
+        TradeoffRow& row = *stable[i];
         std::sort(times[i].begin(), times[i].end());
-        stable[i]->ns_per_second = quantile(times[i], 0.5);
-        stable[i]->ns_spread = (quantile(times[i], 0.75) - quantile(times[i], 0.25)) / 2;
+        row.ns_per_second = quantile(times[i], 0.5);
+        row.ns_spread = (quantile(times[i], 0.75) - quantile(times[i], 0.25)) / 2;
+        row.ns_together = static_cast<double>(row.stepping.rate.steps) *
+                          watch.ns_per_step_together(scene, row.stepping);
     }
 }
 

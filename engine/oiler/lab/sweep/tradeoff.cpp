@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/reference/parts.hpp"
 #include "oiler/lab/sweep/convergence.hpp"
 
 namespace oiler::lab {
@@ -31,23 +32,22 @@ public:
         std::vector<TradeoffRow> rows;
         std::string end = why_not(scene_, Settings{choice(rungs_.front())});
         const double work_per_hertz =
-            work_.per_step(*ladder_.method) * reference_.meaningful_until();
-        Convergence convergence;
+            work_.per_step(*ladder_.method) * reference_.meaningful_until;
+        Convergence convergence(largest_converging_error * reference_.extent);
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
             if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
                 end = "a run at higher rates is too much work";
                 break;
             }
-            rows.push_back({.stepping = choice(rate),
-                            .judgement = judge(scene_, Settings{choice(rate)}, reference_, stopped),
-                            .meets_steps = reference_.samples.meet_steps(rate)});
+            rows.push_back(
+                {.stepping = choice(rate),
+                 .judgement = judge(scene_, Settings{choice(rate)}, reference_, {.stopped = stopped})});
             if (stopped()) return;
             const Judgement& judgement = rows.back().judgement;
-            if (judgement.below_floor()) end = "smaller errors are below the reference's floor";
-            if (!judgement.stable || !rows.back().meets_steps) continue;
+            if (!judgement.stable) continue;
             convergence.take(judgement.position_error);
-            if (convergence.ended() && end.empty()) end = "round-off keeps errors from falling";
+            end = why_ended(rows.back(), convergence, stopped);
         }
         ladder_.rows = std::move(rows);
         ladder_.end = end.empty() ? "the highest rate of the sweep was reached" : end;
@@ -55,6 +55,26 @@ public:
     }
 
 private:
+    /// Why higher rates are not worth a run; empty if they are.
+    [[nodiscard]] std::string why_ended(const TradeoffRow& row, Convergence& convergence,
+                                        const std::function<bool()>& stopped) const {
+        const Judgement& judgement = row.judgement;
+        if (judgement.below_floor()) return "smaller errors are below the reference's floor";
+        if (only_lines(judgement))
+            return "smaller errors are those of the drawn lines, equal for all methods";
+        if (!convergence.stalled()) return "";
+        if (is_round_off(scene_, row, reference_, stopped))
+            return "round-off keeps errors from falling";
+        convergence.restart();
+        return "";
+    }
+    /// Whether drawn lines are almost exact and cause almost all of the error.
+    [[nodiscard]] bool only_lines(const Judgement& judgement) const {
+        constexpr double exact = 1e-6;  // of the extent
+        constexpr double little = 0.01;
+        return judgement.position_error < exact * reference_.extent &&
+               !(judgement.step_error > little * judgement.position_error);
+    }
     [[nodiscard]] Stepping choice(std::int64_t rate) const {
         return {ladder_.method, {rate}, ladder_.precision};
     }
@@ -93,9 +113,12 @@ void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop,
     if (failure) std::rethrow_exception(failure);
 }
 
-std::int64_t max_rate_of(const SweepPlan& plan, const SampleTimes& samples) {
+/// The default resolves the scene's fastest motion.
+std::int64_t max_rate_of(const SweepPlan& plan, const Reference& reference) {
     constexpr std::int64_t highest = 1'000'000;
-    return plan.max_rate > 0 ? plan.max_rate : std::min(highest, 1024 * samples.per_second);
+    constexpr std::int64_t usual = 1024 * 60;
+    if (plan.max_rate > 0) return plan.max_rate;
+    return std::min(highest, std::max(usual, 64 * reference.samples.per_second));
 }
 
 }  // namespace
@@ -126,15 +149,14 @@ const TradeoffRow* Tradeoff::find(const Stepping& choice) const {
 }
 
 ReferenceSummary summary(const Reference& reference) {
-    const Uncertainty& own =
-        reference.uncertainties[static_cast<std::size_t>(reference.meaningful - 1)];
+    const Uncertainty floor = reference.floor();
     return {.words = reference.words,
             .closed_form = reference.closed_form,
-            .position_error = own.position,
-            .velocity_error = own.velocity,
-            .floor = reference.floor(),
+            .position_error = floor.position / margin,
+            .velocity_error = floor.velocity / margin,
+            .floor = floor,
             .extent = reference.extent,
-            .meaningful_until = reference.meaningful_until(),
+            .meaningful_until = reference.meaningful_until,
             .why_no_longer = reference.why_no_longer,
             .period = reference.oscillation ? reference.oscillation->period : unknown};
 }
@@ -155,28 +177,34 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
     return front;
 }
 
-std::vector<std::int64_t> rungs(const Scene& scene, const SampleTimes& samples,
-                                std::int64_t max_rate) {
+std::vector<std::int64_t> rungs(const Scene& scene, std::int64_t max_rate) {
+    constexpr std::int64_t usual = 60;
     std::set<std::int64_t> all;
-    for (std::int64_t rate = 1; rate < samples.per_second; ++rate)
-        if (samples.per_second % rate == 0) all.insert(rate);
-    for (std::int64_t rate = samples.per_second; rate <= max_rate; rate *= 2) {
+    for (std::int64_t rate = 1; rate < usual; ++rate)
+        if (usual % rate == 0) all.insert(rate);
+    for (std::int64_t rate = usual; rate <= max_rate; rate *= 2) {
         all.insert(rate);
-        if (rate > samples.per_second && rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
+        if (rate * 3 / 2 <= max_rate) all.insert(rate / 2 * 3);
     }
     all.erase(all.upper_bound(max_rate), all.end());
     all.insert(scene.stepping.rate.steps);
     return {all.begin(), all.end()};
 }
 
-Tradeoff start_tradeoff(const Scene& scene, const SampleTimes& samples, const Reference& reference,
-                        const SweepPlan& plan) {
+bool is_round_off(const Scene& scene, const TradeoffRow& row, const Reference& reference,
+                  const std::function<bool()>& stopped) {
+    Stepping exact = row.stepping;
+    exact.precision = Precision::extended;
+    const Judgement judgement = judge(scene, Settings{exact}, reference, {.stopped = stopped});
+    return judgement.below_floor() || 2 * judgement.position_error < row.judgement.position_error;
+}
+
+Tradeoff start_tradeoff(const Scene& scene, const Reference& reference, const SweepPlan& plan) {
     Tradeoff tradeoff{.scene = {},
                       .title = scene.title,
                       .fingerprint = {},
                       .duration = scene.duration,
                       .current = scene.stepping,
-                      .samples = samples,
                       .reference = summary(reference),
                       .machines = {this_machine()}};
     for (const Method* method : plan.methods)
@@ -188,7 +216,7 @@ Tradeoff start_tradeoff(const Scene& scene, const SampleTimes& samples, const Re
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch) {
     const std::vector<std::int64_t> rates =
-        rungs(scene, tradeoff.samples, max_rate_of(plan, tradeoff.samples));
+        rungs(scene, max_rate_of(plan, reference));
     std::vector<std::size_t> open;
     for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
          i += static_cast<std::size_t>(plan.shards))

@@ -15,9 +15,11 @@ namespace oiler::lab {
 struct TradeoffRow {
     Stepping stepping{};
     Judgement judgement{};
-    bool meets_steps = true;         ///< whether every sample coincides with a step
-    double ns_per_second = unknown;  ///< computing time per second of the scene, the median
-    double ns_spread = unknown;      ///< half the interquartile range
+    /// Computing time per simulated second as played, ns: the median of repeated times. In a game
+    /// of 60 frames per second each step is a call, and other work is between the frames.
+    double ns_per_second = unknown;
+    double ns_spread = unknown;    ///< half the interquartile range
+    double ns_together = unknown;  ///< ns per simulated second at many steps per call
 };
 
 /// A method in one precision at ever higher rates.
@@ -48,7 +50,7 @@ struct ReferenceSummary {
 struct SweepPlan {
     std::vector<const Method*> methods{};
     std::vector<Precision> precisions{Precision::single, Precision::double_};
-    std::int64_t max_rate = 0;  ///< 1/s; 0 for 1024 × samples per second
+    std::int64_t max_rate = 0;  ///< 1/s; 0 for 61,440, or more for fast motion
     double most_work = 1e9;     ///< force evaluations, each on one body or link, per run
     int shard = 1;              ///< from 1 to `shards`: every `shards`-th ladder
     int shards = 1;
@@ -61,7 +63,6 @@ struct Tradeoff {
     std::string fingerprint;  ///< see fingerprint()
     double duration = 0;      ///< s
     Stepping current{};       ///< the scene's own setting
-    SampleTimes samples{};
     ReferenceSummary reference{};
     std::vector<Machine> machines{};
     std::vector<Ladder> ladders{};  ///< all of the plan; ladders of other shards are not done
@@ -84,16 +85,20 @@ using Cost = double (*)(const TradeoffRow& row);
 /// Errors below the reference's floor count as 0.
 [[nodiscard]] std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost);
 
-/// The rates of a ladder from 1 Hz to `max_rate`: the divisors of the samples per second, multiples
-/// of it by 2ⁿ and 1.5·2ⁿ, and the scene's own rate, even above `max_rate`.
-[[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, const SampleTimes& samples,
-                                              std::int64_t max_rate);
+/// The rates of a ladder from 1 Hz to `max_rate`: the divisors of 60, 60·2ⁿ and 90·2ⁿ, and the
+/// scene's own rate, even above `max_rate`.
+[[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, std::int64_t max_rate);
 
-/// Measures the cost of one step, ns, at `per_call` steps per call, or fewer if a call takes longer
-/// than 50 ms. Returns `unknown` for an unstable run.
-[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t per_call);
-/// The steps per call of a game at 60 frames per second, at most 256.
-[[nodiscard]] std::int64_t steps_per_call(std::int64_t rate);
+/// Whether only round-off causes a row's error: the same run in long double halves it.
+[[nodiscard]] bool is_round_off(const Scene& scene, const TradeoffRow& row,
+                                const Reference& reference, const std::function<bool()>& stopped);
+
+/// Measures the cost of a step as played, ns: the median over frames of `per_frame` steps. Returns
+/// `unknown` for an unstable run.
+[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
+                                 std::int64_t per_frame);
+/// Measures the cost of a step at many steps per call, ns; `unknown` for an unstable run.
+[[nodiscard]] double ns_per_step_together(const Scene& scene, const Stepping& choice);
 
 /// Callbacks of a sweep: progress, stopping, and each finished ladder.
 struct SweepWatch {
@@ -101,13 +106,20 @@ struct SweepWatch {
     std::function<bool()> stopped = [] { return false; };
     std::function<void(const Tradeoff&)> ladder_done = [](const Tradeoff&) {};
     /// Measures all costs. Tests replace it.
-    std::function<double(const Scene&, const Stepping&, std::int64_t per_call)> ns_per_step =
+    std::function<double(const Scene&, const Stepping&, std::int64_t per_frame)> ns_per_step =
         lab::ns_per_step;
+    std::function<double(const Scene&, const Stepping&)> ns_per_step_together =
+        lab::ns_per_step_together;
 };
 
+/// The computing time per simulated second as played, ns. Where a frame has no whole number of
+/// steps, it is interpolated between the frames with one step less and one step more.
+[[nodiscard]] double ns_per_second(const Scene& scene, const Stepping& choice,
+                                   const SweepWatch& watch);
+
 /// A trade-off with all ladders of the plan, without rows.
-[[nodiscard]] Tradeoff start_tradeoff(const Scene& scene, const SampleTimes& samples,
-                                      const Reference& reference, const SweepPlan& plan);
+[[nodiscard]] Tradeoff start_tradeoff(const Scene& scene, const Reference& reference,
+                                      const SweepPlan& plan);
 
 /// Climbs each unfinished ladder of the plan's shard until errors are below the reference's floor,
 /// round-off keeps them from falling, or a run is too much work. Uses all cores; errors do not
@@ -115,8 +127,7 @@ struct SweepWatch {
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch);
 
-/// Times all stable rows, with the steps per call of a game at 60 frames per second. Rows run one
-/// at a time and take turns.
+/// Times all stable rows. Rows run one at a time and take turns.
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch);
 

@@ -27,13 +27,17 @@ Precision to_precision(const std::string& name) {
 }
 
 Stepping to_stepping(const Parsed& json) {
-    return {&find_method(json.at("method").get<std::string>()),
-            {json.at("rate").get<std::int64_t>()},
-            to_precision(json.at("precision"))};
+    Stepping stepping{&find_method(json.at("method").get<std::string>()),
+                      {json.at("rate").get<std::int64_t>()},
+                      to_precision(json.at("precision"))};
+    const Parsed& damping = json.at("damping");
+    if (!damping.is_null() && damping != name_of(stepping.method->damping))
+        stepping.damping = damping == "kick" ? Damping::in_kick : Damping::in_drift;
+    return stepping;
 }
 
 TradeoffRow to_row(const Parsed& json) {
-    TradeoffRow row{.stepping = to_stepping(json), .meets_steps = json.at("meets_steps")};
+    TradeoffRow row{.stepping = to_stepping(json)};
     row.judgement.stable = json.at("stable");
     for (const RowNumber& number : row_numbers) number.of(row) = to_number(json.at(number.name));
     return row;
@@ -58,7 +62,6 @@ Tradeoff from_json(const Parsed& json) {
                       .fingerprint = json.at("fingerprint"),
                       .duration = json.at("duration"),
                       .current = to_stepping(json.at("today")),
-                      .samples = {json.at("looks_per_second"), json.at("looks")},
                       .reference = to_reference(json.at("reference"))};
     for (const Parsed& machine : json.at("machines"))
         tradeoff.machines.push_back(
@@ -96,17 +99,16 @@ Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
 }
 
 std::string to_csv(const Tradeoff& tradeoff) {
-    std::string text = "method,rate,precision,stable,meets_steps,below_floor,pareto";
+    std::string text = "method,rate,precision,stable,below_floor,pareto";
     for (const RowNumber& number : row_numbers) text += fmt::format(",{}", number.name);
     text += "\n";
     const auto front = pareto(tradeoff, time_of);
     for (const TradeoffRow* found : tradeoff.rows()) {
         TradeoffRow row = *found;
         const bool best = std::find(front.begin(), front.end(), found) != front.end();
-        text +=
-            fmt::format("{},{},{},{:d},{:d},{:d},{:d}", row.stepping.method->name,
-                        row.stepping.rate.steps, name_of(row.stepping.precision),
-                        row.judgement.stable, row.meets_steps, row.judgement.below_floor(), best);
+        text += fmt::format("{},{},{},{:d},{:d},{:d}", row.stepping.method->name,
+                            row.stepping.rate.steps, name_of(row.stepping.precision),
+                            row.judgement.stable, row.judgement.below_floor(), best);
         for (const RowNumber& number : row_numbers)
             text += fmt::format(",{}", cell(number.of(row)));
         text += "\n";
@@ -114,10 +116,9 @@ std::string to_csv(const Tradeoff& tradeoff) {
     return text;
 }
 
-std::string fingerprint(std::string_view scene_text, const Scene& scene, const SampleTimes& samples,
-                        const SweepPlan& plan) {
-    std::string all = fmt::format("{}|{}|{}|{}|{}|{}|", version(), scene.duration,
-                                  samples.per_second, samples.count, plan.max_rate, plan.most_work);
+std::string fingerprint(std::string_view scene_text, const Scene& scene, const SweepPlan& plan) {
+    std::string all =
+        fmt::format("{}|{}|{}|{}|", version(), scene.duration, plan.max_rate, plan.most_work);
     for (const Precision precision : plan.precisions) all += fmt::format("{},", name_of(precision));
     for (const Method* method : plan.methods) all += fmt::format("{},", method->name);
     all += scene_text;

@@ -21,6 +21,6 @@ namespace oiler::lab {
 /// A hash of everything that determines a sweep's errors. Sweeps with equal fingerprints have equal
 /// errors.
 [[nodiscard]] std::string fingerprint(std::string_view scene_text, const Scene& scene,
-                                      const SampleTimes& samples, const SweepPlan& plan);
+                                      const SweepPlan& plan);
 
 }  // namespace oiler::lab

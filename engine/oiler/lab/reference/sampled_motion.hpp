@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "oiler/lab/reference/motion.hpp"
+#include "oiler/lab/reference/samples.hpp"
+
+namespace oiler::lab {
+
+/// Positions and velocities of all bodies at every sample.
+struct Trajectory {
+    std::size_t bodies = 0;
+    /// Of all bodies at the first sample, then at the next.
+    std::vector<State<long double, 3>> states{};
+
+    [[nodiscard]] const State<long double, 3>& at(std::int64_t sample, std::size_t row) const {
+        return states[static_cast<std::size_t>(sample) * bodies + row];
+    }
+    [[nodiscard]] std::int64_t samples() const {
+        return bodies == 0 ? 0 : static_cast<std::int64_t>(states.size() / bodies);
+    }
+};
+
+/// A motion between samples: the polynomial of degree 7 through the positions and velocities of the
+/// four nearest samples.
+class SampledMotion : public Motion {
+public:
+    SampledMotion(Trajectory trajectory, std::int64_t per_second);
+
+    [[nodiscard]] std::size_t bodies() const override { return trajectory_.bodies; }
+    [[nodiscard]] State<long double, 3> at(std::size_t row, long double t) const override;
+    void all_at(long double t, std::span<State<long double, 3>> states) const override;
+    /// A cubic between two samples follows the motion that they resolve.
+    [[nodiscard]] double bend(std::size_t, const State<long double, 3>&, long double from,
+                              long double to) const override;
+    [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
+
+private:
+    Trajectory trajectory_;
+    std::int64_t per_second_;
+};
+
+/// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It
+/// compares samples with interpolations that leave them out, at two spacings, and continues the
+/// convergence to the spacing of all samples.
+[[nodiscard]] std::vector<double> interpolation_errors(const Trajectory& trajectory,
+                                                       std::int64_t per_second);
+
+}  // namespace oiler::lab

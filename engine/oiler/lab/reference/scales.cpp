@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/lab/reference/parts.hpp"
+
+namespace oiler::lab {
+namespace {
+
+/// The share of a force in the damping of a body.
+struct Damped {
+    template <class Force>
+    bool operator()(const Force& force) const {
+        if constexpr (requires { force.damping; })
+            return force.damping != 0;
+        else if constexpr (requires { force.coefficient; })
+            return force.coefficient != 0;
+        else
+            return false;
+    }
+};
+
+bool is_damped(const GivenForces& forces) {
+    return std::apply(
+        [](const auto&... force) { return ((force && Damped()(*force)) || ...); }, forces);
+}
+
+}  // namespace
+
+Scales scales_of(const Motion& motion, const std::vector<double>& times, Bodies bodies) {
+    Scales scales;
+    std::vector<State<long double, 3>> start(motion.bodies());
+    motion.all_at(0, start);
+    std::vector<State<long double, 3>> states = start;
+    double least = INFINITY;
+    double most = -INFINITY;
+    for (const double t : times) {
+        motion.all_at(t, states);
+        for (std::size_t row = 0; row < states.size(); ++row) {
+            bodies.set_state(row, states[row]);
+            scales.extent = std::max(scales.extent, distance(states[row].x, start[row].x));
+            scales.coordinate =
+                std::max(scales.coordinate, static_cast<double>(largest(states[row].x)));
+            scales.speed = std::max(scales.speed, static_cast<double>(largest(states[row].v)));
+        }
+        const Energy energy = bodies.energy();
+        scales.energy = std::max(scales.energy, energy.kinetic);
+        least = std::min(least, energy.potential);
+        most = std::max(most, energy.potential);
+    }
+    scales.energy = std::max(scales.energy, most - least);
+    return scales;
+}
+
+std::vector<double> probe_times(double until, double fastest, std::size_t bodies) {
+    constexpr double most_states = 2e6;
+    const auto count = static_cast<std::size_t>(
+        std::clamp(most_states / static_cast<double>(bodies + 1), 64.0, 2000.0));
+    constexpr double golden = 0.6180339887498949;
+    const double first = std::min(until, 0.1 / std::max(fastest, 1 / until));
+    std::vector<double> times{0, until};
+    for (std::size_t i = 0; i < count / 2; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count / 2);
+        const double offset = std::fmod(static_cast<double>(i) * golden, 1.0);
+        times.push_back(first * std::pow(until / first, share));
+        times.push_back(until * (share + offset / static_cast<double>(count / 2)));
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
+bool is_conservative(const Bodies& bodies) {
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        for (std::size_t row = 0; row < bodies.size(); ++row)
+            if (is_damped(bodies.forces_per_mass(row, index))) return false;
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).damping != 0) return false;
+    return true;
+}
+
+}  // namespace oiler::lab

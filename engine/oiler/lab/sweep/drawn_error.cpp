@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/sweep/drawn_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/lab/reference/parts.hpp"
+
+namespace oiler::lab {
+namespace {
+
+using Real = long double;
+using Real3 = Vec<Real, 3>;
+using Offset = Vec<double, 3>;
+
+/// A part of a step is divided while the cubic through its ends may deviate by more than this
+/// fraction of the largest distance.
+constexpr double tolerable_bend = 0.01;
+constexpr int points = 16;
+
+Offset narrowed(const Real3& a) {
+    return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
+}
+
+double length(const Offset& a) { return std::sqrt(squared_length(a)); }
+
+/// The point of the drawn line at a time within the step.
+Real3 drawn_at(const DrawnStep& step, Real t) {
+    const Real share = (t - step.from) / (step.to - step.from);
+    return step.run_from.x + (step.run_to.x - step.run_from.x) * share;
+}
+
+}  // namespace
+
+void DrawnError::add(const DrawnStep& step, Real until) {
+    if (display_ > 0) return add_frames(step, until);
+    Part part{step.from,
+              step.to,
+              step.true_from,
+              step.true_to,
+              narrowed(step.run_from.x - step.true_from.x),
+              narrowed(step.run_to.x - step.true_to.x)};
+    if (until < step.to) {
+        part.to = until;
+        part.true_to = motion_.at(step.row, until);
+        part.offset_to = narrowed(drawn_at(step, until) - part.true_to.x);
+    }
+    add_part(step, part);
+}
+
+void DrawnError::add_frames(const DrawnStep& step, Real until) {
+    const auto rate = static_cast<Real>(display_);
+    auto frame = static_cast<std::int64_t>(std::ceil(step.from * rate));
+    for (Real t = static_cast<Real>(frame) / rate; t <= std::min(step.to, until);
+         t = static_cast<Real>(++frame) / rate)
+        most_ = larger(most_, distance(drawn_at(step, t), motion_.at(step.row, t).x));
+}
+
+// The motion's cubic deviates from its chord by s(1 − s)((1 − s)·p − s·q), with p = h·v − Δx at the
+// part's start and q = h·v − Δx at its end.
+void DrawnError::add_part(const DrawnStep& step, const Part& part) {
+    const double ends = std::max(length(part.offset_from), length(part.offset_to));
+    most_ = larger(most_, ends);
+    const auto h = static_cast<double>(part.to - part.from);
+    const Offset chord = narrowed(part.true_to.x - part.true_from.x);
+    const Offset p = narrowed(part.true_from.v) * h - chord;
+    const Offset q = narrowed(part.true_to.v) * h - chord;
+    const double bulge = ends + std::max(length(p), length(q)) / 4;
+    if (bulge + motion_.bend_of_any(step.row, part.to - part.from) <= most_) return;
+    const double bend = motion_.bend(step.row, part.true_from, part.from, part.to);
+    if (bulge + bend <= most_) return;
+    if (bend <= tolerable_bend * std::max(most_, least_)) return sample(part, p, q);
+    if (!may_exceed(step, part, most_ * (1 + tolerable_bend))) return;
+    const Real middle = (part.from + part.to) / 2;
+    if (!(middle > part.from && middle < part.to)) return;
+    const State<Real, 3> there = motion_.at(step.row, middle);
+    const Offset offset = narrowed(drawn_at(step, middle) - there.x);
+    add_part(step, {part.from, middle, part.true_from, there, part.offset_from, offset});
+    add_part(step, {middle, part.to, there, part.true_to, offset, part.offset_to});
+}
+
+/// Whether a body that stays in its enclosure can be farther from the part's line than `most`.
+bool DrawnError::may_exceed(const DrawnStep& step, const Part& part, double most) const {
+    const Ball ball = motion_.enclosure(step.row, part.true_from);
+    const double line = std::max(distance(drawn_at(step, part.from), ball.centre),
+                                 distance(drawn_at(step, part.to), ball.centre));
+    return line + ball.radius > most;
+}
+
+void DrawnError::sample(const Part& part, const Offset& p, const Offset& q) {
+    for (int point = 1; point < points; ++point) {
+        const double s = static_cast<double>(point) / points;
+        const Offset bent = (p * (1 - s) - q * s) * (s * (1 - s));
+        const Offset offset = part.offset_from * (1 - s) + part.offset_to * s - bent;
+        most_ = larger(most_, length(offset));
+    }
+}
+
+}  // namespace oiler::lab
