@@ -34,6 +34,7 @@ Json to_json(const LedgerPass& pass) {
             {"ns_per_body_step", number(pass.ns)},
             {"saves_ns", number(pass.saves_ns)},
             {"saves_percent", number(pass.saves_percent)},
+            {"spread_percent", number(pass.spread_percent)},
             {"changes_position_m", number(pass.changes_position)},
             {"diverges", pass.diverged ? Json(*pass.diverged) : Json(nullptr)}};
 }
@@ -57,12 +58,13 @@ Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) 
             {"steps", ledger.steps},
             {"looks", ledger.samples},
             {"timed_steps", ledger.timed_steps},
+            {"rounds", ledger.rounds},
             {"bytes_per_body", ledger.bytes_per_body()},
             {"bytes_per_link", ledger.bytes_per_link},
             {"columns", list_of(ledger.columns)},
             {"absent", ledger.absent},
             {"ns_per_body_step", number(ledger.ns)},
-            {"noise_ns", number(ledger.noise_ns)},
+            {"spread_ns", number(ledger.spread_ns)},
             {"passes", list_of(ledger.passes)},
             {"flags", ledger.flags},
             {"diverges", ledger.diverged ? Json(*ledger.diverged) : Json(nullptr)}};
@@ -82,9 +84,10 @@ struct LedgerCommand {
         .example = "assets/scenes/salvo.toml",
         .notes =
             "--json has scene, title, method, rate, precision, axes, bodies, links, steps, looks,\n"
-            "timed_steps, bytes_per_body, bytes_per_link, columns, absent, ns_per_body_step,\n"
-            "noise_ns, passes (name, ns_per_body_step, saves_ns, saves_percent,\n"
-            "changes_position_m, diverges) and flags. null: not measurable."};
+            "timed_steps, rounds, bytes_per_body, bytes_per_link, columns, absent,\n"
+            "ns_per_body_step, spread_ns, passes (name, ns_per_body_step, saves_ns,\n"
+            "saves_percent, spread_percent, changes_position_m, diverges) and flags.\n"
+            "Times are medians, spreads half interquartile ranges. null: not measurable."};
 
     std::filesystem::path file;
     std::int64_t steps = 0;  ///< largest number; 0: the steps of the scene's duration

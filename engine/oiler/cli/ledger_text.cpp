@@ -87,32 +87,39 @@ std::string change_text(const LedgerPass& pass) {
     return pass.changes_position == 0 ? "0 m" : fmt::format("{:.4g} m", pass.changes_position);
 }
 
-/// Formats the time that an ablation saves, "-" within the noise of the whole step.
-std::string saving_text(const Ledger& ledger, const LedgerPass& pass) {
-    if (!(std::abs(pass.saves_ns) > ledger.noise_ns)) return fmt::format("{:>19}", "-");
-    return fmt::format("{:>9.3g} ns {:>4.0f} %", pass.saves_ns, pass.saves_percent);
+std::string saving_text(const LedgerPass& pass) {
+    if (pass.diverged || std::isnan(pass.saves_percent)) return "-";
+    if (pass.is_within_spread())
+        return fmt::format("within the spread, ± {:.2g} %", pass.spread_percent);
+    return fmt::format("{:.3g} ns, {:.1f} ± {:.2g} %", pass.saves_ns, pass.saves_percent,
+                       pass.spread_percent);
 }
 
 constexpr auto passes_head = R"(
-A step takes {:.3g} ± {:.2g} ns per body. Ablation: a step without one part. -: within the noise.
+A step takes {:.3g} ± {:.2g} ns per body. Ablation: a step without one part.
 Savings overlap and need not add up; a negative saving is a slower step.
 )";
-constexpr auto passes_foot = R"( Timed: the first {} steps in one call.
+// For implicit methods: an ablation that stays at rest would need fewer iterations.
+constexpr auto passes_foot = R"( Timed: {} rounds of {} {}
+per call, all scenes of a round from one state of the whole scene's run, so that implicit
+solvers iterate on the same motion. ±: half the interquartile range.
 Compared: the positions at {} sample times in {} steps.
 )";
 
 std::string passes_text(const Ledger& ledger) {
     if (ledger.passes.empty() || ledger.diverged) return "";
-    std::string text = fmt::format(passes_head, ledger.ns, ledger.noise_ns);
-    text += fmt::format("  {:<15} {:>19}  {}\n", "without", "saves", "moves a body by up to");
+    std::string text = fmt::format(passes_head, ledger.ns, ledger.spread_ns);
+    text += fmt::format("  {:<15} {:>26}  {}\n", "without", "saves", "moves a body by up to");
     for (const LedgerPass& pass : ledger.passes)
         if (pass.name != "moving")
-            text += fmt::format("  {:<15} {}  {}\n", pass.name, saving_text(ledger, pass),
+            text += fmt::format("  {:<15} {:>26}  {}\n", pass.name, saving_text(pass),
                                 change_text(pass));
     const LedgerPass& moving = ledger.passes.back();
     text += moving.diverged ? "The run without all of them diverges."
                             : fmt::format("A step without all of them takes {:.3g} ns.", moving.ns);
-    return text + fmt::format(passes_foot, ledger.timed_steps, ledger.samples, ledger.steps);
+    return text + fmt::format(passes_foot, ledger.rounds, ledger.timed_steps,
+                              ledger.timed_steps == 1 ? "step" : "steps", ledger.samples,
+                              ledger.steps);
 }
 
 std::string flags_text(const Ledger& ledger) {

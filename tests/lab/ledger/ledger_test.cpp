@@ -152,8 +152,8 @@ TEST(Ledger, TimesAreFinite) {
                        "attractor", "links", "moving"}));
     EXPECT_EQ(ledger.absent, Strings{});
     EXPECT_GT(ledger.ns, 0);
-    EXPECT_GE(ledger.noise_ns, 0);
-    EXPECT_TRUE(std::isfinite(ledger.noise_ns));
+    EXPECT_GE(ledger.spread_ns, 0);
+    EXPECT_TRUE(std::isfinite(ledger.spread_ns));
     EXPECT_GE(ledger.timed_steps, 1);
     for (const LedgerPass& pass : ledger.passes) {
         EXPECT_GE(pass.ns, 0) << pass.name;

@@ -14,9 +14,6 @@
 namespace oiler::lab {
 namespace {
 
-/// The approximate time of each scene in a round.
-constexpr double seconds_per_scene = 0.02;  // s
-
 /// Flags parts without effect. A part of a flagged part is not flagged again.
 class Flags {
 public:
@@ -79,36 +76,43 @@ LedgerPass pass_of(const Ablation& ablation, const AblationResult& result) {
     return pass;
 }
 
-/// Times the whole scene twice, and the scene without each pass.
+void enter_time(LedgerPass& pass, const Median& ratio, double whole_ns) {
+    pass.spread_percent = 100 * ratio.spread;
+    if (pass.name == "moving") {
+        pass.ns = ratio.value * whole_ns;
+        return;
+    }
+    pass.saves_percent = 100 * (1 - ratio.value);
+    pass.saves_ns = (1 - ratio.value) * whole_ns;
+    pass.ns = std::max(0.0, pass.saves_ns);
+}
+
+/// Times the whole scene, and the scene without each pass.
 void time_passes(Ledger& ledger, const Scene& scene, const std::vector<const Scene*>& without,
-                 const LedgerProgress& progress) {
-    std::vector<const Scene*> scenes{&scene, &scene};
+                 const StepTimer& timer, const LedgerProgress& progress) {
+    std::vector<const Scene*> scenes{&scene};
     std::vector<LedgerPass*> timed;
     for (std::size_t i = 0; i < without.size(); ++i)
         if (!ledger.passes[i].diverged) {
             scenes.push_back(without[i]);
             timed.push_back(&ledger.passes[i]);
         }
-    std::vector<double> ns = race(scenes, ledger.timed_steps, progress);
+    const Timing timing = race(scenes, ledger.steps, timer, progress);
+    ledger.timed_steps = timing.steps_per_turn;
+    ledger.rounds = timing.rounds;
     const double body_steps = static_cast<double>(ledger.bodies * ledger.timed_steps);
-    for (double& time : ns) time *= 1e9 / body_steps;
-    ledger.ns = std::min(ns[0], ns[1]);
-    ledger.noise_ns = std::abs(ns[0] - ns[1]);
-    for (std::size_t i = 0; i < timed.size(); ++i) {
-        LedgerPass& pass = *timed[i];
-        if (pass.name == "moving") {
-            pass.ns = ns[i + 2];
-            continue;
-        }
-        pass.saves_ns = ledger.ns - ns[i + 2];
-        pass.saves_percent = 100 * pass.saves_ns / ledger.ns;
-        pass.ns = std::max(0.0, pass.saves_ns);
-    }
+    ledger.ns = 1e9 * timing.seconds.value / body_steps;
+    ledger.spread_ns = 1e9 * timing.seconds.spread / body_steps;
+    for (std::size_t i = 0; i < timed.size(); ++i)
+        enter_time(*timed[i], timing.ratios[i], ledger.ns);
 }
 
 }  // namespace
 
-Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress) {
+bool LedgerPass::is_within_spread() const { return std::abs(saves_percent) <= spread_percent; }
+
+Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress,
+              const StepTimer& timer) {
     require(steps >= 2, "a ledger takes at least two steps");
     Ledger ledger;
     const World world = make_world(scene, Settings{scene.stepping});
@@ -131,10 +135,7 @@ Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& prog
     flags.raise(all);
     flags.raise_for_dampers(scene);
     flags.raise_for_axes(scene, ledger.columns.front().bytes);
-    const double seconds_per_round = seconds_per_scene * static_cast<double>(all.size() + 1);
-    ledger.timed_steps = std::clamp<std::int64_t>(
-        std::llround(seconds_per_round / comparison.seconds_per_step), 1, ledger.steps - 1);
-    time_passes(ledger, scene, without, progress);
+    time_passes(ledger, scene, without, timer, progress);
     return ledger;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oiler/scene/scene.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 
@@ -30,10 +31,13 @@ struct LedgerPass {
     std::string name;
     /// Per body and step. For a force, the cost that it adds to the others, at least 0.
     double ns = unknown;
-    double saves_ns = unknown;          ///< measured difference, may be negative; NaN for moving
-    double saves_percent = unknown;     ///< percent of the whole step
+    double saves_ns = unknown;          ///< may be negative; NaN for moving
+    double saves_percent = unknown;     ///< percent of the whole step in the same round, the median
+    double spread_percent = unknown;    ///< half the interquartile range over the rounds
     double changes_position = unknown;  ///< m, the largest at any sample; NaN for moving
     std::optional<std::string> diverged{};  ///< how the scene diverges without it
+
+    [[nodiscard]] bool is_within_spread() const;
 };
 
 /// The costs of a scene, memory and time, and the effect of each of its parts.
@@ -42,12 +46,13 @@ struct Ledger {
     std::int64_t links = 0;
     std::size_t bytes_per_link = 0;
     std::vector<LedgerColumn> columns;
-    std::vector<std::string> absent;        ///< forces that are neither stored nor evaluated
-    std::int64_t steps = 0;                 ///< number of steps compared with the ablations
-    std::int64_t samples = 0;               ///< number of comparisons
-    std::int64_t timed_steps = 0;           ///< the first steps, timed repeatedly
-    double ns = LedgerPass::unknown;        ///< per body and step, the whole step
-    double noise_ns = LedgerPass::unknown;  ///< difference of two timings of the whole step
+    std::vector<std::string> absent;         ///< forces that are neither stored nor evaluated
+    std::int64_t steps = 0;                  ///< number of steps compared with the ablations
+    std::int64_t samples = 0;                ///< number of comparisons
+    std::int64_t timed_steps = 0;            ///< in one call
+    std::int64_t rounds = 0;                 ///< number of times that each scene was timed
+    double ns = LedgerPass::unknown;         ///< per body and step, the whole step, the median
+    double spread_ns = LedgerPass::unknown;  ///< half the interquartile range over the rounds
     std::vector<LedgerPass> passes;
     std::vector<std::string> flags;         ///< parts without effect, and the remedy
     std::optional<std::string> diverged{};  ///< how the scene itself diverges; then no times
@@ -59,11 +64,18 @@ struct Ledger {
 /// Called with the fraction that is done, from 0 to 1.
 using LedgerProgress = std::function<void(double)>;
 
+/// Takes the steps on this thread and returns their time, s; NaN if they diverge.
+using StepTimer = std::function<double(Bodies&, const Method&, const Steps&)>;
+
+/// Returns the computing time without the time in which other programs run.
+[[nodiscard]] double cpu_seconds(Bodies& bodies, const Method& method, const Steps& steps);
+
 /// Makes the scene's world and its ablations: one world without each part. Steps them side by side,
 /// at most `steps` times and for about 10 s, then times them for about 3 s. `steps` is at least 2,
 /// because the first step prepares data and is not timed. Throws Error{usage} if the method cannot
 /// step the scene.
 [[nodiscard]] Ledger ledger(
-    const Scene& scene, std::int64_t steps, const LedgerProgress& progress = [](double) {});
+    const Scene& scene, std::int64_t steps, const LedgerProgress& progress = [](double) {},
+    const StepTimer& timer = cpu_seconds);
 
 }  // namespace oiler::lab

@@ -52,8 +52,7 @@ struct AblationResult {
 struct Comparison {
     std::int64_t steps = 0;
     std::int64_t samples = 0;
-    double seconds_per_step = 0;  ///< all worlds together
-    Vec3 moved{};                 ///< m, largest distance of any body from its start, per axis
+    Vec3 moved{};  ///< m, largest distance of any body from its start, per axis
     std::optional<std::string> diverged{};  ///< how the whole scene diverged
     std::vector<AblationResult> without;    ///< the result of each ablation
 };
@@ -62,10 +61,31 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations,
                                  std::int64_t steps, const LedgerProgress& progress);
 
-/// Measures the time of `steps` steps of each scene, s, after one untimed step that prepares data.
-/// Returns the least of several rounds. Scenes take turns in each round, so that other load on the
-/// machine affects all alike.
-[[nodiscard]] std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t steps,
-                                       const LedgerProgress& progress);
+/// A median and half the interquartile range. NaN of no values.
+struct Median {
+    double value = LedgerPass::unknown;
+    double spread = LedgerPass::unknown;
+};
+
+/// The median of the finite values.
+[[nodiscard]] Median median_of(std::vector<double> values);
+
+struct Timing {
+    std::int64_t rounds = 0;
+    std::int64_t steps_per_turn = 0;  ///< timed, in one call
+    Median seconds{};                 ///< of a turn of the first scene
+    std::vector<Median> ratios{};     ///< of the others' times to the first's in the same round
+};
+
+/// Times the scenes in many short rounds, within the first `steps` steps of the first scene. In
+/// each round every scene takes a turn; the scene that begins changes. Ratios within a round do not
+/// change if other load slows the whole machine. All turns of a round begin with a state of the
+/// first scene's run: in a run that stays at rest, implicit methods take fewer iterations. In each
+/// turn the first step prepares data and is not timed.
+[[nodiscard]] Timing race(const std::vector<const Scene*>& scenes, std::int64_t steps,
+                          const StepTimer& timer, const LedgerProgress& progress);
+
+/// The fraction of the progress that comes before timing.
+inline constexpr double comparing_share = 0.6;
 
 }  // namespace oiler::lab

@@ -23,11 +23,6 @@ constexpr double block = 16;
 /// The limit of bodies × comparisons of all worlds together.
 constexpr double most_compared_bodies = 4e7;
 constexpr double most_comparing_seconds = 10;
-constexpr double timing_seconds = 2.5;
-constexpr int most_rounds = 1000;
-constexpr int fewest_rounds = 3;
-/// The fraction of the progress that comes before timing.
-constexpr double comparing_share = 0.6;
 
 /// Steps a world that may diverge.
 class TrialRun {
@@ -71,7 +66,6 @@ public:
             progress(comparing_share * static_cast<double>(result_.steps) /
                      static_cast<double>(steps));
         }
-        result_.seconds_per_step = seconds_since(started) / static_cast<double>(result_.steps);
         result_.diverged = whole_.diverged();
         for (std::size_t i = 0; i < trials_.size(); ++i)
             result_.without[i].diverged = trials_[i].diverged();
@@ -125,29 +119,6 @@ private:
 Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations, std::int64_t steps,
                    const LedgerProgress& progress) {
     return Comparing(scene, ablations).run(steps, progress);
-}
-
-std::vector<double> race(const std::vector<const Scene*>& scenes, std::int64_t steps,
-                         const LedgerProgress& progress) {
-    std::vector<World> starts;
-    for (const Scene* scene : scenes) {
-        starts.push_back(make_world(*scene, Settings{scene->stepping}));
-        starts.back().step();
-    }
-    std::vector<double> least(starts.size(), INFINITY);
-    const auto started = Clock::now();
-    for (int round = 0; round < most_rounds; ++round) {
-        const double share = seconds_since(started) / timing_seconds;
-        if (round >= fewest_rounds && share >= 1) break;
-        progress(comparing_share + (1 - comparing_share) * std::min(1.0, share));
-        for (std::size_t i = 0; i < starts.size(); ++i) {
-            World world = starts[i];
-            const auto start = Clock::now();
-            world.step(steps);
-            least[i] = std::min(least[i], seconds_since(start));
-        }
-    }
-    return least;
 }
 
 }  // namespace oiler::lab
