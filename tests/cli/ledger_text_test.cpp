@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "oiler/scene/read.hpp"
 
 namespace oiler::test {
@@ -12,14 +15,16 @@ using lab::LedgerPass;
 
 // Shares of 25 ± 0.5 %, 0.4 ± 0.5 %, −30 ± 2 % and none.
 std::string printed() {
-    lab::Ledger ledger{.bodies = 1, .steps = 40, .samples = 40};
+    lab::Ledger ledger;
+    ledger.bodies = 1;
+    ledger.steps = ledger.samples = 40;
     ledger.timed_steps = 19;
     ledger.rounds = 300;
     ledger.ns = 20;
     ledger.spread_ns = 0.1;
     const auto add = [&](const char* name, double percent, double spread) {
         ledger.passes.push_back({.name = name,
-                                 .ns = 20 * std::max(0.0, percent) / 100,
+                                 .ns = std::max(0.0, 20 * percent / 100),
                                  .saves_ns = 20 * percent / 100,
                                  .saves_percent = percent,
                                  .spread_percent = spread,
@@ -41,10 +46,10 @@ bool has_line(const std::string& text, const std::string& line) {
 TEST(LedgerText, HasASpreadInEachRow) {
     const std::string text = printed();
     EXPECT_NE(text.find("A step takes 20 ± 0.1 ns per body."), std::string::npos) << text;
-    EXPECT_TRUE(has_line(text, "  spring                 5 ns, 25.0 ± 0.5 %  1.5 m")) << text;
-    EXPECT_TRUE(has_line(text, "  linear_drag      within the spread, ± 0.5 %  1.5 m")) << text;
-    EXPECT_TRUE(has_line(text, "  gravity                 -6 ns, -30.0 ± 2 %  1.5 m")) << text;
-    EXPECT_TRUE(has_line(text, "  attractor                                -  diverges")) << text;
+    EXPECT_TRUE(has_line(text, "  spring                 5 ns,   25.0 ±  0.5 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  linear_drag      within the spread, ±  0.5 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  gravity               -6 ns,  -30.0 ±    2 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  attractor                                  -  diverges")) << text;
     EXPECT_NE(text.find(" 300 rounds of 19 steps"), std::string::npos) << text;
 }
 

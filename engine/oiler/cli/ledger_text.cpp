@@ -88,11 +88,10 @@ std::string change_text(const LedgerPass& pass) {
 }
 
 std::string saving_text(const LedgerPass& pass) {
-    if (pass.diverged || std::isnan(pass.saves_percent)) return "-";
-    if (pass.is_within_spread())
-        return fmt::format("within the spread, ± {:.2g} %", pass.spread_percent);
-    return fmt::format("{:.3g} ns, {:.1f} ± {:.2g} %", pass.saves_ns, pass.saves_percent,
-                       pass.spread_percent);
+    if (std::isnan(pass.saves_percent)) return "-";
+    const std::string spread = fmt::format("± {:>4.2g} %", pass.spread_percent);
+    if (pass.is_within_spread()) return "within the spread, " + spread;
+    return fmt::format("{:.3g} ns, {:>6.1f} {}", pass.saves_ns, pass.saves_percent, spread);
 }
 
 constexpr auto passes_head = R"(
@@ -109,10 +108,10 @@ Compared: the positions at {} sample times in {} steps.
 std::string passes_text(const Ledger& ledger) {
     if (ledger.passes.empty() || ledger.diverged) return "";
     std::string text = fmt::format(passes_head, ledger.ns, ledger.spread_ns);
-    text += fmt::format("  {:<15} {:>26}  {}\n", "without", "saves", "moves a body by up to");
+    text += fmt::format("  {:<15} {:>28}  {}\n", "without", "saves", "moves a body by up to");
     for (const LedgerPass& pass : ledger.passes)
         if (pass.name != "moving")
-            text += fmt::format("  {:<15} {:>26}  {}\n", pass.name, saving_text(pass),
+            text += fmt::format("  {:<15} {:>28}  {}\n", pass.name, saving_text(pass),
                                 change_text(pass));
     const LedgerPass& moving = ledger.passes.back();
     text += moving.diverged ? "The run without all of them diverges."
