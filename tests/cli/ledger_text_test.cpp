@@ -53,13 +53,5 @@ TEST(LedgerText, HasASpreadInEachRow) {
     EXPECT_NE(text.find(" 300 rounds of 19 steps"), std::string::npos) << text;
 }
 
-TEST(LedgerText, FitsALine) {
-    std::size_t width = 0;
-    for (const char c : printed()) {
-        width = c == '\n' ? 0 : width + 1;
-        EXPECT_LE(width, 110U);
-    }
-}
-
 }  // namespace
 }  // namespace oiler::test

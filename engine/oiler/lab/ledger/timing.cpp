@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "oiler/lab/ledger/parts.hpp"
 #include "oiler/scene/make_world.hpp"
