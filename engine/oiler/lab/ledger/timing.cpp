@@ -41,6 +41,7 @@ double value_at(const std::vector<double>& sorted, double share) {
     return sorted[low] + (high - sorted[low]) * (at - static_cast<double>(low));
 }
 
+/// A copy of all bodies would share a solver's memory, which then is not free for the next solver.
 void copy_state(const Bodies& from, Bodies& to) {
     for (std::size_t row = 0; row < from.size(); ++row) to.set_state(row, from.state(row));
 }
@@ -76,7 +77,7 @@ public:
         const std::size_t first = seconds_.front().size();
         for (std::size_t i = 0; i < scenes_.size(); ++i) take_turn((first + i) % scenes_.size());
         tick_ += 1 + per_turn_;
-        from_ = scenes_.front();
+        copy_state(scenes_.front(), from_);
         if (tick_ + 1 + per_turn_ > steps_) restart();
     }
 
@@ -109,7 +110,7 @@ private:
         return least;
     }
     void restart() {
-        from_ = start_;
+        copy_state(start_, from_);
         tick_ = per_turn_;
     }
     void take_turn(std::size_t i) {
