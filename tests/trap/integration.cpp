@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "trap/integration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "trap/chebyshev.hpp"
+
+namespace oiler::trap {
+namespace {
+
+constexpr std::size_t nodes = Chebyshev::nodes;
+
+Real length(const Real* d) { return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]); }
+
+}  // namespace
+
+/// The motion in a segment: node by node, three coordinates per body.
+struct Integration::Nodes {
+    explicit Nodes(std::size_t coordinates) : width(coordinates), x(nodes * width), v(x), a(x) {}
+    std::size_t width;
+    Numbers x, v, a;
+};
+
+Integration::Integration(const System& system, Real duration, Real tolerance,
+                         std::size_t most_segments)
+    : system_(system), duration_(duration), shortest_(duration) {
+    Nodes at(3 * system.bodies.size());
+    for (std::size_t i = 0; i < at.width; ++i) {
+        at.x[i] = system.bodies[i / 3].x[i % 3];
+        at.v[i] = system.bodies[i / 3].v[i % 3];
+    }
+    Real h = std::min(duration, system.shortest_spring_period() / 2);
+    for (Real t = 0; t < duration;) {
+        const bool converged = converge(h, at);
+        const Real error = converged ? error_of(h, at) / tolerance : 1e10L;
+        const Real factor =
+            error > 0 ? std::pow(error, Real(-1) / static_cast<Real>(Chebyshev::degree)) : 2;
+        if (error <= 1) {
+            append(h, at);
+            t += h;
+            shortest_ = std::min(shortest_, 1.5L * h);
+        }
+        // The last segment may end after the duration.
+        h *= std::clamp(0.9L * factor, 0.3L, 2.0L);
+        if (segments_.size() > most_segments || h < 1e-15L * duration)
+            throw std::domain_error("the motion needs too many segments");
+    }
+}
+
+/// The positions and velocities at the nodes from the accelerations.
+void Integration::move(Real h, Nodes& at) const {
+    const Chebyshev& rule = Chebyshev::get();
+    const Real half = h / 2;
+    for (std::size_t i = 1; i < nodes; ++i)
+        for (std::size_t c = 0; c < at.width; ++c) {
+            Real once = 0;
+            Real twice = 0;
+            for (std::size_t j = 0; j < nodes; ++j) {
+                once += rule.once[i][j] * at.a[j * at.width + c];
+                twice += rule.twice[i][j] * at.a[j * at.width + c];
+            }
+            at.v[i * at.width + c] = at.v[c] + half * once;
+            at.x[i * at.width + c] = at.x[c] + half * ((1 + rule.at[i]) * at.v[c] + half * twice);
+        }
+}
+
+/// The accelerations at the nodes; returns the largest change relative to the largest of them.
+Real Integration::update(Nodes& at) const {
+    Real change = 0;
+    Real size = 0;
+    Numbers a(at.width);
+    for (std::size_t i = 1; i < nodes; ++i) {
+        accelerate(&at.x[i * at.width], &at.v[i * at.width], a.data());
+        for (std::size_t c = 0; c < at.width; ++c) {
+            change = std::max(change, std::abs(a[c] - at.a[i * at.width + c]));
+            size = std::max(size, std::abs(a[c]));
+            if (!std::isfinite(a[c])) return std::numeric_limits<Real>::infinity();
+        }
+        std::ranges::copy(a, &at.a[i * at.width]);
+    }
+    return size > 0 ? change / size : 0;
+}
+
+/// Iterates from the state at the first node to the accelerations at all nodes.
+bool Integration::converge(Real h, Nodes& at) const {
+    accelerate(at.x.data(), at.v.data(), at.a.data());
+    for (std::size_t i = 1; i < nodes; ++i) std::copy_n(at.a.data(), at.width, &at.a[i * at.width]);
+    Real last = std::numeric_limits<Real>::infinity();
+    for (int round = 0; round < 60; ++round) {
+        move(h, at);
+        const Real change = update(at);
+        if (!std::isfinite(change)) return false;
+        // Below the round-off of long double, or no longer decreasing close to it.
+        if (change <= 4e-19L || (change <= 1e-16L && change >= last)) return true;
+        last = change;
+    }
+    return false;
+}
+
+/// The largest share of the last coefficients in a displacement.
+Real Integration::error_of(Real h, const Nodes& at) const {
+    const Chebyshev& rule = Chebyshev::get();
+    Real tail = 0;
+    Real moved = 0;
+    for (std::size_t c = 0; c < at.width; ++c) {
+        for (const std::size_t n : {Chebyshev::degree - 1, Chebyshev::degree}) {
+            Real coefficient = 0;
+            for (std::size_t j = 0; j < nodes; ++j)
+                coefficient += rule.transform[n][j] * at.a[j * at.width + c];
+            tail = std::max(tail, std::abs(coefficient) * h * h / 4);
+        }
+        for (std::size_t i = 1; i < nodes; ++i)
+            moved = std::max(moved, std::abs(at.x[i * at.width + c] - at.x[c]));
+    }
+    return tail == 0 ? 0 : tail / moved;
+}
+
+/// Keeps the segment and moves the start to its end.
+void Integration::append(Real h, Nodes& at) {
+    const Chebyshev& rule = Chebyshev::get();
+    const Real half = h / 2;
+    Segment segment{segments_.empty() ? 0 : segments_.back().start + segments_.back().length, h,
+                    Numbers(at.width * Chebyshev::coefficients)};
+    for (std::size_t c = 0; c < at.width; ++c) {
+        Real* const series = &segment.positions[c * Chebyshev::coefficients];
+        for (std::size_t n = 0; n < Chebyshev::coefficients; ++n) {
+            for (std::size_t j = 0; j < nodes; ++j)
+                series[n] += rule.position[n][j] * at.a[j * at.width + c];
+            series[n] *= half * half;
+        }
+        series[0] += at.x[c] + half * at.v[c];
+        series[1] += half * at.v[c];
+    }
+    segments_.push_back(std::move(segment));
+    const std::size_t last = (nodes - 1) * at.width;
+    std::copy_n(&at.x[last], at.width, at.x.data());
+    std::copy_n(&at.v[last], at.width, at.v.data());
+}
+
+void Integration::accelerate(const Real* x, const Real* v, Real* a) const {
+    for (std::size_t i = 0; i < system_.bodies.size(); ++i) {
+        const CoupledBody& body = system_.bodies[i];
+        const Real speed = length(v + 3 * i);
+        const Real drag = (body.drag + body.quadratic_drag * speed) / body.mass;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            a[3 * i + axis] = system_.gravity[axis] - drag * v[3 * i + axis];
+        for (const Attractor& one : system_.attractors) attract(one, x + 3 * i, a + 3 * i);
+    }
+    for (const CoupledSpring& spring : system_.springs) pull(spring, x, v, a);
+}
+
+void Integration::attract(const Attractor& one, const Real* x, Real* a) {
+    Point d;
+    for (std::size_t axis = 0; axis < 3; ++axis) d[axis] = x[axis] - one.centre[axis];
+    const Real r = length(d.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) a[axis] -= one.gm / (r * r * r) * d[axis];
+}
+
+void Integration::pull(const CoupledSpring& spring, const Real* x, const Real* v, Real* a) const {
+    Point d;
+    Point speed;
+    const std::size_t i = 3 * spring.body;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        d[axis] = x[i + axis] - (spring.to ? x[3 * *spring.to + axis] : spring.anchor[axis]);
+        speed[axis] = v[i + axis] - (spring.to ? v[3 * *spring.to + axis] : 0);
+    }
+    const Real r = length(d.data());
+    const Real along = (d[0] * speed[0] + d[1] * speed[1] + d[2] * speed[2]) / (r * r);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Real force = -spring.stiffness * d[axis] - spring.damping * speed[axis];
+        if (spring.rest_length > 0)
+            force = -spring.stiffness * (d[axis] - spring.rest_length * d[axis] / r) -
+                    spring.damping * along * d[axis];
+        a[i + axis] += force / system_.bodies[spring.body].mass;
+        if (spring.to) a[3 * *spring.to + axis] -= force / system_.bodies[*spring.to].mass;
+    }
+}
+
+void Integration::positions(Real t, Point* out, std::size_t stride) const {
+    const auto after =
+        std::upper_bound(segments_.begin() + 1, segments_.end(), t,
+                         [](Real time, const Segment& segment) { return time < segment.start; });
+    const Segment& segment = *(after - 1);
+    const Real at = 2 * (t - segment.start) / segment.length - 1;
+    for (std::size_t c = 0; c < 3 * size(); ++c)
+        out[c / 3 * stride][c % 3] =
+            Chebyshev::sum(&segment.positions[c * Chebyshev::coefficients], at);
+}
+
+void Integration::compare_with(const Integration& other) {
+    std::vector<Point> mine(size());
+    std::vector<Point> others(size());
+    for (int k = 0; k <= 200; ++k) {
+        const Real t = duration_ * static_cast<Real>(k) / 200;
+        positions(t, mine.data());
+        other.positions(t, others.data());
+        for (std::size_t i = 0; i < size(); ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                uncertainty_ = std::max(uncertainty_, std::abs(mine[i][axis] - others[i][axis]));
+    }
+}
+
+void Integration::prepare(std::int64_t rate, std::size_t inside) {
+    rate_ = rate;
+    inside_ = inside;
+}
+
+void Integration::sample(std::int64_t n, Point* out) {
+    const auto rate = static_cast<Real>(rate_);
+    for (std::size_t j = 0; j <= inside_; ++j) {
+        const Real t = (static_cast<Real>(n) + share_of(j, inside_)) / rate;
+        // Samples after the duration are not used.
+        positions(std::min(t, duration_), out + j, inside_ + 1);
+    }
+}
+
+}  // namespace oiler::trap

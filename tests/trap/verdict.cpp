@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "trap/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler::trap {
+namespace {
+
+constexpr Real least_told = 0.95L;      ///< of the truth
+constexpr Real clearly_met = 0.9L;      ///< of the tolerance
+constexpr Real most_body_steps = 1e8L;  ///< of a setting that refutes an exit of 1
+constexpr std::int64_t most_rate = 1'000'000;
+
+std::string describe(const Stepping& stepping) {
+    return fmt::format(
+        "{} at {} Hz in {}{}", stepping.method->name, stepping.rate.steps,
+        name_of(stepping.precision),
+        stepping.damping ? fmt::format(", damping in {}s", name_of(*stepping.damping)) : "");
+}
+
+Real largest_coordinate(Truth& truth) {
+    truth.prepare(1, 0);
+    Real largest = 0;
+    for (const Point& point : truth.sample(0))
+        for (const Real number : point) largest = std::max(largest, std::abs(number));
+    return largest;
+}
+
+/// Below this, a distance from the truth is round-off, m.
+Real round_off(const Trap& trap) {
+    return 1e-13L * static_cast<Real>(trap.extent) +
+           1e-17L * (1 + largest_coordinate(*trap.truth)) + 2 * trap.truth->uncertainty();
+}
+
+bool lies(Real told, Real truth) { return told < least_told * truth; }
+
+Judgement judge_advice(const Trap& trap, const Told& told) {
+    const Question& question = trap.question;
+    const Errors truth = measure(trap.scene, told.stepping, *trap.truth);
+    std::string words =
+        fmt::format("{}: drawn {:.3g} (told {:.3g}) m, at the steps {:.3g} (told {}) m",
+                    describe(told.stepping), truth.drawn, told.drawn, truth.at_steps,
+                    told.at_steps ? fmt::format("{:.3g}", *told.at_steps) : "-");
+    Real meant = question.meaning == Meaning::at_steps ? truth.at_steps : truth.drawn;
+    if (question.meaning == Meaning::display) {
+        meant = display_error(trap.scene, told.stepping, *trap.truth);
+        words += fmt::format(", displayed {:.3g} m", meant);
+    }
+    if (meant > question.tolerance)
+        return {Verdict::over,
+                fmt::format("{}; {:.3g} × the tolerance", words, meant / question.tolerance)};
+    const Real small = round_off(trap);
+    if (lies(told.drawn, truth.drawn - small) ||
+        (told.at_steps && lies(*told.at_steps, truth.at_steps - small)))
+        return {Verdict::lie, words};
+    return {Verdict::honest, words};
+}
+
+std::vector<const Method*> candidates(const Question& question) {
+    std::vector<std::string> names = question.methods;
+    if (names.empty())
+        names = {"exact", "velocity_verlet", "rk4", "blanes_moan_srkn11b", "implicit_midpoint"};
+    std::vector<const Method*> list;
+    for (const std::string& name : names) list.push_back(&find_method(name));
+    return list;
+}
+
+/// Whether a setting clearly meets the tolerance. Methods that cannot step the scene do not.
+bool meets(const Trap& trap, const Stepping& stepping) {
+    const Real enough = clearly_met * static_cast<Real>(trap.question.tolerance);
+    try {
+        return error_of(trap.scene, stepping, *trap.truth, trap.question.meaning,
+                        {.samples = 3e6L, .enough = enough}) <= enough;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// A setting that meets the tolerance, from the lowest rates to the highest.
+std::optional<Stepping> find_setting(const Trap& trap) {
+    const Real most = most_body_steps / static_cast<Real>(trap.scene.duration) /
+                      static_cast<Real>(trap.truth->size());
+    const auto highest = static_cast<std::int64_t>(std::clamp(most, Real(1), Real(most_rate)));
+    std::vector<std::int64_t> rates;
+    for (std::int64_t rate = 1; rate < highest; rate *= 4) rates.push_back(rate);
+    rates.push_back(highest);
+    for (const std::int64_t rate : rates)
+        for (const Method* method : candidates(trap.question))
+            if (const Stepping stepping{.method = method, .rate = Rate{rate}};
+                meets(trap, stepping))
+                return stepping;
+    return {};
+}
+
+Judgement judge_cannot(const Trap& trap) {
+    const auto setting = find_setting(trap);
+    if (!setting) return {Verdict::cannot, "none was found"};
+    return {Verdict::false_cannot, describe(*setting) + " meets the tolerance"};
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+    constexpr std::string_view names[verdict_count]{"honest", "cannot",       "refused", "LIE",
+                                                    "OVER",   "FALSE CANNOT", "CRASH"};
+    return names[static_cast<std::size_t>(verdict)];
+}
+
+bool is_failure(Verdict verdict) {
+    return verdict != Verdict::honest && verdict != Verdict::cannot && verdict != Verdict::refused;
+}
+
+Judgement judge(const Trap& trap, const Answer& answer) {
+    if (answer.exit == 0) return judge_advice(trap, *answer.told);
+    if (answer.exit == 1) return judge_cannot(trap);
+    if (answer.exit == 2) return {Verdict::refused, answer.message};
+    return {Verdict::crash, fmt::format("exit {}: {}", answer.exit, answer.message)};
+}
+
+}  // namespace oiler::trap
