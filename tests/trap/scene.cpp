@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "oiler/scene/read.hpp"
@@ -14,8 +15,11 @@ namespace {
 
 constexpr double smallest_tolerance = 1e-6;  ///< of the extent
 
-std::string file_of(const Draft& draft, double duration) {
-    return fmt::format("[scene]\naxes = {}\nduration = {}\n{}", draft.axes, duration, draft.text);
+/// The scene file. The default rate does not suit short scenes; few keep it.
+std::string file_of(const Draft& draft, double duration, bool keeps_rate) {
+    const double rate = std::clamp(std::ceil(4 / duration), 100.0, 1e6);
+    return fmt::format("[scene]\naxes = {}\nduration = {}\n{}{}", draft.axes, duration,
+                       keeps_rate ? "" : fmt::format("rate = {}\n", rate), draft.text);
 }
 
 /// The truth, if it is much better than any tolerance will be.
@@ -57,10 +61,11 @@ Trap make_trap(std::uint64_t seed, bool plain) {
     // Longer runs than the truth can follow become as long as it can.
     double duration = dice.log_uniform(1e-3, 100);
     if (duration > draft.longest) duration = draft.longest * dice.uniform(0.3, 1);
+    const bool keeps_rate = dice.chance(0.15);
     Trap trap{.kind = kind.name};
     // A motion that is not steady enough is cut short.
     do {
-        trap.text = file_of(draft, std::stod(fmt::format("{:.3g}", duration)));
+        trap.text = file_of(draft, std::stod(fmt::format("{:.3g}", duration)), keeps_rate);
         trap.scene = parse_scene(trap.text, "scene.toml");
         duration /= 4;
     } while (!find_truth(trap));

@@ -116,8 +116,12 @@ bool is_failure(Verdict verdict) {
 }
 
 Judgement judge(const Trap& trap, const Answer& answer) {
-    if (answer.exit == 0) return judge_advice(trap, *answer.told);
-    if (answer.exit == 1) return judge_cannot(trap);
+    try {
+        if (answer.exit == 0) return judge_advice(trap, *answer.told);
+        if (answer.exit == 1) return judge_cannot(trap);
+    } catch (const Error& error) {
+        return {Verdict::crash, fmt::format("the advice cannot be stepped: {}", error.what())};
+    }
     if (answer.exit == 2) return {Verdict::refused, answer.message};
     return {Verdict::crash, fmt::format("exit {}: {}", answer.exit, answer.message)};
 }
