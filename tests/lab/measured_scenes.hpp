@@ -25,17 +25,15 @@ inline std::vector<const Method*> methods_of(const std::vector<const char*>& nam
     return all;
 }
 
-/// A scene, its sample times and its reference.
+/// A scene and its reference.
 struct MeasuredScene {
     explicit MeasuredScene(const std::string& scene_text, const ReferenceEffort& effort = {})
         : text(scene_text),
           scene(parse_scene(text, "test.toml")),
-          samples(sample_times_of(scene)),
-          reference(make_reference(scene, samples, effort)) {}
+          reference(make_reference(scene, effort)) {}
 
     std::string text;
     Scene scene;
-    SampleTimes samples;
     Reference reference;
 };
 

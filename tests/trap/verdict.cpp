@@ -46,16 +46,19 @@ Judgement judge_advice(const Trap& trap, const Told& told) {
         fmt::format("{}: drawn {:.3g} (told {:.3g}) m, at the steps {:.3g} (told {}) m",
                     describe(told.stepping), truth.drawn, told.drawn, truth.at_steps,
                     told.at_steps ? fmt::format("{:.3g}", *told.at_steps) : "-");
-    Real meant = question.meaning == Meaning::at_steps ? truth.at_steps : truth.drawn;
+    // Under --display the drawn error is that of its frames and of the steps.
+    Real drawn = truth.drawn;
+    Real meant = question.meaning == Meaning::at_steps ? truth.at_steps : drawn;
     if (question.meaning == Meaning::display) {
         meant = display_error(trap.scene, told.stepping, *trap.truth);
+        drawn = std::max(meant, truth.at_steps);
         words += fmt::format(", displayed {:.3g} m", meant);
     }
     if (meant > question.tolerance)
         return {Verdict::over,
                 fmt::format("{}; {:.3g} × the tolerance", words, meant / question.tolerance)};
     const Real small = round_off(trap);
-    if (lies(told.drawn, truth.drawn - small) ||
+    if (lies(told.drawn, drawn - small) ||
         (told.at_steps && lies(*told.at_steps, truth.at_steps - small)))
         return {Verdict::lie, words};
     return {Verdict::honest, words};

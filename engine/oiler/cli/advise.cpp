@@ -50,8 +50,8 @@ struct AdviseCommand {
 
     SceneOptions scene_options;
     ToleranceOptions tolerances;
-    double longer = 0;                ///< s; 0: the scene's duration
-    std::optional<double> pixels;     ///< tolerance, in pixels of a picture of `size`
+    double longer = 0;             ///< s; 0: the scene's duration
+    std::optional<double> pixels;  ///< tolerance, in pixels of a picture of `size`
     std::string size_words = "1280x720";
     bool at_steps = false;
     std::string display = "any";

@@ -106,8 +106,7 @@ struct RatesCommand {
         const std::vector<std::int64_t> wanted = parse_rates(rates);
         const Interrupt interrupt;
         const Scene scene = scene_options.read();
-        const Reference reference =
-            measure_reference(scene, 0, scene_options.quiet);
+        const Reference reference = measure_reference(scene, 0, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         if (!reference.why_no_longer.empty())
             remark(scene_options.quiet, "measures only the first {:.4g} s of {:.4g} s: {}",

@@ -25,9 +25,9 @@ using namespace lab;
 namespace {
 
 // A page is an overview, so its sweep ends earlier than that of `oiler tradeoff`.
-constexpr std::int64_t highest_rate = 7680;  ///< Hz
-constexpr std::int64_t highest_multiple = 8;    ///< rates over the samples of fast motion
-constexpr double most_work = 5e7;               ///< see SweepPlan
+constexpr std::int64_t highest_rate = 7680;   ///< Hz
+constexpr std::int64_t highest_multiple = 8;  ///< rates over the samples of fast motion
+constexpr double most_work = 5e7;             ///< see SweepPlan
 constexpr Size frame_size{960, 540};
 constexpr double usual_tolerance = 1e-3;  ///< relative to the extent of the motion
 

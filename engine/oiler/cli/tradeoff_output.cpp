@@ -29,10 +29,9 @@ times; frame: its share of the time; in calls: µs per s at many steps per call.
 
 std::string heading(const Tradeoff& tradeoff) {
     const ReferenceSummary& reference = tradeoff.reference;
-    std::string text =
-        fmt::format("{}\n  {:.4g} s; reference: {}\n",
-                    tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
-                    reference.meaningful_until, reference.words);
+    std::string text = fmt::format("{}\n  {:.4g} s; reference: {}\n",
+                                   tradeoff.title.empty() ? tradeoff.scene : tradeoff.title,
+                                   reference.meaningful_until, reference.words);
     text += fmt::format(
         "  errors below {:.2g} m, 100 × the reference's own error of {:.2g} m, are shown as < "
         "limit\n",
@@ -102,10 +101,10 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
 
 std::string table_of(const Tradeoff& tradeoff, bool all) {
     std::string text = heading(tradeoff);
-    text +=
-        fmt::format("\n  {:<30} {:>7} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>4} {:>8} {:>9}\n",
-                    "method", "Hz", "", "drawn m", "steps m", "phase °", "energy", "forces",
-                    "µs per s", "±", "frame", "in calls");
+    text += fmt::format(
+        "\n  {:<30} {:>7} {:<6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>4} {:>8} {:>9}\n", "method",
+        "Hz", "", "drawn m", "steps m", "phase °", "energy", "forces", "µs per s", "±", "frame",
+        "in calls");
     const auto front = pareto(tradeoff, time_of);
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {

@@ -42,8 +42,8 @@ public:
         const bool found = requirements_.has_tolerance() && !search_.meeting_rows().empty();
         front_ = contenders_among(found ? search_.meeting_rows() : search_.closest_rows());
         for (TradeoffRow& row : front_) row = search_.measure(row.stepping);
-        if (why_not(scene_, Settings{scene_.stepping}).empty())
-            advice_.current = search_.measure(scene_.stepping);
+        if (const Stepping& own = scene_.stepping; why_not(scene_, Settings{own}).empty())
+            advice_.current = search_.measure(own);
         for (const Method* method : obvious_methods()) consider(*method);
         time(watch);
         if (found) rank();
@@ -59,8 +59,9 @@ private:
         const auto& asked = requirements_.methods;
         if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
         Alternative alternative{.method = &method};
-        Stepping choice{&method, {search_.rates().front()}, Precision::double_};
+        Stepping choice{&method, {search_.rates().back()}, Precision::double_};
         alternative.why = why_not(scene_, Settings{choice});
+        choice.rate.steps = search_.rates().front();
         if (alternative.why.empty()) {
             const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
             for (const std::int64_t rate : search_.rates())
@@ -78,10 +79,9 @@ private:
                              return a.ns_per_second < b.ns_per_second;
                          });
         const TradeoffRow cheapest = front_.front();
-        const auto others =
-            std::stable_partition(front_.begin(), front_.end(), [&](const TradeoffRow& row) {
-                return in_time(row) && is_tie(row, cheapest);
-            });
+        const auto others = std::stable_partition(
+            front_.begin(), front_.end(),
+            [&](const TradeoffRow& row) { return in_time(row) && is_tie(row, cheapest); });
         // Errors that differ by less than a hundredth of the tolerance are equal.
         const auto merit = [&](const TradeoffRow& row) {
             return std::tuple(std::round(100 * excess(row.judgement, requirements_)),
@@ -148,12 +148,12 @@ private:
         std::stable_partition(front_.begin(), front_.end(),
                               [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
-        advice_.growth =
-            fit_growth(advice_.best->judgement.growth, reference_.meaningful_until);
+        advice_.growth = fit_growth(advice_.best->judgement.growth, reference_.meaningful_until);
         const auto is_named = [&](const TradeoffRow& row) {
             return row.stepping.method == advice_.best->stepping.method ||
-                   std::any_of(advice_.ties.begin(), advice_.ties.end(),
-                               [&](const TradeoffRow& tie) { return tie.stepping == row.stepping; });
+                   std::any_of(
+                       advice_.ties.begin(), advice_.ties.end(),
+                       [&](const TradeoffRow& tie) { return tie.stepping == row.stepping; });
         };
         for (const TradeoffRow& row : front_)
             if (!is_named(row) && !advice_.runner_up) advice_.runner_up = row;
@@ -224,8 +224,8 @@ void require_judgeable(const Scene& scene, const Reference& reference,
 bool is_tie(const TradeoffRow& a, const TradeoffRow& b) {
     // Medians of repeated times differ by this much from one measurement to the next.
     constexpr double repeatable = 0.03;
-    const double spread =
-        std::max(a.ns_spread + b.ns_spread, repeatable * std::min(a.ns_per_second, b.ns_per_second));
+    const double spread = std::max(a.ns_spread + b.ns_spread,
+                                   repeatable * std::min(a.ns_per_second, b.ns_per_second));
     return std::abs(a.ns_per_second - b.ns_per_second) <= spread;
 }
 

@@ -15,9 +15,9 @@ struct Requirements {
     std::optional<double> position_error{};  ///< m, the tolerance
     std::optional<double> energy_drift{};    ///< relative, the tolerance
     std::optional<double> ns_per_second{};   ///< computing time per second of the scene
-    bool at_steps = false;      ///< position_error is that at the steps, else as drawn
-    std::int64_t display = 0;   ///< frames per second at which lines are drawn, 0 for any time
-    std::int64_t min_rate = 30;         ///< 1/s
+    bool at_steps = false;                   ///< position_error is that at the steps, else as drawn
+    std::int64_t display = 0;    ///< frames per second at which lines are drawn, 0 for any time
+    std::int64_t min_rate = 30;  ///< 1/s
     std::int64_t max_rate = 1'000'000;  ///< 1/s
     std::vector<const Method*> methods{};
     double most_work = 1e9;  ///< see SweepPlan
@@ -39,8 +39,8 @@ struct Alternative {
 struct Advice {
     std::optional<TradeoffRow> best{};  ///< meets the requirements, or is the closest
     bool meets = false;
-    Growth growth{};                   ///< of the best setting's error
-    std::vector<TradeoffRow> ties{};   ///< settings whose cost does not differ from the best's
+    Growth growth{};                  ///< of the best setting's error
+    std::vector<TradeoffRow> ties{};  ///< settings whose cost does not differ from the best's
     std::optional<TradeoffRow> runner_up{};  ///< of another method
     std::optional<TradeoffRow> current{};    ///< the scene's own setting
     std::vector<Alternative> alternatives{};

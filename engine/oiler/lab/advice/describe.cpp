@@ -92,8 +92,7 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
                           const Requirements& requirements) {
     std::string text = fmt::format("Input shows up to {:.3g} ms late, one step.",
                                    1e3 / static_cast<double>(advice.best->stepping.rate.steps));
-    if (!advice.meets || !requirements.position_error ||
-        advice.growth.law == Growth::Law::unfit)
+    if (!advice.meets || !requirements.position_error || advice.growth.law == Growth::Law::unfit)
         return text;
     const double until = advice.growth.holds_until(*requirements.position_error);
     text += fmt::format(" It holds for this scene's {:.4g} s; the error ", scene.duration);
@@ -132,8 +131,7 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     if (!advice.best) return words;
     words.push_back(describe_hold(advice, scene, requirements));
     if (!advice.ties.empty())
-        words.push_back(fmt::format("Ties, at the same cost: {}.",
-                                    describe_ties(advice)));
+        words.push_back(fmt::format("Ties, at the same cost: {}.", describe_ties(advice)));
     if (advice.runner_up)
         words.push_back(beside("Runner-up", *advice.runner_up, advice, reference));
     if (advice.current)

@@ -47,8 +47,8 @@ void Ensemble::make_members() {
     for (std::uint64_t seed = 1; seed <= count && !stopped_(); ++seed) {
         Member member{.reference = {}, .requirements = requirements_};
         try {
-            member.reference = make_reference(
-                scene_, effort, {seed, share * size, share * reference_.speed});
+            member.reference =
+                make_reference(scene_, effort, {seed, share * size, share * reference_.speed});
             if (member.requirements.position_error && rests(reference_))
                 member.requirements.position_error =
                     std::max(*member.requirements.position_error, 2 * share * size);
@@ -65,9 +65,8 @@ void Ensemble::make_members() {
 std::string Ensemble::judge_members(const Stepping& choice) {
     if (!is_made_) make_members();
     for (const Member& member : members_) {
-        const Judgement judgement =
-            judge(scene_, Settings{choice}, member.reference,
-                  {.display = requirements_.display, .stopped = stopped_});
+        const Judgement judgement = judge(scene_, Settings{choice}, member.reference,
+                                          {.display = requirements_.display, .stopped = stopped_});
         if (!judgement.stable) return "a start perturbed by 0.1 % is unstable";
         const double times = excess(judgement, member.requirements);
         if (times > 1)

@@ -9,10 +9,14 @@ namespace oiler::lab {
 double Growth::holds_until(double tolerance) const {
     const double times = tolerance / error;
     switch (law) {
-        case Law::linear: return until * times;
-        case Law::quadratic: return until * std::sqrt(times);
-        case Law::exponential: return until + std::log(times) / rate;
-        default: return std::numeric_limits<double>::infinity();
+        case Law::linear:
+            return until * times;
+        case Law::quadratic:
+            return until * std::sqrt(times);
+        case Law::exponential:
+            return until + std::log(times) / rate;
+        default:
+            return std::numeric_limits<double>::infinity();
     }
 }
 
@@ -40,11 +44,16 @@ Growth fit_growth(const std::vector<double>& errors, double until) {
 
 const char* describe(Growth::Law law) {
     switch (law) {
-        case Growth::Law::bounded: return "bounded";
-        case Growth::Law::linear: return "grows with t";
-        case Growth::Law::quadratic: return "grows with t²";
-        case Growth::Law::exponential: return "grows exponentially";
-        default: return "not fitted";
+        case Growth::Law::bounded:
+            return "bounded";
+        case Growth::Law::linear:
+            return "grows with t";
+        case Growth::Law::quadratic:
+            return "grows with t²";
+        case Growth::Law::exponential:
+            return "grows exponentially";
+        default:
+            return "not fitted";
     }
 }
 

@@ -30,9 +30,9 @@ Json ties_of(const Advice& advice) {
 
 Json growth_of(const Advice& advice, const Requirements& requirements) {
     if (!advice.best || !requirements.position_error) return nullptr;
-    return {{"law", describe(advice.growth.law)},
-            {"holds_until",
-             number_or_null(advice.growth.holds_until(*requirements.position_error))}};
+    return {
+        {"law", describe(advice.growth.law)},
+        {"holds_until", number_or_null(advice.growth.holds_until(*requirements.position_error))}};
 }
 
 Json alternatives_of(const Advice& advice) {

@@ -32,8 +32,7 @@ double rounding_to_float(const Reference& reference) {
         reference.motion->all_at(std::fmod(i * golden, 1.0) * reference.meaningful_until, states);
         for (const State<long double, 3>& state : states)
             for (int axis = 0; axis < 3; ++axis)
-                most = std::max(most,
-                                std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
+                most = std::max(most, std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
     }
     return static_cast<double>(most);
 }
@@ -78,8 +77,7 @@ void Search::add_candidates(const Method& method, Precision precision) {
     if (!why_not(scene_, Settings{{&method, {rungs_.back()}, precision}}).empty()) return;
     add_candidate(method, precision, std::nullopt);
     if (reference_.conservative || !std::holds_alternative<Splitting>(method.rule)) return;
-    const Damping other =
-        method.damping == Damping::in_kick ? Damping::in_drift : Damping::in_kick;
+    const Damping other = method.damping == Damping::in_kick ? Damping::in_drift : Damping::in_kick;
     if (why_not(scene_, Settings{{&method, {rungs_.back()}, precision, other}}).empty())
         add_candidate(method, precision, other);
 }
@@ -93,8 +91,7 @@ void Search::add_candidate(const Method& method, Precision precision,
     Candidate candidate{.method = &method,
                         .precision = precision,
                         .damping = damping,
-                        .convergence =
-                            Convergence(largest_converging_error * reference_.extent)};
+                        .convergence = Convergence(largest_converging_error * reference_.extent)};
     candidate.first = candidate.further = watch_.ns_per_step(scene_, candidate.at(rate), 1);
     if (std::isnan(candidate.first)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until;
@@ -113,10 +110,9 @@ void Search::run() {
 
 TradeoffRow Search::judged(const Stepping& choice, double enough) {
     return {.stepping = choice,
-            .judgement = judge(scene_, Settings{choice}, reference_,
-                               {.display = requirements_.display,
-                                .enough = enough,
-                                .stopped = watch_.stopped})};
+            .judgement = judge(
+                scene_, Settings{choice}, reference_,
+                {.display = requirements_.display, .enough = enough, .stopped = watch_.stopped})};
 }
 
 TradeoffRow Search::try_choice(const Stepping& choice) {
@@ -179,8 +175,9 @@ std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& r
 double Search::least_factor(const Candidate& candidate, const TradeoffRow& row,
                             double excess) const {
     constexpr double safety = 0.7;
-    const double steps =
-        candidate.method->order == exact_order ? 1 : std::pow(excess, 1.0 / (candidate.method->order + 1));
+    const double steps = candidate.method->order == exact_order
+                             ? 1
+                             : std::pow(excess, 1.0 / (candidate.method->order + 1));
     const Judgement& judgement = row.judgement;
     if (requirements_.at_steps || !requirements_.position_error || requirements_.display > 0)
         return steps;

@@ -114,8 +114,8 @@ Real nearest_between(const OrbitMotion& motion, const State3& state, Real from, 
     const Real a = 1 / (2 / std::sqrt(squared_length(motion.start.x)) -
                         squared_length(motion.start.v) / motion.gm);
     const Real half_period = std::numbers::pi_v<Real> * a * std::sqrt(a / motion.gm);
-    const bool passes = to - from >= half_period ||
-                        (dot(here, state.v) <= 0 && dot(there, end.v) >= 0);
+    const bool passes =
+        to - from >= half_period || (dot(here, state.v) <= 0 && dot(there, end.v) >= 0);
     if (passes) return motion.nearest;
     return std::sqrt(std::min(squared_length(here), squared_length(there)));
 }
@@ -166,8 +166,8 @@ State3 ExactMotion::operator()(Real t) const {
 
 // The remainder of Hermite's cubic: h⁴/384 times the fourth derivative.
 double ExactMotion::bend(const State3& state, Real from, Real to) const {
-    const double snap = std::visit(
-        [&](const auto& motion) { return snap_of(motion, state, from, to); }, motion_);
+    const double snap =
+        std::visit([&](const auto& motion) { return snap_of(motion, state, from, to); }, motion_);
     const auto h = static_cast<double>(to - from);
     return h * h * h * h / 384 * snap;
 }
@@ -176,7 +176,7 @@ Ball ExactMotion::enclosure(const State3& state) const {
     const LinearMotion* const motion = linear();
     if (!motion || motion->k == 0) return {};
     return {motion->rest, std::hypot(length(state.x - motion->rest),
-                             length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
+                                     length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
 }
 
 ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::move(motions)) {
@@ -200,8 +200,8 @@ void ExactMotions::all_at(Real t, std::span<State3> states) const {
         factors.push_back(factors_at(*motions_[row].linear(), t));
     for (std::size_t row = 0; row < states.size(); ++row) {
         const LinearMotion* const motion = motions_[row].linear();
-        states[row] = motion ? combined(*motion, motion->start, factors[group_[row]])
-                             : motions_[row](t);
+        states[row] =
+            motion ? combined(*motion, motion->start, factors[group_[row]]) : motions_[row](t);
     }
 }
 
@@ -226,12 +226,13 @@ public:
             starts_.resize(states.size());
             motions_.all_at(static_cast<Real>(block * length_) / rate_, starts_);
         }
-        const auto first = static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();
+        const auto first =
+            static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();
         for (std::size_t row = 0; row < states.size(); ++row) {
             const LinearMotion* const motion = motions_.motions_[row].linear();
-            states[row] = motion ? combined(*motion, starts_[row],
-                                            factors_[first + motions_.group_[row]])
-                                 : motions_.motions_[row](static_cast<Real>(tick) / rate_);
+            states[row] =
+                motion ? combined(*motion, starts_[row], factors_[first + motions_.group_[row]])
+                       : motions_.motions_[row](static_cast<Real>(tick) / rate_);
         }
     }
 

@@ -19,7 +19,7 @@ struct LinearMotion {
     State<long double, 3> start{};
 
     /// The point where a spring balances the acceleration; the origin without a spring.
-    Vec<long double, 3> rest = k > 0 ? acceleration * (1 / k) : Vec<long double, 3>{};
+    Vec<long double, 3> rest = k > 0 ? acceleration*(1 / k) : Vec<long double, 3>{};
 };
 
 /// An elliptic orbit around one attractor.
@@ -39,8 +39,8 @@ public:
     ExactMotion(const LinearMotion& motion) : motion_(motion) {}
     ExactMotion(const OrbitMotion& motion) : motion_(motion) {}
     template <class F>
-        requires std::invocable<const F&, long double>
-    ExactMotion(F motion) : motion_(GivenMotion(std::move(motion))) {}
+    requires std::invocable<const F&, long double> ExactMotion(F motion)
+        : motion_(GivenMotion(std::move(motion))) {}
 
     /// Position and velocity t seconds after the start.
     State<long double, 3> operator()(long double t) const;

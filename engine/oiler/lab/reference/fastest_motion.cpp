@@ -47,8 +47,8 @@ double fastest_of(const GivenForces& forces, const Vec3& position, const Vec3& v
 double fastest_motion(const Bodies& bodies) {
     double fastest = 0;
     for (const BodyOscillation& oscillation : oscillations(bodies, false))
-        fastest = std::max({fastest, std::sqrt(std::abs(oscillation.of.k)),
-                            std::abs(oscillation.of.c)});
+        fastest =
+            std::max({fastest, std::sqrt(std::abs(oscillation.of.k)), std::abs(oscillation.of.c)});
     for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
         for (std::size_t row = 0; row < bodies.size(); ++row)
             fastest = std::max(fastest, fastest_of(bodies.forces_per_mass(row, index),

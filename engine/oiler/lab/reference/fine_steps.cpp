@@ -72,8 +72,7 @@ std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b, B
             most.position = larger(most.position, distance(one.x, other.x));
             most.velocity = larger(most.velocity, distance(one.v, other.v));
         }
-        most.energy =
-            larger(most.energy, std::abs(energy_of(a, sample) - energy_of(b, sample)));
+        most.energy = larger(most.energy, std::abs(energy_of(a, sample) - energy_of(b, sample)));
         uncertainties.push_back(most);
     }
     return uncertainties;

@@ -12,7 +12,7 @@ namespace oiler::lab {
 
 /// A ball that a body does not leave.
 struct Ball {
-    Vec<long double, 3> centre{};                              ///< m
+    Vec<long double, 3> centre{};                             ///< m
     double radius = std::numeric_limits<double>::infinity();  ///< m
 };
 

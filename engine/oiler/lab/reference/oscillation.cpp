@@ -72,9 +72,8 @@ Widest find_widest(const Reference& reference, std::optional<std::size_t> only) 
 std::optional<PeriodicCoordinate> find_oscillation(const Reference& reference,
                                                    std::optional<std::size_t> only) {
     const auto [row, axis] = find_widest(reference, only);
-    std::optional<PeriodicCoordinate> oscillation =
-        oscillation_of(path_of(reference, row, axis),
-                       static_cast<double>(reference.samples.per_second));
+    std::optional<PeriodicCoordinate> oscillation = oscillation_of(
+        path_of(reference, row, axis), static_cast<double>(reference.samples.per_second));
     if (oscillation) {
         oscillation->row = row;
         oscillation->axis = axis;

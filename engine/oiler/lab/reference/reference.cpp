@@ -110,9 +110,8 @@ public:
 
 private:
     [[nodiscard]] std::vector<double> probes(double until) const {
-        return reference_.closed_form
-                   ? probe_times(until, fastest_motion(start_), start_.size())
-                   : times_of(reference_.samples, until);
+        return reference_.closed_form ? probe_times(until, fastest_motion(start_), start_.size())
+                                      : times_of(reference_.samples, until);
     }
 
     void take(std::shared_ptr<const Motion> motion) {
@@ -188,8 +187,8 @@ private:
              ++sample) {
             if (!follower.go_to(sample)) break;
             for (std::size_t row = 0; row < fine.trajectory.bodies; ++row)
-                most = larger(most, distance(follower.state(row).x,
-                                             fine.finest_run.at(sample, row).x));
+                most = larger(most,
+                              distance(follower.state(row).x, fine.finest_run.at(sample, row).x));
             round_off_.push_back(most);
         }
     }

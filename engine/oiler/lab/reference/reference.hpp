@@ -39,11 +39,11 @@ struct Reference {
     bool closed_form = false;
     std::string words;                       ///< kind and own error, for people
     std::vector<Uncertainty> uncertainties;  ///< for each sample, the largest up to it
-    double extent = 0;        ///< m, the largest distance of any body from its start
-    double coordinate = 0;    ///< m, the largest coordinate of any body
-    double speed = 0;         ///< m/s, the largest component of a velocity
-    double energy_scale = 0;  ///< J, the unit of energy drifts, see scales_of
-    bool conservative = false;  ///< no force takes or gives energy
+    double extent = 0;                       ///< m, the largest distance of any body from its start
+    double coordinate = 0;                   ///< m, the largest coordinate of any body
+    double speed = 0;                        ///< m/s, the largest component of a velocity
+    double energy_scale = 0;                 ///< J, the unit of energy drifts, see scales_of
+    bool conservative = false;               ///< no force takes or gives energy
     std::optional<PeriodicCoordinate> oscillation{};
     /// The last time at which errors are meaningful, s. It is before the end if the scene is
     /// chaotic: its motion then diverges from any reference, or changes by round-off to double

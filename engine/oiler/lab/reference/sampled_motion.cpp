@@ -92,8 +92,7 @@ double left_out(const Trajectory& trajectory, const Hermite& middle, std::int64_
             return trajectory.at(first + 2 * spacing * i, row);
         });
         const auto& exact = trajectory.at(sample, row);
-        most = std::max(
-            most, static_cast<double>(std::sqrt(squared_length(between.x - exact.x))));
+        most = std::max(most, static_cast<double>(std::sqrt(squared_length(between.x - exact.x))));
     }
     return most;
 }
@@ -106,18 +105,16 @@ SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second)
 State3 SampledMotion::at(std::size_t row, Real t) const {
     const Window window(t, per_second_, trajectory_.samples());
     const Hermite interpolate(window.nodes, window.place, 1 / static_cast<Real>(per_second_));
-    return interpolate([&](std::int64_t i) -> const State3& {
-        return trajectory_.at(window.first + i, row);
-    });
+    return interpolate(
+        [&](std::int64_t i) -> const State3& { return trajectory_.at(window.first + i, row); });
 }
 
 void SampledMotion::all_at(Real t, std::span<State3> states) const {
     const Window window(t, per_second_, trajectory_.samples());
     const Hermite interpolate(window.nodes, window.place, 1 / static_cast<Real>(per_second_));
     for (std::size_t row = 0; row < states.size(); ++row)
-        states[row] = interpolate([&](std::int64_t i) -> const State3& {
-            return trajectory_.at(window.first + i, row);
-        });
+        states[row] = interpolate(
+            [&](std::int64_t i) -> const State3& { return trajectory_.at(window.first + i, row); });
 }
 
 double SampledMotion::bend(std::size_t, const State3&, Real from, Real to) const {

@@ -23,8 +23,8 @@ struct Damped {
 };
 
 bool is_damped(const GivenForces& forces) {
-    return std::apply(
-        [](const auto&... force) { return ((force && Damped()(*force)) || ...); }, forces);
+    return std::apply([](const auto&... force) { return ((force && Damped()(*force)) || ...); },
+                      forces);
 }
 
 }  // namespace

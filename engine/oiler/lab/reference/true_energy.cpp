@@ -5,11 +5,11 @@ namespace oiler::lab {
 
 TrueEnergy::TrueEnergy(const Scene& scene, const Reference& reference)
     : reference_(reference),
-      bodies_(make_world(scene,
-                         Settings{{scene.stepping.method, scene.stepping.rate,
-                                   Precision::extended}},
-                         reference.start)
-                  .bodies()),
+      bodies_(
+          make_world(scene,
+                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
+                     reference.start)
+              .bodies()),
       states_(bodies_.size()),
       at_start_(bodies_.energy().total()) {}
 

@@ -16,6 +16,7 @@ namespace {
 /// A run whose error exceeds this multiple of the extent counts as unstable.
 constexpr double lost = 10;
 
+constexpr std::int64_t highest_rate = 1'000'000;  // Hz
 /// Below this fraction of the largest coordinate, an error is never a loss of stability.
 constexpr double negligible = 1e-9;
 
@@ -73,8 +74,7 @@ public:
         read();
         lost_error_ = lost * reference.extent;
         for (const State3& state : true_)
-            lost_error_ =
-                std::max(lost_error_, negligible * static_cast<double>(largest(state.x)));
+            lost_error_ = std::max(lost_error_, negligible * static_cast<double>(largest(state.x)));
         if (reference.oscillation) crossings_.start(run_[reference.oscillation->row]);
         take_state();
     }
@@ -99,8 +99,7 @@ public:
         // The phase resolution at the middle, where the speed is largest.
         const double least_phase = 360 * floor_.position / reference_.extent;
         return {.complete = !ends_early(),
-                .position_error =
-                    above_floor(std::max(drawn_.error(), position_), floor_.position),
+                .position_error = above_floor(std::max(drawn_.error(), position_), floor_.position),
                 .step_error = above_floor(position_, floor_.position),
                 .velocity_error = above_floor(velocity_, floor_.velocity),
                 .phase_error = std::abs(phase) >= least_phase ? phase : unknown,
@@ -127,9 +126,9 @@ private:
         if (world_.try_step()) return false;
         read();
         for (std::size_t row = 0; row < run_.size(); ++row)
-            drawn_.add({row, from, time(), run_before_[row], run_[row], true_before_[row],
-                        true_[row]},
-                       until);
+            drawn_.add(
+                {row, from, time(), run_before_[row], run_[row], true_before_[row], true_[row]},
+                until);
         if (time() <= until) take_state();
         return std::max(position_, drawn_.error()) <= lost_error_;
     }
@@ -139,8 +138,8 @@ private:
             position_ = larger(position_, distance(run_[row].x, true_[row].x));
             velocity_ = larger(velocity_, distance(run_[row].v, true_[row].v));
         }
-        energy_ = larger(
-            energy_, std::abs(world_.bodies().energy().total() - true_energy_.of(true_)));
+        energy_ =
+            larger(energy_, std::abs(world_.bodies().energy().total() - true_energy_.of(true_)));
         if (reference_.oscillation && world_.tick() > 0)
             crossings_.add(world_.time(), run_[reference_.oscillation->row]);
     }
@@ -167,7 +166,7 @@ private:
 }  // namespace
 
 Judgement judge(const Scene& scene, const Settings& settings, const Reference& reference,
-                const JudgeOptions& options) {
+                const JudgeOptions& options) try {
     RunErrors errors(scene, settings, reference, options);
     if (!errors.run()) return {.stable = false};
     Judgement judgement = errors.judgement();
@@ -175,6 +174,12 @@ Judgement judge(const Scene& scene, const Settings& settings, const Reference& r
         evaluations_per_step(scene, settings) *
         std::ceil(reference.meaningful_until * static_cast<double>(settings.stepping.rate.steps));
     return judgement;
+} catch (const Error& error) {
+    // A method that cannot step the scene at any rate cannot at the highest.
+    Settings short_steps = settings;
+    short_steps.stepping.rate = {highest_rate};
+    if (error.exit() != Exit::usage || !why_not(scene, short_steps).empty()) throw;
+    return {.stable = false};
 }
 
 std::string why_not(const Scene& scene, const Settings& settings) try {

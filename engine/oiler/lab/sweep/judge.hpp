@@ -14,7 +14,7 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// The errors of a setting on a scene, over the meaningful time of the reference. An error below
 /// the reference's floor is `unknown`.
 struct Judgement {
-    bool stable = true;  ///< finite, and errors never exceed 10 × the extent
+    bool stable = true;    ///< finite, and errors never exceed 10 × the extent
     bool complete = true;  ///< false for a run that was ended early; errors are then lower bounds
     /// m, the largest distance of any body as drawn from its true position: on straight lines
     /// between steps, at all times or at those of a display's frames.
@@ -44,8 +44,9 @@ struct JudgeOptions {
     std::function<bool()> stopped = [] { return false; };
 };
 
-/// Runs a scene and compares it with the reference at every step and between steps. Throws
-/// Error{usage} if the method cannot step the scene. The result of a stopped call is incomplete.
+/// Runs a scene and compares it with the reference at every step and between steps. A rate at which
+/// the method's damping overflows is unstable. Throws Error{usage} if the method cannot step the
+/// scene at any rate. The result of a stopped call is incomplete.
 [[nodiscard]] Judgement judge(const Scene& scene, const Settings& settings,
                               const Reference& reference, const JudgeOptions& options = {});
 

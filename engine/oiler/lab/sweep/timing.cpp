@@ -65,9 +65,9 @@ double seconds_of_frame(World& world, std::int64_t steps) {
 template <class Measure>
 void repeat_scene(const World& start, double duration, std::int64_t steps, Measure measure) {
     const auto last = std::max<std::int64_t>(
-        start.tick() + steps, static_cast<std::int64_t>(std::floor(
-                                  duration * static_cast<double>(
-                                                 start.settings().stepping.rate.steps))));
+        start.tick() + steps,
+        static_cast<std::int64_t>(
+            std::floor(duration * static_cast<double>(start.settings().stepping.rate.steps))));
     double seconds = 0;
     std::size_t pieces = 0;
     const auto is_enough = [&] {
@@ -115,8 +115,8 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
     if (start.bodies().size() == 0 || start.try_step()) return unknown;
     World probe = start;
     const double first = seconds_of_frame(probe, 1);
-    const std::int64_t steps = std::clamp<std::int64_t>(
-        std::llround(longest / std::max(first, 1e-9)), 1, most_steps);
+    const std::int64_t steps =
+        std::clamp<std::int64_t>(std::llround(longest / std::max(first, 1e-9)), 1, most_steps);
     std::vector<double> calls;
     repeat_scene(start, scene.duration, steps, [&](World& world) {
         const Clock::time_point begin = Clock::now();
@@ -137,9 +137,9 @@ double ns_per_second(const Scene& scene, const Stepping& choice, const SweepWatc
     if (few >= static_cast<double>(most_steps))
         return rate * watch.ns_per_step(scene, choice, most_steps);
     const auto frame = [&](double steps) {
-        return steps == 0 ? 0
-                          : steps * watch.ns_per_step(scene, choice,
-                                                      static_cast<std::int64_t>(steps));
+        return steps == 0
+                   ? 0
+                   : steps * watch.ns_per_step(scene, choice, static_cast<std::int64_t>(steps));
     };
     const double share = in_frame - few;
     const double more = share > 0 ? share * frame(few + 1) : 0;

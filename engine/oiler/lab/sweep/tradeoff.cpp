@@ -30,9 +30,8 @@ public:
     /// A stopped call leaves the ladder unchanged.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
-        std::string end = why_not(scene_, Settings{choice(rungs_.front())});
-        const double work_per_hertz =
-            work_.per_step(*ladder_.method) * reference_.meaningful_until;
+        std::string end = why_not(scene_, Settings{choice(rungs_.back())});
+        const double work_per_hertz = work_.per_step(*ladder_.method) * reference_.meaningful_until;
         Convergence convergence(largest_converging_error * reference_.extent);
         for (const std::int64_t rate : rungs_) {
             if (!end.empty()) break;
@@ -40,9 +39,9 @@ public:
                 end = "a run at higher rates is too much work";
                 break;
             }
-            rows.push_back(
-                {.stepping = choice(rate),
-                 .judgement = judge(scene_, Settings{choice(rate)}, reference_, {.stopped = stopped})});
+            rows.push_back({.stepping = choice(rate),
+                            .judgement = judge(scene_, Settings{choice(rate)}, reference_,
+                                               {.stopped = stopped})});
             if (stopped()) return;
             const Judgement& judgement = rows.back().judgement;
             if (!judgement.stable) continue;
@@ -215,8 +214,7 @@ Tradeoff start_tradeoff(const Scene& scene, const Reference& reference, const Sw
 
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch) {
-    const std::vector<std::int64_t> rates =
-        rungs(scene, max_rate_of(plan, reference));
+    const std::vector<std::int64_t> rates = rungs(scene, max_rate_of(plan, reference));
     std::vector<std::size_t> open;
     for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
          i += static_cast<std::size_t>(plan.shards))
