@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 
 #include "lab/motions.hpp"
@@ -11,22 +12,23 @@
 namespace {
 
 using oiler::lab::ExactMotion;
+using oiler::lab::ExactMotions;
 using oiler::lab::find_oscillation;
+using oiler::lab::Reference;
 using oiler::lab::SampleTimes;
-using oiler::lab::Trajectory;
 using oiler::test::along_x;
 using oiler::test::article_motion;
 using oiler::test::Motions;
 using oiler::test::Real;
 using oiler::test::State3;
 
-Trajectory trajectory_of(const Motions& motions, const SampleTimes& samples) {
-    Trajectory trajectory{.bodies = motions.size()};
-    for (std::int64_t sample = 0; sample < samples.count; ++sample)
-        for (const ExactMotion& motion : motions)
-            trajectory.states.push_back(
-                motion(static_cast<Real>(sample) / static_cast<Real>(samples.per_second)));
-    return trajectory;
+/// A reference of these motions that is meaningful up to its last sample.
+Reference reference_of(const Motions& motions, const SampleTimes& samples) {
+    Reference reference;
+    reference.motion = std::make_shared<ExactMotions>(motions);
+    reference.samples = samples;
+    reference.meaningful_until = samples.time(samples.count - 1);
+    return reference;
 }
 
 // The error of Hermite's cubic is at most (ω/60)⁴/384 of the amplitude. A crossing's error is that
@@ -34,7 +36,7 @@ Trajectory trajectory_of(const Motions& motions, const SampleTimes& samples) {
 TEST(FindOscillation, HasTheSpringsPeriod) {
     const SampleTimes samples{.per_second = 60, .count = 20 * 60 + 1};
     const double omega = std::sqrt(15.0);
-    const auto oscillation = find_oscillation(trajectory_of({article_motion(0)}, samples), samples);
+    const auto oscillation = find_oscillation(reference_of({article_motion(0)}, samples));
     ASSERT_TRUE(oscillation);
     ASSERT_EQ(oscillation->crossings.size(), 12U);
     EXPECT_EQ(oscillation->row, 0U);
@@ -56,8 +58,7 @@ TEST(FindOscillation, HasTheSpringsPeriod) {
 TEST(FindOscillation, HasTheDampedSpringsPeriod) {
     const SampleTimes samples{.per_second = 50, .count = 10 * 50 + 1};
     const double omega = std::sqrt(15 - 0.0025);
-    const auto oscillation =
-        find_oscillation(trajectory_of({article_motion(0.1L)}, samples), samples);
+    const auto oscillation = find_oscillation(reference_of({article_motion(0.1L)}, samples));
     ASSERT_TRUE(oscillation);
     const double amplitude = 1000 * std::exp(-0.05 * 10);
     const double shift = std::asin(std::abs(oscillation->level) / amplitude) / omega;
@@ -77,14 +78,14 @@ ExactMotion turned_to(int axis, Real size, Real omega) {
 
 TEST(FindOscillation, IsOfTheCoordinateWithTheLargestRange) {
     const SampleTimes samples{.per_second = 60, .count = 601};
-    const Trajectory trajectory =
-        trajectory_of({turned_to(0, 1, 2), turned_to(2, 3, 4), turned_to(1, 2, 3)}, samples);
-    const auto widest = find_oscillation(trajectory, samples);
+    const Reference reference =
+        reference_of({turned_to(0, 1, 2), turned_to(2, 3, 4), turned_to(1, 2, 3)}, samples);
+    const auto widest = find_oscillation(reference);
     ASSERT_TRUE(widest);
     EXPECT_EQ(widest->row, 1U);
     EXPECT_EQ(widest->axis, 2);
     EXPECT_NEAR(widest->period, std::numbers::pi / 2, 1e-5);
-    const auto only = find_oscillation(trajectory, samples, 2);
+    const auto only = find_oscillation(reference, 2);
     ASSERT_TRUE(only);
     EXPECT_EQ(only->row, 2U);
     EXPECT_EQ(only->axis, 1);
@@ -96,9 +97,9 @@ TEST(FindOscillation, IsNoneOfAProjectile) {
     const ExactMotion thrown = [](Real t) {
         return State3{{20 * t, 20 * t - 5 * t * t, 0}, {20, 20 - 10 * t, 0}};
     };
-    EXPECT_FALSE(find_oscillation(trajectory_of({thrown}, samples), samples));
+    EXPECT_FALSE(find_oscillation(reference_of({thrown}, samples)));
     const ExactMotion at_rest = [](Real) { return along_x(3, 0); };
-    EXPECT_FALSE(find_oscillation(trajectory_of({at_rest}, samples), samples));
+    EXPECT_FALSE(find_oscillation(reference_of({at_rest}, samples)));
 }
 
 // Two periods have two crossings. 7 samples per period are too few, 9 are enough.
@@ -106,8 +107,7 @@ TEST(FindOscillation, IsNoneForTooFewPeriodsOrSamples) {
     const SampleTimes samples{.per_second = 60, .count = 601};
     const auto found = [&](Real period) {
         const Real omega = 2 * std::numbers::pi_v<Real> / period;
-        return find_oscillation(trajectory_of({turned_to(0, 1, omega)}, samples), samples)
-            .has_value();
+        return find_oscillation(reference_of({turned_to(0, 1, omega)}, samples)).has_value();
     };
     EXPECT_TRUE(found(3.1L));
     EXPECT_FALSE(found(5.0L));

@@ -5,14 +5,20 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "support/oscillator.hpp"
 #include "support/text.hpp"
 
 namespace {
 
+using oiler::Bodies;
 using oiler::Exit;
+using oiler::make_world;
 using oiler::Scene;
+using oiler::Settings;
+using oiler::lab::Density;
+using oiler::lab::require_measurable;
 using oiler::lab::sample_times_of;
 using oiler::lab::SampleTimes;
 using oiler::test::holds;
@@ -27,69 +33,93 @@ Scene falling(std::int64_t rate, double duration, std::int64_t bodies = 1) {
     return scene;
 }
 
-struct SampleTimesCase {
-    std::int64_t rate;
-    double duration;
-    std::int64_t bodies;
-    std::int64_t per_second;
-    std::int64_t count;
-};
+Bodies start_of(const Scene& scene) { return make_world(scene, Settings{scene.stepping}).bodies(); }
+SampleTimes samples_of(const Scene& scene, const Density& density = {}) {
+    return sample_times_of(scene, start_of(scene), density);
+}
 
-// The divisor nearest to 60; about 20 samples of a short scene; at most 400,000 states.
-TEST(SampleTimesOf, AreADivisorOfTheRateOrAMultipleOfALowOne) {
-    for (const SampleTimesCase& c :
-         {SampleTimesCase{60, 10, 1, 60, 601},
-          {100, 90, 1, 50, 4501},
-          {1000, 17, 1, 50, 851},
-          {120, 2.5, 1, 60, 151},
-          {61, 3, 1, 61, 184},
-          {15, 2, 1, 15, 31},
-          {14, 2, 1, 56, 113},
-          {7, 2, 1, 63, 127},
-          {1, 5, 1, 60, 301},
-          // A prime without a divisor near 60.
-          {997, 1, 1, 60, 61},
-          // The scene ends between two samples.
-          {60, 1.99, 1, 60, 120},
-          {500, 12.566, 1, 50, 629},
-          // 2.05·60 and 0.58·50 are less than 123 and 29 in double.
-          {60, 2.05, 1, 60, 124},
-          {100, 0.58, 1, 50, 30},
-          {60, 0.3, 1, 60, 19},
-          // A short scene has more than 60 samples per second.
-          {1000, 0.1, 1, 200, 21},
-          {1000, 0.29, 1, 50, 15},
+Scene oscillating(double stiffness, double duration, double damping = 0) {
+    Scene scene;
+    scene.duration = duration;
+    scene.bodies = {{.position = {1, 0, 0}}};
+    scene.springs = {{.stiffness = stiffness, .damping = damping}};
+    return scene;
+}
 
-          {1'000'000, 1e-5, 1, 1'000'000, 11},
-          // Many bodies: 400,000/1000/10 = 40, and the divisors are 20 and 25.
-          {60, 10, 1000, 30, 301},
-          {100, 10, 1000, 25, 251},
-          {60, 10, 100'000, 1, 11},
-          {60, 100'000, 1, 4, 400'001}}) {
-        const SampleTimes samples = sample_times_of(falling(c.rate, c.duration, c.bodies));
-        EXPECT_EQ(samples, (SampleTimes{c.per_second, c.count}))
-            << c.rate << " Hz, " << c.duration << " s";
-        EXPECT_EQ(samples.meet_steps(c.rate), c.rate >= 15 && c.rate != 997) << c.rate << " Hz";
-    }
+constexpr double pi = std::numbers::pi;
+
+TEST(SampleTimesOf, AreSixtyPerSecondForSlowMotion) {
+    EXPECT_EQ(samples_of(falling(60, 10)), (SampleTimes{60, 601}));
+    EXPECT_EQ(samples_of(oscillating(15, 10)), (SampleTimes{60, 601}));
+}
+
+TEST(SampleTimesOf, AreTwentyInAShortScene) {
+    EXPECT_EQ(samples_of(falling(60, 0.01)), (SampleTimes{2000, 21}));
+}
+
+TEST(SampleTimesOf, CoverASceneThatEndsBetweenTwo) {
+    EXPECT_EQ(samples_of(falling(60, 1.99)), (SampleTimes{60, 121}));
+    // 2.05·60 and 0.58·60 are 123 and 34.8.
+    EXPECT_EQ(samples_of(falling(60, 2.05)), (SampleTimes{60, 124}));
+    EXPECT_EQ(samples_of(falling(60, 0.58)), (SampleTimes{60, 36}));
+}
+
+// 48 samples per period: of an oscillation of 100 Hz, and of a damper whose rate of decay, 1000
+// 1/s, is larger than its frequency, √10 1/s.
+TEST(SampleTimesOf, ResolveTheFastestMotion) {
+    EXPECT_EQ(samples_of(oscillating(std::pow(200 * pi, 2), 1)).per_second, 4800);
+    EXPECT_EQ(samples_of(oscillating(10, 1, 1000)).per_second, std::llround(48 * 1000 / (2 * pi)));
+}
+
+// A body that starts at the aphelion of an orbit is fastest at the perihelion: gm = 1, e = 0.6,
+// 0.4 m away from the attractor, where a circle would take 2π·0.4^1.5 s.
+TEST(SampleTimesOf, ResolveTheClosestPointOfAnOrbit) {
+    Scene scene;
+    scene.axes = 2;
+    scene.duration = 1;
+    scene.bodies = {{.position = {1.6e-2, 0, 0}, .velocity = {0, 5, 0}}};
+    scene.attractors = {{.gm = 1}};
+    EXPECT_NEAR(static_cast<double>(samples_of(scene).per_second),
+                48 / (2 * pi * std::pow(0.4e-2, 1.5)), 1);
+}
+
+// A body of 20 m/s with 0.5 1/m of quadratic drag slows down at 2·0.5·20 = 20 1/s. One that falls
+// from rest is damped by 2·√(c·g) at its terminal speed √(g/c).
+TEST(SampleTimesOf, ResolveQuadraticDrag) {
+    Scene scene = falling(60, 1);
+    scene.scatters.clear();
+    scene.bodies = {{.matter = {.quadratic_drag = 0.5}, .velocity = {20, 0, 0}}};
+    EXPECT_EQ(samples_of(scene).per_second, std::llround(48 * 20 / (2 * pi)));
+    scene.bodies = {{.matter = {.quadratic_drag = 100}}};
+    EXPECT_EQ(samples_of(scene).per_second, std::llround(48 * 2 * std::sqrt(981) / (2 * pi)));
+}
+
+// 1.5 million states are kept: 1000 bodies have 1500 samples in 50 s.
+TEST(SampleTimesOf, FitIntoMemory) {
+    EXPECT_EQ(samples_of(falling(60, 50, 1000), {.bodies = 1000}).per_second, 30);
+    EXPECT_EQ(samples_of(falling(60, 50, 1000)).per_second, 60);
+}
+
+TEST(SampleTimesOf, AreNoMoreThanAskedFor) {
+    EXPECT_EQ(samples_of(falling(60, 10), {.most_per_second = 7.4}).per_second, 7);
+    EXPECT_EQ(samples_of(oscillating(std::pow(200 * pi, 2), 1), {.per_period = 12}).per_second,
+              1200);
 }
 
 TEST(SampleTimesOf, HasTheTimeOfEachSample) {
     const SampleTimes samples{.per_second = 60, .count = 601};
     EXPECT_EQ(samples.time(600), 10);
-    EXPECT_TRUE(samples.meet_steps(120));
-    EXPECT_FALSE(samples.meet_steps(90));
-    EXPECT_FALSE(samples.meet_steps(30));
 }
 
-TEST(SampleTimesOf, RefusesScenesThatAreTooLargeOrTooLong) {
+TEST(RequireMeasurable, RefusesScenesThatAreTooLargeOrTooLong) {
     const auto refusal = [](const Scene& scene) {
-        return line_of_error(Exit::usage, [&] { (void)sample_times_of(scene); });
+        return line_of_error(Exit::usage, [&] { require_measurable(scene); });
     };
     EXPECT_TRUE(holds(refusal(falling(60, 10, 100'001)), "100001 bodies"));
     EXPECT_TRUE(holds(refusal(falling(60, 100'001)), "a duration of 100001 s"));
     EXPECT_TRUE(holds(refusal(falling(60, 0)), "give --duration"));
     EXPECT_TRUE(holds(refusal(falling(60, NAN)), "give --duration"));
-    EXPECT_TRUE(holds(refusal(falling(10, 0.05)), "within one of its steps"));
+    require_measurable(falling(10, 0.05));
 }
 
 }  // namespace

@@ -19,9 +19,16 @@ TradeoffRow row_at(std::int64_t rate, bool stable = true) {
     return row;
 }
 
+/// A watch whose costs at many steps per call are 1 ns.
+SweepWatch quick_watch() {
+    SweepWatch watch;
+    watch.ns_per_step_together = [](const auto&, const auto&) { return 1.0; };
+    return watch;
+}
+
 /// A clock that returns these costs of a step in turn, and repeats.
 SweepWatch clock_of(const std::vector<double>& ns) {
-    SweepWatch watch;
+    SweepWatch watch = quick_watch();
     watch.ns_per_step = [ns, calls = std::size_t{0}](const auto&, const auto&,
                                                      std::int64_t) mutable {
         return ns[calls++ % ns.size()];
@@ -41,6 +48,7 @@ TEST(TimeRow, HasTheMedianAndHalfTheInterquartileRange) {
     time_row(row, 5, clock_of({4, 1, 100, 3, 2}));
     EXPECT_DOUBLE_EQ(row.ns_per_second, 50 * 3);
     EXPECT_DOUBLE_EQ(row.ns_spread, 50 * 1);
+    EXPECT_DOUBLE_EQ(row.ns_together, 50 * 1);
 }
 
 // The quartiles of 10 and 20 ns are 12.5 and 17.5 ns.
@@ -71,17 +79,39 @@ TEST(TimeRows, TakeTurns) {
     EXPECT_TRUE(std::isnan(unstable.ns_per_second));
 }
 
-// A frame of 1/60 s has four steps at 240 Hz and one at 30 Hz. A call takes at most 256.
-TEST(TimeRow, IsTimedWithTheStepsOfAFrameInACall) {
-    SweepWatch watch;
-    watch.ns_per_step = [](const auto&, const auto&, std::int64_t per_call) {
-        return static_cast<double>(per_call);
+// A frame of 1/60 s has four steps at 240 Hz, and one or none at 30 Hz. At 150 Hz, frames of two
+// and of three steps alternate. The made-up step costs as many ns as its frame has steps, at most
+// 256.
+TEST(TimeRow, HasTheCostOfAGamesFrames) {
+    SweepWatch watch = quick_watch();
+    watch.ns_per_step = [](const auto&, const auto&, std::int64_t per_frame) {
+        return static_cast<double>(per_frame);
     };
-    for (const auto& [rate, per_call] : std::vector<std::pair<std::int64_t, double>>{
-             {30, 1}, {60, 1}, {119, 1}, {120, 2}, {240, 4}, {15'360, 256}, {60'000, 256}}) {
+    for (const auto& [rate, ns] :
+         std::vector<std::pair<std::int64_t, double>>{{30, 30 * 1},
+                                                      {60, 60 * 1},
+                                                      {120, 120 * 2},
+                                                      {150, 30 * 2 * 2 + 30 * 3 * 3},
+                                                      {240, 240 * 4},
+                                                      {15'360, 15'360 * 256},
+                                                      {60'000, 60'000 * 256}}) {
         TradeoffRow row = row_at(rate);
         time_row(row, 1, watch);
-        EXPECT_DOUBLE_EQ(row.ns_per_second, static_cast<double>(rate) * per_call) << rate;
+        EXPECT_NEAR(row.ns_per_second, ns, 1e-9 * ns) << rate;
+    }
+}
+
+// 119 Hz must not cost more than 120 Hz if all steps cost the same.
+TEST(TimeRow, GrowsWithTheRate) {
+    SweepWatch watch = quick_watch();
+    watch.ns_per_step = [](const auto&, const auto&, std::int64_t) { return 10.0; };
+    double before = 0;
+    for (std::int64_t rate = 1; rate < 400; ++rate) {
+        TradeoffRow row = row_at(rate);
+        time_row(row, 1, watch);
+        EXPECT_NEAR(row.ns_per_second, 10.0 * static_cast<double>(rate), 1e-6);
+        EXPECT_GT(row.ns_per_second, before);
+        before = row.ns_per_second;
     }
 }
 
@@ -89,7 +119,7 @@ TEST(TimeRow, IsTimedWithTheStepsOfAFrameInACall) {
 TEST(TimeRow, IsTimedWithItsOwnSetting) {
     const Stepping choice{&find_method("velocity_verlet"), {75}, Precision::single};
     Stepping timed;
-    SweepWatch watch;
+    SweepWatch watch = quick_watch();
     watch.ns_per_step = [&](const auto&, const Stepping& given, std::int64_t) {
         timed = given;
         return 1.0;

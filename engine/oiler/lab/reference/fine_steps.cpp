@@ -172,6 +172,11 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
 
 }  // namespace
 
+double most_samples(const Scene& scene, const ReferenceEffort& effort) {
+    const double finest = std::exp2(static_cast<double>(fewest_runs - 1));
+    return effort.most_work / RunWork(scene).per_step(finest_method(scene)) / finest;
+}
+
 FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
                      const ReferenceEffort& effort) {
     Table table(scene, start, samples, effort);

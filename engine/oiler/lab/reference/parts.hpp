@@ -27,6 +27,9 @@ struct FineSteps {
 [[nodiscard]] FineSteps fine_steps(const Scene& scene, const Perturbation& start,
                                    const SampleTimes& samples, const ReferenceEffort& effort);
 
+/// The largest number of samples for which fine steps can afford the fewest runs.
+[[nodiscard]] double most_samples(const Scene& scene, const ReferenceEffort& effort);
+
 /// A reference is usable while it resolves errors of this fraction of its extent.
 inline constexpr double resolution = 1e-3;
 /// The smallest error that a reference resolves, as a multiple of its own error.

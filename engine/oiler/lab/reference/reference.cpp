@@ -114,10 +114,17 @@ private:
                                       : times_of(reference_.samples, until);
     }
 
+    /// The density of samples that leaves work for the fewest runs.
+    [[nodiscard]] Density density(double per_period, const ReferenceEffort& effort) const {
+        return {.per_period = per_period,
+                .bodies = static_cast<std::int64_t>(start_.size()),
+                .most_per_second = most_samples(scene_, effort) / scene_.duration};
+    }
+
     void take(std::shared_ptr<const Motion> motion) {
         reference_.closed_form = true;
         reference_.motion = std::move(motion);
-        reference_.samples = sample_times_of(scene_, start_, 1);
+        reference_.samples = sample_times_of(scene_, start_);
         reference_.uncertainties =
             uncertainties_of(scales_of(*reference_.motion, probes(scene_.duration), start_),
                              reference_.samples, rounding_of(start_));
@@ -126,8 +133,7 @@ private:
     }
     void take_fine_steps() {
         reference_.closed_form = false;
-        reference_.samples =
-            sample_times_of(scene_, start_, static_cast<std::int64_t>(start_.size()));
+        reference_.samples = sample_times_of(scene_, start_, density(48, effort_));
         FineSteps fine = fine_steps(scene_, reference_.start, reference_.samples, effort_);
         require_finite(fine);
         if (effort_.stopped()) return;
@@ -135,8 +141,11 @@ private:
         reference_.uncertainties = std::move(fine.uncertainties);
         const std::vector<double> between =
             interpolation_errors(fine.trajectory, reference_.samples.per_second);
-        for (std::size_t sample = 0; sample < between.size(); ++sample)
+        for (std::size_t sample = 0; sample < between.size(); ++sample) {
             reference_.uncertainties[sample].position += between[sample];
+            reference_.uncertainties[sample].velocity +=
+                between[sample] * static_cast<double>(reference_.samples.per_second);
+        }
         reference_.words = std::move(fine.words);
         reference_.motion = std::make_shared<SampledMotion>(std::move(fine.trajectory),
                                                             reference_.samples.per_second);
@@ -147,7 +156,7 @@ private:
         const Scales scales = scales_of(*reference_.motion, probes(scene_.duration), start_);
         effort.wanted = checked_to * scales.extent;
         effort.most_work = std::min(effort.most_work, checking_work);
-        const SampleTimes samples = check_times_of(scene_, start_);
+        const SampleTimes samples = sample_times_of(scene_, start_, density(12, effort));
         FineSteps fine = fine_steps(scene_, reference_.start, samples, effort);
         if (fine.trajectory.states.empty()) {
             reference_.words += "; not checked by fine steps: too much work";

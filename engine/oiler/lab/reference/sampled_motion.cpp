@@ -97,12 +97,30 @@ double left_out(const Trajectory& trajectory, const Hermite& middle, std::int64_
     return most;
 }
 
+/// The factor of the error from the wide to the narrow spacing at the first sample that has both; 1
+/// if none has.
+double first_convergence(const Trajectory& trajectory, const Hermite& narrow, const Hermite& wide) {
+    for (std::int64_t sample = 6; sample + 6 < trajectory.samples(); ++sample)
+        if (const double far = left_out(trajectory, wide, sample, 2); far > 0)
+            return std::min(1.0, left_out(trajectory, narrow, sample, 1) / far);
+    return 1;
+}
+
 }  // namespace
 
 SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second)
     : trajectory_(std::move(trajectory)), per_second_(per_second) {}
 
+std::optional<std::int64_t> SampledMotion::sample_at(Real t) const {
+    const auto per_second = static_cast<Real>(per_second_);
+    const std::int64_t nearest = std::llround(t * per_second);
+    if (static_cast<Real>(nearest) / per_second != t || nearest >= trajectory_.samples())
+        return std::nullopt;
+    return nearest;
+}
+
 State3 SampledMotion::at(std::size_t row, Real t) const {
+    if (const auto sample = sample_at(t)) return trajectory_.at(*sample, row);
     const Window window(t, per_second_, trajectory_.samples());
     const Hermite interpolate(window.nodes, window.place, 1 / static_cast<Real>(per_second_));
     return interpolate(
@@ -133,10 +151,12 @@ std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int6
     const Hermite wide = middle_of(2);
     std::vector<double> errors;
     double most = 0;
+    // Near the ends, where the wider interpolation has no samples, that of the nearest holds.
+    double falls = first_convergence(trajectory, narrow, wide);
     for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample) {
         const double at_twice = left_out(trajectory, narrow, sample, 1);
         const double at_four_times = left_out(trajectory, wide, sample, 2);
-        const double falls = at_four_times > at_twice ? at_twice / at_four_times : 1;
+        if (at_four_times > 0) falls = std::min(1.0, at_twice / at_four_times);
         most = std::max(most, at_ends * at_twice * falls);
         errors.push_back(most);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "oiler/lab/reference/motion.hpp"
@@ -38,6 +39,9 @@ public:
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 
 private:
+    /// The sample at exactly that time.
+    [[nodiscard]] std::optional<std::int64_t> sample_at(long double t) const;
+
     Trajectory trajectory_;
     std::int64_t per_second_;
 };

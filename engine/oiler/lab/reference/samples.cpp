@@ -15,21 +15,8 @@ constexpr std::int64_t most_followed_bodies = 100'000;
 constexpr double longest = 100'000;  // s
 constexpr double fewest_per_second = 60;
 constexpr double fewest_samples = 20;
-constexpr double samples_per_period = 48;
 /// The limit of bodies × samples, which are kept in memory several times.
 constexpr double most_states = 1.5e6;
-
-SampleTimes choose(const Scene& scene, const Bodies& start, std::int64_t kept, double per_period) {
-    const double periods = fastest_motion(start) / (2 * std::numbers::pi);
-    const double wanted =
-        std::max({fewest_per_second, fewest_samples / scene.duration, per_period * periods});
-    const double affordable =
-        most_states / static_cast<double>(std::max<std::int64_t>(1, kept)) / scene.duration;
-    SampleTimes samples{.per_second = std::llround(std::max(1.0, std::min(wanted, affordable)))};
-    const double intervals = scene.duration * static_cast<double>(samples.per_second);
-    samples.count = static_cast<std::int64_t>(std::ceil(intervals * (1 - 1e-12))) + 1;
-    return samples;
-}
 
 }  // namespace
 
@@ -45,12 +32,16 @@ void require_measurable(const Scene& scene) {
              scene.duration, longest);
 }
 
-SampleTimes sample_times_of(const Scene& scene, const Bodies& start, std::int64_t kept) {
-    return choose(scene, start, kept, samples_per_period);
-}
-
-SampleTimes check_times_of(const Scene& scene, const Bodies& start) {
-    return choose(scene, start, static_cast<std::int64_t>(start.size()), samples_per_period / 4);
+SampleTimes sample_times_of(const Scene& scene, const Bodies& start, const Density& density) {
+    const double periods = fastest_motion(start) / (2 * std::numbers::pi);
+    const double wanted = std::max(
+        {fewest_per_second, fewest_samples / scene.duration, density.per_period * periods});
+    const double in_memory = most_states / static_cast<double>(density.bodies) / scene.duration;
+    const double most = std::floor(std::min(in_memory, density.most_per_second));
+    SampleTimes samples{.per_second = std::llround(std::max(1.0, std::min(wanted, most)))};
+    const double intervals = scene.duration * static_cast<double>(samples.per_second);
+    samples.count = static_cast<std::int64_t>(std::ceil(intervals * (1 - 1e-12))) + 1;
+    return samples;
 }
 
 Follower::Follower(const Scene& scene, const Settings& settings, const Perturbation& start,

@@ -20,15 +20,18 @@ struct SampleTimes {
     friend bool operator==(const SampleTimes&, const SampleTimes&) = default;
 };
 
-/// Chooses samples that resolve the scene's fastest motion: 48 per period of the highest frequency
-/// of its springs, links and orbits, at least 60 per second and 20 in all. Samples of `kept` bodies
-/// fit into memory: of many bodies, or of very many periods, there are fewer. The last sample is at
-/// the end or after it. Throws Error{usage} for a scene that is too long or has too many bodies.
-[[nodiscard]] SampleTimes sample_times_of(const Scene& scene, const Bodies& start,
-                                          std::int64_t kept);
+/// How densely a motion is sampled.
+struct Density {
+    double per_period = 48;   ///< samples per period of the fastest motion
+    std::int64_t bodies = 1;  ///< that are kept in memory
+    double most_per_second = 1e9;
+};
 
-/// Samples for a comparison at 12 samples per period.
-[[nodiscard]] SampleTimes check_times_of(const Scene& scene, const Bodies& start);
+/// Chooses samples that resolve the fastest motion of the scene's springs, links, drag and orbits,
+/// at least 60 per second and 20 in all, and no more than fit into memory. The last sample is at
+/// the end or after it.
+[[nodiscard]] SampleTimes sample_times_of(const Scene& scene, const Bodies& start,
+                                          const Density& density = {});
 
 /// Throws Error{usage} for a scene that is too long, too short or has too many bodies to be
 /// compared with a reference.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/sampled_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oiler::test {
+namespace {
+
+using namespace lab;
+using Real = long double;
+using State3 = State<Real, 3>;
+
+constexpr std::int64_t per_second = 10;
+
+/// Samples of cos(ωt) along y over `seconds`, of two bodies, the second at half the amplitude.
+Trajectory sampled(Real omega, int seconds) {
+    Trajectory trajectory{.bodies = 2};
+    for (std::int64_t i = 0; i <= seconds * per_second; ++i)
+        for (const Real size : {Real(1), Real(0.5)}) {
+            const Real t = static_cast<Real>(i) / per_second;
+            trajectory.states.push_back(
+                {{0, size * std::cos(omega * t), 0}, {0, -size * omega * std::sin(omega * t), 0}});
+        }
+    return trajectory;
+}
+
+// A polynomial of degree 7 through positions and velocities at 4 nodes is exact for t⁷, also
+// between the first and between the last two.
+TEST(SampledMotion, IsExactForDegreeSeven) {
+    Trajectory trajectory{.bodies = 1};
+    for (std::int64_t i = 0; i <= 20; ++i) {
+        const Real t = static_cast<Real>(i) / per_second;
+        trajectory.states.push_back({{std::pow(t, 7), 0, 0}, {7 * std::pow(t, 6), 0, 0}});
+    }
+    const SampledMotion motion(trajectory, per_second);
+    for (const Real t : {0.0L, 0.03L, 0.1L, 0.77L, 1.0L, 1.91L, 1.99L, 2.0L}) {
+        EXPECT_NEAR(static_cast<double>(motion.at(0, t).x[0] - std::pow(t, 7)), 0, 1e-14);
+        EXPECT_NEAR(static_cast<double>(motion.at(0, t).v[0] - 7 * std::pow(t, 6)), 0, 1e-12);
+    }
+}
+
+// The remainder is x⁽⁸⁾/8! times the squares of the distances from the nodes: in the middle
+// (3/4·1/4·h²... )² of the four, (9/16)²·h⁸/40320.
+TEST(SampledMotion, HasTheRemainderOfDegreeSeven) {
+    const Real omega = 5;
+    const SampledMotion motion(sampled(omega, 4), per_second);
+    const double bound = std::pow(9 / 16.0, 2) * std::pow(0.5, 8) / 40320;
+    double most = 0;
+    std::vector<State3> all(2);
+    for (Real t = 0.2L; t < 3.8L; t += 0.0137L) {
+        motion.all_at(t, all);
+        const double error = static_cast<double>(std::abs(all[0].x[1] - std::cos(omega * t)));
+        most = std::max(most, error);
+        EXPECT_EQ(all[1].x, motion.at(1, t).x);
+        EXPECT_NEAR(static_cast<double>(all[1].x[1]), 0.5 * std::cos(5 * static_cast<double>(t)),
+                    bound);
+    }
+    EXPECT_LE(most, bound);
+    EXPECT_GE(most, 0.8 * bound);
+}
+
+TEST(SampledMotion, IsACubicBetweenTwoSamplesOnly) {
+    const SampledMotion motion(sampled(1, 4), per_second);
+    EXPECT_EQ(motion.bend(0, {}, 0.2L, 0.3L), 0);
+    EXPECT_TRUE(std::isinf(motion.bend(0, {}, 0.2L, 0.31L)));
+}
+
+// The estimate must not be below the largest error anywhere, and not much above the one at the
+// ends.
+TEST(InterpolationErrors, BoundTheErrorsBetweenSamples) {
+    for (const Real omega : {2.0L, 8.0L, 14.0L}) {
+        const Trajectory trajectory = sampled(omega, 4);
+        const SampledMotion motion(trajectory, per_second);
+        double most = 0;
+        for (Real t = 0; t < 4; t += 0.0037L)
+            most = std::max(
+                most, static_cast<double>(std::abs(motion.at(0, t).x[1] - std::cos(omega * t))));
+        const double told = interpolation_errors(trajectory, per_second).back();
+        EXPECT_GE(told, most) << omega;
+        EXPECT_LE(told, 4 * most) << omega;
+    }
+}
+
+// Two samples per period resolve nothing; the estimate must be of the size of the oscillation.
+TEST(InterpolationErrors, AreLargeIfNothingIsResolved) {
+    EXPECT_GT(interpolation_errors(sampled(33, 4), per_second).back(), 0.5);
+}
+
+}  // namespace
+}  // namespace oiler::test
