@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/budget.hpp"
+#include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
@@ -20,10 +22,13 @@ namespace {
 
 struct CheckResult {
     std::string file;
+    std::vector<std::string> warnings{};  ///< of the pre-flight
+    std::string divergence{};             ///< empty if the run stays finite
     std::vector<BudgetLine> lines{};
     std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
+        if (!divergence.empty()) return false;
         for (const BudgetLine& line : lines)
             if (!line.kept) return false;
         return true;
@@ -38,11 +43,16 @@ std::string for_xml(std::string text) {
     return escaped(text);
 }
 
-/// A JUnit test suite: one test case for each number of a budget. A scene without a budget is a
-/// skipped case.
+/// A JUnit test suite: one test case for each number of a budget, one for the warnings of a scene
+/// and one for a run that diverged. A scene without a budget is a skipped case.
 class TestSuite {
 public:
     void add(const CheckResult& result) {
+        if (!result.warnings.empty())
+            add_passed(result.file, "preflight",
+                       fmt::format("{}", fmt::join(result.warnings, "; ")));
+        if (!result.divergence.empty())
+            add_case(result.file, "run", "failure", result.divergence, failures_);
         for (const BudgetLine& line : result.lines) add_line(result.file, line);
         if (!result.lines.empty()) return;
         if (!result.error.empty())
@@ -60,10 +70,13 @@ public:
 private:
     void add_line(const std::string& file, const BudgetLine& line) {
         if (!line.kept) return add_case(file, line.name, "failure", describe(line), failures_);
+        add_passed(file, line.name, describe(line));
+    }
+    void add_passed(const std::string& file, const std::string& name, const std::string& text) {
         ++tests_;
         cases_ += fmt::format(
             "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
-            for_xml(file), line.name, for_xml(describe(line)));
+            for_xml(file), name, for_xml(text));
     }
     void add_case(const std::string& file, const std::string& name, const std::string& outcome,
                   const std::string& message, int& count) {
@@ -90,7 +103,8 @@ std::string to_junit(const std::vector<CheckResult>& all) {
 Json to_json(const std::vector<CheckResult>& all) {
     Json json = Json::array();
     for (const CheckResult& result : all) {
-        Json entry{{"scene", result.file}, {"kept", result.kept()}};
+        Json entry{{"scene", result.file}, {"kept", result.kept()}, {"warnings", result.warnings}};
+        if (!result.divergence.empty()) entry["diverged"] = result.divergence;
         if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
         for (const BudgetLine& line : result.lines)
             entry[line.name] = {
@@ -100,11 +114,30 @@ Json to_json(const std::vector<CheckResult>& all) {
     return json;
 }
 
+/// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
+std::string find_divergence(World world, const Scene& scene) {
+    const auto steps = static_cast<std::int64_t>(
+        std::ceil(scene.duration * static_cast<double>(scene.stepping.rate.steps)));
+    const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
+    try {
+        for (std::int64_t left = steps; left > 0 && !Interrupt::requested(); left -= stride)
+            world.step(std::min(left, stride));
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) throw;
+        return error.what();
+    }
+    return {};
+}
+
 /// Turns an error of usage into a result, so that the other scenes are still checked.
 CheckResult check(const std::filesystem::path& path) {
     CheckResult result{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
+        World world = make_world(scene, Settings{scene.stepping});
+        world.require_applicable();
+        result.warnings = world.preflight();
+        result.divergence = find_divergence(std::move(world), scene);
         result.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
@@ -119,6 +152,10 @@ CheckResult check(const std::filesystem::path& path) {
 std::string text_of(const std::vector<CheckResult>& all) {
     std::string text;
     for (const CheckResult& result : all) {
+        for (const std::string& warning : result.warnings)
+            text += fmt::format("{}: warning: {}\n", result.file, warning);
+        if (!result.divergence.empty())
+            text += fmt::format("{}: {}\n", result.file, result.divergence);
         if (result.lines.empty() && result.error.empty())
             text += fmt::format("{}: no [budget]\n", result.file);
         for (const BudgetLine& line : result.lines)
@@ -127,11 +164,12 @@ std::string text_of(const std::vector<CheckResult>& all) {
     return text;
 }
 
-/// An error outweighs an exceeded budget.
+/// An error outweighs a divergence, and that outweighs an exceeded budget.
 Exit exit_of(const std::vector<CheckResult>& all) {
     Exit exit = Exit::done;
     for (const CheckResult& result : all) {
         if (!result.error.empty()) exit = Exit::usage;
+        if (!result.divergence.empty() && exit != Exit::usage) exit = Exit::diverged;
         if (!result.kept() && exit == Exit::done) exit = Exit::comparison_failed;
     }
     return exit;
@@ -142,7 +180,7 @@ Exit exit_of(const std::vector<CheckResult>& all) {
 struct CheckCommand {
     static constexpr CommandTexts texts{
         .name = "check",
-        .summary = "Check scenes against their [budget]; exit 1 if one is exceeded",
+        .summary = "Run scenes and check their [budget]: exit 1 if exceeded, 5 if a run diverges",
         .example = "assets/scenes/*.toml --junit budgets.xml"};
 
     std::vector<std::filesystem::path> scenes;

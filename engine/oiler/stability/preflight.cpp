@@ -3,73 +3,112 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "oiler/core/error.hpp"
-#include "oiler/stability/oscillations.hpp"
+#include "oiler/stability/attractor_risks.hpp"
+#include "oiler/stability/component.hpp"
+#include "oiler/stability/drag_risks.hpp"
+#include "oiler/stability/rounding_risks.hpp"
+#include "oiler/stability/spring_risks.hpp"
 
 namespace oiler {
 namespace {
 
-/// Whether the method applies damping along a spring or between bodies in half-steps around the
-/// step, which are always stable.
-bool splits_dampers(const Method& method, Damping damping) {
-    return std::holds_alternative<Splitting>(method.rule) && damping == Damping::in_drift;
-}
-
-/// The method's region of stability, measured at dt = 1 s and at shorter steps.
-class Region {
-public:
-    Region(const Method& method, Damping damping) : method_(method), damping_(damping) {}
-
-    bool contains(const Oscillation& of) {
-        const auto [known, is_new] = known_.try_emplace(std::pair(of.k, of.c), false);
-        if (is_new) known->second = measure(of);
-        return known->second;
-    }
-
-private:
-    [[nodiscard]] bool measure(const Oscillation& of) const {
-        std::vector<Oscillation> tried;
-        for (const double part : {1.0, 0.8, 0.6, 0.4, 0.2})
-            tried.push_back({of.k * part * part, of.c * part});
-        const auto matrices = step_matrices(method_, damping_, tried);
-        return std::all_of(matrices.begin(), matrices.end(), is_stable);
-    }
-
-    const Method& method_;
-    Damping damping_;
-    std::map<std::pair<double, double>, bool> known_;
-};
-
 /// The remedy in words: the lowest rate above the limit, with a margin of 10⁻⁹ for rounding.
-std::string remedy_for(double limit, const Rate& rate) {
+std::string remedy_for(double limit, const Rate& rate, bool is_attraction) {
     constexpr double most = 1e6;  // the highest rate of the programs, Hz
     const double at_limit =
         static_cast<double>(rate.steps) / (limit * static_cast<double>(rate.seconds));
     const double above = std::floor(at_limit * (1 + 1e-9)) + 1;
-    if (above > most) return "take implicit_euler";
-    return fmt::format("rate ≥ {:.0f} Hz, or implicit_euler", above);
+    if (above > most)
+        return is_attraction ? "give the body another position or velocity" : "take implicit_euler";
+    return fmt::format("rate ≥ {:.0f} Hz{}", above, is_attraction ? "" : ", or implicit_euler");
 }
-
-/// Outside the region of every conditionally stable method.
-constexpr double farthest = 1000;
 
 double size(const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); }
 
-/// The oscillation with the damping ratio of `risk` whose size at dt = 1 s is `wanted`.
-Oscillation shape(const Risk& risk, double wanted) {
-    const double omega = risk.omega_dt / size(risk) * wanted;
-    return {omega * omega, risk.damping_dt / size(risk) * wanted};
+std::string describe_subject(const Risk& risk, const NameOfRow& name) {
+    using enum Risk::Of;
+    if (risk.linked)
+        return fmt::format("link of bodies {} and {}", name(risk.row), name(*risk.linked));
+    if (risk.of == quadratic_drag || risk.of == terminal_speed)
+        return fmt::format("quadratic drag of body {}", name(risk.row));
+    if (risk.of == attractor || risk.of == periapsis)
+        return fmt::format("attractor of body {}", name(risk.row));
+    return fmt::format("{} of body {}", risk.omega_dt > 0 ? "spring" : "linear drag",
+                       name(risk.row));
+}
+
+std::string describe_measure(const Risk& risk) {
+    switch (risk.of) {
+        case Risk::Of::quadratic_drag:
+            return fmt::format("c·|v|·dt = {:.4g} at {:.4g} m/s", risk.damping_dt, risk.at);
+        case Risk::Of::terminal_speed:
+            return fmt::format("2·c·|v|·dt = {:.4g} at the terminal speed of {:.4g} m/s",
+                               risk.damping_dt, risk.at);
+        case Risk::Of::attractor:
+            return fmt::format("ω·dt = {:.4g} at {:.4g} m", risk.omega_dt, risk.at);
+        case Risk::Of::periapsis:
+            return fmt::format("ω·dt = {:.4g} at the closest point of the orbit, {:.4g} m",
+                               risk.omega_dt, risk.at);
+        default:
+            break;
+    }
+    const bool oscillates = risk.omega_dt > 0;
+    const bool is_bound = risk.linked || !risk.oscillations.empty();
+    return fmt::format("{} {} {:.4g}", oscillates ? "ω·dt" : "c·dt", is_bound ? "up to" : "=",
+                       oscillates ? risk.omega_dt : risk.damping_dt) +
+           (oscillates && risk.damping_dt > 0
+                ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
+                : std::string());
+}
+
+/// The factor on dt up to which steps are stable.
+double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
+    const Damping damping = steps.damping.value_or(method.damping);
+    if (risk.of == Risk::Of::quadratic_drag)
+        return quadratic_drag_limit(method, damping) / risk.damping_dt;
+    if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate.dt());
+    return spring_limit(risk, method, damping, steps.rate.dt());
+}
+
+std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
+    if (risk.of == Risk::Of::on_attractor)
+        return fmt::format(
+            "body {} is on an attractor, where the force has no direction: move the body",
+            name(risk.row));
+    if (risk.of == Risk::Of::rounded_position)
+        return fmt::format(
+            "position {} of body {}: its steps are shorter than {:.3g} m, half of the last place "
+            "in float, and do not move it: take precision double, or an origin nearer to it",
+            axis_names[static_cast<std::size_t>(risk.axis)], name(risk.row), risk.at);
+    if (risk.of == Risk::Of::quadratic_drag)
+        return fmt::format(
+            "quadratic drag of body {}: c·|v|·dt is not finite: take a higher rate, or "
+            "implicit_euler",
+            name(risk.row));
+    return fmt::format(
+        "attractor of body {}: the orbit leads into its centre, which no rate resolves: give the "
+        "body another position or velocity",
+        name(risk.row));
+}
+
+bool is_attraction(const Risk& risk) {
+    return risk.of == Risk::Of::attractor || risk.of == Risk::Of::periapsis;
 }
 
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
                          const Steps& steps, const NameOfRow& name) {
+    const std::string by_default = "take a higher rate, or another method";
     const std::vector<Risk> risks = preflight(bodies, method, steps);
-    if (risks.empty()) return "take a higher rate, or another method";
+    const std::vector<std::size_t> labels = component_labels(bodies);
     const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
-        return risk.row == at.row || risk.linked == at.row;
+        return labels[risk.row] == labels[at.row];
     });
+    if (own != risks.end() && own->of == Risk::Of::on_attractor)
+        return fmt::format("{}; if it moved there, {}", describe(*own, method, steps, name),
+                           by_default);
+    if (risks.empty() || at.of == Divergence::Of::solution) return by_default;
     return describe(own == risks.end() ? risks.front() : *own, method, steps, name);
 }
 
@@ -77,18 +116,12 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
 
 std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
     const double dt = steps.rate.dt();
-    const Damping damping = steps.damping.value_or(method.damping);
-    Region region(method, damping);
+    Region region(method, steps.damping.value_or(method.damping));
     std::vector<Risk> risks;
-    for (const BodyOscillation& oscillation :
-         oscillations(bodies, splits_dampers(method, damping))) {
-        // Negative stiffness or damping diverges by itself with any method.
-        const auto [k, c] = oscillation.of;
-        if (k < 0 || c < 0) continue;
-        const Risk risk{oscillation.row, oscillation.linked, std::sqrt(k) * dt, c * dt};
-        if (size(risk) > 0 && !region.contains(shape(risk, std::min(size(risk), farthest))))
-            risks.push_back(risk);
-    }
+    if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
+    add_drag_risks(bodies, region, dt, risks);
+    add_attractor_risks(bodies, region, dt, risks);
+    add_rounding_risks(bodies, dt, risks);
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });
     return risks;
@@ -96,35 +129,23 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
 
 std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                      const NameOfRow& name) {
-    const bool oscillates = risk.omega_dt > 0;
-    const std::string who =
-        risk.linked
-            ? fmt::format("link of bodies {} and {}", name(risk.row), name(*risk.linked))
-            : fmt::format("{} of body {}", oscillates ? "spring" : "linear drag", name(risk.row));
-    const double measured = oscillates ? risk.omega_dt : risk.damping_dt;
-    const std::string measure =
-        fmt::format("{} {} {:.4g}", oscillates ? "ω·dt" : "c·dt", risk.linked ? "up to" : "=",
-                    measured) +
-        (oscillates && risk.damping_dt > 0
-             ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
-             : std::string());
-    const double edge =
-        stability_limit(method, steps.damping.value_or(method.damping), shape(risk, 1));
-    const double limit = edge / size(risk);
+    if (!(size(risk) > 0) || !std::isfinite(size(risk))) return describe_without_rate(risk, name);
+    const std::string who = describe_subject(risk, name);
+    const std::string measure = describe_measure(risk);
+    const double limit = limit_of(risk, method, steps);
     if (limit == 0)
         return fmt::format(
             "{}: {}, {} gains energy at any rate: take another method, for example "
             "velocity_verlet",
             who, measure, method.name);
+    const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
     return fmt::format("{}: {}, {} needs < {:.4g}: {}", who, measure, method.name, limit * measured,
-                       remedy_for(limit, steps.rate));
+                       remedy_for(limit, steps.rate, is_attraction(risk)));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
                    const Steps& steps, const NameOfRow& name) {
     const std::string where = describe(at, method, steps.rate, bodies.link_count() > 0, name);
-    if (at.of == Divergence::Of::solution)
-        fail(Exit::diverged, "{}; take a higher rate, or another method", where);
     fail(Exit::diverged, "{}; {}", where, likely_cause(bodies, at, method, steps, name));
 }
 

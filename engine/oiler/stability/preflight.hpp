@@ -1,24 +1,49 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "oiler/sim/bodies.hpp"
+#include "oiler/stability/orbit_trial.hpp"
+#include "oiler/stability/region.hpp"
 
 namespace oiler {
 
-/// A body, or two linked bodies, whose springs and dampers are unstable with a method at a rate.
+struct Component;
+
+/// A reason why a run with a method at a rate may not be usable.
 struct Risk {
+    enum class Of {
+        springs,          ///< springs, dampers and linear drag
+        quadratic_drag,   ///< drag at the present speed
+        terminal_speed,   ///< drag at the speed at which it balances gravity
+        attractor,        ///< attraction at the start
+        periapsis,        ///< attraction at the closest point of the orbit
+        on_attractor,     ///< the attraction has no direction
+        rounded_position  ///< positions are too coarse for the motion of a step
+    };
+
     std::size_t row;
-    std::optional<std::size_t> linked;  ///< the other row
-    double omega_dt;                    ///< ω·dt; for linked bodies an upper bound
-    double damping_dt;                  ///< c·dt, c = 2ζω
+    std::optional<std::size_t> linked{};  ///< the other row of a link
+    double omega_dt = 0;    ///< ω·dt; for linked bodies an upper bound, by at most 1 %
+    double damping_dt = 0;  ///< c·dt, c = 2ζω
+    Of of = Of::springs;
+    double at = 0;  ///< speed, m/s; distance from an attractor, m; unit of the last place, m
+    int axis = 0;   ///< of a rounded position
+    /// All fast or weakly damped oscillations of linked bodies.
+    std::vector<ScaledOscillation> oscillations{};
+    /// Few bodies with uneven damping: their step matrix decides.
+    std::shared_ptr<const Component> component{};
+    std::optional<Orbit> orbit{};  ///< an orbit that was tried
 };
 
-/// Finds the bodies whose springs and dampers are outside the method's region of stability, the
-/// worst first: unstable at the step, or at one of four shorter steps. It changes no state.
+/// Finds what the method cannot follow at the rate, the worst first: springs, dampers and drag
+/// outside its region of stability, at the step or at one of four shorter steps; attraction that is
+/// too fast; and bodies in float whose motion in a step is less than half of their position's last
+/// place. It linearises at the present positions, see Component, and changes no state.
 [[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,
                                           const Steps& steps);
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/stability/component.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace oiler {
+namespace {
+
+/// A spring or damper along the line `d`, m, with a part in all directions.
+Coupling along_line(std::size_t a, std::size_t b, const Vec3& d, double coefficient, double all) {
+    const Direction<double, 3> line(d);
+    const double total = std::max(coefficient, 0.0);
+    if (!(line.length > 0) || !std::isfinite(line.length)) return {a, b, {}, 0, total};
+    const double across = std::clamp(all, 0.0, total);
+    return {a, b, line.unit, total - across, across};
+}
+
+/// The tension of a spring per length, which is its stiffness across its line, N/m.
+double tension(double stiffness, double rest_length, const Vec3& d) {
+    return stiffness * (1 - rest_length / std::sqrt(squared_length(d)));
+}
+
+void add_body(const Bodies& bodies, std::size_t row, Component& to) {
+    const std::size_t index = to.rows.size();
+    const double mass = bodies.mass(row);
+    double stiffness = 0;
+    double drag = 0;
+    for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
+        const GivenForces forces = bodies.forces_per_mass(row, i);
+        if (const auto& spring = std::get<std::optional<Spring>>(forces)) {
+            stiffness += spring->stiffness * mass;
+            drag += spring->damping;
+        }
+        if (const auto& linear = std::get<std::optional<LinearDrag>>(forces))
+            drag += linear->coefficient;
+        const auto& coil = std::get<std::optional<CoilSpring>>(forces);
+        if (!coil || (coil->stiffness == 0 && coil->damping == 0)) continue;
+        const Vec3 d = bodies.position(row) - coil->anchor;
+        const double k = coil->stiffness * mass;
+        to.springs.push_back(
+            along_line(index, Coupling::ground, d, k, tension(k, coil->rest_length, d)));
+        if (coil->damping > 0)
+            to.dampers.push_back(along_line(index, Coupling::ground, d, coil->damping * mass, 0));
+    }
+    if (stiffness > 0) to.springs.push_back({index, Coupling::ground, {}, 0, stiffness});
+    to.drag.push_back(std::max(drag, 0.0));
+    to.inverse_root_mass.push_back(1 / std::sqrt(mass));
+    to.rows.push_back(row);
+}
+
+void add_link(const Bodies& bodies, const Link& link, std::size_t a, std::size_t b, Component& to) {
+    const Vec3 d = bodies.position(to.rows[a]) - bodies.position(to.rows[b]);
+    const bool everywhere = link.rest_length == 0;
+    to.springs.push_back(
+        along_line(a, b, d, link.stiffness,
+                   everywhere ? link.stiffness : tension(link.stiffness, link.rest_length, d)));
+    if (link.damping > 0)
+        to.dampers.push_back(along_line(a, b, d, link.damping, everywhere ? link.damping : 0));
+}
+
+}  // namespace
+
+Vec3 Component::between(const Coupling& coupling, const WeightedVectors& u) const {
+    Vec3 d = u[coupling.a] * inverse_root_mass[coupling.a];
+    if (coupling.b != Coupling::ground) d = d - u[coupling.b] * inverse_root_mass[coupling.b];
+    return d;
+}
+
+void Component::add_product(const Coupling& coupling, const WeightedVectors& u, double scale,
+                            WeightedVectors& to) const {
+    const Vec3 d = between(coupling, u);
+    const Vec3 force =
+        coupling.direction * (coupling.along * dot(coupling.direction, d)) + d * coupling.all;
+    to[coupling.a] = to[coupling.a] + force * (scale * inverse_root_mass[coupling.a]);
+    if (coupling.b != Coupling::ground)
+        to[coupling.b] = to[coupling.b] - force * (scale * inverse_root_mass[coupling.b]);
+}
+
+double Component::energy(const Coupling& coupling, const WeightedVectors& u) const {
+    const Vec3 d = between(coupling, u);
+    const double along = dot(coupling.direction, d);
+    return coupling.along * along * along + coupling.all * squared_length(d);
+}
+
+std::vector<std::size_t> component_labels(const Bodies& bodies) {
+    std::vector<std::size_t> label(bodies.size());
+    std::iota(label.begin(), label.end(), std::size_t{0});
+    const auto root = [&](std::size_t row) {
+        while (label[row] != row) row = label[row] = label[label[row]];
+        return row;
+    };
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const auto [a, b] = bodies.linked_rows(i);
+        const std::size_t one = root(a);
+        const std::size_t other = root(b);
+        label[std::max(one, other)] = std::min(one, other);
+    }
+    for (std::size_t row = 0; row < label.size(); ++row) label[row] = root(row);
+    return label;
+}
+
+Component component_of_row(const Bodies& bodies, std::size_t row) {
+    Component component{.axes = bodies.axes()};
+    add_body(bodies, row, component);
+    return component;
+}
+
+std::vector<Component> linked_components(const Bodies& bodies,
+                                         const std::vector<std::size_t>& labels) {
+    constexpr std::size_t none = Coupling::ground;
+    std::vector<bool> linked(labels.size());
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
+    std::vector<Component> all;
+    std::vector<std::size_t> component(labels.size(), none);
+    std::vector<std::size_t> place(labels.size(), none);
+    for (std::size_t row = 0; row < labels.size(); ++row) {
+        if (!linked[row]) continue;
+        const std::size_t label = labels[row];
+        if (label == row) {
+            component[row] = all.size();
+            all.push_back({.axes = bodies.axes()});
+        }
+        component[row] = component[label];
+        place[row] = all[component[row]].rows.size();
+        add_body(bodies, row, all[component[row]]);
+    }
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const auto [a, b] = bodies.linked_rows(i);
+        add_link(bodies, bodies.link_at(i), place[a], place[b], all[component[a]]);
+    }
+    return all;
+}
+
+}  // namespace oiler

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/stability/component_risk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "oiler/stability/dense.hpp"
+#include "oiler/stability/ritz.hpp"
+
+namespace oiler {
+namespace {
+
+/// Up to this number of freedoms, eigenvalues of dense matrices are computed.
+constexpr std::size_t most_dense_freedoms = 30;
+/// Growth per step that is not told from round-off, see spectral_radius_of_step.
+constexpr double radius_round_off = 1e-6;
+
+bool is_stable_step(const Component& component, const Method& method, Damping damping, double dt) {
+    return spectral_radius_of_step(component, method, damping, dt) <= 1 + radius_round_off;
+}
+
+WeightedVectors to_vectors(const std::vector<double>& numbers, const Component& component) {
+    WeightedVectors vectors(component.rows.size());
+    const auto axes = static_cast<std::size_t>(component.axes);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        vectors[i / axes][static_cast<int>(i % axes)] = numbers[i];
+    return vectors;
+}
+
+/// An upper bound of the highest eigenvalue: no mode is faster than the stiffest coupling with all
+/// couplings at its two ends (Anderson and Morley, Eigenvalues of the Laplacian of a graph, 1985,
+/// with masses).
+double highest_bound(const Component& component, const std::vector<Coupling>& couplings) {
+    std::vector<double> sum(component.rows.size());
+    const auto each_end = [&](const Coupling& coupling, auto f) {
+        f(coupling.a);
+        if (coupling.b != Coupling::ground) f(coupling.b);
+    };
+    for (const Coupling& coupling : couplings)
+        each_end(coupling, [&](std::size_t end) {
+            const double root = component.inverse_root_mass[end];
+            sum[end] += (coupling.along + coupling.all) * root * root;
+        });
+    double highest = 0;
+    for (const Coupling& coupling : couplings) {
+        double both = 0;
+        each_end(coupling, [&](std::size_t end) { both += sum[end]; });
+        highest = std::max(highest, both);
+    }
+    return highest;
+}
+
+/// The stability of one component with a method.
+class ComponentTest {
+public:
+    ComponentTest(Component component, Region& region, double dt)
+        : component_(std::make_shared<const Component>(std::move(component))),
+          region_(region),
+          dt_(dt),
+          split_(splits_dampers(region.method(), region.damping())) {}
+
+    [[nodiscard]] std::optional<Risk> find_risk() {
+        if (is_implicit(region_.method()) || region_.contains_all_up_to(upper_bound()))
+            return std::nullopt;
+        if (component_->freedoms() > most_dense_freedoms)
+            add_ritz_pairs();
+        else if (has_even_drag() && component_->dampers.empty())
+            add_modes();
+        else
+            return find_exact_risk();
+        const auto all = [&](const ScaledOscillation& of) { return region_.contains(of); };
+        if (std::all_of(oscillations_.begin(), oscillations_.end(), all)) return std::nullopt;
+        return risk_at(worst_outside());
+    }
+
+private:
+    [[nodiscard]] ScaledOscillation upper_bound() const {
+        const double most_drag =
+            *std::max_element(component_->drag.begin(), component_->drag.end());
+        const double k = highest_bound(*component_, component_->springs);
+        const double c = most_drag + highest_bound(*component_, component_->dampers);
+        return {std::sqrt(k) * dt_, c * dt_};
+    }
+    [[nodiscard]] bool has_even_drag() const {
+        const double first = component_->drag.front();
+        return std::all_of(component_->drag.begin(), component_->drag.end(),
+                           [&](double drag) { return drag == first; });
+    }
+
+    void add(double k, double c, WeightedVectors vector) {
+        oscillations_.push_back({std::sqrt(std::max(k, 0.0)) * dt_, std::max(c, 0.0) * dt_});
+        vectors_.push_back(std::move(vector));
+    }
+    void add_modes() {
+        for (const Mode& mode : stiffness_modes(*component_))
+            add(mode.value, component_->drag.front(), to_vectors(mode.vector, *component_));
+    }
+    /// Adds the Rayleigh quotients of a vector.
+    void add_quotients(const WeightedVectors& u) {
+        add(quotient(*component_, {1, 0, split_}, u), quotient(*component_, {0, 1, split_}, u), u);
+    }
+
+    /// Adds the fastest oscillation and, if damping is uneven, the extremes of stiffness and
+    /// damping together, all relative to their ranges.
+    void add_ritz_pairs() {
+        const RitzPair stiffest = highest_ritz_pair(*component_, {1, 0, split_});
+        const double k = stiffest.value + stiffest.residual;
+        add(k, quotient(*component_, {0, 1, split_}, stiffest.vector), stiffest.vector);
+        if (has_even_drag() && (split_ || component_->dampers.empty())) return;
+        const RitzPair most_damped = highest_ritz_pair(*component_, {0, 1, split_});
+        add_quotients(most_damped.vector);
+        if (!(k > 0) || !(most_damped.value > 0)) return;
+        for (const double part : {-4.0, -1.0, -0.25, 0.25, 1.0, 4.0})
+            add_quotients(
+                highest_ritz_pair(*component_, {1 / k, part / most_damped.value, split_}).vector);
+    }
+
+    [[nodiscard]] std::optional<Risk> find_exact_risk() {
+        const auto holds = [&](double part) {
+            return is_stable_step(*component_, region_.method(), region_.damping(), dt_ * part);
+        };
+        if (std::all_of(std::begin(tested_steps), std::end(tested_steps), holds))
+            return std::nullopt;
+        const Mode stiffest = stiffness_modes(*component_).back();
+        const WeightedVectors u = to_vectors(stiffest.vector, *component_);
+        add(stiffest.value, quotient(*component_, {0, 1, split_}, u), u);
+        const Mode damped = fastest_damping(*component_, split_);
+        add_quotients(to_vectors(damped.vector, *component_));
+        Risk risk = risk_at(worst_outside());
+        risk.component = component_;
+        return risk;
+    }
+
+    /// The largest oscillation outside the region; the first one if all are inside.
+    [[nodiscard]] std::size_t worst_outside() {
+        std::size_t worst = 0;
+        double largest = 0;
+        for (std::size_t i = 0; i < oscillations_.size(); ++i) {
+            if (size(oscillations_[i]) <= largest || region_.contains(oscillations_[i])) continue;
+            worst = i;
+            largest = size(oscillations_[i]);
+        }
+        return worst;
+    }
+
+    [[nodiscard]] Risk risk_at(std::size_t i) const {
+        Risk risk{.row = component_->rows.front(),
+                  .omega_dt = oscillations_[i].omega_dt,
+                  .damping_dt = oscillations_[i].damping_dt,
+                  .oscillations = oscillations_};
+        double most = 0;
+        for (const auto* couplings : {&component_->springs, &component_->dampers})
+            for (const Coupling& coupling : *couplings)
+                blame(coupling, component_->energy(coupling, vectors_[i]), most, risk);
+        return risk;
+    }
+    /// Names the spring that holds the most energy; a damper only if no spring holds any.
+    void blame(const Coupling& coupling, double energy, double& most, Risk& risk) const {
+        if (!(energy > most)) return;
+        most = energy;
+        risk.row = component_->rows[coupling.a];
+        risk.linked.reset();
+        if (coupling.b != Coupling::ground) risk.linked = component_->rows[coupling.b];
+    }
+
+    std::shared_ptr<const Component> component_;
+    Region& region_;
+    double dt_;
+    bool split_;
+    std::vector<ScaledOscillation> oscillations_{};
+    std::vector<WeightedVectors> vectors_{};
+};
+
+}  // namespace
+
+std::optional<Risk> find_risk(Component component, Region& region, double dt) {
+    return ComponentTest(std::move(component), region, dt).find_risk();
+}
+
+/// The factor up to which the steps of a component are stable, by descent to the first of four
+/// stable steps in a row, then bisection.
+double component_limit(const Component& component, const Method& method, Damping damping,
+                       double dt) {
+    constexpr double ratio = 0.85;
+    constexpr double least = 1e-7;
+    double unstable = 1 / ratio;
+    double stable = 1;
+    int in_a_row = 0;
+    for (double factor = 1; in_a_row < 4; factor *= ratio) {
+        if (factor < least) return 0;
+        if (!is_stable_step(component, method, damping, dt * factor)) {
+            unstable = factor;
+            in_a_row = 0;
+        } else if (++in_a_row == 1) {
+            stable = factor;
+        }
+    }
+    while (unstable - stable > 1e-7 * unstable) {
+        const double middle = (stable + unstable) / 2;
+        (is_stable_step(component, method, damping, dt * middle) ? stable : unstable) = middle;
+    }
+    return stable;
+}
+
+}  // namespace oiler

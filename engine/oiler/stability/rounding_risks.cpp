@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/stability/rounding_risks.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace oiler {
+namespace {
+
+/// The acceleration by all forces on the body, without links, m/s².
+Vec3 acceleration(const Bodies& bodies, std::size_t row) {
+    const State<double, 3> state{bodies.position(row), bodies.velocity(row)};
+    Vec3 total{};
+    for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i)
+        std::apply(
+            [&](const auto&... force) {
+                ((total = force ? total + force->accelerate(state, 0) : total), ...);
+            },
+            bodies.forces_per_mass(row, i));
+    return total;
+}
+
+/// Whether a float at `x` stays if `step` is added.
+bool is_too_short(double x, double step) {
+    return static_cast<float>(x) + static_cast<float>(step) == static_cast<float>(x) &&
+           static_cast<float>(x) - static_cast<float>(step) == static_cast<float>(x);
+}
+
+double half_of_last_place(double x) {
+    const auto at = static_cast<float>(std::abs(x));
+    return (std::nextafter(at, std::numeric_limits<float>::infinity()) - at) / 2.0;
+}
+
+/// The first axis along which the body should move and does not.
+std::optional<int> stuck_axis(const Bodies& bodies, std::size_t row, double dt) {
+    constexpr double steps = 64;
+    const Vec3 x = bodies.position(row);
+    const Vec3 v = bodies.velocity(row);
+    const double least = std::sqrt(squared_length(v)) / 1000;
+    for (int axis = 0; axis < bodies.axes(); ++axis) {
+        if (v[axis] == 0 || std::abs(v[axis]) < least || !is_too_short(x[axis], v[axis] * dt))
+            continue;
+        const double faster = std::abs(acceleration(bodies, row)[axis]) * steps * dt;
+        if (is_too_short(x[axis], (std::abs(v[axis]) + faster) * dt)) return axis;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void add_rounding_risks(const Bodies& bodies, double dt, std::vector<Risk>& risks) {
+    if (bodies.precision() != Precision::single) return;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (const auto axis = stuck_axis(bodies, row, dt))
+            risks.push_back({.row = row,
+                             .of = Risk::Of::rounded_position,
+                             .at = half_of_last_place(bodies.position(row)[*axis]),
+                             .axis = *axis});
+}
+
+}  // namespace oiler

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/stability/preflight.hpp"
+
+namespace oiler {
+
+/// Adds the springs, dampers and linear drag that are outside the region: one risk per body without
+/// links and one per component of linked bodies.
+void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks);
+
+/// The factor on the step up to which the risk's bodies are stable; 0 if they never are.
+[[nodiscard]] double spring_limit(const Risk& risk, const Method& method, Damping damping,
+                                  double dt);
+
+}  // namespace oiler
