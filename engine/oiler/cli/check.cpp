@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -116,8 +116,8 @@ Json to_json(const std::vector<CheckResult>& all) {
 
 /// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
 std::string find_divergence(World world, const Scene& scene) {
-    const auto steps = static_cast<std::int64_t>(
-        std::ceil(scene.duration * static_cast<double>(scene.stepping.rate.steps)));
+    const auto steps =
+        static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
     const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
     try {
         for (std::int64_t left = steps; left > 0 && !Interrupt::requested(); left -= stride)

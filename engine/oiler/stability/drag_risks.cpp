@@ -1,40 +1,80 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/stability/drag_risks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace oiler {
 namespace {
 
-/// The drag of a body, its free fall and its speed.
-struct Falling {
+/// The drag of a body and its speeds.
+struct Dragged {
     double linear = 0;     ///< 1/s
     double quadratic = 0;  ///< 1/m
-    double gravity = 0;    ///< m/s²; 0 if other forces hold the body
+    double gravity = 0;    ///< m/s²
     double speed = 0;      ///< m/s
+    bool has_springs = false;
+    bool has_attractors = false;
 
     /// The speed at which drag balances gravity: b·v + c·v² = g.
     [[nodiscard]] double terminal_speed() const {
         const double root = std::sqrt(linear * linear + 4 * quadratic * gravity);
-        return 2 * gravity / (linear + root);
+        return root > 0 ? 2 * gravity / (linear + root) : 0;
     }
 };
 
-Falling falling_of(const Bodies& bodies, std::size_t row) {
-    Falling of{.speed = std::sqrt(squared_length(bodies.velocity(row)))};
-    bool is_held = false;
+Dragged drag_of(const Bodies& bodies, std::size_t row) {
+    Dragged of{.speed = std::sqrt(squared_length(bodies.velocity(row)))};
     for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
         const auto [gravity, spring, linear, quadratic, coil, attractor] =
             bodies.forces_per_mass(row, i);
         if (gravity) of.gravity = std::sqrt(squared_length(gravity->acceleration));
         if (linear) of.linear += linear->coefficient;
         if (quadratic) of.quadratic += quadratic->coefficient;
-        is_held = is_held || (spring && spring->stiffness != 0) || (coil && coil->stiffness != 0) ||
-                  (attractor && attractor->gm != 0);
+        of.has_springs =
+            of.has_springs || (spring && spring->stiffness != 0) || (coil && coil->stiffness != 0);
+        of.has_attractors = of.has_attractors || (attractor && attractor->gm != 0);
     }
-    if (is_held) of.gravity = 0;
     return of;
+}
+
+/// A copy of one body with its forces, without links.
+Bodies alone(const Bodies& bodies, std::size_t row) {
+    Bodies copy(bodies.axes(), Precision::double_);
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, bodies.most_forces_of_a_kind()); ++i) {
+        GivenForces forces = bodies.forces_per_mass(row, i);
+        auto& gravity = std::get<std::optional<GravityForce<double, 3>>>(forces);
+        if (gravity) copy.set_gravity(gravity->acceleration);
+        gravity.reset();
+        if (i == 0)
+            copy.add({.position = bodies.position(row), .velocity = bodies.velocity(row)}, forces);
+        else
+            std::apply(
+                [&](const auto& skipped, const auto&... force) {
+                    static_cast<void>(skipped);
+                    ((force ? copy.attach_at(i, 0, *force) : void()), ...);
+                },
+                forces);
+    }
+    return copy;
+}
+
+/// Whether a body alone diverges within its first steps of dt·`factor`. Too strong a drag squares
+/// the speed every step, so that few steps decide.
+bool diverges(Bodies body, const Method& method, const Steps& steps, double factor) {
+    constexpr std::int64_t count = 512;
+    constexpr double parts = 1e13;
+    const Rate rate{static_cast<std::int64_t>(parts),
+                    std::llround(steps.rate.dt() * factor * parts)};
+    return body.try_step(method, {rate, 0, count, steps.damping}).has_value();
+}
+
+/// The largest speed of a body that only springs hold, from its energy, m/s.
+double largest_speed(const Dragged& of, const Bodies& alone) {
+    const double start = std::max(of.speed, of.terminal_speed());
+    if (!of.has_springs) return start;
+    return std::max(of.speed, std::sqrt(2 * std::max(alone.energy().total(), 0.0)));
 }
 
 /// Whether a step makes a body of 1 m/s faster, for each c·|v|·dt.
@@ -72,25 +112,94 @@ double quadratic_drag_limit(const Method& method, Damping damping) {
     return low;
 }
 
-void add_drag_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks) {
+namespace {
+
+class DragTest {
+public:
+    DragTest(const Bodies& bodies, Region& region, const Steps& steps)
+        : bodies_(bodies),
+          region_(region),
+          steps_(steps),
+          limit_(quadratic_drag_limit(region.method(), region.damping())) {}
+
+    void add_risks(std::size_t row, bool linked, std::vector<Risk>& risks) {
+        const Dragged of = drag_of(bodies_, row);
+        if (!(of.quadratic > 0)) return;
+        if (linked || of.has_attractors || !std::isfinite(of.speed))
+            add_by_speed(row, of, risks);
+        else
+            add_by_trial(row, of, risks);
+        if (linked || of.has_attractors || of.has_springs || of.gravity == 0) return;
+        Risk risk{.row = row, .of = Risk::Of::terminal_speed, .at = of.terminal_speed()};
+        risk.damping_dt = (of.linear + 2 * of.quadratic * risk.at) * steps_.rate.dt();
+        if (!region_.contains({0, risk.damping_dt})) risks.push_back(risk);
+    }
+
+private:
+    [[nodiscard]] Risk risk_at(std::size_t row, const Dragged& of, double speed) const {
+        return {.row = row,
+                .damping_dt = (of.linear + of.quadratic * speed) * steps_.rate.dt(),
+                .of = Risk::Of::quadratic_drag,
+                .at = speed};
+    }
+    void add_by_speed(std::size_t row, const Dragged& of, std::vector<Risk>& risks) const {
+        const Risk risk = risk_at(row, of, of.speed);
+        if (!(risk.damping_dt <= limit_)) risks.push_back(risk);
+    }
+    void add_by_trial(std::size_t row, const Dragged& of, std::vector<Risk>& risks) {
+        constexpr int most_trials = 10'000;
+        constexpr double certainly_weak = 0.25;
+        if (!of.has_springs && of.speed == 0 && of.gravity == 0) return;
+        auto body = std::make_shared<const Bodies>(alone(bodies_, row));
+        Risk risk = risk_at(row, of, largest_speed(of, *body));
+        if (risk.damping_dt < certainly_weak * limit_) return;
+        if (++trials_ > most_trials) return add_by_speed(row, of, risks);
+        if (!diverges(*body, region_.method(), steps_, 1)) return;
+        risk.alone = std::move(body);
+        risks.push_back(std::move(risk));
+    }
+
+    const Bodies& bodies_;
+    Region& region_;
+    Steps steps_;
+    double limit_;
+    int trials_ = 0;
+};
+
+}  // namespace
+
+void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
+                    std::vector<Risk>& risks) {
     if (is_implicit(region.method()) || splits_dampers(region.method(), region.damping())) return;
     if (!has_quadratic_drag(bodies)) return;
-    const double limit = quadratic_drag_limit(region.method(), region.damping());
     std::vector<bool> linked(bodies.size());
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
-    for (std::size_t row = 0; row < bodies.size(); ++row) {
-        const Falling of = falling_of(bodies, row);
-        if (!(of.quadratic > 0)) continue;
-        Risk risk{.row = row, .of = Risk::Of::quadratic_drag, .at = of.speed};
-        risk.damping_dt = (of.linear + of.quadratic * of.speed) * dt;
-        if (!(risk.damping_dt <= limit)) risks.push_back(risk);
-        if (linked[row] || of.gravity == 0) continue;
-        risk.of = Risk::Of::terminal_speed;
-        risk.at = of.terminal_speed();
-        risk.damping_dt = (of.linear + 2 * of.quadratic * risk.at) * dt;
-        if (!region.contains({0, risk.damping_dt})) risks.push_back(risk);
+    DragTest test(bodies, region, steps);
+    for (std::size_t row = 0; row < bodies.size(); ++row) test.add_risks(row, linked[row], risks);
+}
+
+double drag_limit(const Risk& risk, const Method& method, const Steps& steps) {
+    if (!risk.alone)
+        return quadratic_drag_limit(method, steps.damping.value_or(method.damping)) /
+               risk.damping_dt;
+    constexpr double ratio = 0.85;
+    double stable = 1;
+    double unstable = 1;
+    int in_a_row = 0;
+    for (double factor = ratio; in_a_row < 4 && factor > 1e-6; factor *= ratio) {
+        if (diverges(*risk.alone, method, steps, factor)) {
+            unstable = factor;
+            in_a_row = 0;
+        } else if (++in_a_row == 1) {
+            stable = factor;
+        }
     }
+    while (unstable - stable > 1e-6 * unstable) {
+        const double middle = (stable + unstable) / 2;
+        (diverges(*risk.alone, method, steps, middle) ? unstable : stable) = middle;
+    }
+    return stable;
 }
 
 }  // namespace oiler

@@ -66,8 +66,7 @@ std::string describe_measure(const Risk& risk) {
 /// The factor on dt up to which steps are stable.
 double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     const Damping damping = steps.damping.value_or(method.damping);
-    if (risk.of == Risk::Of::quadratic_drag)
-        return quadratic_drag_limit(method, damping) / risk.damping_dt;
+    if (risk.of == Risk::Of::quadratic_drag) return drag_limit(risk, method, steps);
     if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate.dt());
     return spring_limit(risk, method, damping, steps.rate.dt());
 }
@@ -109,7 +108,10 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
         return fmt::format("{}; if it moved there, {}", describe(*own, method, steps, name),
                            by_default);
     if (risks.empty() || at.of == Divergence::Of::solution) return by_default;
-    return describe(own == risks.end() ? risks.front() : *own, method, steps, name);
+    const Risk& cause = own == risks.end() ? risks.front() : *own;
+    // The orbit of a body that hit its attractor is no longer known.
+    if (is_attraction(cause) && !std::isfinite(cause.omega_dt)) return by_default;
+    return describe(cause, method, steps, name);
 }
 
 }  // namespace
@@ -119,9 +121,9 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
     Region region(method, steps.damping.value_or(method.damping));
     std::vector<Risk> risks;
     if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
-    add_drag_risks(bodies, region, dt, risks);
+    add_drag_risks(bodies, region, steps, risks);
     add_attractor_risks(bodies, region, dt, risks);
-    add_rounding_risks(bodies, dt, risks);
+    add_rounding_risks(bodies, method, dt, risks);
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });
     return risks;

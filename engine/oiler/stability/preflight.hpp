@@ -37,7 +37,8 @@ struct Risk {
     std::vector<ScaledOscillation> oscillations{};
     /// Few bodies with uneven damping: their step matrix decides.
     std::shared_ptr<const Component> component{};
-    std::optional<Orbit> orbit{};  ///< an orbit that was tried
+    std::shared_ptr<const Bodies> alone{};  ///< a body that was tried without its links
+    std::optional<Orbit> orbit{};           ///< an orbit that was tried
 };
 
 /// Finds what the method cannot follow at the rate, the worst first: springs, dampers and drag

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// The pre-flight's warnings of drag, attraction and rounded positions, compared with runs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "oiler/stability/preflight.hpp"
+#include "support/springs.hpp"
+#include "support/text.hpp"
+
+namespace {
+
+using namespace oiler::test;
+using oiler::Attractor;
+using oiler::Bodies;
+using oiler::find_method;
+using oiler::LinearDrag;
+using oiler::Method;
+using oiler::methods;
+using oiler::Precision;
+using oiler::QuadraticDrag;
+using oiler::Rate;
+using oiler::Spring;
+using oiler::Vec3;
+
+std::vector<std::string> warnings(const Bodies& bodies, const Method& method, const Rate& at) {
+    std::vector<std::string> lines;
+    for (const oiler::Risk& risk : preflight(bodies, method, {at}))
+        lines.push_back(describe(risk, method, {at}, [](std::size_t row) { return row; }));
+    return lines;
+}
+
+std::int64_t rate_in(const std::string& line) {
+    const std::string before = "rate ≥ ";
+    const std::size_t at = line.find(before);
+    EXPECT_NE(at, std::string::npos) << line;
+    return at == std::string::npos ? 1 : std::stoll(line.substr(at + before.size()));
+}
+
+bool diverges(Bodies bodies, const Method& method, const Rate& at, std::int64_t steps) {
+    return bodies.try_step(method, {at, 0, steps}).has_value();
+}
+
+class RandomNumbers {
+public:
+    explicit RandomNumbers(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
+    double uniform(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    }
+    double logarithmic(double low, double high) {
+        return std::exp(uniform(std::log(low), std::log(high)));
+    }
+    const Method& method(std::initializer_list<const char*> names) {
+        return find_method(names.begin()[random_() % names.size()]);
+    }
+
+private:
+    std::mt19937_64 random_;
+};
+
+int campaign_length() {
+    const char* const given = std::getenv("OILER_CAMPAIGN");
+    return given ? std::stoi(given) : 40;
+}
+
+// ---- quadratic drag
+
+Bodies shot(double speed, double drag) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.velocity = {speed, 0}}, QuadraticDrag{drag});
+    return bodies;
+}
+
+// v' = v·(1 − c·|v|·dt) grows from c·|v|·dt = 2 on.
+TEST(QuadraticDragWarning, NamesLimitSpeedAndRate) {
+    const Method& euler = find_method("semi_implicit_euler");
+    const auto lines = warnings(shot(200, 1), euler, {60});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "quadratic drag of body 0: c·|v|·dt = 3.333 at 200 m/s, semi_implicit_euler needs < "
+              "2: rate ≥ 101 Hz, or implicit_euler");
+    EXPECT_TRUE(diverges(shot(200, 1), euler, {99}, 2000));
+    EXPECT_FALSE(diverges(shot(200, 1), euler, {101}, 2000));
+    EXPECT_TRUE(warnings(shot(200, 1), euler, {101}).empty());
+}
+
+// Half-steps of quadratic drag around the step are exact.
+TEST(QuadraticDragWarning, IsNotGivenIfTheMethodSplitsDragOff) {
+    for (const char* name : {"velocity_verlet", "forest_ruth4", "implicit_euler"}) {
+        EXPECT_TRUE(warnings(shot(1e6, 1), find_method(name), {60}).empty()) << name;
+        EXPECT_FALSE(diverges(shot(1e6, 1), find_method(name), {60}, 1000)) << name;
+    }
+}
+
+/// The terminal speed √(g/c) has the rate 2·√(g·c).
+Bodies falling(double speed, double drag, double gravity) {
+    Bodies bodies = shot(speed, drag);
+    bodies.set_gravity({0, -gravity});
+    return bodies;
+}
+
+double speed_of(const Bodies& bodies) { return std::sqrt(squared_length(bodies.velocity(0))); }
+
+// 2·√(10·10) s⁻¹: explicit Euler needs 10 Hz to settle at 1 m/s.
+TEST(QuadraticDragWarning, IsGivenIfTheTerminalSpeedIsNotStable) {
+    const Method& euler = find_method("explicit_euler");
+    const auto lines = warnings(falling(0.1, 10, 10), euler, {9});
+    ASSERT_GE(lines.size(), 1U);
+    EXPECT_TRUE(
+        holds(lines[0],
+              "quadratic drag of body 0: 2·c·|v|·dt = 2.222 at the terminal speed of 1 m/s, "
+              "explicit_euler needs < 2: rate ≥ 11 Hz"))
+        << lines[0];
+    Bodies slow = falling(0.1, 10, 10);
+    Bodies fast = slow;
+    EXPECT_TRUE(slow.try_step(euler, {{9}, 0, 1000}) || std::abs(speed_of(slow) - 1) > 0.1);
+    EXPECT_FALSE(fast.try_step(euler, {{11}, 0, 1000}));
+    EXPECT_NEAR(speed_of(fast), 1, 1e-6);
+    EXPECT_TRUE(warnings(falling(0.1, 10, 10), euler, {11}).empty());
+}
+
+// The spring gives the body its speed: 316 m/s at 1 kHz·… of drag is too fast for 20 Hz.
+TEST(QuadraticDragWarning, KnowsTheSpeedThatASpringGives) {
+    const auto pulled = [](double distance) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add({.position = {distance}}, Spring{.stiffness = 100}, QuadraticDrag{1});
+        return bodies;
+    };
+    const Method& method = find_method("semi_implicit_euler");
+    for (const double distance : {0.1, 1.0, 3.0, 5.0, 7.0, 10.0, 30.0, 100.0})
+        EXPECT_EQ(!warnings(pulled(distance), method, {20}).empty(),
+                  diverges(pulled(distance), method, {20}, 5000))
+            << distance;
+}
+
+TEST(RandomDrag, IsWarnedOfIfItDivergesOrNeverSettles) {
+    int unstable_runs = 0;
+    for (int seed = 0; seed < campaign_length(); ++seed) {
+        RandomNumbers random(seed);
+        const Method& method = random.method(
+            {"explicit_euler", "semi_implicit_euler", "rk2_heun", "rk3_kutta", "rk4"});
+        const double drag = random.logarithmic(0.01, 10);
+        const double gravity = seed % 3 == 0 ? 0 : random.logarithmic(1, 100);
+        const double terminal = std::sqrt(gravity / drag);
+        const double speed = random.logarithmic(0.5, 5) * (gravity > 0 ? terminal : 10);
+        const double dt = random.logarithmic(1, 6) / (drag * std::max(speed, 2 * terminal));
+        const auto is_unstable = [&](double step) {
+            Bodies bodies = falling(speed, drag, gravity);
+            if (bodies.try_step(method, {rate_of(step), 0, 20'000})) return true;
+            return gravity > 0 && std::abs(speed_of(bodies) - terminal) > 0.01 * terminal;
+        };
+        const bool warned = is_warned(falling(speed, drag, gravity), method, dt);
+        const bool unstable = is_unstable(dt);
+        unstable_runs += unstable;
+        const std::string where = "seed " + std::to_string(seed) + " " + std::string(method.name);
+        EXPECT_TRUE(warned || !unstable) << "missed: " << where;
+        if (warned && !unstable) {
+            EXPECT_TRUE(is_unstable(1.05 * dt)) << "too early: " << where;
+        }
+    }
+    EXPECT_GT(unstable_runs, campaign_length() / 5);
+    EXPECT_LT(unstable_runs, campaign_length() * 4 / 5);
+}
+
+// ---- attractors
+
+/// A body at the farthest point of an orbit around gm = 1 with the closest point at 1 m.
+Bodies orbiting(double eccentricity) {
+    const double distance = (1 + eccentricity) / (1 - eccentricity);
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {distance}, .velocity = {0, std::sqrt((1 + eccentricity)) / distance}},
+               Attractor{.gm = 1});
+    return bodies;
+}
+
+/// Whether 20 revolutions double the orbit's energy, or free the body. Energies close to the
+/// attractor, where their error is large and vanishes again, do not count.
+bool is_lost(Bodies bodies, const Method& method, double dt, double eccentricity) {
+    const double farthest = (1 + eccentricity) / (1 - eccentricity);
+    const double energy = -(1 - eccentricity) / 2;
+    const double period = 2 * std::acos(-1.0) * std::pow(1 / (1 - eccentricity), 1.5);
+    const auto steps = static_cast<std::int64_t>(20 * period / dt);
+    int inside = 0;
+    for (std::int64_t tick = 0; tick < steps; ++tick) {
+        if (bodies.try_step(method, {rate_of(dt), tick})) return true;
+        const double distance = std::sqrt(squared_length(bodies.position(0)));
+        inside = distance < farthest / 2 ? inside + 1 : 0;
+        if (inside * dt > 2 * period) return true;
+        const double now = squared_length(bodies.velocity(0)) / 2 - 1 / distance;
+        if (inside == 0 && std::abs(now / energy - 1) >= 1) return true;
+    }
+    return false;
+}
+
+TEST(AttractorWarning, NamesDistanceAndRate) {
+    const Method& verlet = find_method("velocity_verlet");
+    const auto lines = warnings(orbiting(0.9), verlet, {1, 2});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(
+        lines[0].starts_with("attractor of body 0: ω·dt = 2.828 at the closest point of the "
+                             "orbit, 1 m, velocity_verlet needs < "))
+        << lines[0];
+    EXPECT_FALSE(holds(lines[0], "implicit")) << lines[0];
+    const double dt = 1 / static_cast<double>(rate_in(lines[0]));
+    EXPECT_FALSE(is_lost(orbiting(0.9), verlet, dt, 0.9)) << lines[0];
+}
+
+TEST(AttractorWarning, OfABodyOnAnAttractorIsToMoveIt) {
+    for (const Method& method : methods()) {
+        if (method.order == oiler::exact_order) continue;
+        Bodies bodies(2, Precision::single);
+        bodies.add({.position = {3, 4}}, Attractor{.centre = {3, 4}, .gm = 1});
+        const auto lines = warnings(bodies, method, {60});
+        ASSERT_EQ(lines.size(), 1U) << method.name;
+        EXPECT_EQ(lines[0],
+                  "body 0 is on an attractor, where the force has no direction: move the body");
+    }
+}
+
+TEST(AttractorWarning, OfAFallIntoTheCentreNamesNoRate) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {3, 4}}, Attractor{.gm = 1});
+    const auto lines = warnings(bodies, find_method("rk4"), {60});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(holds(lines[0], "leads into its centre, which no rate resolves")) << lines[0];
+}
+
+// A passage is not a revolution: the local frequency decides.
+TEST(AttractorWarning, IsGivenForAFastPassage) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {-10, 0.1}, .velocity = {3, 0}}, Attractor{.gm = 1});
+    EXPECT_EQ(warnings(bodies, find_method("velocity_verlet"), {10}).size(), 1U);
+    EXPECT_EQ(warnings(bodies, find_method("velocity_verlet"), {10'000}).size(), 0U);
+}
+
+TEST(RandomOrbits, AreWarnedOfIfTheBodyIsLost) {
+    int lost_runs = 0;
+    for (int seed = 0; seed < campaign_length(); ++seed) {
+        RandomNumbers random(seed);
+        const Method& method = random.method({"semi_implicit_euler", "velocity_verlet",
+                                              "position_verlet", "rk3_kutta", "rk4", "pefrl"});
+        const double eccentricity = random.uniform(0, 0.95);
+        const double dt = random.logarithmic(0.1, 4);
+        const bool warned = is_warned(orbiting(eccentricity), method, dt);
+        const bool lost = is_lost(orbiting(eccentricity), method, dt, eccentricity);
+        lost_runs += lost;
+        const std::string where = "seed " + std::to_string(seed) + " " + std::string(method.name) +
+                                  " e = " + std::to_string(eccentricity) +
+                                  ", dt = " + std::to_string(dt);
+        EXPECT_TRUE(warned || !lost) << "missed: " << where;
+        if (warned && !lost) {
+            EXPECT_TRUE(is_lost(orbiting(eccentricity), method, 1.05 * dt, eccentricity))
+                << "too early: " << where;
+        }
+    }
+    EXPECT_GT(lost_runs, campaign_length() / 5);
+    EXPECT_LT(lost_runs, campaign_length() * 4 / 5);
+}
+
+// ---- positions in float
+
+Bodies far_away(Precision precision, double x, double v) {
+    Bodies bodies(2, precision);
+    bodies.add({.position = {x, 1}, .velocity = {v, 0}});
+    return bodies;
+}
+
+// Half of the last place of 10⁷ is 0.5 m.
+TEST(RoundedPosition, IsWarnedOfWithItsRemedy) {
+    const auto lines =
+        warnings(far_away(Precision::single, 1e7, 10), find_method("velocity_verlet"), {60});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "position x of body 0: its steps are shorter than 0.5 m, half of the last place in "
+              "float, and do not move it: take precision double, or an origin nearer to it");
+    EXPECT_TRUE(
+        warnings(far_away(Precision::double_, 1e7, 10), find_method("velocity_verlet"), {60})
+            .empty());
+}
+
+// Gravity makes it fast enough; a body at rest need not move.
+TEST(RoundedPosition, IsNotWarnedOfIfTheBodySoonMoves) {
+    const Method& verlet = find_method("velocity_verlet");
+    Bodies bodies = far_away(Precision::single, 1e4, 0.01);
+    EXPECT_EQ(warnings(bodies, verlet, {60}).size(), 1U);
+    bodies.set_gravity({9.8, 0});
+    EXPECT_EQ(warnings(bodies, verlet, {60}).size(), 0U);
+    EXPECT_EQ(warnings(far_away(Precision::single, 1e9, 0), verlet, {60}).size(), 0U);
+}
+
+TEST(RandomPositions, AreWarnedOfIfTheyStay) {
+    int stuck_runs = 0;
+    for (int seed = 0; seed < campaign_length(); ++seed) {
+        RandomNumbers random(seed);
+        const double x = random.logarithmic(1, 1e9) * (seed % 2 == 0 ? 1 : -1);
+        const double v = random.logarithmic(1e-3, 1e3);
+        Bodies bodies = far_away(Precision::single, x, v);
+        const Method& method = random.method({"semi_implicit_euler", "rk4"});
+        const bool warned = is_warned(bodies, method, 1 / 64.0);
+        const double before = bodies.position(0)[0];
+        ASSERT_FALSE(bodies.try_step(method, {{64}, 0, 1000}));
+        const bool stuck = bodies.position(0)[0] == before;
+        stuck_runs += stuck;
+        EXPECT_EQ(warned, stuck) << x << " m, " << v << " m/s, " << method.name;
+    }
+    EXPECT_GT(stuck_runs, campaign_length() / 8);
+}
+
+}  // namespace
