@@ -173,6 +173,61 @@ TEST(Check, EscapesFileNames) {
     EXPECT_FALSE(holds(desk.text("a.xml"), "\001"));
 }
 
+/// Ten seconds of a spring of ω·dt = 2.4, which diverges after 9.4 s.
+std::string diverging_scene(const std::string& budget) {
+    return "[scene]\naxes = 1\nrate = 60\nmethod = \"semi_implicit_euler\"\nduration = 10.0\n"
+           "[[body]]\nname = \"mass\"\nposition = [1.0]\n"
+           "[[spring]]\nbody = \"mass\"\nanchor = [0.0]\nstiffness = 20736.0\n" +
+           budget;
+}
+
+const std::string warning_of_the_scene =
+    "spring of body 0: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or implicit_euler";
+
+TEST(Check, RunsASceneWithoutABudgetAndReportsItsDivergence) {
+    const Desk desk(diverging_scene(""));
+    const Outcome run = desk.run("oiler check scene.toml --junit a.xml --json a.json");
+    EXPECT_EQ(run.exit, 5) << run.err;
+    EXPECT_TRUE(holds(run.out, "scene.toml: warning: " + warning_of_the_scene + "\n")) << run.out;
+    EXPECT_TRUE(holds(run.out, "scene.toml: diverged at step 563 (t = 9.38")) << run.out;
+    EXPECT_TRUE(holds(run.out, "scene.toml: no [budget]\n")) << run.out;
+    const std::string xml = desk.text("a.xml");
+    EXPECT_TRUE(is_well_formed(xml)) << xml;
+    EXPECT_TRUE(holds(xml, "tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\"")) << xml;
+    EXPECT_TRUE(holds(xml, "name=\"preflight\"><system-out>spring of body 0: ")) << xml;
+    EXPECT_TRUE(holds(xml, "name=\"run\"><failure message=\"diverged at step 563 ")) << xml;
+    const Json json = desk.json("a.json");
+    EXPECT_EQ(json.at(0).at("kept"), false);
+    EXPECT_EQ(json.at(0).at("warnings"), Json::array({warning_of_the_scene}));
+    EXPECT_TRUE(json.at(0).at("diverged").get<std::string>().starts_with("diverged at step 563 "));
+}
+
+TEST(Check, HasNoWarningsOfAStableScene) {
+    const Desk desk;
+    EXPECT_EQ(desk.run("oiler check scene.toml --json a.json").exit, 0);
+    EXPECT_EQ(desk.json("a.json").at(0).at("warnings"), Json::array());
+    EXPECT_FALSE(desk.json("a.json").at(0).contains("diverged"));
+}
+
+// The run is stable for the 5 s of the scene.
+TEST(Check, WarnsOfASceneThatEndsBeforeItDiverges) {
+    const Desk desk(diverging_scene(""));
+    const Outcome run = desk.run(
+        "sed -i 's/duration = 10/duration = 5/' scene.toml; "
+        "oiler check scene.toml");
+    EXPECT_EQ(run.exit, 0) << run.out;
+    EXPECT_TRUE(holds(run.out, warning_of_the_scene)) << run.out;
+}
+
+// 2 outweighs 5, and 5 outweighs 1, in any order of the files.
+TEST_F(CheckOfThree, ADivergenceOutweighsABudgetButNotAnInvalidScene) {
+    desk_.put("diverging.toml", diverging_scene(""));
+    for (const char* files : {"diverging.toml exceeded.toml", "exceeded.toml diverging.toml"})
+        EXPECT_EQ(desk_.run(std::string("oiler check ") + files).exit, 5) << files;
+    for (const char* files : {"diverging.toml bad.toml", "bad.toml diverging.toml"})
+        EXPECT_EQ(desk_.run(std::string("oiler check ") + files).exit, 2) << files;
+}
+
 // ---- play
 
 class BudgetOfPlay : public testing::TestWithParam<const char*> {};
