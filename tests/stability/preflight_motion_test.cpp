@@ -121,7 +121,7 @@ TEST(QuadraticDragWarning, IsGivenIfTheTerminalSpeedIsNotStable) {
     EXPECT_TRUE(warnings(falling(0.1, 10, 10), euler, {11}).empty());
 }
 
-// The spring gives the body its speed: 316 m/s at 1 kHz·… of drag is too fast for 20 Hz.
+// The spring gives the body its speed. From 1 m it reaches 10 m/s at most.
 TEST(QuadraticDragWarning, KnowsTheSpeedThatASpringGives) {
     const auto pulled = [](double distance) {
         Bodies bodies(1, Precision::double_);

@@ -41,8 +41,8 @@ double orbit_tolerance(Region& region) { return region.contains({0.1, 0}) ? 1 : 
 
 class AttractorTest {
 public:
-    AttractorTest(const Bodies& bodies, Region& region, double dt)
-        : bodies_(bodies), region_(region), dt_(dt) {}
+    AttractorTest(const Bodies& bodies, Region& region, const Rate& rate)
+        : bodies_(bodies), region_(region), rate_(rate) {}
 
     /// The worst risk of one body and its attractors.
     [[nodiscard]] std::optional<Risk> find_risk(std::size_t row, bool linked) {
@@ -58,8 +58,8 @@ public:
 private:
     [[nodiscard]] std::optional<Risk> find_risk(std::size_t row, const Attractor& attractor,
                                                 bool is_alone) {
-        const Orbit orbit{bodies_.position(row) - attractor.centre, bodies_.velocity(row),
-                          attractor.gm};
+        const Orbit orbit{attractor.centre, bodies_.position(row) - attractor.centre,
+                          bodies_.velocity(row), attractor.gm};
         const double distance = std::sqrt(squared_length(orbit.r));
         if (!std::isfinite(distance)) return std::nullopt;
         Risk risk{.row = row, .omega_dt = INFINITY, .of = Risk::Of::on_attractor};
@@ -68,7 +68,7 @@ private:
         const bool is_orbit = is_alone && std::isfinite(squared_length(orbit.v));
         risk.at = is_orbit ? orbit.closest() : distance;
         risk.of = risk.at < distance * (1 - 1e-6) ? Risk::Of::periapsis : Risk::Of::attractor;
-        risk.omega_dt = std::sqrt(2 * attractor.gm / risk.at) / risk.at * dt_;
+        risk.omega_dt = std::sqrt(2 * attractor.gm / risk.at) / risk.at * rate_.dt();
         if (is_orbit && orbit.energy() < 0 && std::isfinite(risk.omega_dt)) {
             if (follows(orbit, risk.omega_dt)) return std::nullopt;
             risk.orbit = orbit;
@@ -89,30 +89,30 @@ private:
         const bool gains = !region_.contains({0.1, 0});
         if (!gains && omega_dt < certainly_slow) return true;
         if (steps_of_trials_ > most_steps_of_trials) return is_slow(omega_dt);
-        return is_followed(orbit, region_.method(), region_.damping(), dt_,
+        return is_followed(orbit, region_.method(), region_.damping(), rate_,
                            orbit_tolerance(region_), steps_of_trials_);
     }
 
     const Bodies& bodies_;
     Region& region_;
-    double dt_;
+    Rate rate_;
     std::int64_t steps_of_trials_ = 0;
 };
 
 }  // namespace
 
-void add_attractor_risks(const Bodies& bodies, Region& region, double dt,
+void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
                          std::vector<Risk>& risks) {
     if (!has_attractors(bodies)) return;
     std::vector<bool> linked(bodies.size());
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
-    AttractorTest test(bodies, region, dt);
+    AttractorTest test(bodies, region, rate);
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (auto risk = test.find_risk(row, linked[row])) risks.push_back(std::move(*risk));
 }
 
-double orbit_limit(const Orbit& orbit, const Method& method, Damping damping, double dt) {
+double orbit_limit(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate) {
     constexpr double ratio = 0.85;
     constexpr double least = 1e-4;
     Region region(method, damping);
@@ -122,7 +122,8 @@ double orbit_limit(const Orbit& orbit, const Method& method, Damping damping, do
     int in_a_row = 0;
     for (double factor = ratio; in_a_row < 4; factor *= ratio) {
         if (factor < least) return 0;
-        const bool follows = is_followed(orbit, method, damping, dt * factor, tolerance, steps);
+        const bool follows =
+            is_followed(orbit, method, damping, scaled_rate(rate, factor), tolerance, steps);
         if (follows && in_a_row == 0) limit = factor;
         in_a_row = follows ? in_a_row + 1 : 0;
     }

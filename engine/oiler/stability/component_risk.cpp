@@ -11,8 +11,10 @@
 namespace oiler {
 namespace {
 
-/// Up to this number of freedoms, eigenvalues of dense matrices are computed.
+/// Up to this number of freedoms, the step matrix of unevenly damped bodies is computed.
 constexpr std::size_t most_dense_freedoms = 30;
+/// Up to this number, all oscillations of evenly damped bodies are.
+constexpr std::size_t most_modes = 100;
 /// Up to this number, a warning of damped bodies is confirmed with the step matrix, in 0.2 s at
 /// most.
 constexpr std::size_t most_confirmed_freedoms = 100;
@@ -66,9 +68,10 @@ public:
     [[nodiscard]] std::optional<Risk> find_risk() {
         if (is_implicit(region_.method()) || region_.contains_all_up_to(upper_bound()))
             return std::nullopt;
-        if (component_->freedoms() > most_dense_freedoms)
+        const bool is_even = has_even_drag() && component_->dampers.empty();
+        if (component_->freedoms() > (is_even ? most_modes : most_dense_freedoms))
             add_ritz_pairs();
-        else if (has_even_drag() && component_->dampers.empty())
+        else if (is_even)
             add_modes();
         else
             return find_exact_risk();

@@ -64,9 +64,7 @@ Bodies alone(const Bodies& bodies, std::size_t row) {
 /// the speed every step, so that few steps decide.
 bool diverges(Bodies body, const Method& method, const Steps& steps, double factor) {
     constexpr std::int64_t count = 512;
-    constexpr double parts = 1e13;
-    const Rate rate{static_cast<std::int64_t>(parts),
-                    std::llround(steps.rate.dt() * factor * parts)};
+    const Rate rate = factor == 1 ? steps.rate : scaled_rate(steps.rate, factor);
     return body.try_step(method, {rate, 0, count, steps.damping}).has_value();
 }
 

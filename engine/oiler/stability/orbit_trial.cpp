@@ -11,7 +11,7 @@ namespace oiler {
 namespace {
 
 constexpr double revolutions = 20;
-constexpr double samples = 64;  // per revolution
+constexpr double samples = 1000;  // per revolution
 constexpr double most_steps = 200'000;
 
 double length(const Vec3& vector) { return std::sqrt(squared_length(vector)); }
@@ -36,17 +36,23 @@ double Orbit::period() const {
     return 2 * std::numbers::pi * axis * std::sqrt(axis / gm);
 }
 
-bool is_followed(const Orbit& orbit, const Method& method, Damping damping, double dt,
+Rate scaled_rate(const Rate& rate, double factor) {
+    constexpr double parts = 1e13;
+    return {static_cast<std::int64_t>(parts), std::llround(rate.dt() * factor * parts)};
+}
+
+bool is_followed(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate,
                  double tolerance, std::int64_t& steps) {
     Bodies bodies(3, Precision::double_);
-    bodies.add({.position = orbit.r, .velocity = orbit.v * dt}, Attractor{{}, orbit.gm * dt * dt});
-    const double per_revolution = orbit.period() / dt;
+    bodies.add({.position = orbit.centre + orbit.r, .velocity = orbit.v},
+               Attractor{orbit.centre, orbit.gm});
+    const double per_revolution = orbit.period() / rate.dt();
     const auto stride = static_cast<std::int64_t>(std::max(1.0, per_revolution / samples));
     const auto most = static_cast<std::int64_t>(std::min(revolutions * per_revolution, most_steps));
     std::int64_t inside = 0;
     for (std::int64_t tick = 0; tick < most; tick += stride, steps += stride) {
-        if (bodies.try_step(method, {{1}, tick, stride, damping})) return false;
-        const Orbit now{bodies.position(0), bodies.velocity(0) * (1 / dt), orbit.gm};
+        if (bodies.try_step(method, {rate, tick, stride, damping})) return false;
+        const Orbit now{{}, bodies.position(0) - orbit.centre, bodies.velocity(0), orbit.gm};
         // Close to the attractor the energy error is large and vanishes again.
         inside = length(now.r) < orbit.farthest() / 2 ? inside + stride : 0;
         if (static_cast<double>(inside) > 2 * per_revolution) return false;

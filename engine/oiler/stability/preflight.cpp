@@ -67,7 +67,7 @@ std::string describe_measure(const Risk& risk) {
 double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     const Damping damping = steps.damping.value_or(method.damping);
     if (risk.of == Risk::Of::quadratic_drag) return drag_limit(risk, method, steps);
-    if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate.dt());
+    if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate);
     return spring_limit(risk, method, damping, steps.rate.dt());
 }
 
@@ -114,15 +114,52 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     return describe(cause, method, steps, name);
 }
 
+bool has_lengths(const Bodies& bodies) {
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).rest_length != 0) return true;
+    for (const Stored& stored : bodies.stored())
+        if (stored.of == CoilSpring::name && stored.rows > 0) return true;
+    return false;
+}
+
+/// Whether the run diverges soon or gains a hundred times its kinetic energy.
+bool explodes(Bodies bodies, const Method& method, Steps steps) {
+    const double before = bodies.energy().kinetic;
+    steps.count = 2048;
+    return bodies.try_step(method, steps) || !(bodies.energy().kinetic <= 100 * before);
+}
+
+/// The spring risks that the first 512 steps of the run bring, because springs with a length turn
+/// and gravity stretches nets. Springs turn back, so that a risk counts only if the run explodes
+/// soon after. Only few bodies are stepped: a run must start at once.
+std::vector<Risk> later_spring_risks(const Bodies& bodies, Region& region, Steps steps) {
+    constexpr std::size_t most_bodies = 3000;
+    if (bodies.axes() == 1 || bodies.size() > most_bodies || !has_lengths(bodies)) return {};
+    if (contains_all_springs(bodies, region, steps.rate.dt())) return {};
+    Bodies later = bodies;
+    for (const std::int64_t count : {128, 384}) {
+        steps.count = count;
+        if (later.try_step(region.method(), steps)) return {};
+        steps.first += count;
+        std::vector<Risk> risks;
+        add_spring_risks(later, region, steps.rate.dt(), risks);
+        if (!risks.empty() && explodes(later, region.method(), steps)) return risks;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
     const double dt = steps.rate.dt();
     Region region(method, steps.damping.value_or(method.damping));
     std::vector<Risk> risks;
-    if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
+    if (!is_implicit(method)) {
+        add_spring_risks(bodies, region, dt, risks);
+        if (risks.empty()) risks = later_spring_risks(bodies, region, steps);
+    }
     add_drag_risks(bodies, region, steps, risks);
-    add_attractor_risks(bodies, region, dt, risks);
+    add_attractor_risks(bodies, region, steps.rate, risks);
     add_rounding_risks(bodies, method, dt, risks);
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });

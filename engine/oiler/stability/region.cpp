@@ -40,7 +40,7 @@ bool Region::contains(const ScaledOscillation& of) {
 }
 
 bool Region::contains_all_up_to(const ScaledOscillation& of) {
-    if (!(size(of) <= 1)) return false;
+    if (!(size(of) <= 1.5)) return false;
     for (const double omega : {0.0, 0.25, 0.5, 0.75, 1.0})
         for (const double c : {0.0, 0.25, 0.5, 0.75, 1.0})
             if (!contains({of.omega_dt * omega, of.damping_dt * c})) return false;

@@ -40,7 +40,7 @@ public:
 
     bool contains(const ScaledOscillation& of);
     /// Whether all slower and less damped oscillations are in the region too. It samples a grid and
-    /// answers only up to ω·dt = 1 and c·dt = 1, where no region has gaps.
+    /// answers only up to ω·dt = 1.5 and c·dt = 1.5, where no region has gaps.
     bool contains_all_up_to(const ScaledOscillation& of);
 
 private:

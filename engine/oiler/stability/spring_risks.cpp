@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "oiler/stability/component_risk.hpp"
+#include "oiler/stability/oscillations.hpp"
 
 namespace oiler {
 namespace {
@@ -81,6 +82,17 @@ void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vect
     for (Component& component : linked_components(bodies, component_labels(bodies)))
         if (auto risk = find_risk(std::move(component), region, dt))
             risks.push_back(std::move(*risk));
+}
+
+bool contains_all_springs(const Bodies& bodies, Region& region, double dt) {
+    ScaledOscillation largest;
+    for (const BodyOscillation& one :
+         oscillations(bodies, splits_dampers(region.method(), region.damping()))) {
+        largest.omega_dt = std::max(largest.omega_dt, std::sqrt(std::max(one.of.k, 0.0)) * dt);
+        largest.damping_dt = std::max(largest.damping_dt, one.of.c * dt);
+    }
+    return region.contains_all_up_to(largest) ||
+           (largest.damping_dt == 0 && region.contains(largest));
 }
 
 double spring_limit(const Risk& risk, const Method& method, Damping damping, double dt) {
