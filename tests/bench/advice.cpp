@@ -33,7 +33,7 @@ struct Case {
     const char* name;
     Scene scene;
     Truth truth;
-    double samples_per_second = 0;  ///< 0 for a sample at every step
+    std::int64_t truth_per_second = 0;  ///< times at which the truth is known, 0 for any time
     double most_work = 1e9;         ///< see SweepPlan
     std::int64_t max_rate = 1'000'000;
 };
@@ -189,7 +189,7 @@ Truth cloth_truth(const Scene& scene) {
                      grid.damping * y[4 * node + 2 + axis]) /
                     m;
     };
-    return recorded(start, change, scene.duration, 60, 100);
+    return recorded(start, change, scene.duration, 480, 12);
 }
 
 Scene asset(const char* name) {
@@ -202,7 +202,7 @@ std::vector<Case> cases(bool full) {
         "[[body]]\nquadratic_drag = 0.00816666666666666667\n"
         "velocity = [19.28362829059618, 22.98133329356934]\n",
         "projectile");
-    std::vector<Case> all{{"projectile", projectile, projectile_truth(projectile)},
+    std::vector<Case> all{{"projectile", projectile, projectile_truth(projectile), 3600},
                           {"orbit", asset("orbit"), orbit_truth}};
     if (!full) {
         // The highest rates take too long for a test.
@@ -217,26 +217,52 @@ std::vector<Case> cases(bool full) {
     return all;
 }
 
-/// The largest distance from the truth, m.
+/// The distance of a point from the truth, m.
+double distance(const Case& one, std::size_t row, const Point2& point, Real t) {
+    const Point2 exact = one.truth(row, t);
+    return static_cast<double>(std::hypot(point[0] - exact[0], point[1] - exact[1]));
+}
+
+/// Calls `check` with the times of a step, as parts of it: where the truth is known, else 17.
+template <class Check>
+void for_times(const Case& one, Real from, Real to, Check check) {
+    constexpr int parts = 16;
+    if (one.truth_per_second == 0) {
+        for (int part = 0; part <= parts; ++part) check(static_cast<Real>(part) / parts);
+        return;
+    }
+    const auto per_second = static_cast<Real>(one.truth_per_second);
+    for (Real at = std::ceil(from * per_second); at <= to * per_second; ++at)
+        check((at / per_second - from) / (to - from));
+}
+
+/// The largest distance of the drawn lines from the truth, m.
 double independent_error(const Case& one, const Stepping& choice) {
     World world = make_world(one.scene, Settings{choice});
-    const auto steps = static_cast<std::int64_t>(
-        std::floor(one.scene.duration * static_cast<double>(choice.rate.steps) * (1 + 1e-12)));
-    const std::int64_t stride =
-        one.samples_per_second > 0
-            ? choice.rate.steps / static_cast<std::int64_t>(one.samples_per_second)
-            : 1;
-    Real most = 0;
-    for (std::int64_t tick = 0; tick <= steps; tick += stride) {
-        if (tick > 0) world.step(stride);
-        const Real t = static_cast<Real>(tick) / static_cast<Real>(choice.rate.steps);
-        for (std::size_t row = 0; row < world.bodies().size(); ++row) {
-            const auto at = world.bodies().state(row).x;
-            const Point2 exact = one.truth(row, t);
-            most = std::max(most, std::hypot(at[0] - exact[0], at[1] - exact[1]));
+    const auto rate = static_cast<Real>(choice.rate.steps);
+    const auto point_of = [&](std::size_t row) -> Point2 {
+        const auto x = world.bodies().state(row).x;
+        return {x[0], x[1]};
+    };
+    std::vector<Point2> before(world.bodies().size());
+    double most = 0;
+    while (world.time() < one.scene.duration) {
+        const Real from = static_cast<Real>(world.tick()) / rate;
+        for (std::size_t row = 0; row < before.size(); ++row) before[row] = point_of(row);
+        world.step();
+        const Real to = static_cast<Real>(world.tick()) / rate;
+        for (std::size_t row = 0; row < before.size(); ++row) {
+            const Point2 after = point_of(row);
+            for_times(one, from, to, [&](Real part) {
+                const Real t = from + part * (to - from);
+                if (t > one.scene.duration) return;
+                const Point2 drawn{before[row][0] + (after[0] - before[row][0]) * part,
+                                   before[row][1] + (after[1] - before[row][1]) * part};
+                most = std::max(most, distance(one, row, drawn, t));
+            });
         }
     }
-    return static_cast<double>(most);
+    return most;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -250,12 +276,11 @@ struct Sweep {
 
 Sweep sweep_all(const Scene& scene, const Requirements& requirements) {
     const auto start = std::chrono::steady_clock::now();
-    const SampleTimes samples = sample_times_of(scene);
-    const Reference reference = make_reference(scene, samples, {});
+    const Reference reference = make_reference(scene, {});
     const SweepPlan plan{.methods = requirements.methods,
-                         .max_rate = std::min(requirements.max_rate, 1024 * samples.per_second),
+                         .max_rate = std::min<std::int64_t>(requirements.max_rate, 1024 * 60),
                          .most_work = requirements.most_work};
-    Sweep sweep_of{start_tradeoff(scene, samples, reference, plan), 0};
+    Sweep sweep_of{start_tradeoff(scene, reference, plan), 0};
     SweepWatch watch;
     watch.progress = [shown = -1](double share) mutable {
         const int percent = static_cast<int>(100 * share);
@@ -277,6 +302,7 @@ double cost_ratio(const Scene& scene, const Tradeoff& tradeoff, const Requiremen
     const TradeoffRow* best = nullptr;
     for (const TradeoffRow* row : tradeoff.rows())
         if (meets(row->judgement, requirements) &&
+            row->stepping.rate.steps >= requirements.min_rate &&
             (!best || row->ns_per_second < best->ns_per_second))
             best = row;
     if (!best) return unknown;
@@ -310,8 +336,7 @@ bool run(const Case& one, const std::vector<double>& tolerances, bool sweeps) {
         requirements.position_error = tolerance;
         const auto start = std::chrono::steady_clock::now();
         const Reference reference =
-            make_reference(one.scene, sample_times_of(one.scene),
-                           {.wanted = required_reference_error(requirements) / 2});
+            make_reference(one.scene, {.wanted = required_reference_error(requirements) / 2});
         const Advice advice = advise(one.scene, reference, requirements, {});
         const double seconds = seconds_since(start);
         if (!advice.best || !advice.meets) {
@@ -341,13 +366,13 @@ int main(int argc, char** argv) try {
         // A sweep over all 8 s takes hours.
         Scene scene = asset("cloth");
         scene.duration = mode == "--cloth" ? 8 : 1;
-        chosen.push_back({"cloth", scene, cloth_truth(scene), 30, mode == "--cloth" ? 1e9 : 1e8});
+        chosen.push_back({"cloth", scene, cloth_truth(scene), 480, mode == "--cloth" ? 1e9 : 1e8});
     } else {
         chosen = cases(mode == "--full");
     }
     const std::vector<double> tolerances =
-        mode.empty() ? std::vector{1e-1, 1e-4, 1e-8}
-                     : std::vector{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+        mode.empty() ? std::vector{1e-1, 1e-3, 1e-5}
+                     : std::vector{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
     bool met = true;
     for (const Case& one : chosen) met = run(one, tolerances, mode != "--cloth") && met;
     return met ? 0 : 1;

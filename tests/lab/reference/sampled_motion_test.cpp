@@ -34,7 +34,7 @@ TEST(SampledMotion, IsExactForDegreeSeven) {
         const Real t = static_cast<Real>(i) / per_second;
         trajectory.states.push_back({{std::pow(t, 7), 0, 0}, {7 * std::pow(t, 6), 0, 0}});
     }
-    const SampledMotion motion(trajectory, per_second);
+    const SampledMotion motion(trajectory, per_second, 0);
     for (const Real t : {0.0L, 0.03L, 0.1L, 0.77L, 1.0L, 1.91L, 1.99L, 2.0L}) {
         EXPECT_NEAR(static_cast<double>(motion.at(0, t).x[0] - std::pow(t, 7)), 0, 1e-14);
         EXPECT_NEAR(static_cast<double>(motion.at(0, t).v[0] - 7 * std::pow(t, 6)), 0, 1e-12);
@@ -45,7 +45,7 @@ TEST(SampledMotion, IsExactForDegreeSeven) {
 // (3/4·1/4·h²... )² of the four, (9/16)²·h⁸/40320.
 TEST(SampledMotion, HasTheRemainderOfDegreeSeven) {
     const Real omega = 5;
-    const SampledMotion motion(sampled(omega, 4), per_second);
+    const SampledMotion motion(sampled(omega, 4), per_second, 0);
     const double bound = std::pow(9 / 16.0, 2) * std::pow(0.5, 8) / 40320;
     double most = 0;
     std::vector<State3> all(2);
@@ -61,10 +61,14 @@ TEST(SampledMotion, HasTheRemainderOfDegreeSeven) {
     EXPECT_GE(most, 0.8 * bound);
 }
 
-TEST(SampledMotion, IsACubicBetweenTwoSamplesOnly) {
-    const SampledMotion motion(sampled(1, 4), per_second);
-    EXPECT_EQ(motion.bend(0, {}, 0.2L, 0.3L), 0);
-    EXPECT_TRUE(std::isinf(motion.bend(0, {}, 0.2L, 0.31L)));
+// π/4 at 2 1/s is 0.3927 s; at 50 1/s it is less than a sample.
+TEST(SampledMotion, IsACubicOverAnEighthOfAPeriodOrASample) {
+    const SampledMotion slow(sampled(1, 4), per_second, 2);
+    EXPECT_EQ(slow.bend(0, {}, 0.2L, 0.592L), 0);
+    EXPECT_TRUE(std::isinf(slow.bend(0, {}, 0.2L, 0.593L)));
+    const SampledMotion fast(sampled(1, 4), per_second, 50);
+    EXPECT_EQ(fast.bend(0, {}, 0.2L, 0.3L), 0);
+    EXPECT_TRUE(std::isinf(fast.bend(0, {}, 0.2L, 0.31L)));
 }
 
 // The estimate must not be below the largest error anywhere, and not much above the one at the
@@ -72,7 +76,7 @@ TEST(SampledMotion, IsACubicBetweenTwoSamplesOnly) {
 TEST(InterpolationErrors, BoundTheErrorsBetweenSamples) {
     for (const Real omega : {2.0L, 8.0L, 14.0L}) {
         const Trajectory trajectory = sampled(omega, 4);
-        const SampledMotion motion(trajectory, per_second);
+        const SampledMotion motion(trajectory, per_second, 0);
         double most = 0;
         for (Real t = 0; t < 4; t += 0.0037L)
             most = std::max(

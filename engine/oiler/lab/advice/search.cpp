@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/drawn_error.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -64,6 +65,7 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate",
              requirements.min_rate, requirements.max_rate);
+    drop_low_rungs();
     const double rounding = rounding_to_float(reference);
     if (requirements.position_error && rounding > *requirements.position_error)
         too_coarse_float_ = rounding;
@@ -71,6 +73,19 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
         for (const Precision precision : {Precision::single, Precision::double_})
             if (!(precision == Precision::single && too_coarse_float_))
                 add_candidates(*method, precision);
+}
+
+/// Drops the rates at which the lines of any method are too coarse, except the highest.
+void Search::drop_low_rungs() {
+    if (!requirements_.position_error || requirements_.at_steps || requirements_.display > 0)
+        return;
+    const double most = *requirements_.position_error;
+    const auto is_too_low = [&](std::int64_t rate) {
+        return least_drawn_error(*reference_.motion, rate, reference_.meaningful_until, most) >
+               most;
+    };
+    const auto first = std::find_if_not(rungs_.begin(), rungs_.end() - 1, is_too_low);
+    rungs_.erase(rungs_.begin(), first);
 }
 
 void Search::add_candidates(const Method& method, Precision precision) {
@@ -116,7 +131,7 @@ TradeoffRow Search::judged(const Stepping& choice, double enough) {
 }
 
 TradeoffRow Search::try_choice(const Stepping& choice) {
-    constexpr double far = 100;
+    constexpr double far = 20;
     for (const TradeoffRow& row : rows_)
         if (row.stepping == choice) return row;
     rows_.push_back(judged(choice, far * requirements_.position_error.value_or(INFINITY)));

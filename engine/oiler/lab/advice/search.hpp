@@ -70,6 +70,7 @@ private:
         [[nodiscard]] double cost(std::int64_t rate) const;
     };
 
+    void drop_low_rungs();
     void add_candidates(const Method& method, Precision precision);
     void add_candidate(const Method& method, Precision precision, std::optional<Damping> damping);
     Candidate* cheapest_next();

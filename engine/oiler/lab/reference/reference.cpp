@@ -148,7 +148,8 @@ private:
         }
         reference_.words = std::move(fine.words);
         reference_.motion = std::make_shared<SampledMotion>(std::move(fine.trajectory),
-                                                            reference_.samples.per_second);
+                                                            reference_.samples.per_second,
+                                                            fastest_motion(start_));
     }
 
     void check() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace oiler::lab {
 namespace {
@@ -108,8 +109,14 @@ double first_convergence(const Trajectory& trajectory, const Hermite& narrow, co
 
 }  // namespace
 
-SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second)
-    : trajectory_(std::move(trajectory)), per_second_(per_second) {}
+SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second, double fastest)
+    : trajectory_(std::move(trajectory)), per_second_(per_second) {
+    constexpr Real eighth = std::numbers::pi_v<Real> / 4;
+    constexpr Real rounding = 1e-9L;
+    const Real between = 1 / static_cast<Real>(per_second);
+    longest_cubic_ =
+        (1 + rounding) * (fastest > 0 ? std::max(between, eighth / Real(fastest)) : between);
+}
 
 std::optional<std::int64_t> SampledMotion::sample_at(Real t) const {
     const auto per_second = static_cast<Real>(per_second_);
@@ -136,9 +143,7 @@ void SampledMotion::all_at(Real t, std::span<State3> states) const {
 }
 
 double SampledMotion::bend(std::size_t, const State3&, Real from, Real to) const {
-    constexpr Real rounding = 1e-9L;
-    const bool resolved = (to - from) * static_cast<Real>(per_second_) <= 1 + rounding;
-    return resolved ? 0 : std::numeric_limits<double>::infinity();
+    return to - from <= longest_cubic_ ? 0 : std::numeric_limits<double>::infinity();
 }
 
 std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int64_t per_second) {

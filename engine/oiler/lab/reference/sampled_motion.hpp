@@ -28,12 +28,13 @@ struct Trajectory {
 /// four nearest samples.
 class SampledMotion : public Motion {
 public:
-    SampledMotion(Trajectory trajectory, std::int64_t per_second);
+    /// `fastest` is an upper bound of the motion's angular frequencies, 1/s.
+    SampledMotion(Trajectory trajectory, std::int64_t per_second, double fastest);
 
     [[nodiscard]] std::size_t bodies() const override { return trajectory_.bodies; }
     [[nodiscard]] State<long double, 3> at(std::size_t row, long double t) const override;
     void all_at(long double t, std::span<State<long double, 3>> states) const override;
-    /// A cubic between two samples follows the motion that they resolve.
+    /// A cubic over 1/8 of the shortest period, or between two samples, follows the motion.
     [[nodiscard]] double bend(std::size_t, const State<long double, 3>&, long double from,
                               long double to) const override;
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
@@ -44,6 +45,7 @@ private:
 
     Trajectory trajectory_;
     std::int64_t per_second_;
+    long double longest_cubic_;  ///< s
 };
 
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It

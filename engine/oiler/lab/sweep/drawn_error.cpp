@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "oiler/lab/reference/parts.hpp"
 
@@ -94,6 +95,25 @@ void DrawnError::sample(const Part& part, const Offset& p, const Offset& q) {
         const Offset offset = part.offset_from * (1 - s) + part.offset_to * s - bent;
         most_ = larger(most_, length(offset));
     }
+}
+
+double least_drawn_error(const Motion& motion, std::int64_t rate, double until, double enough) {
+    const Motion::Walk walk = motion.walk(2 * rate);
+    std::vector<State<Real, 3>> from(motion.bodies());
+    std::vector<State<Real, 3>> middle = from;
+    std::vector<State<Real, 3>> to = from;
+    walk(0, to);
+    const auto steps = static_cast<std::int64_t>(std::floor(until * static_cast<double>(rate)));
+    double least = 0;
+    for (std::int64_t step = 0; step < steps && least <= enough; ++step) {
+        from.swap(to);
+        walk(2 * step + 1, middle);
+        walk(2 * step + 2, to);
+        for (std::size_t row = 0; row < from.size(); ++row)
+            least = std::max(least,
+                             distance(middle[row].x, (from[row].x + to[row].x) * Real(0.5)) / 2);
+    }
+    return least;
 }
 
 }  // namespace oiler::lab
