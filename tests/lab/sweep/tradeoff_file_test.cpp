@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -17,7 +18,8 @@ using namespace oiler::lab;
 namespace {
 
 bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
-    return same(a.ns_per_second, b.ns_per_second) && same(a.ns_spread, b.ns_spread);
+    return same(a.ns_per_second, b.ns_per_second) && same(a.ns_spread, b.ns_spread) &&
+           same(a.ns_together, b.ns_together);
 }
 
 // ---- files
@@ -32,6 +34,7 @@ Tradeoff hard_numbers() {
     tradeoff.reference.floor = {1e-300, 2.0 / 3, 1.7976931348623157e308};
     tradeoff.reference.extent = std::nextafter(1.0, 2.0);
     tradeoff.reference.meaningful_until = 0.7 + 0.1;
+    tradeoff.reference.why_no_longer = "\"µ\\\n";
     tradeoff.reference.period = std::acos(-1.0);
     tradeoff.machines.push_back({"other", 128, "cc 1.0"});
     for (std::size_t i = 0; i < 3; ++i) {
@@ -40,11 +43,12 @@ Tradeoff hard_numbers() {
         ladder.end = ladder.done ? "so" : "";
         for (int rate = 1; rate < 20 && ladder.done; ++rate) {
             TradeoffRow row{.stepping = {ladder.method, {rate}, ladder.precision},
-                            .meets_steps = rate % 2 == 0,
                             .ns_per_second = std::exp(rate),
-                            .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate};
+                            .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate,
+                            .ns_together = rate % 7 == 0 ? unknown : std::exp(-rate)};
             row.judgement = {.stable = rate % 5 != 0,
                              .position_error = rate % 4 == 0 ? unknown : std::sin(rate) * 1e-310,
+                             .step_error = rate % 3 == 0 ? unknown : std::cos(rate) * 1e-300,
                              .velocity_error = std::pow(7, -rate),
                              .phase_error = -0.0,
                              .energy_drift = std::nextafter(rate, 0.0),
@@ -64,7 +68,6 @@ TEST(TradeoffFile, ReadsBackToTheSameBits) {
     EXPECT_EQ(read.fingerprint, written.fingerprint);
     EXPECT_EQ(read.duration, written.duration);
     EXPECT_EQ(read.current, written.current);
-    EXPECT_EQ(read.samples, written.samples);
     EXPECT_EQ(read.machines, written.machines);
     EXPECT_EQ(read.reference.words, written.reference.words);
     EXPECT_EQ(read.reference.closed_form, written.reference.closed_form);
@@ -75,10 +78,35 @@ TEST(TradeoffFile, ReadsBackToTheSameBits) {
     EXPECT_TRUE(same(read.reference.floor.energy, written.reference.floor.energy));
     EXPECT_TRUE(same(read.reference.extent, written.reference.extent));
     EXPECT_TRUE(same(read.reference.meaningful_until, written.reference.meaningful_until));
+    EXPECT_EQ(read.reference.why_no_longer, written.reference.why_no_longer);
     EXPECT_TRUE(same(read.reference.period, written.reference.period));
     for (std::size_t i = 0; i < written.rows().size(); ++i)
         EXPECT_TRUE(same_times(*read.rows()[i], *written.rows()[i])) << i;
     EXPECT_EQ(to_json(read), to_json(written));
+}
+
+/// A trade-off whose one row is of this setting.
+Tradeoff with_row(const Stepping& choice) {
+    Tradeoff tradeoff = started(spring(), small_plan());
+    tradeoff.ladders.resize(1);
+    tradeoff.ladders[0] = {
+        .method = choice.method, .precision = choice.precision, .rows = {{.stepping = choice}}};
+    return tradeoff;
+}
+
+// Only splittings can put damping elsewhere. Their own choice is named in the file and is not part
+// of the setting.
+TEST(TradeoffFile, KeepsTheTreatmentOfDamping) {
+    const Method* const euler = &find_method("semi_implicit_euler");
+    ASSERT_EQ(euler->damping, Damping::in_kick);
+    const auto damping_in_file = [](const Stepping& choice) {
+        const std::string text = to_json(with_row(choice));
+        EXPECT_EQ(parse_tradeoff(text, "a.json").ladders[0].rows[0].stepping, choice);
+        return nlohmann::json::parse(text).at("rows").at(0).at("damping");
+    };
+    EXPECT_EQ(damping_in_file({euler, {60}, Precision::double_}), "kick");
+    EXPECT_EQ(damping_in_file({euler, {60}, Precision::double_, Damping::in_drift}), "drift");
+    EXPECT_EQ(damping_in_file({&find_method("rk4"), {60}, Precision::double_}), nullptr);
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -118,17 +146,18 @@ TEST(TradeoffFile, IsATableToo) {
         EXPECT_EQ(cell("rate"), std::to_string(row.stepping.rate.steps));
         EXPECT_EQ(cell("precision"), name_of(row.stepping.precision));
         EXPECT_EQ(cell("stable"), row.judgement.stable ? "1" : "0");
-        EXPECT_EQ(cell("meets_steps"), row.meets_steps ? "1" : "0");
         EXPECT_EQ(cell("below_floor"), row.judgement.below_floor() ? "1" : "0");
         EXPECT_EQ(cell("pareto"),
                   std::find(front.begin(), front.end(), &row) != front.end() ? "1" : "0");
         EXPECT_TRUE(same(number("position_error"), row.judgement.position_error)) << line;
+        EXPECT_TRUE(same(number("step_error"), row.judgement.step_error)) << line;
         EXPECT_TRUE(same(number("velocity_error"), row.judgement.velocity_error)) << line;
         EXPECT_TRUE(same(number("phase_error"), row.judgement.phase_error)) << line;
         EXPECT_TRUE(same(number("energy_drift"), row.judgement.energy_drift)) << line;
         EXPECT_TRUE(same(number("evaluations"), row.judgement.evaluations)) << line;
         EXPECT_TRUE(same(number("ns_per_second"), row.ns_per_second)) << line;
         EXPECT_TRUE(same(number("ns_spread"), row.ns_spread)) << line;
+        EXPECT_TRUE(same(number("ns_together"), row.ns_together)) << line;
     }
     EXPECT_EQ(count, tradeoff.rows().size());
 }
@@ -180,7 +209,7 @@ TEST(Fingerprint, DependsOnEverythingThatDeterminesErrors) {
     const auto print = [](const std::string& text, const SweepPlan& plan, double duration) {
         Scene scene = parse_scene(text, "test.toml");
         if (duration > 0) scene.duration = duration;
-        return fingerprint(text, scene, sample_times_of(scene), plan);
+        return fingerprint(text, scene, plan);
     };
     const SweepPlan plan = small_plan();
     std::set<std::string> prints{print(article_spring, plan, 0)};
@@ -212,9 +241,9 @@ TEST(Fingerprint, DependsOnThePrecisions) {
     const Scene scene = parse_scene(article_spring, "test.toml");
     SweepPlan plan = small_plan();
     plan.precisions = {Precision::single};
-    const std::string single = fingerprint(article_spring, scene, sample_times_of(scene), plan);
+    const std::string single = fingerprint(article_spring, scene, plan);
     plan.precisions = {Precision::double_};
-    EXPECT_NE(fingerprint(article_spring, scene, sample_times_of(scene), plan), single);
+    EXPECT_NE(fingerprint(article_spring, scene, plan), single);
 }
 
 }  // namespace
