@@ -125,9 +125,11 @@ void Search::run() {
 
 TradeoffRow Search::judged(const Stepping& choice, double enough) {
     return {.stepping = choice,
-            .judgement = judge(
-                scene_, Settings{choice}, reference_,
-                {.display = requirements_.display, .enough = enough, .stopped = watch_.stopped})};
+            .judgement = judge(scene_, Settings{choice}, reference_,
+                               {.display = requirements_.display,
+                                .enough = enough,
+                                .at_steps = requirements_.at_steps,
+                                .stopped = watch_.stopped})};
 }
 
 TradeoffRow Search::try_choice(const Stepping& choice) {

@@ -109,7 +109,8 @@ public:
 
 private:
     [[nodiscard]] bool ends_early() const {
-        return std::max(position_, drawn_.error()) > options_.enough || options_.stopped();
+        const double error = options_.at_steps ? position_ : std::max(position_, drawn_.error());
+        return error > options_.enough || options_.stopped();
     }
     [[nodiscard]] Real time() const {
         return static_cast<Real>(world_.tick()) /

@@ -41,6 +41,7 @@ struct JudgeOptions {
     std::int64_t display = 0;
     /// A run ends early when an error exceeds this, m.
     double enough = std::numeric_limits<double>::infinity();
+    bool at_steps = false;  ///< only errors at the steps end a run early
     std::function<bool()> stopped = [] { return false; };
 };
 
