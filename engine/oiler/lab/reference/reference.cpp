@@ -136,11 +136,19 @@ private:
         reference_.samples = sample_times_of(scene_, start_, density(48, effort_));
         FineSteps fine = fine_steps(scene_, reference_.start, reference_.samples, effort_);
         require_finite(fine);
+        std::vector<double> between =
+            interpolation_errors(fine.trajectory, reference_.samples.per_second);
+        if (const auto samples = finer_samples(fine, between)) {
+            FineSteps again = fine_steps(scene_, reference_.start, *samples, effort_);
+            if (!again.trajectory.states.empty()) {
+                fine = std::move(again);
+                reference_.samples = *samples;
+                between = interpolation_errors(fine.trajectory, samples->per_second);
+            }
+        }
         if (effort_.stopped()) return;
         follow(fine);
         reference_.uncertainties = std::move(fine.uncertainties);
-        const std::vector<double> between =
-            interpolation_errors(fine.trajectory, reference_.samples.per_second);
         for (std::size_t sample = 0; sample < between.size(); ++sample) {
             reference_.uncertainties[sample].position += between[sample];
             reference_.uncertainties[sample].velocity +=
@@ -150,6 +158,24 @@ private:
         reference_.motion = std::make_shared<SampledMotion>(std::move(fine.trajectory),
                                                             reference_.samples.per_second,
                                                             fastest_motion(start_));
+    }
+
+    /// Samples by which the error between them falls below the wanted error, if that is within
+    /// reach and the steps themselves meet it.
+    [[nodiscard]] std::optional<SampleTimes> finer_samples(
+        const FineSteps& fine, const std::vector<double>& between) const {
+        constexpr std::int64_t most_times = 8;
+        constexpr double order = 8;  // of polynomials of degree 7
+        if (effort_.stopped() || !(effort_.wanted > 0) || between.empty() ||
+            between.back() <= effort_.wanted || fine.uncertainties.back().position > effort_.wanted)
+            return std::nullopt;
+        const double times = std::ceil(2 * std::pow(between.back() / effort_.wanted, 1 / order));
+        if (!(times <= most_times)) return std::nullopt;
+        Density more = density(48, effort_);
+        more.times = times;
+        const SampleTimes samples = sample_times_of(scene_, start_, more);
+        if (samples.per_second <= reference_.samples.per_second) return std::nullopt;
+        return samples;
     }
 
     void check() {

@@ -34,8 +34,9 @@ void require_measurable(const Scene& scene) {
 
 SampleTimes sample_times_of(const Scene& scene, const Bodies& start, const Density& density) {
     const double periods = fastest_motion(start) / (2 * std::numbers::pi);
-    const double wanted = std::max(
-        {fewest_per_second, fewest_samples / scene.duration, density.per_period * periods});
+    const double wanted =
+        density.times * std::max({fewest_per_second, fewest_samples / scene.duration,
+                                  density.per_period * periods});
     const double in_memory = most_states / static_cast<double>(density.bodies) / scene.duration;
     const double most = std::floor(std::min(in_memory, density.most_per_second));
     SampleTimes samples{.per_second = std::llround(std::max(1.0, std::min(wanted, most)))};

@@ -23,6 +23,7 @@ struct SampleTimes {
 /// How densely a motion is sampled.
 struct Density {
     double per_period = 48;   ///< samples per period of the fastest motion
+    double times = 1;         ///< multiplies all numbers of samples that are wanted
     std::int64_t bodies = 1;  ///< that are kept in memory
     double most_per_second = 1e9;
 };
