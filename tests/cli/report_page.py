@@ -252,7 +252,7 @@ class Check:
 
     def expected_points(self, method, precision, axis):
         runs = [r for r in self.rows if r["method"] == method and r["precision"] == precision]
-        runs.sort(key=lambda r: (not r["meets_steps"], r["rate"]))
+        runs.sort(key=lambda r: r["rate"])
         return [place for r in runs if (place := self.place(r, axis))]
 
     def datasets(self, expression="true"):
