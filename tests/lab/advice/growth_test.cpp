@@ -4,45 +4,86 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+
+#include "lab/advice/made_up_clock.hpp"
+#include "lab/measured_scenes.hpp"
+#include "oiler/lab/advice/json.hpp"
+#include "support/text.hpp"
 
 namespace oiler::test {
 namespace {
 
 using namespace lab;
+using Law = Growth::Law;
 
-/// The largest errors up to the ends of 64 parts of 10 s.
-template <class Error>
-std::vector<double> grown(Error error) {
+/// The largest errors up to the ends of 64 equal parts of 8 s.
+Growth growth_of(const std::function<double(double t)>& error) {
     std::vector<double> errors;
-    double most = 0;
-    for (int part = 1; part <= 64; ++part) {
-        most = std::max(most, error(10.0 * part / 64));
-        errors.push_back(most);
-    }
-    return errors;
+    for (int part = 1; part <= 64; ++part) errors.push_back(error(part / 8.0));
+    return fit_growth(errors, 8);
 }
 
-TEST(FitGrowth, FindsTheLaw) {
-    const auto law = [](auto error) { return fit_growth(grown(error), 10).law; };
-    EXPECT_EQ(law([](double t) { return std::abs(std::sin(5 * t)); }), Growth::Law::bounded);
-    EXPECT_EQ(law([](double t) { return std::exp(-t) * t; }), Growth::Law::bounded);
-    EXPECT_EQ(law([](double t) { return 1e-3 * t; }), Growth::Law::linear);
-    EXPECT_EQ(law([](double t) { return 1e-3 * t * std::abs(std::sin(9 * t)); }),
-              Growth::Law::linear);
-    EXPECT_EQ(law([](double t) { return 1e-5 * t * t; }), Growth::Law::quadratic);
-    EXPECT_EQ(law([](double t) { return 1e-9 * std::exp(2 * t); }), Growth::Law::exponential);
-    EXPECT_EQ(law([](double) { return 0.0; }), Growth::Law::unfit);
+// An error of 2 m at 8 s is ten times as large at 80 s if it grows with t, and at 8·√10 s with t².
+TEST(Growth, HasTheLawOfTheErrorsAndPassesATolerance) {
+    const Growth bounded = growth_of([](double t) { return 2 - std::exp(-9 * t); });
+    EXPECT_EQ(bounded.law, Law::bounded);
+    EXPECT_TRUE(std::isinf(bounded.holds_until(20)));
+    const Growth linear = growth_of([](double t) { return t / 4; });
+    EXPECT_EQ(linear.law, Law::linear);
+    EXPECT_DOUBLE_EQ(linear.holds_until(20), 80);
+    const Growth quadratic = growth_of([](double t) { return t * t / 32; });
+    EXPECT_EQ(quadratic.law, Law::quadratic);
+    EXPECT_DOUBLE_EQ(quadratic.holds_until(20), 8 * std::sqrt(10));
+    // e-fold in 1/2 s: tenfold after ln(10)/2 s more.
+    const Growth exponential = growth_of([](double t) { return 2 * std::exp(2 * (t - 8)); });
+    EXPECT_EQ(exponential.law, Law::exponential);
+    EXPECT_NEAR(exponential.holds_until(20), 8 + std::log(10) / 2, 1e-9);
 }
 
-// 1 mm after 10 s. 2 mm are passed at twice the time if the error grows with t, at √2 times if with
-// t², and ln 2/2 s later if with e^(2t).
-TEST(FitGrowth, HoldsUntilTheLawPassesTheTolerance) {
-    const auto until = [](auto error) { return fit_growth(grown(error), 10).holds_until(2e-3); };
-    EXPECT_NEAR(until([](double t) { return 1e-4 * t; }), 20, 1e-9);
-    EXPECT_NEAR(until([](double t) { return 1e-5 * t * t; }), 10 * std::sqrt(2), 1e-9);
-    EXPECT_NEAR(until([](double t) { return 1e-3 * std::exp(2 * (t - 10)); }), 10 + std::log(2) / 2,
-                1e-9);
-    EXPECT_TRUE(std::isinf(until([](double) { return 1e-3; })));
+TEST(Growth, OfNoErrorsIsNotFitted) {
+    EXPECT_EQ(fit_growth({}, 8).law, Law::unfit);
+    EXPECT_EQ(growth_of([](double) { return 0.0; }).law, Law::unfit);
+    EXPECT_EQ(fit_growth(std::vector<double>(7, 1.0), 8).law, Law::unfit);
+}
+
+/// An undamped spring of √15 rad/s over 40 s.
+const MeasuredScene& undamped() {
+    static const MeasuredScene measured(
+        one_axis + "duration = 40.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n" +
+        "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n");
+    return measured;
+}
+
+// Velocity Verlet gains a phase of ω·(ω·dt)²/24 rad per second: its error grows with t, and is as
+// large as the tolerance at that time. Chords between exact steps have an error that does not grow.
+TEST(Growth, OfAnAdviceIsThatOfItsError) {
+    const auto advice_of = [](const char* method, const Requirements& common) {
+        Requirements requirements = common;
+        requirements.methods = methods_of({method});
+        return advise(undamped().scene, undamped().reference, requirements, clock_by_evaluations());
+    };
+    const Requirements requirements{.position_error = 2, .min_rate = 200};
+    const Advice verlet = advice_of("velocity_verlet", requirements);
+    ASSERT_TRUE(verlet.meets);
+    EXPECT_EQ(verlet.growth.law, Law::linear);
+    const double w = std::sqrt(15);
+    const double dt = 1 / static_cast<double>(verlet.best->stepping.rate.steps);
+    const double slope = 1000 * w * (w * dt) * (w * dt) / 24;  // m/s
+    const double until = 2 / slope;
+    EXPECT_NEAR(verlet.growth.holds_until(2), until, 0.03 * until);
+    const std::vector<std::string> words =
+        describe(verlet, undamped().scene, undamped().reference, requirements);
+    const std::string passes = " the error grows with t and passes 2 m at ";
+    ASSERT_TRUE(holds(words[1], "It holds for this scene's 40 s;" + passes)) << words[1];
+    EXPECT_NEAR(std::stod(words[1].substr(words[1].find(passes) + passes.size())), until,
+                0.03 * until);
+
+    const Advice exact = advice_of("exact", requirements);
+    ASSERT_TRUE(exact.meets);
+    EXPECT_EQ(exact.growth.law, Law::bounded);
+    EXPECT_TRUE(holds(describe(exact, undamped().scene, undamped().reference, requirements)[1],
+                      "It holds for this scene's 40 s; the error does not grow."));
 }
 
 }  // namespace
