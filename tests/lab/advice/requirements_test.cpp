@@ -87,6 +87,16 @@ TEST(Requirements, OfAFallAreThoseOfItsParabola) {
     }
 }
 
+// A setting whose first step ends after the run is not judged at any step.
+TEST(Requirements, OfAShortRunHaveASettingWithAStep) {
+    const MeasuredScene brief(one_axis + "duration = 0.002\n[[body]]\nname = \"mass\"\n" +
+                              "position = [1.0]\n[[spring]]\nbody = \"mass\"\n" +
+                              "anchor = [0.0]\nstiffness = 15.0\n");
+    const Requirements requirements{.position_error = 1,
+                                    .methods = methods_of({"exact", "velocity_verlet"})};
+    EXPECT_GE(rate_for(brief, requirements), 500);
+}
+
 // ---- ties
 
 TradeoffRow costing(double ns, double spread) {

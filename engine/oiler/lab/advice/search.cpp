@@ -60,8 +60,12 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
       watch_(watch),
       work_(scene),
       ensemble_(scene, reference, requirements, watch.stopped) {
+    // A run has a step at least.
+    const double least = (1 - 1e-12) / reference.meaningful_until;
     for (const std::int64_t rate : lab::rungs(scene, requirements.max_rate))
-        if (rate >= requirements.min_rate && rate <= requirements.max_rate) rungs_.push_back(rate);
+        if (rate >= requirements.min_rate && rate <= requirements.max_rate &&
+            static_cast<double>(rate) >= least)
+            rungs_.push_back(rate);
     if (rungs_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate",
              requirements.min_rate, requirements.max_rate);
