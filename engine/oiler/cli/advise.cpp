@@ -45,8 +45,8 @@ struct AdviseCommand {
         .summary = "Find the cheapest method, rate and precision within a tolerance",
         .example = "assets/scenes/orbit.toml --position-error 1e-3",
         .notes =
-            "Exits with 1 when no setting meets the tolerance. --budget-us alone finds the most\n"
-            "accurate setting within the budget."};
+            "Exits with 1 when no setting meets the tolerance. --budget-us alone: the most "
+            "accurate within it."};
 
     SceneOptions scene_options;
     ToleranceOptions tolerances;
