@@ -123,8 +123,8 @@ TEST(Sweep, HasTheErrorsOfTheArticlesLines) {
 }
 
 // Exact steps are connected by chords. A chord deviates most from an oscillation of amplitude A at
-// its turning points, by up to A(1 − cos(ω·dt/2)); damping leaves at least e^(−0.05·T/2) of A to
-// the first turning point with a step before and after it.
+// its turning points, by up to A(1 − cos(ω·dt/2)). The first turning point is the start; a chord
+// that begins there deviates by almost as much.
 TEST(Sweep, HasTheErrorsOfChordsBetweenExactSteps) {
     const double w = std::sqrt(15 - 0.05 * 0.05);
     for (const int rate : {10, 60, 360}) {
