@@ -34,8 +34,8 @@ struct Case {
     Scene scene;
     Truth truth;
     std::int64_t truth_per_second = 0;  ///< times at which the truth is known, 0 for any time
-    double most_work = 1e9;         ///< see SweepPlan
-    std::int64_t max_rate = 1'000'000;
+    double most_work = 1e9;             ///< see SweepPlan
+    std::int64_t max_rate = 7680;
 };
 
 // Exact motions, from textbooks.
@@ -206,7 +206,7 @@ std::vector<Case> cases(bool full) {
                           {"orbit", asset("orbit"), orbit_truth}};
     if (!full) {
         // The highest rates take too long for a test.
-        for (Case& one : all) one.max_rate = 4000;
+        for (Case& one : all) one.max_rate = 1000;
         return all;
     }
     Scene undamped = asset("article_spring_undamped");
@@ -278,7 +278,7 @@ Sweep sweep_all(const Scene& scene, const Requirements& requirements) {
     const auto start = std::chrono::steady_clock::now();
     const Reference reference = make_reference(scene, {});
     const SweepPlan plan{.methods = requirements.methods,
-                         .max_rate = std::min<std::int64_t>(requirements.max_rate, 1024 * 60),
+                         .max_rate = requirements.max_rate,
                          .most_work = requirements.most_work};
     Sweep sweep_of{start_tradeoff(scene, reference, plan), 0};
     SweepWatch watch;
@@ -371,8 +371,7 @@ int main(int argc, char** argv) try {
         chosen = cases(mode == "--full");
     }
     const std::vector<double> tolerances =
-        mode.empty() ? std::vector{1e-1, 1e-3, 1e-5}
-                     : std::vector{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+        mode.empty() ? std::vector{1e-1, 1e-3, 1e-5} : std::vector{1e-1, 1e-2, 1e-3, 1e-4};
     bool met = true;
     for (const Case& one : chosen) met = run(one, tolerances, mode != "--cloth") && met;
     return met ? 0 : 1;

@@ -89,6 +89,7 @@ void Search::drop_low_rungs() {
                most;
     };
     const auto first = std::find_if_not(rungs_.begin(), rungs_.end() - 1, is_too_low);
+    if (first != rungs_.begin()) too_low_ = *std::prev(first);
     rungs_.erase(rungs_.begin(), first);
 }
 
@@ -308,8 +309,8 @@ void Search::refine() {
 /// Bisects between a rung that meets the tolerance and the one below.
 void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
-    if (rung == rungs_.begin()) return;
-    std::int64_t low = *std::prev(rung);
+    if (rung == rungs_.begin() && !too_low_) return;
+    std::int64_t low = rung == rungs_.begin() ? *too_low_ : *std::prev(rung);
     std::int64_t high = row.stepping.rate.steps;
     Stepping choice = row.stepping;
     // Below 1/32 of the rate, the gain is not worth a run.

@@ -97,6 +97,7 @@ private:
     const SweepWatch& watch_;
     RunWork work_;
     std::vector<std::int64_t> rungs_;
+    std::optional<std::int64_t> too_low_;  ///< the highest rate that was dropped
     std::vector<Candidate> candidates_;
     Ensemble ensemble_;
     std::optional<double> too_coarse_float_;
