@@ -64,11 +64,11 @@ TEST(SampledMotion, HasTheRemainderOfDegreeSeven) {
 // π/4 at 2 1/s is 0.3927 s; at 50 1/s it is less than a sample.
 TEST(SampledMotion, IsACubicOverAnEighthOfAPeriodOrASample) {
     const SampledMotion slow(sampled(1, 4), per_second, 2);
-    EXPECT_EQ(slow.bend(0, {}, 0.2L, 0.592L), 0);
-    EXPECT_TRUE(std::isinf(slow.bend(0, {}, 0.2L, 0.593L)));
+    EXPECT_EQ(slow.bend(0, {}, {}, 0.2L, 0.592L), 0);
+    EXPECT_TRUE(std::isinf(slow.bend(0, {}, {}, 0.2L, 0.593L)));
     const SampledMotion fast(sampled(1, 4), per_second, 50);
-    EXPECT_EQ(fast.bend(0, {}, 0.2L, 0.3L), 0);
-    EXPECT_TRUE(std::isinf(fast.bend(0, {}, 0.2L, 0.31L)));
+    EXPECT_EQ(fast.bend(0, {}, {}, 0.2L, 0.3L), 0);
+    EXPECT_TRUE(std::isinf(fast.bend(0, {}, {}, 0.2L, 0.31L)));
 }
 
 // The estimate must not be below the largest error anywhere, and not much above the one at the

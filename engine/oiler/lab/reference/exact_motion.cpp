@@ -94,7 +94,7 @@ double length(const Real3& a) { return static_cast<double>(std::sqrt(squared_len
 
 /// A bound of the fourth derivative from a state on, m/s⁴. Each derivative z of the motion obeys
 /// the same equation, so that z² + z'²/k never grows.
-double snap_of(const LinearMotion& motion, const State3& state, Real, Real) {
+double snap_of(const LinearMotion& motion, const State3& state, const State3&, Real) {
     const Real k = motion.k;
     const Real c = motion.c;
     if (k == 0) return static_cast<double>(c * c) * length(motion.acceleration - state.v * c);
@@ -106,27 +106,33 @@ double snap_of(const LinearMotion& motion, const State3& state, Real, Real) {
     return static_cast<double>(std::sqrt(size));
 }
 
-/// The distance from the centre is smallest at the pericentre or at one of the two times.
-Real nearest_between(const OrbitMotion& motion, const State3& state, Real from, Real to) {
-    const State3 end = state_at(motion, to);
-    const Real3 here = state.x - motion.centre;
-    const Real3 there = end.x - motion.centre;
-    const Real a = 1 / (2 / std::sqrt(squared_length(motion.start.x)) -
-                        squared_length(motion.start.v) / motion.gm);
-    const Real half_period = std::numbers::pi_v<Real> * a * std::sqrt(a / motion.gm);
-    const bool passes =
-        to - from >= half_period || (dot(here, state.v) <= 0 && dot(there, end.v) >= 0);
-    if (passes) return motion.nearest;
+/// The smallest distance from the centre between two states `h` s apart. It is that of the
+/// pericentre or of one of the states.
+Real nearest_between(const OrbitMotion& motion, const State3& first, const State3& last, Real h) {
+    const Real3 here = first.x - motion.centre;
+    const Real3 there = last.x - motion.centre;
+    const bool may_pass =
+        h >= motion.half_period || (dot(here, first.v) <= 0 && dot(there, last.v) >= 0);
+    if (may_pass) return motion.nearest;
     return std::sqrt(std::min(squared_length(here), squared_length(there)));
 }
 
 /// With |a| ≤ gm/r² and v² ≤ 2·gm/r, the fourth derivative is at most 14·gm²/r⁵.
-double snap_of(const OrbitMotion& motion, const State3& state, Real from, Real to) {
-    const Real r = nearest_between(motion, state, from, to);
+double orbital_snap(const OrbitMotion& motion, Real r) {
     return static_cast<double>(14 * motion.gm * motion.gm / (r * r * r * r * r));
 }
 
-double snap_of(const GivenMotion&, const State3&, Real, Real) { return 0; }
+double snap_of(const OrbitMotion& motion, const State3& first, const State3& last, Real h) {
+    return orbital_snap(motion, nearest_between(motion, first, last, h));
+}
+
+double snap_of(const GivenMotion&, const State3&, const State3&, Real) { return 0; }
+
+double steady_snap(const LinearMotion& motion) {
+    return snap_of(motion, motion.start, motion.start, 0);
+}
+double steady_snap(const OrbitMotion& motion) { return orbital_snap(motion, motion.nearest); }
+double steady_snap(const GivenMotion&) { return 0; }
 
 /// Returns none for a body that escapes, falls straight in, or feels any other force.
 std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3& start) {
@@ -144,6 +150,8 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
     const Real inverse_a = 2 / distance - speed2 / motion.gm;
     const Real e = std::sqrt(std::max(Real(0), 1 - area2 * inverse_a / motion.gm));
     motion.nearest = area2 / motion.gm / (1 + e);
+    const Real a = 1 / inverse_a;
+    motion.half_period = std::numbers::pi_v<Real> * a * std::sqrt(a / motion.gm);
     return motion;
 }
 
@@ -165,11 +173,15 @@ State3 ExactMotion::operator()(Real t) const {
 }
 
 // The remainder of Hermite's cubic: h⁴/384 times the fourth derivative.
-double ExactMotion::bend(const State3& state, Real from, Real to) const {
-    const double snap =
-        std::visit([&](const auto& motion) { return snap_of(motion, state, from, to); }, motion_);
+double ExactMotion::bend(const State3& first, const State3& last, Real from, Real to) const {
+    const double snap = std::visit(
+        [&](const auto& motion) { return snap_of(motion, first, last, to - from); }, motion_);
     const auto h = static_cast<double>(to - from);
     return h * h * h * h / 384 * snap;
+}
+
+double ExactMotion::steady_bend() const {
+    return std::visit([](const auto& motion) { return steady_snap(motion) / 384; }, motion_);
 }
 
 Ball ExactMotion::enclosure(const State3& state) const {
@@ -184,8 +196,7 @@ ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::mov
     for (std::size_t row = 0; row < motions_.size(); ++row) {
         const LinearMotion* const motion = motions_[row].linear();
         group_.push_back(alone);
-        // The bend of a linear motion never grows.
-        steady_bends_.push_back(motion ? motions_[row].bend(motion->start, 0, 1) : INFINITY);
+        steady_bends_.push_back(motions_[row].steady_bend());
         if (!motion) continue;
         const auto [at, is_new] =
             groups.try_emplace(std::pair(motion->k, motion->c), first_of_group_.size());

@@ -28,6 +28,7 @@ struct OrbitMotion {
     Vec<long double, 3> centre{};   ///< m
     State<long double, 3> start{};  ///< relative to the centre
     long double nearest = 0;        ///< m, distance of the pericentre
+    long double half_period = 0;    ///< s
 };
 
 /// A motion that is given as a function of time.
@@ -46,8 +47,10 @@ public:
     State<long double, 3> operator()(long double t) const;
     [[nodiscard]] const LinearMotion* linear() const { return std::get_if<LinearMotion>(&motion_); }
     /// See Motion::bend; 0 for a given motion.
-    [[nodiscard]] double bend(const State<long double, 3>& state, long double from,
-                              long double to) const;
+    [[nodiscard]] double bend(const State<long double, 3>& first, const State<long double, 3>& last,
+                              long double from, long double to) const;
+    /// A bound of all bends over 1 s, of the whole motion; those over h s are h⁴ times that.
+    [[nodiscard]] double steady_bend() const;
     /// See Motion::enclosure.
     [[nodiscard]] Ball enclosure(const State<long double, 3>& state) const;
 
@@ -72,9 +75,10 @@ public:
     }
     void all_at(long double t, std::span<State<long double, 3>> states) const override;
     [[nodiscard]] Walk walk(std::int64_t rate) const override;
-    [[nodiscard]] double bend(std::size_t row, const State<long double, 3>& state, long double from,
+    [[nodiscard]] double bend(std::size_t row, const State<long double, 3>& first,
+                              const State<long double, 3>& last, long double from,
                               long double to) const override {
-        return motions_[row].bend(state, from, to);
+        return motions_[row].bend(first, last, from, to);
     }
     [[nodiscard]] double bend_of_any(std::size_t row, long double h) const override {
         const auto length = static_cast<double>(h);
@@ -90,7 +94,7 @@ private:
     static constexpr std::size_t alone = static_cast<std::size_t>(-1);
 
     std::vector<ExactMotion> motions_;
-    std::vector<double> steady_bends_;  ///< m/s⁴, bends over h⁴ that hold for the whole run
+    std::vector<double> steady_bends_;  ///< see ExactMotion::steady_bend
     /// The first body of each group with equal k and c, and the group of each body.
     std::vector<std::size_t> first_of_group_;
     std::vector<std::size_t> group_;

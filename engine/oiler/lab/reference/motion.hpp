@@ -36,9 +36,10 @@ public:
         };
     }
     /// A bound of the distance (m) of a body, between `from` and `to`, from the cubic through its
-    /// positions and velocities at both times. `state` is the body's at `from`.
-    [[nodiscard]] virtual double bend(std::size_t row, const State<long double, 3>& state,
-                                      long double from, long double to) const = 0;
+    /// states `first` and `last` at both times.
+    [[nodiscard]] virtual double bend(std::size_t row, const State<long double, 3>& first,
+                                      const State<long double, 3>& last, long double from,
+                                      long double to) const = 0;
     /// A bound of the bend over any `h` s of the run, if one is known without the state.
     [[nodiscard]] virtual double bend_of_any(std::size_t, long double) const {
         return std::numeric_limits<double>::infinity();

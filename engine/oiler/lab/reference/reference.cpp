@@ -155,9 +155,8 @@ private:
                 between[sample] * static_cast<double>(reference_.samples.per_second);
         }
         reference_.words = std::move(fine.words);
-        reference_.motion = std::make_shared<SampledMotion>(std::move(fine.trajectory),
-                                                            reference_.samples.per_second,
-                                                            fastest_motion(start_));
+        reference_.motion = std::make_shared<SampledMotion>(
+            std::move(fine.trajectory), reference_.samples.per_second, fastest_motion(start_));
     }
 
     /// Samples by which the error between them falls below the wanted error, if that is within

@@ -142,7 +142,7 @@ void SampledMotion::all_at(Real t, std::span<State3> states) const {
             [&](std::int64_t i) -> const State3& { return trajectory_.at(window.first + i, row); });
 }
 
-double SampledMotion::bend(std::size_t, const State3&, Real from, Real to) const {
+double SampledMotion::bend(std::size_t, const State3&, const State3&, Real from, Real to) const {
     return to - from <= longest_cubic_ ? 0 : std::numeric_limits<double>::infinity();
 }
 

@@ -35,7 +35,8 @@ public:
     [[nodiscard]] State<long double, 3> at(std::size_t row, long double t) const override;
     void all_at(long double t, std::span<State<long double, 3>> states) const override;
     /// A cubic over 1/8 of the shortest period, or between two samples, follows the motion.
-    [[nodiscard]] double bend(std::size_t, const State<long double, 3>&, long double from,
+    [[nodiscard]] double bend(std::size_t, const State<long double, 3>&,
+                              const State<long double, 3>&, long double from,
                               long double to) const override;
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 

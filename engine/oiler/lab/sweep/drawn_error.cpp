@@ -68,7 +68,7 @@ void DrawnError::add_part(const DrawnStep& step, const Part& part) {
     const Offset q = narrowed(part.true_to.v) * h - chord;
     const double bulge = ends + std::max(length(p), length(q)) / 4;
     if (bulge + motion_.bend_of_any(step.row, part.to - part.from) <= most_) return;
-    const double bend = motion_.bend(step.row, part.true_from, part.from, part.to);
+    const double bend = motion_.bend(step.row, part.true_from, part.true_to, part.from, part.to);
     if (bulge + bend <= most_) return;
     if (bend <= tolerable_bend * std::max(most_, least_)) return sample(part, p, q);
     if (!may_exceed(step, part, most_ * (1 + tolerable_bend))) return;
@@ -110,8 +110,8 @@ double least_drawn_error(const Motion& motion, std::int64_t rate, double until, 
         walk(2 * step + 1, middle);
         walk(2 * step + 2, to);
         for (std::size_t row = 0; row < from.size(); ++row)
-            least = std::max(least,
-                             distance(middle[row].x, (from[row].x + to[row].x) * Real(0.5)) / 2);
+            least =
+                std::max(least, distance(middle[row].x, (from[row].x + to[row].x) * Real(0.5)) / 2);
     }
     return least;
 }
