@@ -105,12 +105,12 @@ TradeoffRow costing(double ns, double spread) {
             .ns_spread = spread};
 }
 
-TEST(IsTie, IsWithinTheSpreadsOrThreePercent) {
+TEST(IsTie, IsWithinTheSpreadsOrEightPercent) {
     EXPECT_TRUE(is_tie(costing(100, 5), costing(114, 10)));
     EXPECT_FALSE(is_tie(costing(100, 5), costing(116, 10)));
     EXPECT_TRUE(is_tie(costing(116, 10), costing(102, 5)));
-    EXPECT_TRUE(is_tie(costing(100, 0), costing(102.9, 0)));
-    EXPECT_FALSE(is_tie(costing(100, 0), costing(103.1, 0)));
+    EXPECT_TRUE(is_tie(costing(100, 0), costing(107.9, 0)));
+    EXPECT_FALSE(is_tie(costing(100, 0), costing(108.1, 0)));
 }
 
 /// The advice for 5 m at the steps of at least 120 Hz, where each of these methods meets it.

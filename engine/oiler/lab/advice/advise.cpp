@@ -223,7 +223,7 @@ void require_judgeable(const Scene& scene, const Reference& reference,
 
 bool is_tie(const TradeoffRow& a, const TradeoffRow& b) {
     // Medians of repeated times differ by this much from one measurement to the next.
-    constexpr double repeatable = 0.03;
+    constexpr double repeatable = 0.08;
     const double spread = std::max(a.ns_spread + b.ns_spread,
                                    repeatable * std::min(a.ns_per_second, b.ns_per_second));
     return std::abs(a.ns_per_second - b.ns_per_second) <= spread;

@@ -80,7 +80,7 @@ public:
             plot_.x_label += fmt::format(", on {} machines", tradeoff_.machines.size());
         plot_.title = fmt::format("The cost of a timestep: {}",
                                   tradeoff_.title.empty() ? tradeoff_.scene : tradeoff_.title);
-        plot_.y_label = "largest position error over the run, m";
+        plot_.y_label = "largest position error as drawn, m";
         plot_.caption = fmt::format(
             "Each mark is a rate, in double; the dashed line has both precisions. Errors over "
             "{:.4g} s against {}.",
