@@ -404,7 +404,8 @@ class Check:
         for cells, row in zip(table, ledger["passes"]):
             self.expect(cells[0] == row["name"] and near(cells[1], row["saves_ns"])
                         and near(cells[2], row["saves_percent"])
-                        and near(cells[3], row["changes_position_m"]), f"ledger: {cells}")
+                        and near(cells[3], row["spread_percent"])
+                        and near(cells[4], row["changes_position_m"]), f"ledger: {cells}")
         self.expect(self.texts("#ledger li") == list(ledger["flags"]), "the ledger's flags differ")
 
     def width(self):

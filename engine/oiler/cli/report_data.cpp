@@ -81,6 +81,7 @@ Json ledger_json(const Scene& scene) {
         passes.push_back({{"name", pass.name},
                           {"saves_ns", number(pass.saves_ns)},
                           {"saves_percent", number(pass.saves_percent)},
+                          {"spread_percent", number(pass.spread_percent)},
                           {"changes_position_m", number(pass.changes_position)}});
     return {{"ns_per_body_step", number(measured.ns)},
             {"bytes_per_body", measured.bytes_per_body()},

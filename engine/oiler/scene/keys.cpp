@@ -122,7 +122,7 @@ constexpr std::array keys{
     SceneKey{"camera", "height", number, "m", from_to(1e-30, 1e30), "10.0", fits,
              "metres from bottom to top"},
     SceneKey{"budget", "position_error", number, "m", positive, "1.0", "no limit",
-             "largest error of the run"},
+             "largest error of the run, as drawn"},
     SceneKey{"budget", "energy_drift", number, "", positive, "0.01", "no limit",
              "largest relative change of the energy"},
 };

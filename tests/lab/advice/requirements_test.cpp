@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Advice for errors at the steps, as drawn and on a display; ties; damping.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,6 +96,33 @@ TEST(Requirements, OfAShortRunHaveASettingWithAStep) {
     const Requirements requirements{.position_error = 1,
                                     .methods = methods_of({"exact", "velocity_verlet"})};
     EXPECT_GE(rate_for(brief, requirements), 500);
+}
+
+// ---- threads
+
+/// Projectiles whose steps cost 100 ns on one thread and `on_all` ns on all cores.
+Advice advice_of_many(int bodies, double on_all) {
+    const MeasuredScene many(fmt::format(
+        "[scene]\naxes = 1\nduration = 1.0\n[gravity]\nacceleration = [-9.81]\n[[scatter]]\n"
+        "count = {}\nseed = 1\nposition_from = [0.0]\nposition_to = [1.0]\nvelocity_from = [0.0]\n"
+        "velocity_to = [9.0]\n",
+        bodies));
+    SweepWatch watch = made_up_clock([](const Stepping&) { return 100.0; });
+    watch.ns_per_step_on_threads = [=](const Scene&, const Settings& settings, std::int64_t) {
+        return settings.threads == this_machine().cores ? on_all : unknown;
+    };
+    return advise(many.scene, many.reference,
+                  {.position_error = 1, .methods = methods_of({"velocity_verlet"})}, watch);
+}
+
+TEST(Threads, AreNamedIfTheyCostLess) {
+    if (this_machine().cores < 2) GTEST_SKIP() << "one core";
+    const Advice faster = advice_of_many(3000, 60);
+    EXPECT_EQ(faster.threads, this_machine().cores);
+    EXPECT_NEAR(faster.ns_on_threads / faster.best->ns_per_second, 0.6, 1e-9);
+    EXPECT_EQ(advice_of_many(3000, 97).threads, 1);
+    EXPECT_EQ(advice_of_many(3000, 150).threads, 1);
+    EXPECT_EQ(advice_of_many(20, 60).threads, 1);
 }
 
 // ---- ties

@@ -49,6 +49,7 @@ public:
         if (found) rank();
         choose();
         if (advice_.best) explain();
+        if (advice_.best) try_threads(watch);
         advice_.runs = search_.runs();
         return std::move(advice_);
     }
@@ -132,6 +133,29 @@ private:
         SweepWatch watch = whole;
         watch.progress = [](double) {};
         time_rows(scene_, rows, timing_rounds, watch);
+    }
+
+    /// Times the best setting on all cores, if its bodies are independent and many.
+    void try_threads(const SweepWatch& watch) {
+        constexpr std::size_t many = 2000;
+        constexpr int rounds = 5;
+        const int cores = this_machine().cores;
+        const World world = make_world(scene_, Settings{advice_.best->stepping});
+        if (cores < 2 || world.bodies().size() < many || world.bodies().link_count() > 0) return;
+        TradeoffRow threaded = *advice_.best;
+        SweepWatch on_threads = watch;
+        on_threads.progress = [](double) {};
+        on_threads.ns_per_step = [&](const Scene& scene, const Stepping& choice,
+                                     std::int64_t per_frame) {
+            return watch.ns_per_step_on_threads(
+                scene, Settings{.stepping = choice, .threads = cores}, per_frame);
+        };
+        time_rows(scene_, {&threaded}, rounds, on_threads);
+        if (is_tie(threaded, *advice_.best) ||
+            !(threaded.ns_per_second < advice_.best->ns_per_second))
+            return;
+        advice_.threads = cores;
+        advice_.ns_on_threads = threaded.ns_per_second;
     }
 
     [[nodiscard]] bool in_time(const TradeoffRow& row) const {

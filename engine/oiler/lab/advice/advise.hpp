@@ -41,6 +41,9 @@ struct Advice {
     bool meets = false;
     Growth growth{};                  ///< of the best setting's error
     std::vector<TradeoffRow> ties{};  ///< settings whose cost does not differ from the best's
+    /// The threads on which the best setting costs less than on one, and that cost; 1 if none.
+    int threads = 1;
+    double ns_on_threads = unknown;          ///< per simulated second
     std::optional<TradeoffRow> runner_up{};  ///< of another method
     std::optional<TradeoffRow> current{};    ///< the scene's own setting
     std::vector<Alternative> alternatives{};

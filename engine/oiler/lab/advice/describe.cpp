@@ -130,6 +130,9 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
         words.push_back("Obstacle: " + obstacle + ".");
     if (!advice.best) return words;
     words.push_back(describe_hold(advice, scene, requirements));
+    if (advice.threads > 1)
+        words.push_back(fmt::format("With --threads {}: {:.3g} µs per simulated second.",
+                                    advice.threads, advice.ns_on_threads / 1e3));
     if (!advice.ties.empty())
         words.push_back(fmt::format("Ties, at the same cost: {}.", describe_ties(advice)));
     if (advice.runner_up)

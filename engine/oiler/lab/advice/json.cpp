@@ -55,6 +55,8 @@ Json json_of(const Advice& advice, const Scene& scene, const Reference& referenc
             {"advice", with_frame(advice.best)},
             {"growth", growth_of(advice, requirements)},
             {"ties", ties_of(advice)},
+            {"threads",
+             {{"count", advice.threads}, {"ns_per_second", number_or_null(advice.ns_on_threads)}}},
             {"runner_up", with_frame(advice.runner_up)},
             {"today", with_frame(advice.current)},
             {"alternatives", alternatives_of(advice)},

@@ -93,8 +93,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-double ns_per_step(const Scene& scene, const Stepping& choice, std::int64_t per_frame) try {
-    World start = make_world(scene, Settings{choice});
+double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t per_frame) try {
+    World start = make_world(scene, settings);
     if (start.bodies().size() == 0 || start.try_step()) return unknown;
     FrameWork between;
     std::vector<double> frames;

@@ -95,7 +95,7 @@ using Cost = double (*)(const TradeoffRow& row);
 
 /// Measures the cost of a step as played, ns: the median over frames of `per_frame` steps. Returns
 /// `unknown` for an unstable run.
-[[nodiscard]] double ns_per_step(const Scene& scene, const Stepping& choice,
+[[nodiscard]] double ns_per_step(const Scene& scene, const Settings& settings,
                                  std::int64_t per_frame);
 /// Measures the cost of a step at many steps per call, ns; `unknown` for an unstable run.
 [[nodiscard]] double ns_per_step_together(const Scene& scene, const Stepping& choice);
@@ -107,7 +107,12 @@ struct SweepWatch {
     std::function<void(const Tradeoff&)> ladder_done = [](const Tradeoff&) {};
     /// Measures all costs. Tests replace it.
     std::function<double(const Scene&, const Stepping&, std::int64_t per_frame)> ns_per_step =
-        lab::ns_per_step;
+        [](const Scene& scene, const Stepping& choice, std::int64_t per_frame) {
+            return lab::ns_per_step(scene, Settings{choice}, per_frame);
+        };
+    /// The same on several threads.
+    std::function<double(const Scene&, const Settings&, std::int64_t per_frame)>
+        ns_per_step_on_threads = lab::ns_per_step;
     std::function<double(const Scene&, const Stepping&)> ns_per_step_together =
         lab::ns_per_step_together;
 };
