@@ -362,7 +362,7 @@ class Check:
         if titles != [name]:
             return
         lines = dict(line.split(": ", 1) for line in bodies[0] if ": " in line)
-        self.expect(near(lines["position error"], row["position_error"], "m")
+        self.expect(near(lines["position error as drawn"], row["position_error"], "m")
                     and near(lines["energy drift"], row["energy_drift"])
                     and near(lines["time"], row["ns_per_second"] * 1e-9, "s")
                     and near(lines["force evaluations"], row["evaluations"], within=0),
