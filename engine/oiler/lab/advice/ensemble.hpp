@@ -20,8 +20,6 @@ public:
     /// Why a setting that meets the tolerances is not advised: a warning before the run, or an
     /// error from a perturbed start. Empty if it holds.
     [[nodiscard]] std::string objection(const Stepping& choice);
-    /// The number of perturbed starts that were judged.
-    [[nodiscard]] std::size_t size() const { return members_.size(); }
 
 private:
     struct Member {

@@ -35,7 +35,6 @@ public:
     [[nodiscard]] std::string objection(const TradeoffRow& row) {
         return ensemble_.objection(row.stepping);
     }
-    [[nodiscard]] std::size_t perturbed_starts() const { return ensemble_.size(); }
 
     /// The tried rows that meet the tolerance, the cheapest first.
     [[nodiscard]] std::vector<TradeoffRow> meeting_rows();

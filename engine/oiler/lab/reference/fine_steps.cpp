@@ -148,8 +148,8 @@ private:
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
-                trajectory.states.push_back(follower.state(row));
-            if (!std::isfinite(follower.energy())) return std::nullopt;
+                trajectory.states.push_back(follower.bodies().state(row));
+            if (!std::isfinite(follower.bodies().energy().total())) return std::nullopt;
         }
         return trajectory;
     }

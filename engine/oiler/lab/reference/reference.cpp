@@ -222,8 +222,8 @@ private:
              ++sample) {
             if (!follower.go_to(sample)) break;
             for (std::size_t row = 0; row < fine.trajectory.bodies; ++row)
-                most = larger(most,
-                              distance(follower.state(row).x, fine.finest_run.at(sample, row).x));
+                most = larger(most, distance(follower.bodies().state(row).x,
+                                             fine.finest_run.at(sample, row).x));
             round_off_.push_back(most);
         }
     }

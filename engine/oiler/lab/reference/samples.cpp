@@ -47,41 +47,14 @@ SampleTimes sample_times_of(const Scene& scene, const Bodies& start, const Densi
 
 Follower::Follower(const Scene& scene, const Settings& settings, const Perturbation& start,
                    std::int64_t samples_per_second)
-    : world_(make_world(scene, settings, start)), samples_per_second_(samples_per_second) {
+    : world_(make_world(scene, settings, start)),
+      steps_per_sample_(settings.stepping.rate.steps / samples_per_second) {
     world_.require_applicable();
 }
 
 bool Follower::go_to(std::int64_t sample) {
-    const std::int64_t product = sample * world_.settings().stepping.rate.steps;
-    const std::int64_t tick = product / samples_per_second_;
-    alpha_ = static_cast<long double>(product % samples_per_second_) /
-             static_cast<long double>(samples_per_second_);
-    if (world_.tick() < tick && world_.try_step(tick - world_.tick())) return false;
-    if (alpha_ > 0 && before_tick_ != tick) {
-        remember();
-        if (world_.try_step()) return false;
-    }
-    return true;
-}
-
-void Follower::remember() {
-    before_tick_ = world_.tick();
-    before_.clear();
-    for (std::size_t row = 0; row < bodies().size(); ++row) before_.push_back(bodies().state(row));
-    energy_before_ = bodies().energy().total();
-}
-
-State<long double, 3> Follower::state(std::size_t row) const {
-    const State<long double, 3> after = bodies().state(row);
-    if (alpha_ == 0) return after;
-    const State<long double, 3>& before = before_[row];
-    return {before.x + (after.x - before.x) * alpha_, before.v + (after.v - before.v) * alpha_};
-}
-
-double Follower::energy() const {
-    const double after = bodies().energy().total();
-    if (alpha_ == 0) return after;
-    return energy_before_ + (after - energy_before_) * static_cast<double>(alpha_);
+    const std::int64_t steps = sample * steps_per_sample_ - world_.tick();
+    return steps == 0 || !world_.try_step(steps);
 }
 
 }  // namespace oiler::lab

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "oiler/lab/reference/perturbation.hpp"
 
@@ -38,30 +37,21 @@ struct Density {
 /// compared with a reference.
 void require_measurable(const Scene& scene);
 
-/// A run of a scene as drawn: between two steps, bodies are on the straight line from one to the
-/// next.
+/// A run that is read at every sample. Each sample coincides with a step.
 class Follower {
 public:
-    /// Throws Error{usage} if the method cannot step the scene.
+    /// The rate must be a multiple of the samples per second. Throws Error{usage} if the method
+    /// cannot step the scene.
     Follower(const Scene& scene, const Settings& settings, const Perturbation& start,
              std::int64_t samples_per_second);
 
     /// Steps to a sample. Samples must be visited in order. Returns false if the run has diverged.
     [[nodiscard]] bool go_to(std::int64_t sample);
-    [[nodiscard]] State<long double, 3> state(std::size_t row) const;
-    /// In J.
-    [[nodiscard]] double energy() const;
     [[nodiscard]] const Bodies& bodies() const { return world_.bodies(); }
 
 private:
-    void remember();
-
     World world_;
-    std::int64_t samples_per_second_;
-    std::int64_t before_tick_ = -1;
-    long double alpha_ = 0;
-    std::vector<State<long double, 3>> before_;
-    double energy_before_ = 0;
+    std::int64_t steps_per_sample_;
 };
 
 }  // namespace oiler::lab
