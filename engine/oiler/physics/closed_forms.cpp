@@ -2,6 +2,7 @@
 #include "oiler/physics/closed_forms.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace oiler {
 namespace {
@@ -109,35 +110,62 @@ bool is_elliptic(T gm, const State<T, 3>& state) {
 }
 
 template <class T>
-State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
-    const T distance = std::sqrt(squared_length(start.x));
-    const T a = 1 / (2 / distance - squared_length(start.v) / gm);
-    const T n = std::sqrt(gm / a) / a;
-    const T shape = 1 - distance / a;
-    const T slant = dot(start.x, start.v) / std::sqrt(gm * a);
-    // The change of the eccentric anomaly, within 3 of the change of the mean anomaly: Newton's
-    // iteration, with bisection where a step leaves the bracket.
-    T low = n * t - 3;
-    T high = n * t + 3;
-    T turned = n * t;
-    for (int i = 0; i < 100; ++i) {
-        const T miss = turned - shape * std::sin(turned) + slant * (1 - std::cos(turned)) - n * t;
-        (miss > 0 ? high : low) = turned;
-        const T next = turned - miss / (1 - shape * std::cos(turned) + slant * std::sin(turned));
-        if (next == turned) break;
-        turned = next > low && next < high ? next : (low + high) / 2;
-    }
-    const T versine = 1 - std::cos(turned);
-    const T f = 1 - a / distance * versine;
-    const T g = t - (turned - std::sin(turned)) / n;
-    const Vec<T, 3> x = start.x * f + start.v * g;
+Ellipse<T>::Ellipse(T gm, const State<T, 3>& start)
+    : start_(start),
+      distance_(std::sqrt(squared_length(start.x))),
+      a_(1 / (2 / distance_ - squared_length(start.v) / gm)),
+      n_(std::sqrt(gm / a_) / a_),
+      shape_(1 - distance_ / a_),
+      slant_(dot(start.x, start.v) / std::sqrt(gm * a_)),
+      root_(std::sqrt(gm * a_)) {}
+
+template <class T>
+State<T, 3> Ellipse<T>::at(T t) const {
+    Solution none;
+    return at(t, none);
+}
+
+template <class T>
+State<T, 3> Ellipse<T>::at(T t, Solution& solution) const {
+    const T mean = std::remainder(n_ * t, 2 * std::numbers::pi_v<T>);
+    const auto [sine, cosine] = solve(mean, solution);
+    const T versine = cosine > 0 ? sine * sine / (1 + cosine) : 1 - cosine;
+    const T f = 1 - a_ / distance_ * versine;
+    const T g = (mean - (solution.turn - sine)) / n_;
+    const Vec<T, 3> x = start_.x * f + start_.v * g;
     const T now = std::sqrt(squared_length(x));
-    const T f_rate = -std::sqrt(gm * a) / (now * distance) * std::sin(turned);
-    return {x, start.x * f_rate + start.v * (1 - a / now * versine)};
+    const T f_rate = -root_ / (now * distance_) * sine;
+    return {x, start_.x * f_rate + start_.v * (1 - a_ / now * versine)};
+}
+
+// Halley's iteration, with bisection where a step leaves the bracket: the two changes are within 3
+// of each other. The iteration is cubic.
+template <class T>
+std::pair<T, T> Ellipse<T>::solve(T mean, Solution& solution) const {
+    constexpr T last_step = 1e-7L;
+    constexpr int most_steps = 100;
+    T low = mean - 3;
+    T high = mean + 3;
+    T turn = solution.turn + solution.slope * (mean - solution.mean);
+    if (!(turn > low && turn < high)) turn = mean;
+    for (int step = 0;; ++step) {
+        const T sine = std::sin(turn);
+        const T cosine = std::cos(turn);
+        const T miss = turn - shape_ * sine + slant_ * (1 - cosine) - mean;
+        const T slope = 1 - shape_ * cosine + slant_ * sine;
+        const T bend = (shape_ * sine + slant_ * cosine) / 2;
+        const T by = -miss * slope / (slope * slope - miss * bend);
+        if (std::abs(by) <= last_step || step == most_steps) {
+            solution = {mean, turn + by, 1 / slope};
+            return {sine + by * (cosine - by / 2 * sine), cosine - by * (sine + by / 2 * cosine)};
+        }
+        (miss > 0 ? high : low) = turn;
+        turn = turn + by > low && turn + by < high ? turn + by : (low + high) / 2;
+    }
 }
 
 template bool is_elliptic(long double, const State<long double, 3>&);
-template State<long double, 3> kepler(long double, const State<long double, 3>&, long double);
+template class Ellipse<long double>;
 template Motion<double> constant_acceleration(Motion<double>, double, double);
 template Motion<double> damped_oscillator(double, double, double, Motion<double>, double);
 template Motion<double> linear_drag_motion(Motion<double>, double, double, double);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <numbers>
+#include <utility>
+
 #include "oiler/physics/state.hpp"
 
 namespace oiler {
@@ -47,10 +50,43 @@ template <class T>
 template <class T>
 [[nodiscard]] bool is_elliptic(T gm, const State<T, 3>& state);
 
-/// The motion on such an orbit `t` s after any of its points `start`, from Lagrange's coefficients
-/// (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.3). Instantiated for
-/// long double only.
+/// An elliptic orbit around an attractor gm (m³/s²) at the origin through the state `start`, from
+/// Lagrange's coefficients (Battin, An Introduction to the Mathematics and Methods of
+/// Astrodynamics, 4.3). Instantiated for long double only.
 template <class T>
-[[nodiscard]] State<T, 3> kepler(T gm, const State<T, 3>& start, T t);
+class Ellipse {
+public:
+    Ellipse(T gm, const State<T, 3>& start);
+
+    /// A solution of Kepler's equation, from which those at close times are found faster.
+    struct Solution {
+        T mean = 0;   ///< the change of the mean anomaly since the start, from −π to π
+        T turn = 0;   ///< that of the eccentric anomaly
+        T slope = 1;  ///< of the turn over the mean anomaly
+    };
+
+    [[nodiscard]] T period() const { return 2 * std::numbers::pi_v<T> / n_; }  ///< s
+    /// The state `t` s after the start.
+    [[nodiscard]] State<T, 3> at(T t) const;
+    /// The same, with Newton's iteration from a solution, which becomes that of `t`.
+    State<T, 3> at(T t, Solution& solution) const;
+
+private:
+    /// Returns the sine and the cosine of the turn.
+    std::pair<T, T> solve(T mean, Solution& solution) const;
+
+    State<T, 3> start_;
+    T distance_;       ///< of the start, m
+    T a_;              ///< semi-major axis, m
+    T n_;              ///< mean motion, 1/s
+    T shape_, slant_;  ///< e·cos E and e·sin E of the start
+    T root_;           ///< √(gm·a), m²/s
+};
+
+/// The motion on such an orbit `t` s after any of its points `start`.
+template <class T>
+[[nodiscard]] State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
+    return Ellipse<T>(gm, start).at(t);
+}
 
 }  // namespace oiler

@@ -87,8 +87,8 @@ TEST(DrawnError, SeesThePerihelionOfAnOrbit) {
     };
     // From half a period before the perihelion; the period is 2π.
     const Real half = std::numbers::pi_v<Real>;
-    OrbitMotion motion{.gm = 1, .nearest = 1 - e, .half_period = half};
-    motion.start = {{-1 - e, 0, 0}, {0, -std::sqrt((1 - e) / (1 + e)), 0}};
+    const State<Real, 3> start{{-1 - e, 0, 0}, {0, -std::sqrt((1 - e) / (1 + e)), 0}};
+    const OrbitMotion motion{.gm = 1, .ellipse{1, start}, .nearest = 1 - e};
     const Real until = 6;
     Real most = 0;
     for (int n = 0; n < 6; ++n)

@@ -83,9 +83,8 @@ State3 state_at(const LinearMotion& motion, Real t) {
 }
 
 State3 state_at(const OrbitMotion& motion, Real t) {
-    State3 state = kepler(motion.gm, motion.start, t);
-    state.x = state.x + motion.centre;
-    return state;
+    const State3 state = motion.ellipse.at(t);
+    return {state.x + motion.centre, state.v};
 }
 
 State3 state_at(const GivenMotion& motion, Real t) { return motion(t); }
@@ -112,7 +111,7 @@ Real nearest_between(const OrbitMotion& motion, const State3& first, const State
     const Real3 here = first.x - motion.centre;
     const Real3 there = last.x - motion.centre;
     const bool may_pass =
-        h >= motion.half_period || (dot(here, first.v) <= 0 && dot(there, last.v) >= 0);
+        h >= motion.ellipse.period() / 2 || (dot(here, first.v) <= 0 && dot(there, last.v) >= 0);
     if (may_pass) return motion.nearest;
     return std::sqrt(std::min(squared_length(here), squared_length(there)));
 }
@@ -139,20 +138,16 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
     if (influence.attractors.size() != 1 || influence.stiffness != 0 || influence.damping != 0 ||
         largest(influence.acceleration) != 0)
         return std::nullopt;
-    OrbitMotion motion{.gm = influence.attractors[0].gm,
-                       .centre = to_real(influence.attractors[0].centre)};
-    motion.start = {start.x - motion.centre, start.v};
-    if (!is_elliptic(motion.gm, motion.start)) return std::nullopt;
-    const Real speed2 = squared_length(motion.start.v);
-    const Real distance = std::sqrt(squared_length(motion.start.x));
-    const Real along = dot(motion.start.x, motion.start.v);
+    const Real gm = influence.attractors[0].gm;
+    const Real3 centre = to_real(influence.attractors[0].centre);
+    const State3 from{start.x - centre, start.v};
+    if (!is_elliptic(gm, from)) return std::nullopt;
+    const Real speed2 = squared_length(from.v);
+    const Real distance = std::sqrt(squared_length(from.x));
+    const Real along = dot(from.x, from.v);
     const Real area2 = distance * distance * speed2 - along * along;
-    const Real inverse_a = 2 / distance - speed2 / motion.gm;
-    const Real e = std::sqrt(std::max(Real(0), 1 - area2 * inverse_a / motion.gm));
-    motion.nearest = area2 / motion.gm / (1 + e);
-    const Real a = 1 / inverse_a;
-    motion.half_period = std::numbers::pi_v<Real> * a * std::sqrt(a / motion.gm);
-    return motion;
+    const Real e = std::sqrt(std::max(Real(0), 1 - area2 * (2 / distance - speed2 / gm) / gm));
+    return OrbitMotion{gm, centre, Ellipse<Real>(gm, from), area2 / gm / (1 + e)};
 }
 
 std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row) {
@@ -216,12 +211,12 @@ void ExactMotions::all_at(Real t, std::span<State3> states) const {
     }
 }
 
-/// Linear motions at consecutive ticks: from the states at the start of a block of ticks, with
-/// factors that all blocks share.
+/// The states at consecutive ticks: linear motions from the states at the start of a block of
+/// ticks, with factors that all blocks share; orbits from their latest solutions.
 class ExactMotions::Blocks {
 public:
     Blocks(const ExactMotions& motions, std::int64_t rate)
-        : motions_(motions), rate_(static_cast<Real>(rate)) {
+        : motions_(motions), rate_(static_cast<Real>(rate)), solutions_(motions.bodies()) {
         constexpr std::size_t most_factors = 1 << 16;
         const std::size_t groups = std::max<std::size_t>(1, motions.first_of_group_.size());
         length_ = std::clamp<std::int64_t>(static_cast<std::int64_t>(most_factors / groups), 1, 64);
@@ -239,11 +234,18 @@ public:
         }
         const auto first =
             static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();
+        const Real t = static_cast<Real>(tick) / rate_;
         for (std::size_t row = 0; row < states.size(); ++row) {
-            const LinearMotion* const motion = motions_.motions_[row].linear();
-            states[row] =
-                motion ? combined(*motion, starts_[row], factors_[first + motions_.group_[row]])
-                       : motions_.motions_[row](static_cast<Real>(tick) / rate_);
+            const ExactMotion& motion = motions_.motions_[row];
+            if (const LinearMotion* const linear = motion.linear()) {
+                states[row] =
+                    combined(*linear, starts_[row], factors_[first + motions_.group_[row]]);
+            } else if (const OrbitMotion* const orbit = motion.orbit()) {
+                states[row] = orbit->ellipse.at(t, solutions_[row]);
+                states[row].x = states[row].x + orbit->centre;
+            } else {
+                states[row] = motion(t);
+            }
         }
     }
 
@@ -254,6 +256,7 @@ private:
     std::vector<Factors> factors_;  ///< of each tick of a block, for each group
     std::int64_t block_ = -1;
     std::vector<State3> starts_;
+    std::vector<Ellipse<Real>::Solution> solutions_;  ///< of the latest tick, for orbits
 };
 
 Motion::Walk ExactMotions::walk(std::int64_t rate) const {

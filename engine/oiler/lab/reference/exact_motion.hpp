@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oiler/lab/reference/motion.hpp"
+#include "oiler/physics/closed_forms.hpp"
 #include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
@@ -24,11 +25,10 @@ struct LinearMotion {
 
 /// An elliptic orbit around one attractor.
 struct OrbitMotion {
-    long double gm = 0;             ///< m³/s²
-    Vec<long double, 3> centre{};   ///< m
-    State<long double, 3> start{};  ///< relative to the centre
-    long double nearest = 0;        ///< m, distance of the pericentre
-    long double half_period = 0;    ///< s
+    long double gm = 0;            ///< m³/s²
+    Vec<long double, 3> centre{};  ///< m
+    Ellipse<long double> ellipse;  ///< around the centre
+    long double nearest = 0;       ///< m, distance of the pericentre
 };
 
 /// A motion that is given as a function of time.
@@ -46,6 +46,7 @@ public:
     /// Position and velocity t seconds after the start.
     State<long double, 3> operator()(long double t) const;
     [[nodiscard]] const LinearMotion* linear() const { return std::get_if<LinearMotion>(&motion_); }
+    [[nodiscard]] const OrbitMotion* orbit() const { return std::get_if<OrbitMotion>(&motion_); }
     /// See Motion::bend; 0 for a given motion.
     [[nodiscard]] double bend(const State<long double, 3>& first, const State<long double, 3>& last,
                               long double from, long double to) const;

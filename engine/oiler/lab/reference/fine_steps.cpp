@@ -36,15 +36,15 @@ const Method& finest_method(const Scene& scene) {
     return find_method(is_damped_along_lines(scene) ? "rk4" : "kahan_li8_kdk");
 }
 
-/// fine + (fine − coarse)/divisor
-Trajectory extrapolated(const Trajectory& fine, const Trajectory& coarse, Real divisor) {
-    Trajectory better = fine;
-    for (std::size_t i = 0; i < better.states.size(); ++i) {
+/// fine + (fine − coarse)/divisor, in the memory of `coarse`.
+Trajectory extrapolated(const Trajectory& fine, Trajectory coarse, Real divisor) {
+    const Real share = 1 / divisor;
+    for (std::size_t i = 0; i < fine.states.size(); ++i) {
         const State<Real, 3>& a = fine.states[i];
-        const State<Real, 3>& b = coarse.states[i];
-        better.states[i] = {a.x + (a.x - b.x) * (1 / divisor), a.v + (a.v - b.v) * (1 / divisor)};
+        State<Real, 3>& b = coarse.states[i];
+        b = {a.x + (a.x - b.x) * share, a.v + (a.v - b.v) * share};
     }
-    return better;
+    return coarse;
 }
 
 double extent_of(const Trajectory& trajectory) {
@@ -78,11 +78,13 @@ std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b, B
     return uncertainties;
 }
 
-/// Adds the round-off of long double: of positions, and of the elapsed time, because dt and the
-/// method's coefficients are rounded alike in all runs.
+/// Adds the round-off of positions, and of the elapsed time, because dt and the method's
+/// coefficients are rounded alike in all runs.
 void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& trajectory,
-                  const SampleTimes& samples) {
-    constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
+                  const SampleTimes& samples, Precision precision) {
+    const auto epsilon = precision == Precision::extended
+                             ? static_cast<double>(std::numeric_limits<Real>::epsilon())
+                             : std::numeric_limits<double>::epsilon();
     double x = 0;
     double v = 0;
     for (const State<Real, 3>& state : trajectory.states) {
@@ -100,11 +102,12 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
 class Table {
 public:
     Table(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
-          const ReferenceEffort& effort)
+          const ReferenceEffort& effort, Precision precision)
         : scene_(scene),
           start_(start),
           samples_(samples),
           effort_(effort),
+          precision_(precision),
           method_(finest_method(scene)) {}
 
     /// Returns false and empties the table if the run diverged or was stopped.
@@ -114,10 +117,10 @@ public:
             row_.clear();
             return false;
         }
+        if (!row_.empty()) before_ = row_.back();
         std::vector<Trajectory> row{std::move(*run)};
         for (std::size_t k = 0; k < std::min(row_.size(), most_columns - 1); ++k)
-            row.push_back(extrapolated(row[k], row_[k], std::exp2(Real(power(k))) - 1));
-        if (!row_.empty()) before_ = std::move(row_.back());
+            row.push_back(extrapolated(row[k], std::move(row_[k]), std::exp2(Real(power(k))) - 1));
         row_ = std::move(row);
         ++runs_;
         return true;
@@ -128,10 +131,10 @@ public:
     [[nodiscard]] const Trajectory& best() const { return row_.back(); }
     [[nodiscard]] const Trajectory& finest_run() const { return row_.front(); }
     [[nodiscard]] std::vector<Uncertainty> uncertainties() const {
-        const Settings settings{{&method_, scene_.stepping.rate, Precision::extended}};
+        const Settings settings{{&method_, scene_.stepping.rate, precision_}};
         std::vector<Uncertainty> uncertainties =
             differences(best(), before_, make_world(scene_, settings, start_).bodies());
-        add_rounding(uncertainties, best(), samples_);
+        add_rounding(uncertainties, best(), samples_, precision_);
         return uncertainties;
     }
     [[nodiscard]] const Method& method() const { return method_; }
@@ -142,9 +145,10 @@ private:
         return method_.order + static_cast<int>(k) * (method_.symmetric ? 2 : 1);
     }
     [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) const {
-        Follower follower(scene_, Settings{{&method_, {rate}, Precision::extended}}, start_,
+        Follower follower(scene_, Settings{{&method_, {rate}, precision_}}, start_,
                           samples_.per_second);
         Trajectory trajectory{.bodies = follower.bodies().size()};
+        trajectory.states.reserve(trajectory.bodies * static_cast<std::size_t>(samples_.count));
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
@@ -158,6 +162,7 @@ private:
     const Perturbation& start_;
     const SampleTimes& samples_;
     const ReferenceEffort& effort_;
+    Precision precision_;
     const Method& method_;
     std::vector<Trajectory> row_;
     Trajectory before_{};  ///< the best at twice the step
@@ -170,16 +175,15 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
         [&](const Uncertainty& uncertainty) { return uncertainty.position <= most; });
 }
 
-}  // namespace
-
-double most_samples(const Scene& scene, const ReferenceEffort& effort) {
-    const double finest = std::exp2(static_cast<double>(fewest_runs - 1));
-    return effort.most_work / RunWork(scene).per_step(finest_method(scene)) / finest;
+/// The error that is enough. A loose tolerance must not make a scene look chaotic.
+double sufficient_error(const ReferenceEffort& effort, double extent) {
+    return effort.wanted > 0 ? std::min(effort.wanted, resolution * extent / margin)
+                             : least_wanted * extent;
 }
 
-FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
-                     const ReferenceEffort& effort) {
-    Table table(scene, start, samples, effort);
+FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbation& start,
+                        const SampleTimes& samples, const ReferenceEffort& effort) {
+    Table table(scene, start, samples, effort, precision);
     const double work_per_step = RunWork(scene).per_step(table.method());
     FineSteps finest;
     bool affordable = false;
@@ -206,20 +210,33 @@ FineSteps fine_steps(const Scene& scene, const Perturbation& start, const Sample
             .trajectory = table.best(),
             .uncertainties = std::move(uncertainties),
             .words = fmt::format(
-                "fine steps in long double by {} at {} Hz, extrapolated from runs at that rate, "
-                "its half and so on; the last halving changes the end by {:.2g} m",
-                table.method().name, rate, uncertainty),
+                "fine steps in {} by {} at {} Hz, extrapolated from runs at that rate, its half "
+                "and so on; the last halving changes the end by {:.2g} m",
+                precision == Precision::extended ? "long double" : "double", table.method().name,
+                rate, uncertainty),
             .finest_run = table.finest_run(),
-            .method = &table.method(),
-            .rate = rate};
-        // A loose tolerance must not make a scene look chaotic.
-        const double wanted = effort.wanted > 0
-                                  ? std::min(effort.wanted, resolution * extent / margin)
-                                  : least_wanted * extent;
-        if (uncertainty <= wanted) break;
+            .stepping = {&table.method(), {rate}, precision},
+            .sufficient = uncertainty <= sufficient_error(effort, extent)};
+        if (finest.sufficient) break;
     }
     finest.affordable = affordable;
     return finest;
+}
+
+}  // namespace
+
+double most_samples(const Scene& scene, const ReferenceEffort& effort) {
+    const double finest = std::exp2(static_cast<double>(fewest_runs - 1));
+    return effort.most_work / RunWork(scene).per_step(finest_method(scene)) / finest;
+}
+
+FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
+                     const ReferenceEffort& effort) {
+    if (effort.wanted > 0) {
+        FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort);
+        if (quick.sufficient || effort.stopped()) return quick;
+    }
+    return fine_steps_in(Precision::extended, scene, start, samples, effort);
 }
 
 }  // namespace oiler::lab

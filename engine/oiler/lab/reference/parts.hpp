@@ -17,13 +17,14 @@ struct FineSteps {
     std::vector<Uncertainty> uncertainties{};
     std::string words{};
     Trajectory finest_run{};  ///< from which the trajectory was extrapolated
-    const Method* method = nullptr;
-    std::int64_t rate = 0;
+    Stepping stepping{};      ///< of the finest run
+    bool sufficient = false;  ///< whether the error at the end is no more than the wanted one
     bool affordable = false;  ///< whether the coarsest run was within the work limit
 };
 
 /// Halves the step until the Romberg extrapolation changes by no more than the wanted error. Stops
-/// earlier if the work limit is reached or if two halvings in a row bring no improvement.
+/// earlier if the work limit is reached or if two halvings in a row bring no improvement. Steps in
+/// double are tried before long double if a wanted error is given.
 [[nodiscard]] FineSteps fine_steps(const Scene& scene, const Perturbation& start,
                                    const SampleTimes& samples, const ReferenceEffort& effort);
 
