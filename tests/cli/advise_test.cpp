@@ -43,16 +43,17 @@ TEST(Advise, JsonHasTheKeysOfTheContract) {
     EXPECT_EQ(json.at("meets"), true);
     EXPECT_EQ(json.at("obstacles"), Json::array());
     EXPECT_EQ(json.at("ties"), Json::array());
+    EXPECT_EQ(json.at("perturbed_starts"), 3);
     EXPECT_EQ(json.at("growth").at("law"), "bounded");
-    EXPECT_EQ(json.at("wish").at("position_error"), 1e-6);
-    EXPECT_EQ(json.at("wish").at("at_steps"), true);
-    EXPECT_EQ(json.at("wish").at("display"), "any");
-    EXPECT_EQ(json.at("wish").at("energy_drift"), nullptr);
-    EXPECT_EQ(json.at("today").at("method"), "semi_implicit_euler");
-    EXPECT_EQ(json.at("today").at("rate"), 100);
-    EXPECT_EQ(json.at("today").at("damping"), "kick");
-    EXPECT_NEAR(json.at("today").at("position_error").get<double>(), 19.8, 0.05);
-    EXPECT_NEAR(json.at("today").at("step_error").get<double>(), 19.8, 0.05);
+    EXPECT_EQ(json.at("requirements").at("position_error"), 1e-6);
+    EXPECT_EQ(json.at("requirements").at("at_steps"), true);
+    EXPECT_EQ(json.at("requirements").at("display"), "any");
+    EXPECT_EQ(json.at("requirements").at("energy_drift"), nullptr);
+    EXPECT_EQ(json.at("current").at("method"), "semi_implicit_euler");
+    EXPECT_EQ(json.at("current").at("rate"), 100);
+    EXPECT_EQ(json.at("current").at("damping"), "kick");
+    EXPECT_NEAR(json.at("current").at("position_error").get<double>(), 19.8, 0.05);
+    EXPECT_NEAR(json.at("current").at("step_error").get<double>(), 19.8, 0.05);
     EXPECT_GT(json.at("runs").get<int>(), 0);
     EXPECT_TRUE(holds(json.at("words").at(0), "exact at 30 Hz in double"));
 }
@@ -65,11 +66,11 @@ TEST(Advise, UsesEveryOption) {
         "130 --display 144 --methods velocity_verlet,rk2_heun --json - --quiet");
     EXPECT_EQ(run.exit, 0) << run.err;
     const Json json = Json::parse(run.out);
-    EXPECT_EQ(json.at("wish").at("position_error"), nullptr);
-    EXPECT_EQ(json.at("wish").at("at_steps"), false);
-    EXPECT_EQ(json.at("wish").at("display"), 144);
-    EXPECT_EQ(json.at("wish").at("energy_drift"), 0.5);
-    EXPECT_EQ(json.at("wish").at("us_per_frame"), 1'000'000);
+    EXPECT_EQ(json.at("requirements").at("position_error"), nullptr);
+    EXPECT_EQ(json.at("requirements").at("at_steps"), false);
+    EXPECT_EQ(json.at("requirements").at("display"), 144);
+    EXPECT_EQ(json.at("requirements").at("energy_drift"), 0.5);
+    EXPECT_EQ(json.at("requirements").at("us_per_frame"), 1'000'000);
     EXPECT_EQ(json.at("reference").at("meaningful_until"), 5);
     std::vector<Json> advised{json.at("advice")};
     for (const Json& tie : json.at("ties")) advised.push_back(tie);
@@ -78,7 +79,7 @@ TEST(Advise, UsesEveryOption) {
         EXPECT_GE(row.at("rate").get<int>(), 130) << row;
         EXPECT_TRUE(row.at("method") == "velocity_verlet" || row.at("method") == "rk2_heun") << row;
     }
-    EXPECT_EQ(json.at("today").at("rate"), 100);
+    EXPECT_EQ(json.at("current").at("rate"), 100);
 }
 
 TEST(Advise, PrintsTheConclusionFirst) {
@@ -126,7 +127,7 @@ TEST(Advise, TakesPixelsThroughTheCamera) {
         const Outcome run = desk.run(
             "oiler advise scene.toml --methods exact --json - --quiet --pixels 0.5 " + options);
         EXPECT_EQ(run.exit, 0) << run.err;
-        return Json::parse(run.out).at("wish").at("position_error").get<double>();
+        return Json::parse(run.out).at("requirements").at("position_error").get<double>();
     };
     EXPECT_DOUBLE_EQ(tolerance("--size 800x600"), 2);
     EXPECT_DOUBLE_EQ(tolerance(""), 5.0 / 3);
@@ -165,12 +166,12 @@ TEST(Advise, ApplyChangesOnlyTheSetting) {
     EXPECT_EQ(desk.run(words + "again.json").exit, 0);
     const Json again = desk.json("again.json");
     for (const char* part : {"method", "rate", "precision", "damping"})
-        EXPECT_EQ(again.at("today").at(part), advice.at(part)) << part;
+        EXPECT_EQ(again.at("current").at(part), advice.at(part)) << part;
     EXPECT_EQ(again.at("advice").at("method"), advice.at("method"));
     EXPECT_LE(again.at("advice").at("rate").get<double>(), advice.at("rate").get<double>());
     EXPECT_GE(again.at("advice").at("rate").get<double>(),
               (1 - 1.0 / 30) * advice.at("rate").get<double>());
-    EXPECT_EQ(again.at("today").at("position_error"), advice.at("position_error"));
+    EXPECT_EQ(again.at("current").at("position_error"), advice.at("position_error"));
 }
 
 // A thrown body with drag: with damping in the drifts, semi-implicit Euler is exact at the steps.

@@ -184,10 +184,10 @@ class Check:
         self.expect("@TITLE@" not in self.browser.value("document.title"), "@TITLE@ is left")
         self.expect(self.browser.value("document.getElementById('frame').naturalWidth") > 0,
                     "the frame is no picture")
-        today, box = self.tradeoff["today"], " ".join(self.texts("#current dd"))
-        for word in (today["method"], f"{today['rate']:,} Hz", today["precision"]):
+        current, box = self.tradeoff["current"], " ".join(self.texts("#current dd"))
+        for word in (current["method"], f"{current['rate']:,} Hz", current["precision"]):
             self.expect(word in box, f"the box of the current setting lacks {word}: {box}")
-        row = next((r for r in self.rows if same(r, today)), None)
+        row = next((r for r in self.rows if same(r, current)), None)
         if row and row["stable"] and row["position_error"] is not None:
             text = self.texts("#current dd")[3]
             self.expect(near(text, row["position_error"], "m"), f"the current error: {text}")
@@ -199,7 +199,7 @@ class Check:
         self.expect(paragraphs == words, f"the advice reads {paragraphs}")
         table = self.table("#advice tbody tr")
         rows = [("advice", advice["advice"]), ("runner-up", advice["runner_up"]),
-                ("current", advice["today"]),
+                ("current", advice["current"]),
                 *(("alternative", one) for one in advice["alternatives"] if "rate" in one)]
         rows = [(role, row) for role, row in rows if row]
         self.expect(len(table) == len(rows), f"{len(table)} rows of advice")
@@ -271,12 +271,12 @@ class Check:
                         f"{when}: {key} has {held[key][:3]}..., not {expected[:3]}...")
 
     def marks(self):
-        [today] = self.datasets("d.label === 'current setting'")
-        row = next((r for r in self.rows if same(r, self.tradeoff["today"])), None)
+        [current] = self.datasets("d.label === 'current setting'")
+        row = next((r for r in self.rows if same(r, self.tradeoff["current"])), None)
         place = row and self.place(row, "time")
         expected = [place] if place else []
-        self.expect(close_to(today["points"], expected),
-                    f"the star of the current setting is at {today['points']}")
+        self.expect(close_to(current["points"], expected),
+                    f"the star of the current setting is at {current['points']}")
         [front] = self.datasets("d.label === 'Pareto front'")
         count = sum(self.place(r, "time") is not None for r in self.rows if r["pareto"])
         points = front["points"]
@@ -292,7 +292,7 @@ class Check:
         boxes = "document.querySelectorAll('#methods input')"
         notable = browser.value(f"[...{boxes}].filter(b => b.checked).map(b => b.value)")
         wanted = {r["method"] for r in self.rows if r["pareto"]} | {
-            *self.data["obvious_methods"], self.tradeoff["today"]["method"]}
+            *self.data["obvious_methods"], self.tradeoff["current"]["method"]}
         self.expect(wanted & set(methods) <= set(notable), f"chosen at first: {notable}")
         known = lambda some: [m for m in some if m in methods]
         self.curves(known(notable), precisions, "time", "at first")
@@ -338,7 +338,7 @@ class Check:
 
     def tooltip(self):
         rows = [r for r in self.rows if self.place(r, "time") and not r["below_floor"]]
-        rows.sort(key=lambda r: not same(r, self.tradeoff["today"]))
+        rows.sort(key=lambda r: not same(r, self.tradeoff["current"]))
         hovered = 0
         for row in rows[:20]:
             if hovered < 3 and (tip := self.tip(row)):

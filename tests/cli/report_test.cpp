@@ -118,10 +118,10 @@ TEST(Report, IsOneSelfContainedFile) {
     for (const char* part :
          {"advice", "tradeoff", "stability", "rates", "ledger", "obvious_methods"})
         EXPECT_TRUE(data.contains(part)) << part;
-    EXPECT_TRUE(data["tradeoff"].contains("today"));
+    EXPECT_TRUE(data["tradeoff"].contains("current"));
     // The tolerance of the advice is the scene's budget.
-    EXPECT_EQ(data["advice"]["wish"]["position_error"], 25);
-    EXPECT_EQ(data["advice"]["wish"]["energy_drift"], nullptr);
+    EXPECT_EQ(data["advice"]["requirements"]["position_error"], 25);
+    EXPECT_EQ(data["advice"]["requirements"]["energy_drift"], nullptr);
     // Springs and rates are those of the second body.
     const Json& spring = data["stability"]["springs"][0];
     EXPECT_EQ(spring["name"], "springs of mass");

@@ -244,10 +244,10 @@ TEST(JsonOfAdvice, HasEveryCostForAFrameInMicroseconds) {
     const auto us = [](const nlohmann::json& row) { return row.at("us_per_frame").get<double>(); };
     EXPECT_DOUBLE_EQ(us(json.at("advice")), 0.6);
     EXPECT_DOUBLE_EQ(us(json.at("runner_up")), 1.2);
-    EXPECT_DOUBLE_EQ(us(json.at("today")), 0.15);
+    EXPECT_DOUBLE_EQ(us(json.at("current")), 0.15);
     EXPECT_DOUBLE_EQ(us(json.at("alternatives").at(0)), 0.3);
     EXPECT_DOUBLE_EQ(us(json.at("ties").at(0)), 0.5);
-    EXPECT_DOUBLE_EQ(us(json.at("wish")), 2);
+    EXPECT_DOUBLE_EQ(us(json.at("requirements")), 2);
     EXPECT_DOUBLE_EQ(json.at("advice").at("share_of_frame"), 36e-6);
     EXPECT_DOUBLE_EQ(json.at("advice").at("latency_ms"), 1e3 / 240);
     EXPECT_EQ(json.at("advice").at("ns_per_second"), 36'000);

@@ -75,7 +75,10 @@ TEST(Growth, OfAnAdviceIsThatOfItsError) {
     const std::vector<std::string> words =
         describe(verlet, undamped().scene, undamped().reference, requirements);
     const std::string passes = " the error grows with t and passes 2 m at ";
-    ASSERT_TRUE(holds(words[1], "It holds for this scene's 40 s;" + passes)) << words[1];
+    ASSERT_TRUE(
+        holds(words[1],
+              "It holds for this scene's 40 s, also from 3 starts perturbed by 0.1 %;" + passes))
+        << words[1];
     EXPECT_NEAR(std::stod(words[1].substr(words[1].find(passes) + passes.size())), until,
                 0.03 * until);
 
@@ -83,7 +86,8 @@ TEST(Growth, OfAnAdviceIsThatOfItsError) {
     ASSERT_TRUE(exact.meets);
     EXPECT_EQ(exact.growth.law, Law::bounded);
     EXPECT_TRUE(holds(describe(exact, undamped().scene, undamped().reference, requirements)[1],
-                      "It holds for this scene's 40 s; the error does not grow."));
+                      "It holds for this scene's 40 s, also from 3 starts perturbed by 0.1 %; the "
+                      "error does not grow."));
 }
 
 }  // namespace

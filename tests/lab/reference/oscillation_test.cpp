@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lab/motions.hpp"
+#include "oiler/lab/reference/exact_motions.hpp"
 #include "oiler/lab/reference/parts.hpp"
 
 namespace {

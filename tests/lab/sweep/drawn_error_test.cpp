@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "oiler/lab/reference/exact_motion.hpp"
+#include "oiler/lab/reference/exact_motions.hpp"
 
 namespace oiler::test {
 namespace {

@@ -50,6 +50,7 @@ public:
         choose();
         if (advice_.best) explain();
         if (advice_.best) try_threads(watch);
+        advice_.perturbed_starts = search_.perturbed_starts();
         advice_.runs = search_.runs();
         return std::move(advice_);
     }

@@ -39,8 +39,9 @@ struct Alternative {
 struct Advice {
     std::optional<TradeoffRow> best{};  ///< meets the requirements, or is the closest
     bool meets = false;
-    Growth growth{};                  ///< of the best setting's error
-    std::vector<TradeoffRow> ties{};  ///< settings whose cost does not differ from the best's
+    std::size_t perturbed_starts = 0;  ///< from which the best setting was run, too
+    Growth growth{};                   ///< of the best setting's error
+    std::vector<TradeoffRow> ties{};   ///< settings whose cost does not differ from the best's
     /// The threads on which the best setting costs less than on one, and that cost; 1 if none.
     int threads = 1;
     double ns_on_threads = unknown;          ///< per simulated second

@@ -95,7 +95,11 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
     if (!advice.meets || !requirements.position_error || advice.growth.law == Growth::Law::unfit)
         return text;
     const double until = advice.growth.holds_until(*requirements.position_error);
-    text += fmt::format(" It holds for this scene's {:.4g} s; the error ", scene.duration);
+    text += fmt::format(" It holds for this scene's {:.4g} s", scene.duration);
+    if (const std::size_t starts = advice.perturbed_starts; starts > 0)
+        text +=
+            fmt::format(", also from {} start{} perturbed by 0.1 %", starts, starts > 1 ? "s" : "");
+    text += "; the error ";
     if (advice.growth.law == Growth::Law::bounded) return text + "does not grow.";
     return text + fmt::format("{} and passes {:g} m at {:.3g} s.", describe(advice.growth.law),
                               *requirements.position_error, until);

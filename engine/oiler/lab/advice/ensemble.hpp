@@ -21,6 +21,10 @@ public:
     /// error from a perturbed start. Empty if it holds.
     [[nodiscard]] std::string objection(const Stepping& choice);
 
+    /// The number of starts that were judged. Those without a reference that can judge the
+    /// tolerance are left out.
+    [[nodiscard]] std::size_t size() const { return members_.size(); }
+
 private:
     struct Member {
         Reference reference;

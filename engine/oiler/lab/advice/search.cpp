@@ -45,13 +45,6 @@ double excess(const Judgement& judgement, const Requirements& requirements) {
                     share_of(judgement.energy_drift, requirements.energy_drift));
 }
 
-double Search::Candidate::cost(std::int64_t rate) const {
-    constexpr double frames_per_second = 60;
-    const auto steps = static_cast<double>(rate);
-    const double frames = std::min(steps, frames_per_second);
-    return frames * first + (steps - frames) * further;
-}
-
 Search::Search(const Scene& scene, const Reference& reference, const Requirements& requirements,
                const SweepWatch& watch)
     : scene_(scene),
@@ -173,40 +166,12 @@ double Search::next_cost(const Candidate& candidate) const {
     return candidate.cost(rungs_[candidate.next]);
 }
 
-Search::Candidate* Search::cheapest_next() {
+Candidate* Search::cheapest_next() {
     Candidate* cheapest = nullptr;
     for (Candidate& candidate : candidates_)
         if (!candidate.over && (!cheapest || next_cost(candidate) < next_cost(*cheapest)))
             cheapest = &candidate;
     return cheapest;
-}
-
-/// The lowest rate above `row` that can meet the tolerance.
-std::int64_t Search::least_rate(const Candidate& candidate, const TradeoffRow& row,
-                                double excess) const {
-    const std::int64_t next = row.stepping.rate.steps + 1;
-    const bool falls =
-        requirements_.error_of(row.judgement) < largest_converging_error * reference_.extent;
-    if (!falls || excess <= 1) return next;
-    return std::max(next, static_cast<std::int64_t>(static_cast<double>(row.stepping.rate.steps) *
-                                                    least_factor(candidate, row, excess)));
-}
-
-/// The factor on the rate if the error at the steps falls by one order more than the method's, and
-/// the rest of the error, that of the drawn lines, with the square of the step.
-double Search::least_factor(const Candidate& candidate, const TradeoffRow& row,
-                            double excess) const {
-    constexpr double safety = 0.7;
-    const double steps = candidate.method->order == exact_order
-                             ? 1
-                             : std::pow(excess, 1.0 / (candidate.method->order + 1));
-    const Judgement& judgement = row.judgement;
-    if (requirements_.at_steps || !requirements_.position_error || requirements_.display > 0)
-        return steps;
-    const double at_steps = std::isnan(judgement.step_error) ? 0 : judgement.step_error;
-    const double lines = (judgement.position_error - at_steps) / *requirements_.position_error;
-    const bool by_steps = at_steps > lines * *requirements_.position_error;
-    return std::max(by_steps ? steps : 1, lines > 1 ? safety * std::sqrt(lines) : 1);
 }
 
 bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
@@ -226,7 +191,8 @@ void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess
             candidate.over = candidate.rounded;
             candidate.convergence.restart();
         }
-        if (!candidate.over) least = least_rate(candidate, row, excess);
+        if (!candidate.over)
+            least = candidate.least_rate(row, excess, requirements_, reference_.extent);
     }
     while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
     if (candidate.next == rungs_.size() || !affordable(candidate, rungs_[candidate.next]))

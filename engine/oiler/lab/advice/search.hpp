@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "oiler/lab/advice/advise.hpp"
+#include "oiler/lab/advice/candidate.hpp"
 #include "oiler/lab/advice/ensemble.hpp"
-#include "oiler/lab/sweep/convergence.hpp"
+#include "oiler/lab/reference/run_work.hpp"
 
 namespace oiler::lab {
 
@@ -45,30 +45,10 @@ public:
     /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
     [[nodiscard]] std::optional<double> too_coarse_float() const { return too_coarse_float_; }
     [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rungs_; }
+    [[nodiscard]] std::size_t perturbed_starts() const { return ensemble_.size(); }
     [[nodiscard]] std::int64_t runs() const { return static_cast<std::int64_t>(rows_.size()); }
 
 private:
-    /// A method in one precision, the last rate tried, and the cost of a step in ns.
-    struct Candidate {
-        const Method* method = nullptr;
-        Precision precision = Precision::double_;
-        std::optional<Damping> damping{};
-        double first = unknown;     ///< the only step of a frame
-        double further = unknown;   ///< each further step of a frame
-        double work_per_hertz = 0;  ///< work of a run at 1 Hz
-        std::size_t next = 0;       ///< index of the next rung
-        Convergence convergence;
-        std::int64_t tried = 0;  ///< the last stable rate
-        double error = unknown;  ///< m, at that rate
-        bool rounded = false;    ///< only round-off causes the error
-        bool over = false;
-
-        [[nodiscard]] Stepping at(std::int64_t rate) const {
-            return {method, {rate}, precision, damping};
-        }
-        [[nodiscard]] double cost(std::int64_t rate) const;
-    };
-
     void drop_low_rungs();
     void add_candidates(const Method& method, Precision precision);
     void add_candidate(const Method& method, Precision precision, std::optional<Damping> damping);
@@ -77,10 +57,6 @@ private:
     TradeoffRow judged(const Stepping& choice, double enough);
     TradeoffRow try_next(const Candidate& candidate);
     void advance(Candidate& candidate, const TradeoffRow& row, double excess);
-    [[nodiscard]] std::int64_t least_rate(const Candidate& candidate, const TradeoffRow& row,
-                                          double excess) const;
-    [[nodiscard]] double least_factor(const Candidate& candidate, const TradeoffRow& row,
-                                      double excess) const;
     [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
     /// Reports the share of settings that were tried or ruled out.
     void report_progress() const;

@@ -50,36 +50,8 @@ void add(Influence& influence, const GivenForces& forces) {
         if (attractor->gm != 0) influence.attractors.push_back(*attractor);
 }
 
-/// The motions from (1 m, 0 m/s), from (0 m, 1 m/s), and from rest under 1 m/s². Each motion with
-/// these k and c is a sum of them.
-struct Factors {
-    oiler::Motion<Real> from_x;
-    oiler::Motion<Real> from_v;
-    oiler::Motion<Real> pushed;
-};
-
-Factors factors_at(const LinearMotion& motion, Real t) {
-    if (motion.k == 0)
-        return {{1, 0},
-                linear_drag_motion<Real>({0, 1}, 0, motion.c, t),
-                linear_drag_motion<Real>({0, 0}, 1, motion.c, t)};
-    // The velocity of the second motion plus c times its position is the position of the first.
-    const oiler::Motion<Real> from_v = damped_oscillator<Real>(1, motion.k, motion.c, {0, 1}, t);
-    return {{from_v.v + motion.c * from_v.x, -motion.k * from_v.x}, from_v, {}};
-}
-
-/// The motion's state after `start`.
-State3 combined(const LinearMotion& motion, const State3& start, const Factors& factors) {
-    if (motion.k == 0)
-        return {start.x + start.v * factors.from_v.x + motion.acceleration * factors.pushed.x,
-                start.v * factors.from_v.v + motion.acceleration * factors.pushed.v};
-    const Real3 from = start.x - motion.rest;
-    return {motion.rest + from * factors.from_x.x + start.v * factors.from_v.x,
-            from * factors.from_x.v + start.v * factors.from_v.v};
-}
-
 State3 state_at(const LinearMotion& motion, Real t) {
-    return combined(motion, motion.start, factors_at(motion, t));
+    return state_after(motion, motion.start, factors_at(motion, t));
 }
 
 State3 state_at(const OrbitMotion& motion, Real t) {
@@ -184,85 +156,6 @@ Ball ExactMotion::enclosure(const State3& state) const {
     if (!motion || motion->k == 0) return {};
     return {motion->rest, std::hypot(length(state.x - motion->rest),
                                      length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
-}
-
-ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::move(motions)) {
-    std::map<std::pair<Real, Real>, std::size_t> groups;
-    for (std::size_t row = 0; row < motions_.size(); ++row) {
-        const LinearMotion* const motion = motions_[row].linear();
-        group_.push_back(alone);
-        steady_bends_.push_back(motions_[row].steady_bend());
-        if (!motion) continue;
-        const auto [at, is_new] =
-            groups.try_emplace(std::pair(motion->k, motion->c), first_of_group_.size());
-        if (is_new) first_of_group_.push_back(row);
-        group_.back() = at->second;
-    }
-}
-
-void ExactMotions::all_at(Real t, std::span<State3> states) const {
-    std::vector<Factors> factors;
-    for (const std::size_t row : first_of_group_)
-        factors.push_back(factors_at(*motions_[row].linear(), t));
-    for (std::size_t row = 0; row < states.size(); ++row) {
-        const LinearMotion* const motion = motions_[row].linear();
-        states[row] =
-            motion ? combined(*motion, motion->start, factors[group_[row]]) : motions_[row](t);
-    }
-}
-
-/// The states at consecutive ticks: linear motions from the states at the start of a block of
-/// ticks, with factors that all blocks share; orbits from their latest solutions.
-class ExactMotions::Blocks {
-public:
-    Blocks(const ExactMotions& motions, std::int64_t rate)
-        : motions_(motions), rate_(static_cast<Real>(rate)), solutions_(motions.bodies()) {
-        constexpr std::size_t most_factors = 1 << 16;
-        const std::size_t groups = std::max<std::size_t>(1, motions.first_of_group_.size());
-        length_ = std::clamp<std::int64_t>(static_cast<std::int64_t>(most_factors / groups), 1, 64);
-        for (std::int64_t tick = 0; tick < length_; ++tick)
-            for (const std::size_t row : motions.first_of_group_)
-                factors_.push_back(
-                    factors_at(*motions.motions_[row].linear(), static_cast<Real>(tick) / rate_));
-    }
-
-    void write(std::int64_t tick, std::span<State3> states) {
-        if (const std::int64_t block = tick / length_; block != block_) {
-            block_ = block;
-            starts_.resize(states.size());
-            motions_.all_at(static_cast<Real>(block * length_) / rate_, starts_);
-        }
-        const auto first =
-            static_cast<std::size_t>(tick % length_) * motions_.first_of_group_.size();
-        const Real t = static_cast<Real>(tick) / rate_;
-        for (std::size_t row = 0; row < states.size(); ++row) {
-            const ExactMotion& motion = motions_.motions_[row];
-            if (const LinearMotion* const linear = motion.linear()) {
-                states[row] =
-                    combined(*linear, starts_[row], factors_[first + motions_.group_[row]]);
-            } else if (const OrbitMotion* const orbit = motion.orbit()) {
-                states[row] = orbit->ellipse.at(t, solutions_[row]);
-                states[row].x = states[row].x + orbit->centre;
-            } else {
-                states[row] = motion(t);
-            }
-        }
-    }
-
-private:
-    const ExactMotions& motions_;
-    Real rate_;
-    std::int64_t length_ = 1;
-    std::vector<Factors> factors_;  ///< of each tick of a block, for each group
-    std::int64_t block_ = -1;
-    std::vector<State3> starts_;
-    std::vector<Ellipse<Real>::Solution> solutions_;  ///< of the latest tick, for orbits
-};
-
-Motion::Walk ExactMotions::walk(std::int64_t rate) const {
-    return [blocks = Blocks(*this, rate)](std::int64_t tick, std::span<State3> states) mutable {
-        blocks.write(tick, states);
-    };
 }
 
 std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies) {

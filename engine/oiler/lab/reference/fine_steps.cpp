@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/run_work.hpp"
 
 namespace oiler::lab {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/reference/exact_motions.hpp"
 #include "oiler/lab/reference/fastest_motion.hpp"
 #include "oiler/lab/reference/parts.hpp"
 #include "oiler/lab/reference/scales.hpp"
@@ -325,19 +326,6 @@ Uncertainty Reference::floor() const {
 Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
                          const Perturbation& start, const ClosedForm& closed_form) {
     return ReferenceBuilder(scene, effort, start).run(closed_form);
-}
-
-RunWork::RunWork(const Scene& scene) {
-    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
-    const auto size = static_cast<double>(bodies.size());
-    const auto links = static_cast<double>(bodies.link_count());
-    per_evaluation_ = size + links;
-    // A few iterations; each factorises the matrix of a net.
-    to_solve_ = 4 * (links > 0 ? std::sqrt(size * scene.axes) : 1);
-}
-
-double RunWork::per_step(const Method& method) const {
-    return per_evaluation_ * (method.evaluations > 0 ? method.evaluations : to_solve_);
 }
 
 }  // namespace oiler::lab

@@ -79,15 +79,4 @@ using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const B
                                        const Perturbation& start = {},
                                        const ClosedForm& closed_form = exact_motions);
 
-/// Estimates the work of a step: force evaluations, each on one body or link.
-class RunWork {
-public:
-    explicit RunWork(const Scene& scene);
-    [[nodiscard]] double per_step(const Method& method) const;
-
-private:
-    double per_evaluation_;
-    double to_solve_;  ///< evaluations per implicit step
-};
-
 }  // namespace oiler::lab

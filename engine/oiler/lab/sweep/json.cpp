@@ -64,7 +64,7 @@ Json json_of(const Tradeoff& tradeoff) {
               {"fingerprint", tradeoff.fingerprint},
               {"complete", tradeoff.complete()},
               {"duration", tradeoff.duration},
-              {"today", json_of(tradeoff.current)},
+              {"current", json_of(tradeoff.current)},
               {"reference", json_of(tradeoff.reference)},
               {"machines", Json::array()},
               {"ladders", Json::array()},

@@ -11,6 +11,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/run_work.hpp"
 #include "oiler/lab/sweep/convergence.hpp"
 
 namespace oiler::lab {

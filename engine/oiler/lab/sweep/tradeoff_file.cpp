@@ -61,7 +61,7 @@ Tradeoff from_json(const Parsed& json) {
                       .title = json.at("title"),
                       .fingerprint = json.at("fingerprint"),
                       .duration = json.at("duration"),
-                      .current = to_stepping(json.at("today")),
+                      .current = to_stepping(json.at("current")),
                       .reference = to_reference(json.at("reference"))};
     for (const Parsed& machine : json.at("machines"))
         tradeoff.machines.push_back(
