@@ -173,7 +173,9 @@ private:
         std::stable_partition(front_.begin(), front_.end(),
                               [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
-        advice_.growth = fit_growth(advice_.best->judgement.growth, reference_.meaningful_until);
+        const Judgement& best = advice_.best->judgement;
+        advice_.growth =
+            fit_growth(best.growth, requirements_.error_of(best), reference_.meaningful_until);
         const auto is_named = [&](const TradeoffRow& row) {
             return row.stepping.method == advice_.best->stepping.method ||
                    std::any_of(

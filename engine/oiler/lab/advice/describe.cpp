@@ -101,7 +101,8 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
             fmt::format(", also from {} start{} perturbed by 0.1 %", starts, starts > 1 ? "s" : "");
     text += "; the error ";
     if (advice.growth.law == Growth::Law::bounded) return text + "does not grow.";
-    return text + fmt::format("{} and passes {:g} m at {:.3g} s.", describe(advice.growth.law),
+    if (std::isinf(until)) return text + "hardly grows.";
+    return text + fmt::format("{} and passes {:g} m at about {:.2g} s.", describe(advice.growth.law),
                               *requirements.position_error, until);
 }
 

@@ -1,44 +1,90 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/growth.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace oiler::lab {
+namespace {
 
-double Growth::holds_until(double tolerance) const {
-    const double times = tolerance / error;
-    switch (law) {
-        case Law::linear:
-            return until * times;
-        case Law::quadratic:
-            return until * std::sqrt(times);
-        case Law::exponential:
-            return until + std::log(times) / rate;
-        default:
-            return std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Coefficients = std::array<double, 3>;
+
+/// The non-negative coefficients of 1, s and s² that fit errors at s = 1/n, 2/n, … 1 best: least
+/// squares over the last three quarters, one coefficient after another.
+Coefficients fit_powers(const std::vector<double>& errors) {
+    constexpr int sweeps = 30'000;
+    std::array<Coefficients, 3> products{};
+    Coefficients right{};
+    for (std::size_t part = errors.size() / 4; part < errors.size(); ++part) {
+        const double s = static_cast<double>(part + 1) / static_cast<double>(errors.size());
+        const Coefficients powers{1, s, s * s};
+        for (std::size_t i = 0; i < 3; ++i) {
+            right[i] += powers[i] * errors[part];
+            for (std::size_t j = 0; j < 3; ++j) products[i][j] += powers[i] * powers[j];
+        }
     }
+    Coefficients fitted{};
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+        for (std::size_t i = 0; i < 3; ++i) {
+            double rest = right[i];
+            for (std::size_t j = 0; j < 3; ++j)
+                if (j != i) rest -= products[i][j] * fitted[j];
+            fitted[i] = std::max(0.0, rest / products[i][i]);
+        }
+    return fitted;
 }
 
-// An error that grows with a power of the time grows by the same factor in each doubling of the
-// time; the logarithm of one that grows exponentially doubles.
-Growth fit_growth(const std::vector<double>& errors, double until) {
-    constexpr double least = 1.15;           // per doubling
-    constexpr double between_powers = 2.83;  // 2^1.5
+/// An error that grows exponentially has a logarithm that doubles in each doubling of the time.
+bool is_exponential(const std::vector<double>& errors) {
+    constexpr double least = 1.15;
     constexpr double accelerating = 1.5;
-    Growth growth{.until = until, .error = errors.empty() ? 0 : errors.back()};
-    if (errors.size() < 8 || !(growth.error > 0)) return growth;
     const double at_quarter = errors[errors.size() / 4 - 1];
     const double at_half = errors[errors.size() / 2 - 1];
-    const double last = growth.error / at_half;
-    const double before = at_half / at_quarter;
-    if (!(last > least))
-        growth.law = Growth::Law::bounded;
-    else if (last > 2 && std::log(last) > accelerating * std::log(std::fmax(before, least)))
+    const double last = errors.back() / at_half;
+    return last > 4 &&
+           std::log(last) > accelerating * std::log(std::max(at_half / at_quarter, least));
+}
+
+}  // namespace
+
+double Growth::holds_until(double tolerance) const {
+    constexpr double longest = 1000;
+    const double left = tolerance - lines;
+    double time = infinity;
+    if (law == Law::exponential)
+        time = until + std::log(left / at_steps) / rate;
+    else if (law != Law::unfit && law != Law::bounded && linear + quadratic > 0)
+        // The stable form of the quadratic formula.
+        time = 2 * (left - constant) /
+               (linear + std::sqrt(linear * linear + 4 * quadratic * (left - constant)));
+    return time > longest * until ? infinity : std::max(time, until);
+}
+
+Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until) {
+    constexpr double negligible = 0.05;
+    constexpr double dominant = 0.8;
+    Growth growth{.until = until};
+    if (at_steps.size() < 8 || !(at_steps.back() > 0)) return growth;
+    growth.at_steps = at_steps.back();
+    growth.lines = std::max(0.0, drawn - growth.at_steps);
+    if (is_exponential(at_steps)) {
         growth.law = Growth::Law::exponential;
-    else
-        growth.law = last < between_powers ? Growth::Law::linear : Growth::Law::quadratic;
-    growth.rate = std::log(last) / (until / 2);
+        growth.rate = std::log(at_steps.back() / at_steps[at_steps.size() / 2 - 1]) / (until / 2);
+        return growth;
+    }
+    const auto [constant, linear, quadratic] = fit_powers(at_steps);
+    const double grown = linear + quadratic;
+    growth.constant = constant;
+    growth.linear = linear / until;
+    growth.quadratic = quadratic / (until * until);
+    growth.law = grown < negligible * growth.at_steps ? Growth::Law::bounded
+                 : linear > dominant * grown          ? Growth::Law::linear
+                 : quadratic > dominant * grown       ? Growth::Law::quadratic
+                                                      : Growth::Law::faster_than_linear;
     return growth;
 }
 
@@ -50,6 +96,8 @@ const char* describe(Growth::Law law) {
             return "grows with t";
         case Growth::Law::quadratic:
             return "grows with t²";
+        case Growth::Law::faster_than_linear:
+            return "grows faster than t";
         case Growth::Law::exponential:
             return "grows exponentially";
         default:

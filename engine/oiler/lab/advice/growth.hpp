@@ -5,23 +5,29 @@
 
 namespace oiler::lab {
 
-/// The growth of an error with the duration of a run.
+/// The growth of a setting's error with the duration of a run: errors at the steps grow by a law,
+/// and lines between steps add a constant.
 struct Growth {
-    enum class Law { unfit, bounded, linear, quadratic, exponential };
+    enum class Law { unfit, bounded, linear, quadratic, faster_than_linear, exponential };
 
     Law law = Law::unfit;
-    double until = 0;  ///< s, the end of the measured time
-    double error = 0;  ///< m, up to then
-    double rate = 0;   ///< 1/s, of an exponential law
+    double until = 0;      ///< s, the end of the measured time
+    double at_steps = 0;   ///< m, the error at the steps up to then
+    double lines = 0;      ///< m, added by the lines between steps
+    double constant = 0;   ///< m, of a law in powers of t
+    double linear = 0;     ///< m/s
+    double quadratic = 0;  ///< m/s²
+    double rate = 0;       ///< 1/s, of an exponential law
 
-    /// The time at which the error passes a tolerance (m) if it continues to grow by the law, s.
-    /// Infinite for a bounded error.
+    /// The time at which the error as drawn passes a tolerance (m), s, if it continues to grow by
+    /// the law. Infinite for a bounded error, and beyond 1000 × the measured time.
     [[nodiscard]] double holds_until(double tolerance) const;
 };
 
-/// Fits a law to the largest errors up to the ends of equal parts of the time up to `until`, from
-/// the growth over its last three quarters.
-[[nodiscard]] Growth fit_growth(const std::vector<double>& errors, double until);
+/// Fits a law to the largest errors at the steps up to the ends of equal parts of the time up to
+/// `until`. `drawn` is the error as drawn at the end, or the error at the steps if only that
+/// counts.
+[[nodiscard]] Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until);
 
 /// "bounded", "grows with t"
 [[nodiscard]] const char* describe(Growth::Law law);

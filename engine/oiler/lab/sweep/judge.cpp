@@ -86,7 +86,7 @@ public:
             const double end = part == growth_parts ? until : until * part / growth_parts;
             while (world_.time() < end && !ends_early())
                 if (!step(until)) return false;
-            growth_.push_back(drawn_.error());
+            growth_.push_back(position_);
         }
         return true;
     }

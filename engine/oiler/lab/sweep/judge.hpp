@@ -26,7 +26,7 @@ struct Judgement {
     double phase_error = unknown;
     double energy_drift = unknown;  ///< the largest at the steps, relative to the energy scale
     double evaluations = unknown;   ///< of the forces on the first body, with many steps per call
-    /// m, position_error up to the end of each of `growth_parts` equal parts of the time.
+    /// m, step_error up to the end of each of `growth_parts` equal parts of the time.
     std::vector<double> growth{};
 
     /// Whether the position error is below the reference's floor.
