@@ -124,7 +124,7 @@ TEST(Budget, OfAnUnstableRunIsExceeded) {
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_FALSE(lines[0].kept);
     EXPECT_TRUE(std::isinf(lines[0].measured));
-    EXPECT_EQ(describe(lines[0]), "position_error unstable of 25 m: exceeded");
+    EXPECT_EQ(describe(lines[0]), "position_error of 25 m: exceeded, the run is unstable");
 }
 
 // Free motion is straight, and 3 kg round forces per kg to double: the closed form is accurate to 8

@@ -173,6 +173,13 @@ TEST(RatesOfAJump, WithoutLandingHaveNone) {
     EXPECT_EQ(find(rates, "place of landing"), nullptr);
 }
 
+// At 0.3 s the body still rises, at 20 m/s².
+TEST(RatesOfAJump, ThatEndsOnTheWayUpHaveNoApex) {
+    std::string brief = jump;
+    brief.replace(brief.find("1.2"), 3, "0.3");
+    EXPECT_TRUE(rates_of(brief, usual, {"velocity_verlet"}).quantities.empty());
+}
+
 // A stopped call has quantities without values.
 TEST(Rates, CanBeStopped) {
     const MeasuredScene measured(article_spring);
@@ -310,6 +317,43 @@ TEST(RatesOfAnOscillation, GoAroundTheCentre) {
     EXPECT_NEAR(quantity_of(rates, "period").truth,
                 2 * std::numbers::pi / std::sqrt(stiffness - 0.25 * 0.25), 1e-6);
     EXPECT_GT(oscillation, 0);
+}
+
+// Around 10⁶ m, a double rounds by 1e-10 m.
+TEST(RatesOfAnOscillation, AreTheSameFarFromTheOrigin) {
+    const auto at = [](const char* place, const char* anchor) {
+        return rates_of(std::string("[scene]\naxes = 1\nrate = 100\nduration = 10.0\n[[body]]\n") +
+                            "name = \"mass\"\nposition = [" + place + "]\n[[spring]]\n" +
+                            "body = \"mass\"\nanchor = [" + anchor +
+                            "]\nstiffness = 100.0\ndamping = 2.0\n",
+                        {100}, {"velocity_verlet"});
+    };
+    const Rates far = at("1000001.0", "1000000.0");
+    for (const RatesQuantity& quantity : at("1.0", "0.0").quantities)
+        EXPECT_NEAR(quantity_of(far, quantity.name).truth, quantity.truth, 1e-6) << quantity.name;
+    EXPECT_NEAR(quantity_of(far, "period").truth, 2 * std::numbers::pi / std::sqrt(99.0), 1e-6);
+}
+
+/// Two masses on springs of 1 N/m and a link: they oscillate together at 1 rad/s, against each
+/// other at √(1 + 2·of_link) rad/s.
+std::string pair(const std::string& first, const std::string& second,
+                 const std::string& of_link) {
+    return one_axis + "duration = 30.0\n[[body]]\nname = \"a\"\nposition = [" + first +
+           "]\n[[body]]\nname = \"b\"\nposition = [" + second +
+           "]\n[[spring]]\nbody = \"a\"\nanchor = [0.0]\nstiffness = 1.0\n" +
+           "[[spring]]\nbody = \"b\"\nanchor = [0.0]\nstiffness = 1.0\n" +
+           "[[spring]]\nbody = \"a\"\nto = \"b\"\nstiffness = " + of_link + "\n";
+}
+
+// x = cos t + 0.05·cos 10t repeats after 2π s. Its small extremes lie near those of cos t.
+TEST(RatesOfAnOscillation, HaveThePeriodOfTheWholeMotion) {
+    const Rates rates = rates_of(pair("1.05", "0.95", "49.5"), {100}, {"rk4"});
+    EXPECT_NEAR(quantity_of(rates, "period").truth, 2 * std::numbers::pi, 1e-6);
+}
+
+// x = (cos t + cos √3·t)/2 never repeats.
+TEST(RatesOfAnOscillation, WithoutAPeriodHaveNone) {
+    EXPECT_EQ(find(rates_of(pair("1.0", "0.0", "1.0"), {100}, {"rk4"}), "period"), nullptr);
 }
 
 // ω·dt is 3.9 at 1 Hz; the limit is 2.

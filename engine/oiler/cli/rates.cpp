@@ -36,7 +36,10 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
                                    rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
-        text += "The body neither jumps nor oscillates: no quantity to compare.\n";
+        return text + fmt::format(
+                          "In {:g} s, the body reaches no apex and completes no oscillation: give "
+                          "a longer --duration or another --body.\n",
+                          scene.duration);
     for (const RatesQuantity& quantity : rates.quantities) {
         text += fmt::format("\n{}, {}: {:.6g}\n  {:<30}", quantity.name, quantity.unit,
                             quantity.truth, "Hz");

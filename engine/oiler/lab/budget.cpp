@@ -57,13 +57,12 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
 
 std::string describe(const BudgetLine& line) {
     const std::string unit = line.unit.empty() ? "" : " " + line.unit;
-    const std::string measured =
-        std::isinf(line.measured)
-            ? "unstable"
-            : fmt::format("{}{:.3g}{}", line.measured == line.floor ? "below " : "", line.measured,
-                          unit);
-    return fmt::format("{} {} of {:g}{}: {}", line.name, measured, line.most, unit,
-                       line.kept ? "kept" : "exceeded");
+    if (std::isinf(line.measured))
+        return fmt::format("{} of {:g}{}: exceeded, the run is unstable", line.name, line.most,
+                           unit);
+    return fmt::format("{} {}{:.3g}{} of {:g}{}: {}", line.name,
+                       line.measured == line.floor ? "below " : "", line.measured, unit, line.most,
+                       unit, line.kept ? "kept" : "exceeded");
 }
 
 }  // namespace oiler::lab

@@ -13,6 +13,8 @@ namespace oiler::lab {
 namespace {
 
 constexpr double settled = 0.05;  ///< of the distance from rest at the start
+/// Largest ratio of the longest to the shortest cycle of a motion that has a period.
+constexpr double most_uneven = 1.1;
 
 /// The quantities of one run, in the order of `kinds`; `unknown` if the run does not have them.
 struct Observed {
@@ -61,7 +63,8 @@ void observe_jump(Observed& observed, const Observer& observer, const Paths& pat
            !(height.x[landing] < start && (landing == 1 || height.x[landing - 1] >= start)))
         ++landing;
     const Peak peak = highest(height, 0, std::min(landing + 1, height.size()));
-    if (!(peak.x > start)) return;
+    // A run that ends on the way up has no apex.
+    if (!(peak.x > start) || peak.t == height.t.back()) return;
     observed.apex = peak.x - start;
     observed.apex_time = peak.t;
     if (landing == height.size()) return;
@@ -77,7 +80,7 @@ void observe_oscillation(Observed& observed, const Observer& observer, const Pat
     const Path& path = paths[static_cast<std::size_t>(observer.oscillation->axis)];
     const std::vector<double> up =
         upward_crossings(path, observer.rest, observer.oscillation->band);
-    if (up.size() >= 2)
+    if (up.size() >= 2 && unevenness(up) < most_uneven)
         observed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
     std::size_t from = path.size() - 1;
     while (from > 1 && path.t[from - 1] > path.t.back() - observer.oscillation->period) --from;
@@ -103,8 +106,7 @@ Observed observe(const Observer& observer, const Paths& paths) {
 Paths paths_of(const Reference& reference, std::size_t row) {
     Paths paths;
     for (int axis = 0; axis < 3; ++axis)
-        paths[static_cast<std::size_t>(axis)] =
-            path_of(reference, row, axis);
+        paths[static_cast<std::size_t>(axis)] = path_of(reference, row, axis);
     return paths;
 }
 
@@ -148,8 +150,19 @@ double rest_of(const Path& path, double band) {
         extremes.pop_back();
     if (extremes.size() < 3) return path.x.back();
     const double* const last = extremes.data() + extremes.size() - 3;
-    if (last[0] + last[2] == 2 * last[1]) return last[1];
-    return (last[0] * last[2] - last[1] * last[1]) / (last[0] + last[2] - 2 * last[1]);
+    const double rise = last[2] - last[1];
+    const double bend = rise - (last[1] - last[0]);
+    return bend == 0 ? last[1] : last[2] - rise * rise / bend;
+}
+
+/// The limit of the oscillation, unless the level is crossed more evenly: the extremes of a motion
+/// with several frequencies have no common limit.
+double centre_of(const Path& path, const PeriodicCoordinate& oscillation) {
+    const double rest = rest_of(path, oscillation.band);
+    const std::vector<double> at_rest = upward_crossings(path, rest, oscillation.band);
+    const bool is_even = at_rest.size() >= oscillation.crossings.size() &&
+                         unevenness(at_rest) <= unevenness(oscillation.crossings);
+    return is_even ? rest : oscillation.level;
 }
 
 Observer observer_of(const Scene& scene, const Reference& reference, std::size_t row) {
@@ -164,8 +177,8 @@ Observer observer_of(const Scene& scene, const Reference& reference, std::size_t
     }
     observer.oscillation = find_oscillation(reference, row);
     if (observer.oscillation)
-        observer.rest = rest_of(path_of(reference, row, observer.oscillation->axis),
-                                observer.oscillation->band);
+        observer.rest =
+            centre_of(path_of(reference, row, observer.oscillation->axis), *observer.oscillation);
     return observer;
 }
 

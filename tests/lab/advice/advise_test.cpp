@@ -315,7 +315,7 @@ TEST(AdviceOnTime, AloneIsTheMostAccurateThatFits) {
     const Advice advice = advice_on(article_spring, requirements);
     ASSERT_TRUE(advice.meets);
     EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
-    EXPECT_EQ(advice.best->stepping.rate.steps, 720);
+    EXPECT_EQ(advice.best->stepping.rate.steps, 800);
     ASSERT_TRUE(advice.runner_up);
     EXPECT_EQ(advice.runner_up->stepping.method->name, "semi_implicit_euler");
 }

@@ -78,14 +78,15 @@ TEST(AdviceByTime, IsTheMostAccurateWhereAllFit) {
     EXPECT_EQ(advice.best->stepping.rate.steps, 960);
 }
 
-// A cost of exactly the budget fits.
+// A cost of exactly the budget fits. Rates between those of sweeps leave 5 % for the spread of the
+// time: 683 of 719.
 TEST(AdviceByTime, FitsABudgetThatItJustTakes) {
     for (const double budget : {720.0, 719.0}) {
         const Requirements requirements{.ns_per_second = budget,
                                         .methods = methods_of({"velocity_verlet"})};
         const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.best);
-        EXPECT_EQ(advice.best->stepping.rate.steps, budget == 720 ? 720 : 480);
+        EXPECT_EQ(advice.best->stepping.rate.steps, budget == 720 ? 720 : 683);
         EXPECT_TRUE(advice.meets);
     }
 }

@@ -103,15 +103,16 @@ TEST(FindOscillation, IsNoneOfAProjectile) {
     EXPECT_FALSE(find_oscillation(reference_of({at_rest}, samples)));
 }
 
-// Two periods have two crossings. 7 samples per period are too few, 9 are enough.
+// From the widest point, a cosine crosses 0 downwards and upwards twice in two periods: a cycle of
+// each. 7 samples per period are too few, 9 are enough.
 TEST(FindOscillation, IsNoneForTooFewPeriodsOrSamples) {
     const SampleTimes samples{.per_second = 60, .count = 601};
     const auto found = [&](Real period) {
         const Real omega = 2 * std::numbers::pi_v<Real> / period;
         return find_oscillation(reference_of({turned_to(0, 1, omega)}, samples)).has_value();
     };
-    EXPECT_TRUE(found(3.1L));
-    EXPECT_FALSE(found(5.0L));
+    EXPECT_TRUE(found(4.9L));
+    EXPECT_FALSE(found(5.8L));
     EXPECT_TRUE(found(9 / 60.0L));
     EXPECT_FALSE(found(7 / 60.0L));
 }

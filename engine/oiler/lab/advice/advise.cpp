@@ -92,32 +92,38 @@ private:
         std::stable_sort(front_.begin(), others, [&](const TradeoffRow& a, const TradeoffRow& b) {
             return merit(a) < merit(b);
         });
-        for (auto tie = front_.begin(); tie != others; ++tie)
-            if (tie != front_.begin()) advice_.ties.push_back(*tie);
+        for (auto row = front_.begin() + 1; row != front_.end(); ++row)
+            if (row < others || (in_time(*row) && is_tie(*row, front_.front())))
+                advice_.ties.push_back(*row);
     }
     [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
         const Judgement& judgement = row.judgement;
         const double times = row.ns_per_second / advice_.best->ns_per_second;
         const std::int64_t rate = row.stepping.rate.steps;
-        if (!judgement.stable)
-            return fmt::format("at {} Hz, where it costs no more, it is unstable", rate);
+        const bool is_dearer = times > 1 && !is_tie(row, *advice_.best);
         std::string text =
-            times > 1 && !is_tie(row, *advice_.best)
-                ? fmt::format("at only {} Hz it costs {:.3g} times as much", rate, times)
-                : fmt::format("it costs no more at {} Hz", rate);
+            is_dearer ? fmt::format("at only {} Hz, it costs {:.3g} times as much", rate, times)
+                      : fmt::format("at {} Hz, where it costs no more,", rate);
+        const auto add = [&](const std::string& result) {
+            return text + (is_dearer ? " and " : " it ") + result;
+        };
+        if (!judgement.stable) return add("is unstable");
         if (!requirements_.has_tolerance())
-            return text + fmt::format(", with an error up to {:.3g} m", judgement.position_error);
+            return add(fmt::format("has an error of {:.3g} m", judgement.position_error));
         const double off = excess(judgement, requirements_);
-        if (off > 1) return text + fmt::format(", with {:.3g} times the error allowed", off);
+        if (off > 1) return add(fmt::format("has {:.3g} times the error allowed", off));
         const std::string objection = search_.objection(row);
-        return text + (objection.empty() ? ", and meets the tolerance, too" : "; " + objection);
+        if (!objection.empty()) return text + (is_dearer ? "; " : " ") + objection;
+        return add("meets the tolerance, too");
     }
     /// Says why each alternative loses. Removes the advice itself and the runner-up.
     void explain() {
         const auto named = [&](const Alternative& alternative) {
-            const bool is_best = alternative.method == advice_.best->stepping.method;
-            return is_best ||
-                   (advice_.runner_up && alternative.method == advice_.runner_up->stepping.method);
+            const auto is_of = [&](const TradeoffRow& row) {
+                return row.stepping.method == alternative.method;
+            };
+            return is_of(*advice_.best) || (advice_.runner_up && is_of(*advice_.runner_up)) ||
+                   std::any_of(advice_.ties.begin(), advice_.ties.end(), is_of);
         };
         std::erase_if(advice_.alternatives, named);
         for (Alternative& alternative : advice_.alternatives)
@@ -189,8 +195,8 @@ private:
         advice_.meets = near && in_time(*advice_.best);
         if (!in_time(*advice_.best))
             advice_.obstacles.push_back(
-                fmt::format("time: the fastest setting as accurate takes {:.3g} µs per frame",
-                            advice_.best->ns_per_second / 60'000));
+                fmt::format("time: the fastest setting as accurate takes {} per frame",
+                            describe_time(advice_.best->ns_per_second / 60)));
         if (!near) add_rounding_and_rates();
     }
     void add_rounding_and_rates() {
@@ -208,12 +214,17 @@ private:
             if (row == nearest.end()) continue;
             const double off = excess(row->judgement, requirements_);
             const std::string objection = off <= 1 ? search_.objection(*row) : "";
+            const std::int64_t highest = search_.rates().back();
             advice_.obstacles.push_back(fmt::format(
-                "in {}, the closest is {} with {:.3g} times the {} allowed{}; higher rates, up to "
-                "{} Hz, only add round-off or are too much work",
-                name_of(precision), describe(row->stepping), off,
+                "in {}, the closest is {} with {:.3g} times the {} allowed{}{}", name_of(precision),
+                describe(row->stepping), off,
                 requirements_.position_error ? "error" : "energy drift",
-                objection.empty() ? "" : ", but " + objection, search_.rates().back()));
+                objection.empty() ? "" : ", but " + objection,
+                row->stepping.rate.steps < highest
+                    ? fmt::format(
+                          "; higher rates, up to {} Hz, add round-off or take too much work",
+                          highest)
+                    : ""));
         }
     }
 
@@ -238,11 +249,13 @@ void require_judgeable(const Scene& scene, const Reference& reference,
     const Uncertainty floor = reference.floor();
     const auto require = [](const std::optional<double>& wanted, double least, const char* what,
                             const char* unit) {
+        // Two digits, rounded up.
+        const double digit = std::pow(10, std::floor(std::log10(least)) - 1);
         if (wanted && *wanted < least)
             fail(Exit::usage,
-                 "{}: expected at least {:.2g}{}, 100 × the reference's own error, got {:g}{}; "
+                 "{}: expected at least {:g}{}, 100 × the reference's own error, got {:g}{}; "
                  "give a larger tolerance or a shorter --duration",
-                 what, least, unit, *wanted, unit);
+                 what, std::ceil(least / digit) * digit, unit, *wanted, unit);
     };
     require(requirements.position_error, floor.position, "position error", " m");
     require(requirements.energy_drift, floor.energy, "energy drift", "");

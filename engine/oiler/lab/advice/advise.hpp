@@ -55,6 +55,9 @@ struct Advice {
 /// Whether two costs cannot be told apart: their spreads overlap.
 [[nodiscard]] bool is_tie(const TradeoffRow& a, const TradeoffRow& b);
 
+/// "1.25 ms"; `ns` in ns.
+[[nodiscard]] std::string describe_time(double ns);
+
 /// Finds the cheapest setting within the tolerances or, without tolerances, the most accurate
 /// within the time. A setting must also meet the tolerances from perturbed starts and raise no
 /// warning before the run. Of settings that cost the same, the most accurate wins, then the one of

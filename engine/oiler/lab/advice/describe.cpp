@@ -20,8 +20,8 @@ std::string describe_error(const Judgement& judgement, const Reference& referenc
 }
 
 std::string describe_cost(const TradeoffRow& row) {
-    return fmt::format("{:.3g} µs per simulated second, {:.2g} % of a frame",
-                       row.ns_per_second / 1e3, row.ns_per_second / 1e7);
+    return fmt::format("{} per simulated second, {:.2g} % of a frame",
+                       describe_time(row.ns_per_second), row.ns_per_second / 1e7);
 }
 
 /// The share of each tolerance that is used.
@@ -48,8 +48,8 @@ std::string describe_requirements(const Requirements& requirements) {
         text += fmt::format("{}an energy drift of {:g}", text.empty() ? "" : " and ",
                             *requirements.energy_drift);
     if (requirements.ns_per_second)
-        text += fmt::format("{}{:.4g} µs per frame", text.empty() ? "" : " and ",
-                            *requirements.ns_per_second / 60'000);
+        text += fmt::format("{}{} per frame", text.empty() ? "" : " and ",
+                            describe_time(*requirements.ns_per_second / 60));
     return text;
 }
 
@@ -61,7 +61,7 @@ std::string conclusion(const Advice& advice, const Reference& reference,
         fmt::format("{}: {}, {}{}", describe(advice.best->stepping),
                     describe_error(advice.best->judgement, reference), describe_cost(*advice.best),
                     requirements.ns_per_second
-                        ? fmt::format(" ({:.3g} µs)", advice.best->ns_per_second / 60'000)
+                        ? fmt::format(" ({})", describe_time(advice.best->ns_per_second / 60))
                         : "");
     if (!advice.meets)
         return fmt::format("No setting meets {}. Closest: {}.", describe_requirements(requirements),
@@ -102,8 +102,8 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
     text += "; the error ";
     if (advice.growth.law == Growth::Law::bounded) return text + "does not grow.";
     if (std::isinf(until)) return text + "hardly grows.";
-    return text + fmt::format("{} and passes {:g} m at about {:.2g} s.", describe(advice.growth.law),
-                              *requirements.position_error, until);
+    return text + fmt::format("{} and passes {:g} m at about {:.2g} s.",
+                              describe(advice.growth.law), *requirements.position_error, until);
 }
 
 std::string describe_ties(const Advice& advice) {
@@ -122,6 +122,13 @@ std::string describe_times(const Requirements& requirements) {
 
 }  // namespace
 
+std::string describe_time(double ns) {
+    const auto [unit, name] = ns < 1e6   ? std::pair(1e3, "µs")
+                              : ns < 1e9 ? std::pair(1e6, "ms")
+                                         : std::pair(1e9, "s");
+    return fmt::format("{:.3g} {}", ns / unit, name);
+}
+
 std::string describe(const Stepping& choice) {
     return fmt::format(
         "{} at {} Hz in {}{}", choice.method->name, choice.rate.steps, name_of(choice.precision),
@@ -136,8 +143,8 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     if (!advice.best) return words;
     words.push_back(describe_hold(advice, scene, requirements));
     if (advice.threads > 1)
-        words.push_back(fmt::format("With --threads {}: {:.3g} µs per simulated second.",
-                                    advice.threads, advice.ns_on_threads / 1e3));
+        words.push_back(fmt::format("With --threads {}: {} per simulated second.", advice.threads,
+                                    describe_time(advice.ns_on_threads)));
     if (!advice.ties.empty())
         words.push_back(fmt::format("Ties, at the same cost: {}.", describe_ties(advice)));
     if (advice.runner_up)

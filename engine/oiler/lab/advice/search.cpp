@@ -117,8 +117,13 @@ void Search::add_candidate(const Method& method, Precision precision,
 }
 
 void Search::run() {
-    requirements_.has_tolerance() ? find_cheapest() : find_most_accurate();
-    if (requirements_.has_tolerance()) refine();
+    if (requirements_.has_tolerance()) {
+        find_cheapest();
+        refine();
+    } else {
+        find_most_accurate();
+        refine_to_time();
+    }
 }
 
 TradeoffRow Search::judged(const Stepping& choice, double enough) {
@@ -272,6 +277,25 @@ void Search::refine() {
     for (const TradeoffRow& row : found) refine(row);
 }
 
+/// Tries the most accurate settings at the highest rate within the time.
+void Search::refine_to_time() {
+    // A margin for the spread of the time.
+    const double most = 0.95 * *requirements_.ns_per_second;
+    std::vector<TradeoffRow> rows = rows_by_excess();
+    rows.resize(std::min(rows.size(), most_refined));
+    for (const TradeoffRow& row : rows) {
+        std::int64_t low = row.stepping.rate.steps;
+        std::int64_t high = std::max(low, std::min(4 * low, requirements_.max_rate)) + 1;
+        Stepping choice = row.stepping;
+        while (high - low > 1) {
+            choice.rate.steps = (low + high) / 2;
+            (cost_of(choice) <= most ? low : high) = choice.rate.steps;
+        }
+        choice.rate.steps = low;
+        if (!watch_.stopped()) try_choice(choice);
+    }
+}
+
 /// Bisects between a rung that meets the tolerance and the one below.
 void Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
@@ -297,6 +321,23 @@ std::vector<TradeoffRow> Search::meeting_rows() {
 }
 
 std::vector<TradeoffRow> Search::closest_rows() {
+    constexpr std::size_t most = 8;
+    for (;;) {
+        const std::vector<TradeoffRow> rows = rows_by_excess();
+        bool has[2]{};
+        std::size_t rank = 0;
+        const auto incomplete = std::find_if(rows.begin(), rows.end(), [&](const TradeoffRow& row) {
+            bool& known = has[row.stepping.precision == Precision::single ? 0 : 1];
+            const bool matters = rank++ < most || !known;
+            known = true;
+            return matters && !row.judgement.complete;
+        });
+        if (incomplete == rows.end() || watch_.stopped()) return rows;
+        measure(incomplete->stepping);
+    }
+}
+
+std::vector<TradeoffRow> Search::rows_by_excess() {
     const auto off = [&](const TradeoffRow& row) {
         if (requirements_.has_tolerance()) return excess(row.judgement, requirements_);
         return row.judgement.below_floor() ? 0 : row.judgement.position_error;

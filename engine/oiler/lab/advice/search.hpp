@@ -39,7 +39,7 @@ public:
     /// The tried rows that meet the tolerance, the cheapest first.
     [[nodiscard]] std::vector<TradeoffRow> meeting_rows();
     /// The stable rows, by their errors relative to the tolerances; without tolerances, by position
-    /// error.
+    /// error. The first ones and the first of each precision are judged to the end of their runs.
     [[nodiscard]] std::vector<TradeoffRow> closest_rows();
 
     /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
@@ -63,8 +63,11 @@ private:
     void try_highest();
     void find_cheapest();
     void find_most_accurate();
+    void refine_to_time();
     void refine();
     void refine(const TradeoffRow& row);
+    /// The stable rows in the order of closest_rows. Errors of runs that ended early are too small.
+    std::vector<TradeoffRow> rows_by_excess();
 
     const Scene& scene_;
     const Reference& reference_;

@@ -10,39 +10,37 @@ namespace oiler::lab {
 namespace {
 
 constexpr double fewest_samples_in_period = 8;
-constexpr std::size_t fewest_crossings = 3;
 /// Largest ratio of the longest to the shortest cycle for which a phase is meaningful.
 constexpr double most_uneven = 1.5;
 
-/// The oscillation along a path. The caller fills in row and axis.
+/// The oscillation along a path: at least two cycles, upwards and downwards together. The caller
+/// fills in row and axis.
 std::optional<PeriodicCoordinate> oscillation_of(const Path& path, double per_second) {
     PeriodicCoordinate oscillation;
     for (const double x : path.x) oscillation.level += x / static_cast<double>(path.size());
     const auto [low, high] = std::minmax_element(path.x.begin(), path.x.end());
     oscillation.band = dead_band * (*high - *low);
     oscillation.crossings = upward_crossings(path, oscillation.level, oscillation.band);
-    const std::vector<double>& at = oscillation.crossings;
-    if (at.size() < fewest_crossings) return std::nullopt;
-    double shortest = INFINITY;
-    double longest = 0;
-    for (std::size_t i = 1; i < at.size(); ++i) {
-        shortest = std::min(shortest, at[i] - at[i - 1]);
-        longest = std::max(longest, at[i] - at[i - 1]);
-    }
-    oscillation.period = (at.back() - at.front()) / static_cast<double>(at.size() - 1);
-    if (longest > most_uneven * shortest ||
+    const std::vector<double>& up = oscillation.crossings;
+    const std::vector<double> down =
+        upward_crossings(turned(path), -oscillation.level, oscillation.band);
+    if (up.size() < 2 || up.size() + down.size() < 4) return std::nullopt;
+    oscillation.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
+    if (std::max(unevenness(up), unevenness(down)) > most_uneven ||
         oscillation.period * per_second < fewest_samples_in_period)
         return std::nullopt;
     return oscillation;
 }
 
-/// The row and the axis with the largest range.
-struct Widest {
+/// An axis of a body, and the range of its coordinate, m.
+struct Range {
     std::size_t row = 0;
     int axis = 0;
+    double size = 0;
 };
 
-Widest find_widest(const Reference& reference, std::optional<std::size_t> only) {
+/// The ranges of row `only`, or of all rows, the widest first.
+std::vector<Range> ranges_of(const Reference& reference, std::optional<std::size_t> only) {
     const std::size_t bodies = reference.motion->bodies();
     std::vector<State<long double, 3>> low(bodies);
     reference.motion->all_at(0, low);
@@ -56,29 +54,33 @@ Widest find_widest(const Reference& reference, std::optional<std::size_t> only) 
                 high[row].x[axis] = std::max(high[row].x[axis], states[row].x[axis]);
             }
     }
-    Widest widest{.row = only.value_or(0)};
-    long double most = 0;
-    for (std::size_t row = widest.row; row < (only ? *only + 1 : bodies); ++row)
+    std::vector<Range> ranges;
+    for (std::size_t row = only.value_or(0); row < (only ? *only + 1 : bodies); ++row)
         for (int axis = 0; axis < 3; ++axis)
-            if (high[row].x[axis] - low[row].x[axis] > most) {
-                most = high[row].x[axis] - low[row].x[axis];
-                widest = {row, axis};
-            }
-    return widest;
+            ranges.push_back(
+                {row, axis, static_cast<double>(high[row].x[axis] - low[row].x[axis])});
+    std::stable_sort(ranges.begin(), ranges.end(),
+                     [](const Range& a, const Range& b) { return a.size > b.size; });
+    return ranges;
 }
 
 }  // namespace
 
 std::optional<PeriodicCoordinate> find_oscillation(const Reference& reference,
                                                    std::optional<std::size_t> only) {
-    const auto [row, axis] = find_widest(reference, only);
-    std::optional<PeriodicCoordinate> oscillation = oscillation_of(
-        path_of(reference, row, axis), static_cast<double>(reference.samples.per_second));
-    if (oscillation) {
+    constexpr std::size_t most_tried = 3;
+    std::vector<Range> ranges = ranges_of(reference, only);
+    ranges.resize(std::min(ranges.size(), most_tried));
+    for (const auto& [row, axis, size] : ranges) {
+        if (size < ranges.front().size / 10) break;
+        std::optional<PeriodicCoordinate> oscillation = oscillation_of(
+            path_of(reference, row, axis), static_cast<double>(reference.samples.per_second));
+        if (!oscillation) continue;
         oscillation->row = row;
         oscillation->axis = axis;
+        return oscillation;
     }
-    return oscillation;
+    return std::nullopt;
 }
 
 }  // namespace oiler::lab

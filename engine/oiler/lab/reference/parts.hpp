@@ -39,8 +39,9 @@ inline constexpr double margin = 100;
 [[nodiscard]] inline double distance(const Vec<long double, 3>& a, const Vec<long double, 3>& b) {
     return static_cast<double>(std::sqrt(squared_length(a - b)));
 }
-/// The oscillation of the coordinate with the largest range, of row `only` or of all rows, over the
-/// meaningful time. Returns none if it does not oscillate, or has fewer than 8 samples per period.
+/// The oscillation with the largest range over the meaningful time, of row `only` or of all rows.
+/// The three widest coordinates are tried, down to a tenth of the widest range. Returns none if
+/// none oscillates with at least 8 samples per period.
 [[nodiscard]] std::optional<PeriodicCoordinate> find_oscillation(
     const Reference& reference, std::optional<std::size_t> only = std::nullopt);
 

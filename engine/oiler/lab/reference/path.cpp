@@ -2,6 +2,7 @@
 #include "oiler/lab/reference/path.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace oiler::lab {
 
@@ -65,6 +66,16 @@ std::vector<double> upward_crossings(const Path& path, double level, double band
         was_below = false;
     }
     return at;
+}
+
+double unevenness(const std::vector<double>& crossings) {
+    double shortest = INFINITY;
+    double longest = 0;
+    for (std::size_t i = 1; i < crossings.size(); ++i) {
+        shortest = std::min(shortest, crossings[i] - crossings[i - 1]);
+        longest = std::max(longest, crossings[i] - crossings[i - 1]);
+    }
+    return longest > 0 ? longest / shortest : 1;
 }
 
 Path path_of(const Reference& reference, std::size_t row, int axis) {

@@ -41,6 +41,10 @@ struct Peak {
 /// level by at least `band`, so that the round-off of a resting body is no oscillation.
 [[nodiscard]] std::vector<double> upward_crossings(const Path& path, double level, double band);
 
+/// The ratio of the longest to the shortest time between consecutive crossings; 1 for fewer than
+/// two such times.
+[[nodiscard]] double unevenness(const std::vector<double>& crossings);
+
 /// One coordinate of a body's true motion, at the samples of the meaningful time.
 [[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis);
 
