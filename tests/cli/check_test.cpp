@@ -182,7 +182,7 @@ std::string diverging_scene(const std::string& budget) {
 }
 
 const std::string warning_of_the_scene =
-    "spring of body 0: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or implicit_euler";
+    "spring of body 0: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or implicit_midpoint";
 
 TEST(Check, RunsASceneWithoutABudgetAndReportsItsDivergence) {
     const Desk desk(diverging_scene(""));

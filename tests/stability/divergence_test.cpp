@@ -111,7 +111,7 @@ TEST(Diverging, NamesStepCauseAndRemedy) {
     EXPECT_EQ(message_of(one_on_a_spring(Precision::double_, 2.4), "semi_implicit_euler", 1),
               "diverged at step 563 (t = 9.383333333333333 s): position z of body 2 is no longer "
               "finite; spring of body 2: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, "
-              "or implicit_euler");
+              "or implicit_midpoint");
 }
 
 TEST(Diverging, HasAMessageThatDoesNotDependOnTheStepsPerCall) {
@@ -186,7 +186,7 @@ Bodies resting_spring_and_stretched_link() {
 
 const std::string link_of_2_and_1 =
     "link of bodies 2 and 1: ω·dt up to 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
-    "implicit_euler";
+    "implicit_midpoint";
 
 // Row 1 diverges first and is the second end of its link. The spring has the larger ω·dt, but its
 // body does not move.

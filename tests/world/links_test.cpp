@@ -85,7 +85,7 @@ TEST(Preflight, NamesEntities) {
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
               "spring of body 2: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
-              "implicit_euler");
+              "implicit_midpoint");
 }
 
 TEST(Preflight, CountsTheBodiesThatItDoesNotName) {

@@ -14,15 +14,24 @@
 namespace oiler {
 namespace {
 
+bool is_attraction(const Risk& risk) {
+    return risk.of == Risk::Of::attractor || risk.of == Risk::Of::periapsis;
+}
+
 /// The remedy in words: the lowest rate above the limit, with a margin of 10⁻⁹ for rounding.
-std::string remedy_for(double limit, const Rate& rate, bool is_attraction) {
+std::string remedy_for(double limit, const Rate& rate, const Risk& risk) {
     constexpr double most = 1e6;  // the highest rate of the programs, Hz
     const double at_limit =
         static_cast<double>(rate.steps) / (limit * static_cast<double>(rate.seconds));
     const double above = std::floor(at_limit * (1 + 1e-9)) + 1;
-    if (above > most)
-        return is_attraction ? "give the body another position or velocity" : "take implicit_euler";
-    return fmt::format("rate ≥ {:.0f} Hz{}", above, is_attraction ? "" : ", or implicit_euler");
+    if (is_attraction(risk))
+        return above > most ? "give the body another position or velocity"
+                            : fmt::format("rate ≥ {:.0f} Hz", above);
+    // Implicit Euler would end an oscillation that lasts.
+    const bool lasts = risk.damping_dt < 2 * risk.omega_dt;
+    const char* const method = lasts ? "implicit_midpoint" : "implicit_euler";
+    return above > most ? fmt::format("take {}", method)
+                        : fmt::format("rate ≥ {:.0f} Hz, or {}", above, method);
 }
 
 double size(const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); }
@@ -90,10 +99,6 @@ std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
         "attractor of body {}: the orbit leads into its centre, which no rate resolves: give the "
         "body another position or velocity",
         name(risk.row));
-}
-
-bool is_attraction(const Risk& risk) {
-    return risk.of == Risk::Of::attractor || risk.of == Risk::Of::periapsis;
 }
 
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
@@ -179,7 +184,7 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
             who, measure, method.name);
     const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
     return fmt::format("{}: {}, {} needs < {:.4g}: {}", who, measure, method.name, limit * measured,
-                       remedy_for(limit, steps.rate, is_attraction(risk)));
+                       remedy_for(limit, steps.rate, risk));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,
