@@ -44,7 +44,8 @@ TEST(Advise, JsonHasTheKeysOfTheContract) {
     EXPECT_EQ(json.at("obstacles"), Json::array());
     EXPECT_EQ(json.at("ties"), Json::array());
     EXPECT_EQ(json.at("perturbed_starts"), 3);
-    EXPECT_EQ(json.at("growth").at("law"), "bounded");
+    EXPECT_EQ(json.at("growth").at("law"), "round-off");
+    EXPECT_EQ(json.at("growth").at("holds_until"), nullptr);
     EXPECT_EQ(json.at("requirements").at("position_error"), 1e-6);
     EXPECT_EQ(json.at("requirements").at("at_steps"), true);
     EXPECT_EQ(json.at("requirements").at("display"), "any");

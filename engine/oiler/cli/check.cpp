@@ -104,6 +104,7 @@ Json to_json(const std::vector<CheckResult>& all) {
     Json json = Json::array();
     for (const CheckResult& result : all) {
         Json entry{{"scene", result.file}, {"kept", result.kept()}, {"warnings", result.warnings}};
+        if (result.lines.empty() && result.kept()) entry["kept"] = nullptr;
         if (!result.divergence.empty()) entry["diverged"] = result.divergence;
         if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
         for (const BudgetLine& line : result.lines)
@@ -129,6 +130,10 @@ std::string find_divergence(World world, const Scene& scene) {
     return {};
 }
 
+bool has_budget(const Scene& scene) {
+    return scene.budget.position_error || scene.budget.energy_drift;
+}
+
 /// Turns an error of usage into a result, so that the other scenes are still checked.
 CheckResult check(const std::filesystem::path& path) {
     CheckResult result{.file = path.string()};
@@ -138,6 +143,10 @@ CheckResult check(const std::filesystem::path& path) {
         world.require_applicable();
         result.warnings = world.preflight();
         result.divergence = find_divergence(std::move(world), scene);
+        if (result.divergence.empty() && !result.warnings.empty() && !has_budget(scene) &&
+            is_unstable(scene, Settings{scene.stepping}, Interrupt::requested))
+            result.divergence =
+                "unstable: bodies move to more than 10 times the extent of the true motion";
         result.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;

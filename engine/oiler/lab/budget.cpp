@@ -55,6 +55,17 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
     return lines;
 }
 
+bool is_unstable(const Scene& scene, const Settings& settings,
+                 const std::function<bool()>& stopped) try {
+    // Any reference shows ten times the extent. 0 would ask for the best.
+    constexpr double any = 1e300;
+    const Reference reference = make_reference(scene, {.wanted = any, .stopped = stopped});
+    return !stopped() && !judge(scene, settings, reference, {.stopped = stopped}).stable;
+} catch (const Error& error) {
+    if (error.exit() != Exit::usage && error.exit() != Exit::diverged) throw;
+    return false;
+}
+
 std::string describe(const BudgetLine& line) {
     const std::string unit = line.unit.empty() ? "" : " " + line.unit;
     if (std::isinf(line.measured))

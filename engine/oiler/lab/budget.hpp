@@ -25,6 +25,12 @@ struct BudgetLine {
     const Scene& scene, const Settings& settings,
     const std::function<bool()>& stopped = [] { return false; });
 
+/// Whether the run of a scene leaves 10 × the extent of the true motion, or is not finite. Returns
+/// false for a stopped run, and for a scene whose true motion takes too much work to find.
+[[nodiscard]] bool is_unstable(
+    const Scene& scene, const Settings& settings,
+    const std::function<bool()>& stopped = [] { return false; });
+
 /// "position_error 19.8 m of 25 m: kept"
 [[nodiscard]] std::string describe(const BudgetLine& line);
 

@@ -80,7 +80,9 @@ void observe_oscillation(Observed& observed, const Observer& observer, const Pat
     const Path& path = paths[static_cast<std::size_t>(observer.oscillation->axis)];
     const std::vector<double> up =
         upward_crossings(path, observer.rest, observer.oscillation->band);
-    if (up.size() >= 2 && unevenness(up) < most_uneven)
+    // Fewer than two steps per period show another oscillation.
+    const bool shows_period = 2 * (path.t[1] - path.t[0]) < observer.oscillation->period;
+    if (shows_period && up.size() >= 2 && unevenness(up) < most_uneven)
         observed.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
     std::size_t from = path.size() - 1;
     while (from > 1 && path.t[from - 1] > path.t.back() - observer.oscillation->period) --from;

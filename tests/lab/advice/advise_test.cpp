@@ -427,9 +427,10 @@ TEST(Advice, OnAChaoticSceneIsRefusedAndTheRemedyHelps) {
         EXPECT_EQ(error.exit(), Exit::usage);
         line = error.what();
     }
-    const std::string remedy = "give --duration ";
+    const std::string remedy = "ask for ";
     ASSERT_TRUE(holds(line, remedy)) << line;
-    const std::string duration = line.substr(line.find(remedy) + remedy.size());
+    const std::string rest = line.substr(line.find(remedy) + remedy.size());
+    const std::string duration = rest.substr(0, rest.find(' '));
     EXPECT_GT(std::stod(duration), 1) << line;
     const MeasuredScene shorter(double_pendulum(holds(duration, ".") ? duration : duration + ".0"),
                                 effort);

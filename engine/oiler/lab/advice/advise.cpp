@@ -14,6 +14,12 @@ namespace oiler::lab {
 namespace {
 
 constexpr std::size_t most_contenders = 8;
+
+/// The number with two digits that is not above it.
+double rounded_down(double number) {
+    const double digit = std::pow(10, std::floor(std::log10(std::abs(number))) - 1);
+    return std::floor(number / digit) * digit;
+}
 constexpr int timing_rounds = 9;
 
 /// The first row of each method in each precision and with each treatment of damping.
@@ -56,20 +62,22 @@ public:
     }
 
 private:
-    /// Adds a method at the highest rate that costs no more than the best.
+    /// Adds a method where it meets the tolerance, as far as the search has found that, else at the
+    /// highest rate that costs no more than the best.
     void consider(const Method& method) {
         const auto& asked = requirements_.methods;
         if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
         Alternative alternative{.method = &method};
-        Stepping choice{&method, {search_.rates().back()}, Precision::double_};
-        alternative.why = why_not(scene_, Settings{choice});
-        choice.rate.steps = search_.rates().front();
+        alternative.why =
+            why_not(scene_, Settings{{&method, {search_.rates().back()}, Precision::double_}});
+        const auto is_of = [&](const TradeoffRow& row) { return row.stepping.method == &method; };
         if (alternative.why.empty()) {
+            const std::vector<TradeoffRow> meeting =
+                requirements_.has_tolerance() ? search_.meeting_rows() : std::vector<TradeoffRow>{};
+            const auto found = std::find_if(meeting.begin(), meeting.end(), is_of);
             const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
-            for (const std::int64_t rate : search_.rates())
-                if (search_.cost_of({&method, {rate}, Precision::double_}) <= cost)
-                    choice.rate.steps = rate;
-            alternative.row = search_.measure(choice);
+            alternative.row = search_.measure(
+                found != meeting.end() ? found->stepping : search_.within_cost(method, cost));
         }
         advice_.alternatives.push_back(std::move(alternative));
     }
@@ -101,8 +109,8 @@ private:
         const double times = row.ns_per_second / advice_.best->ns_per_second;
         const std::int64_t rate = row.stepping.rate.steps;
         const bool is_dearer = times > 1 && !is_tie(row, *advice_.best);
-        std::string text =
-            is_dearer ? fmt::format("at only {} Hz, it costs {:.3g} times as much", rate, times)
+        const std::string text =
+            is_dearer ? fmt::format("at {} Hz, it costs {:.3g} times as much", rate, times)
                       : fmt::format("at {} Hz, where it costs no more,", rate);
         const auto add = [&](const std::string& result) {
             return text + (is_dearer ? " and " : " it ") + result;
@@ -114,7 +122,7 @@ private:
         if (off > 1) return add(fmt::format("has {:.3g} times the error allowed", off));
         const std::string objection = search_.objection(row);
         if (!objection.empty()) return text + (is_dearer ? "; " : " ") + objection;
-        return add("meets the tolerance, too");
+        return add("meets the tolerance");
     }
     /// Says why each alternative loses. Removes the advice itself and the runner-up.
     void explain() {
@@ -126,6 +134,14 @@ private:
                    std::any_of(advice_.ties.begin(), advice_.ties.end(), is_of);
         };
         std::erase_if(advice_.alternatives, named);
+        std::erase_if(advice_.alternatives, [&](const Alternative& alternative) {
+            const bool ties = alternative.row && requirements_.has_tolerance() &&
+                              is_tie(*alternative.row, *advice_.best) &&
+                              in_time(*alternative.row) &&
+                              search_.meets_tolerance(*alternative.row);
+            if (ties) advice_.ties.push_back(*alternative.row);
+            return ties;
+        });
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) alternative.why = why_worse(*alternative.row);
     }
@@ -180,8 +196,13 @@ private:
                               [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
         const Judgement& best = advice_.best->judgement;
+        // A few roundings of the largest coordinate.
+        const double rounding = advice_.best->stepping.precision == Precision::single
+                                    ? std::numeric_limits<float>::epsilon()
+                                    : std::numeric_limits<double>::epsilon();
         advice_.growth =
-            fit_growth(best.growth, requirements_.error_of(best), reference_.meaningful_until);
+            fit_growth(best.growth, requirements_.error_of(best), reference_.meaningful_until,
+                       32 * rounding * reference_.coordinate);
         const auto is_named = [&](const TradeoffRow& row) {
             return row.stepping.method == advice_.best->stepping.method ||
                    std::any_of(
@@ -241,21 +262,20 @@ private:
 void require_judgeable(const Scene& scene, const Reference& reference,
                        const Requirements& requirements) {
     if (!reference.why_no_longer.empty())
-        fail(Exit::usage,
-             "errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; give "
-             "--duration {:.4g}",
-             reference.meaningful_until, scene.duration, reference.why_no_longer,
-             reference.meaningful_until);
+        fail(
+            Exit::usage,
+            "errors on this scene are meaningful only up to {:.4g} s of {:.4g} s: {}; ask for {:g} "
+            "s, with --duration or --for",
+            reference.meaningful_until, scene.duration, reference.why_no_longer,
+            rounded_down(0.98 * reference.meaningful_until));
     const Uncertainty floor = reference.floor();
     const auto require = [](const std::optional<double>& wanted, double least, const char* what,
                             const char* unit) {
-        // Two digits, rounded up.
-        const double digit = std::pow(10, std::floor(std::log10(least)) - 1);
         if (wanted && *wanted < least)
             fail(Exit::usage,
                  "{}: expected at least {:g}{}, 100 × the reference's own error, got {:g}{}; "
                  "give a larger tolerance or a shorter --duration",
-                 what, std::ceil(least / digit) * digit, unit, *wanted, unit);
+                 what, -rounded_down(-least), unit, *wanted, unit);
     };
     require(requirements.position_error, floor.position, "position error", " m");
     require(requirements.energy_drift, floor.energy, "energy drift", "");

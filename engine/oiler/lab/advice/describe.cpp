@@ -30,10 +30,9 @@ std::string describe_margin(const Judgement& judgement, const Requirements& requ
     const auto add = [&](const std::optional<double>& most, double error, const char* of) {
         if (!most) return;
         text += text.empty() ? "" : ", ";
-        text +=
-            std::isnan(error)
-                ? fmt::format("less than the reference resolves of the {:g}{} allowed", *most, of)
-                : fmt::format("{:.3g} % of the {:g}{} allowed", 100 * error / *most, *most, of);
+        text += std::isnan(error)
+                    ? fmt::format("within the {:g}{} allowed", *most, of)
+                    : fmt::format("{:.3g} % of the {:g}{} allowed", 100 * error / *most, *most, of);
     };
     add(requirements.position_error, requirements.error_of(judgement),
         requirements.at_steps ? " m at the steps" : " m");
@@ -75,7 +74,8 @@ std::string conclusion(const Advice& advice, const Reference& reference,
 std::string describe_ratio(const TradeoffRow& row, const TradeoffRow& best) {
     const double times = row.ns_per_second / best.ns_per_second;
     if (!std::isfinite(times)) return "";
-    return is_tie(row, best) ? ", the same cost" : fmt::format(", {:.3g} times the cost", times);
+    return fmt::format(", {:.3g} times the cost{}", times,
+                       is_tie(row, best) ? ", within its spread" : "");
 }
 
 std::string beside(const char* role, const TradeoffRow& row, const Advice& advice,
@@ -95,7 +95,7 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
     if (!advice.meets || !requirements.position_error || advice.growth.law == Growth::Law::unfit)
         return text;
     const double until = advice.growth.holds_until(*requirements.position_error);
-    text += fmt::format(" It holds for this scene's {:.4g} s", scene.duration);
+    text += fmt::format(" It holds for the {:.4g} s measured", scene.duration);
     if (const std::size_t starts = advice.perturbed_starts; starts > 0)
         text +=
             fmt::format(", also from {} start{} perturbed by 0.1 %", starts, starts > 1 ? "s" : "");
@@ -141,12 +141,16 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     for (const std::string& obstacle : advice.obstacles)
         words.push_back("Obstacle: " + obstacle + ".");
     if (!advice.best) return words;
+    if (rests(reference))
+        words.push_back(
+            "The scene is at rest: its error says little. Move a body, or give it a velocity.");
     words.push_back(describe_hold(advice, scene, requirements));
     if (advice.threads > 1)
         words.push_back(fmt::format("With --threads {}: {} per simulated second.", advice.threads,
                                     describe_time(advice.ns_on_threads)));
     if (!advice.ties.empty())
-        words.push_back(fmt::format("Ties, at the same cost: {}.", describe_ties(advice)));
+        words.push_back(
+            fmt::format("Ties, within the spread of the cost: {}.", describe_ties(advice)));
     if (advice.runner_up)
         words.push_back(beside("Runner-up", *advice.runner_up, advice, reference));
     if (advice.current)

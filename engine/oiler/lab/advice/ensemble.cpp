@@ -11,12 +11,8 @@ namespace oiler::lab {
 namespace {
 
 constexpr double share = 1e-3;
-/// Below this fraction of the largest coordinate, the extent is that of a scene at rest.
-constexpr double at_rest = 1e-9;
-
-bool rests(const Reference& reference) {
-    return reference.extent <= at_rest * reference.coordinate;
-}
+/// A rate that is stable only above this fraction of it is too close to its limit.
+constexpr double reserve = 0.95;
 
 double size_of(const Reference& reference) {
     if (!rests(reference)) return reference.extent;
@@ -28,10 +24,24 @@ double size_of(const Reference& reference) {
 std::string Ensemble::objection(const Stepping& choice) {
     for (const Known& known : known_)
         if (known.choice == choice) return known.objection;
-    const auto warnings = make_world(scene_, Settings{choice}).preflight(1);
-    std::string text = warnings.empty() ? judge_members(choice) : warnings.front();
+    std::string text = warning(choice);
+    if (text.empty()) text = judge_members(choice);
     if (!stopped_()) known_.push_back({choice, text});
     return text;
+}
+
+/// A warning before the run at this rate or slightly below it; empty if there is none.
+std::string Ensemble::warning(Stepping choice) const {
+    const auto warning_at = [&](std::int64_t rate) -> std::string {
+        choice.rate.steps = rate;
+        const auto warnings = make_world(scene_, Settings{choice}).preflight(1);
+        return warnings.empty() ? "" : warnings.front();
+    };
+    const std::int64_t rate = choice.rate.steps;
+    if (std::string at_rate = warning_at(rate); !at_rate.empty()) return at_rate;
+    const auto lower = static_cast<std::int64_t>(reserve * static_cast<double>(rate));
+    const std::string below = lower > 0 ? warning_at(lower) : "";
+    return below.empty() ? "" : fmt::format("already at {} Hz, {}", lower, below);
 }
 
 void Ensemble::make_members() {

@@ -17,8 +17,8 @@ public:
              const std::function<bool()>& stopped)
         : scene_(scene), reference_(reference), requirements_(requirements), stopped_(stopped) {}
 
-    /// Why a setting that meets the tolerances is not advised: a warning before the run, or an
-    /// error from a perturbed start. Empty if it holds.
+    /// Why a setting that meets the tolerances is not advised: a warning before the run, at this
+    /// rate or 5 % below it, or an error from a perturbed start. Empty if it holds.
     [[nodiscard]] std::string objection(const Stepping& choice);
 
     /// The number of starts that were judged. Those without a reference that can judge the
@@ -35,6 +35,7 @@ private:
         std::string objection;
     };
 
+    [[nodiscard]] std::string warning(Stepping choice) const;
     void make_members();
     [[nodiscard]] std::string judge_members(const Stepping& choice);
 

@@ -57,20 +57,25 @@ double Growth::holds_until(double tolerance) const {
     double time = infinity;
     if (law == Law::exponential)
         time = until + std::log(left / at_steps) / rate;
-    else if (law != Law::unfit && law != Law::bounded && linear + quadratic > 0)
+    else if (law != Law::bounded && linear + quadratic > 0)
         // The stable form of the quadratic formula.
         time = 2 * (left - constant) /
                (linear + std::sqrt(linear * linear + 4 * quadratic * (left - constant)));
     return time > longest * until ? infinity : std::max(time, until);
 }
 
-Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until) {
+Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until,
+                  double round_off) {
     constexpr double negligible = 0.05;
     constexpr double dominant = 0.8;
     Growth growth{.until = until};
     if (at_steps.size() < 8 || !(at_steps.back() > 0)) return growth;
     growth.at_steps = at_steps.back();
     growth.lines = std::max(0.0, drawn - growth.at_steps);
+    if (growth.at_steps <= round_off) {
+        growth.law = Growth::Law::round_off;
+        return growth;
+    }
     if (is_exponential(at_steps)) {
         growth.law = Growth::Law::exponential;
         growth.rate = std::log(at_steps.back() / at_steps[at_steps.size() / 2 - 1]) / (until / 2);
@@ -90,6 +95,8 @@ Growth fit_growth(const std::vector<double>& at_steps, double drawn, double unti
 
 const char* describe(Growth::Law law) {
     switch (law) {
+        case Growth::Law::round_off:
+            return "round-off";
         case Growth::Law::bounded:
             return "bounded";
         case Growth::Law::linear:

@@ -8,7 +8,15 @@ namespace oiler::lab {
 /// The growth of a setting's error with the duration of a run: errors at the steps grow by a law,
 /// and lines between steps add a constant.
 struct Growth {
-    enum class Law { unfit, bounded, linear, quadratic, faster_than_linear, exponential };
+    enum class Law {
+        unfit,
+        round_off,
+        bounded,
+        linear,
+        quadratic,
+        faster_than_linear,
+        exponential
+    };
 
     Law law = Law::unfit;
     double until = 0;      ///< s, the end of the measured time
@@ -26,8 +34,9 @@ struct Growth {
 
 /// Fits a law to the largest errors at the steps up to the ends of equal parts of the time up to
 /// `until`. `drawn` is the error as drawn at the end, or the error at the steps if only that
-/// counts.
-[[nodiscard]] Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until);
+/// counts. Errors up to `round_off` (m) follow no law.
+[[nodiscard]] Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until,
+                                double round_off);
 
 /// "bounded", "grows with t"
 [[nodiscard]] const char* describe(Growth::Law law);

@@ -22,6 +22,17 @@ double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
 }
 
+/// The highest rate from `low` to `high` that costs no more; `low` if all cost more.
+std::int64_t highest_rate(const Candidate& candidate, std::int64_t low, std::int64_t high,
+                          double cost) {
+    std::int64_t too_high = std::max(low, high) + 1;
+    while (too_high - low > 1) {
+        const std::int64_t middle = (low + too_high) / 2;
+        (candidate.cost(middle) <= cost ? low : too_high) = middle;
+    }
+    return low;
+}
+
 /// The largest distance of a coordinate from the nearest float, m, at some times of the run. No run
 /// in float has a smaller error at the steps there.
 double rounding_to_float(const Reference& reference) {
@@ -167,6 +178,18 @@ double Search::cost_of(const Stepping& choice) const {
     return INFINITY;
 }
 
+Stepping Search::within_cost(const Method& method, double cost) const {
+    Stepping best{&method, {rungs_.front()}, Precision::double_};
+    bool found = false;
+    for (const Candidate& candidate : candidates_) {
+        if (candidate.method != &method) continue;
+        const std::int64_t rate = highest_rate(candidate, rungs_.front(), rungs_.back(), cost);
+        if (!found || rate > best.rate.steps) best = candidate.at(rate);
+        found = true;
+    }
+    return best;
+}
+
 double Search::next_cost(const Candidate& candidate) const {
     return candidate.cost(rungs_[candidate.next]);
 }
@@ -284,15 +307,11 @@ void Search::refine_to_time() {
     std::vector<TradeoffRow> rows = rows_by_excess();
     rows.resize(std::min(rows.size(), most_refined));
     for (const TradeoffRow& row : rows) {
-        std::int64_t low = row.stepping.rate.steps;
-        std::int64_t high = std::max(low, std::min(4 * low, requirements_.max_rate)) + 1;
-        Stepping choice = row.stepping;
-        while (high - low > 1) {
-            choice.rate.steps = (low + high) / 2;
-            (cost_of(choice) <= most ? low : high) = choice.rate.steps;
-        }
-        choice.rate.steps = low;
-        if (!watch_.stopped()) try_choice(choice);
+        const std::int64_t low = row.stepping.rate.steps;
+        for (const Candidate& candidate : candidates_)
+            if (candidate.at(low) == row.stepping && !watch_.stopped())
+                try_choice(candidate.at(
+                    highest_rate(candidate, low, std::min(4 * low, requirements_.max_rate), most)));
     }
 }
 

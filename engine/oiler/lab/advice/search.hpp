@@ -26,6 +26,9 @@ public:
     TradeoffRow try_choice(const Stepping& choice);
     /// Judges a setting to the end of its run.
     TradeoffRow measure(const Stepping& choice);
+    /// The setting of a method with the highest rate that is estimated to cost no more, or its
+    /// cheapest, in the precision and with the damping that allow the highest rate.
+    [[nodiscard]] Stepping within_cost(const Method& method, double cost) const;
     /// The estimated computing time for a second of the scene, ns.
     [[nodiscard]] double cost_of(const Stepping& choice) const;
     /// Whether a row is within 98 % of the tolerances, as errors between cubics are known to 1 %,

@@ -314,6 +314,11 @@ double Reference::share_of_energy(double joules) const {
     return energy_scale > 0 ? joules / energy_scale : joules;
 }
 
+bool rests(const Reference& reference) {
+    constexpr double at_rest = 1e-9;
+    return reference.extent <= at_rest * reference.coordinate;
+}
+
 Uncertainty Reference::floor() const {
     const auto last = static_cast<std::size_t>(std::min(
         samples.count - 1,

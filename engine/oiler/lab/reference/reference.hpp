@@ -57,6 +57,9 @@ struct Reference {
     [[nodiscard]] Uncertainty floor() const;
 };
 
+/// Whether nothing moves in the scene.
+[[nodiscard]] bool rests(const Reference& reference);
+
 /// The accuracy wanted of a reference, and the work it may take.
 struct ReferenceEffort {
     /// The reference's own error, m; 0 for 10⁻¹² of the extent.
