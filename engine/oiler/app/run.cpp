@@ -47,7 +47,6 @@ std::chrono::nanoseconds loop(Playback& playback, const Options& options, const 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
     const Interrupt interrupt;
-    const Clock::time_point start = Clock::now();
     const std::unique_ptr<AnyGame> game = make(options.settings);
     game->world().require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
@@ -55,6 +54,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
     Recorder recorder(options.trace, options.energy, game->world());
     Playback playback(*game, recorder, options.headless);
+    const Clock::time_point start = Clock::now();
     try {
         report.dropped = loop(playback, options, about);
     } catch (const Error& error) {

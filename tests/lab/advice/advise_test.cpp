@@ -439,6 +439,62 @@ TEST(Advice, OnAChaoticSceneIsRefusedAndTheRemedyHelps) {
         << duration;
 }
 
+// The stiff spring of a body at rest, 316.2 rad/s, is stable from 158.1 Hz on. The slow body meets
+// 0.1 m at any of these rates.
+TEST(Advice, KeepsFivePercentFromTheLimitOfStability) {
+    const Requirements requirements{.position_error = 0.1,
+                                    .methods = methods_of({"velocity_verlet"})};
+    const Advice advice = advice_on(
+        one_axis + "duration = 5.0\n[[body]]\nname = \"slow\"\nposition = [1.0]\n[[spring]]\n" +
+            "body = \"slow\"\nanchor = [0.0]\nstiffness = 1.0\n[[body]]\nname = \"stiff\"\n" +
+            "[[spring]]\nbody = \"stiff\"\nanchor = [0.0]\nstiffness = 100000.0\n",
+        requirements);
+    ASSERT_TRUE(advice.meets);
+    EXPECT_GE(advice.best->stepping.rate.steps, 167);  // 158.1/0.95
+    EXPECT_LE(advice.best->stepping.rate.steps, 175);  // the next of a bisection to 1/32
+}
+
+// Runs that exceed 20 times the tolerance end early; those that are named do not.
+TEST(Advice, ThatMeetsNothingNamesTheClosest) {
+    const Requirements requirements{
+        .position_error = 1e-6,
+        .max_rate = 2000,
+        .methods = methods_of({"semi_implicit_euler", "velocity_verlet", "ruth3"})};
+    const MeasuredScene measured = measured_for(article_spring, requirements);
+    const Advice advice =
+        advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
+    ASSERT_FALSE(advice.meets);
+    ASSERT_TRUE(advice.best && advice.runner_up);
+    const auto error_of = [&](const Stepping& choice) {
+        return judge(measured.scene, Settings{choice}, measured.reference).position_error;
+    };
+    for (const TradeoffRow& row : {*advice.best, *advice.runner_up}) {
+        EXPECT_TRUE(row.judgement.complete);
+        EXPECT_EQ(row.judgement.position_error, error_of(row.stepping));
+    }
+    for (const Method* method : requirements.methods)
+        EXPECT_LE(advice.best->judgement.position_error,
+                  error_of({method, {1920}, Precision::double_}))
+            << method->name;
+}
+
+TEST(Advice, NamesAMethodOnce) {
+    for (const double tolerance : {1.0, 10.0, 100.0}) {
+        const Advice advice =
+            advice_on(article_spring, {.position_error = tolerance, .methods = all_methods()});
+        ASSERT_TRUE(advice.meets);
+        for (const Alternative& alternative : advice.alternatives) {
+            EXPECT_NE(alternative.method, advice.best->stepping.method);
+            for (const TradeoffRow& tie : advice.ties)
+                EXPECT_NE(alternative.method, tie.stepping.method) << tolerance;
+            if (!alternative.row) continue;
+            EXPECT_TRUE(alternative.row->ns_per_second > advice.best->ns_per_second ||
+                        excess(alternative.row->judgement, {.position_error = tolerance}) > 1)
+                << alternative.method->name << " at " << tolerance;
+        }
+    }
+}
+
 // ---- limits of rates
 
 TEST(Advice, StaysAboveTheLowestRate) {

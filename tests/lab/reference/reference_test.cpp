@@ -96,6 +96,19 @@ TEST(FineSteps, OfTheArticlesSpring) {
     expect_fine_steps(stiff, {article_motion(0, 6000)});
 }
 
+// Double rounds positions of 1000 m by 1e-13 m, and more in each of the many steps.
+TEST(FineSteps, AreInDoubleWhereThatSuffices) {
+    for (const auto& [wanted, words] :
+         {std::pair(1e-5, "in double by"), std::pair(1e-14, "in long double by")}) {
+        ReferenceEffort asked = effort();
+        asked.wanted = wanted;
+        const Reference reference = make_reference(article_scene(0.125, 90), asked, {}, none);
+        EXPECT_TRUE(holds(reference.words, words)) << reference.words;
+        EXPECT_LE(reference.uncertainties.back().position, std::max(wanted, 1e-11 * 2000));
+        expect_within_uncertainties(reference, {article_motion(0.125)});
+    }
+}
+
 /// gm = 1, semi-axis 1, from the perihelion, by bisection of Kepler's equation.
 State3 planet(Real e, Real t) {
     Real low = t - 1;
