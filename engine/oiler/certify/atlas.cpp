@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 
 #include "oiler/certify/region.hpp"
@@ -9,8 +10,8 @@
 namespace oiler::certify {
 namespace {
 
-constexpr int panels_across = 7;
-constexpr Point panel_size{89, 53};
+constexpr int most_across = 7;
+constexpr Point panel_size{89, 53};  // with the most across; fewer are larger
 constexpr Point panel_margin{8, 8};  // left and below, for numbers
 constexpr Point plane_size{78, 37};
 constexpr float top = 327;
@@ -20,24 +21,50 @@ constexpr float number_size = 4.6F;
 constexpr Colour stable = palette::sky_blue;
 constexpr Colour differs = palette::vermilion;
 
+/// Where panels lie on the canvas.
+struct Layout {
+    int across = most_across;
+
+    [[nodiscard]] float scale() const {
+        return static_cast<float>(most_across) / static_cast<float>(across);
+    }
+    /// Of texts and ticks, which grow less than panels.
+    [[nodiscard]] float text_scale() const { return std::min(scale(), 1.8F); }
+};
+
+/// The largest panels above the legend.
+Layout layout_of(std::size_t panels) {
+    constexpr float most = 270;
+    for (int across = 1; across < most_across; ++across) {
+        const Layout layout{across};
+        const auto rows = static_cast<float>((static_cast<int>(panels) + across - 1) / across);
+        if (rows * panel_size.y * layout.scale() <= most) return layout;
+    }
+    return {};
+}
+
 /// The position of a panel's plane on the canvas.
 struct Panel {
     Point origin;
     const StabilityGrid& grid;
+    Layout layout;
 
     [[nodiscard]] Point corner(int column, int row) const {
-        return {
-            origin.x + plane_size.x * static_cast<float>(column) / static_cast<float>(grid.columns),
-            origin.y + plane_size.y * static_cast<float>(row) / static_cast<float>(grid.rows)};
+        return {origin.x + width() * static_cast<float>(column) / static_cast<float>(grid.columns),
+                origin.y + plane_size.y * layout.scale() * static_cast<float>(row) /
+                               static_cast<float>(grid.rows)};
     }
+    [[nodiscard]] float width() const { return plane_size.x * layout.scale(); }
 };
 
-Panel panel_at(int place, const StabilityGrid& grid) {
-    const auto across = static_cast<float>(place % panels_across);
-    const auto down = static_cast<float>(place / panels_across);
-    return {{8 + panel_size.x * across + panel_margin.x,
-             top - panel_size.y * (down + 1) + panel_margin.y},
-            grid};
+Panel panel_at(int place, const StabilityGrid& grid, Layout layout) {
+    const auto across = static_cast<float>(place % layout.across);
+    const auto down = static_cast<float>(place / layout.across);
+    const float scale = layout.scale();
+    return {{8 + (panel_size.x * across + panel_margin.x) * scale,
+             top - (panel_size.y * (down + 1) - panel_margin.y) * scale},
+            grid,
+            layout};
 }
 
 void add_line(Picture& picture, Point from, Point to, Colour colour, float width) {
@@ -53,7 +80,7 @@ void add_text(Picture& picture, Point at, std::string text, float size, Align al
 /// Fills the cells of a column for which `is` holds, one bar per run of cells.
 template <class Is>
 void fill_column(Picture& picture, const Panel& panel, int column, Colour colour, Is is) {
-    const float width = plane_size.x / static_cast<float>(panel.grid.columns);
+    const float width = panel.width() / static_cast<float>(panel.grid.columns);
     for (int row = 0; row < panel.grid.rows; ++row) {
         if (!is(row)) continue;
         const int first = row;
@@ -82,19 +109,20 @@ void draw_edge(Picture& picture, const Panel& panel, const StabilityRegion& regi
 void draw_axes(Picture& picture, const Panel& panel) {
     const Point low = panel.corner(0, 0);
     const Point high = panel.corner(panel.grid.columns, panel.grid.rows);
+    const float scale = panel.layout.text_scale();
     add_line(picture, low, {high.x, low.y}, palette::ink, 0.6F);
     add_line(picture, low, {low.x, high.y}, palette::ink, 0.6F);
     for (int i = 0; i <= 3; ++i) {
         const float x = low.x + (high.x - low.x) * static_cast<float>(i) / 3;
-        add_line(picture, {x, low.y}, {x, low.y - 1.2F}, palette::ink, 0.5F);
-        add_text(picture, {x, low.y - 6}, fmt::format("{:g}", panel.grid.omega_dt * i / 3),
-                 number_size, Align::centre);
+        add_line(picture, {x, low.y}, {x, low.y - 1.2F * scale}, palette::ink, 0.5F);
+        add_text(picture, {x, low.y - 6 * scale}, fmt::format("{:g}", panel.grid.omega_dt * i / 3),
+                 number_size * scale, Align::centre);
     }
     for (int i = 0; i <= 2; ++i) {
         const float y = low.y + (high.y - low.y) * static_cast<float>(i) / 2;
-        add_line(picture, {low.x, y}, {low.x - 1.2F, y}, palette::ink, 0.5F);
-        add_text(picture, {low.x - 2, y - 1.6F}, fmt::format("{:g}", panel.grid.zeta * i / 2),
-                 number_size, Align::right);
+        add_line(picture, {low.x, y}, {low.x - 1.2F * scale, y}, palette::ink, 0.5F);
+        add_text(picture, {low.x - 2 * scale, y - 1.6F * scale},
+                 fmt::format("{:g}", panel.grid.zeta * i / 2), number_size * scale, Align::right);
     }
 }
 
@@ -112,9 +140,9 @@ void draw_panel(Picture& picture, const Panel& panel, const StabilityRegion& reg
     }
     draw_edge(picture, panel, region);
     draw_axes(picture, panel);
-    const float y = panel.corner(0, grid.rows).y + 2;
-    add_text(picture, {panel.origin.x, y}, std::string(region.method->name), title_size,
-             Align::left);
+    const float y = panel.corner(0, grid.rows).y + 2 * panel.layout.text_scale();
+    add_text(picture, {panel.origin.x, y}, std::string(region.method->name),
+             title_size * panel.layout.text_scale(), Align::left);
 }
 
 /// Draws the legend in two columns, with the upper left corner at `at`.
@@ -144,9 +172,10 @@ Picture atlas(const std::vector<StabilityRegion>& regions, const StabilityGrid& 
     Picture picture;
     add_text(picture, {16, 346}, "Where a damped spring stays bounded, by method", 12, Align::left);
     add_text(picture, {16, 335}, "across: ω·dt    up: damping ratio ζ", 7, Align::left);
+    const Layout layout = layout_of(regions.size());
     int place = 0;
     for (const StabilityRegion& region : regions)
-        draw_panel(picture, panel_at(place++, grid), region);
+        draw_panel(picture, panel_at(place++, grid, layout), region);
     draw_legend(picture, {200, 40});
     return picture;
 }
