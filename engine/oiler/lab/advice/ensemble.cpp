@@ -11,7 +11,7 @@ namespace oiler::lab {
 namespace {
 
 constexpr double share = 1e-3;
-/// A rate that is stable only above this fraction of it is too close to its limit.
+/// The fraction of an advised rate at which the pre-flight must not warn, either.
 constexpr double reserve = 0.95;
 
 double size_of(const Reference& reference) {
