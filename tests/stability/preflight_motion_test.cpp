@@ -80,7 +80,7 @@ TEST(QuadraticDragWarning, NamesLimitSpeedAndRate) {
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
               "quadratic drag of body 0: c·|v|·dt = 3.333 at 200 m/s, semi_implicit_euler needs < "
-              "2: rate ≥ 101 Hz, or implicit_midpoint");
+              "2: rate ≥ 101 Hz, or implicit_euler");
     EXPECT_TRUE(diverges(shot(200, 1), euler, {99}, 2000));
     EXPECT_FALSE(diverges(shot(200, 1), euler, {101}, 2000));
     EXPECT_TRUE(warnings(shot(200, 1), euler, {101}).empty());

@@ -70,7 +70,7 @@ TEST(Warning, NamesLimitAndLowestRate) {
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
               "spring of body 0: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 73 Hz, or "
-              "implicit_euler");
+              "implicit_midpoint");
     EXPECT_LT(growth(swinging(2.4), method, 73), 20);
     EXPECT_GT(growth(swinging(2.4), method, 72), 3900);
 }
