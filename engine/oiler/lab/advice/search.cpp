@@ -295,9 +295,9 @@ void Search::find_most_accurate() {
 }
 
 void Search::refine() {
-    std::vector<TradeoffRow> found = meeting_rows();
-    found.resize(std::min(found.size(), most_refined));
-    for (const TradeoffRow& row : found) refine(row);
+    std::size_t left = most_refined;
+    for (const TradeoffRow& row : meeting_rows())
+        if (left > 0 && refine(row)) --left;
 }
 
 /// Tries the most accurate settings at the highest rate within the time.
@@ -315,10 +315,11 @@ void Search::refine_to_time() {
     }
 }
 
-/// Bisects between a rung that meets the tolerance and the one below.
-void Search::refine(const TradeoffRow& row) {
+/// Bisects between a rung that meets the tolerance and the one below. Returns false if there is
+/// none.
+bool Search::refine(const TradeoffRow& row) {
     const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
-    if (rung == rungs_.begin() && !too_low_) return;
+    if (rung == rungs_.begin() && !too_low_) return false;
     std::int64_t low = rung == rungs_.begin() ? *too_low_ : *std::prev(rung);
     std::int64_t high = row.stepping.rate.steps;
     Stepping choice = row.stepping;
@@ -327,6 +328,7 @@ void Search::refine(const TradeoffRow& row) {
         choice.rate.steps = (low + high) / 2;
         (meets_tolerance(try_choice(choice)) ? high : low) = choice.rate.steps;
     }
+    return true;
 }
 
 std::vector<TradeoffRow> Search::meeting_rows() {

@@ -68,7 +68,7 @@ private:
     void find_most_accurate();
     void refine_to_time();
     void refine();
-    void refine(const TradeoffRow& row);
+    bool refine(const TradeoffRow& row);
     /// The stable rows in the order of closest_rows. Errors of runs that ended early are too small.
     std::vector<TradeoffRow> rows_by_excess();
 
