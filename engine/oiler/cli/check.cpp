@@ -130,10 +130,6 @@ std::string find_divergence(World world, const Scene& scene) {
     return {};
 }
 
-bool has_budget(const Scene& scene) {
-    return scene.budget.position_error || scene.budget.energy_drift;
-}
-
 /// Turns an error of usage into a result, so that the other scenes are still checked.
 CheckResult check(const std::filesystem::path& path) {
     CheckResult result{.file = path.string()};
@@ -143,7 +139,7 @@ CheckResult check(const std::filesystem::path& path) {
         world.require_applicable();
         result.warnings = world.preflight();
         result.divergence = find_divergence(std::move(world), scene);
-        if (result.divergence.empty() && !result.warnings.empty() && !has_budget(scene) &&
+        if (result.divergence.empty() && !result.warnings.empty() && scene.budget.is_empty() &&
             is_unstable(scene, Settings{scene.stepping}, Interrupt::requested))
             result.divergence =
                 "unstable: bodies move to more than 10 times the extent of the true motion";

@@ -33,7 +33,7 @@ std::vector<BudgetLine> check_budget(const Scene& given, const Settings& given_s
     settings.seed = 0;
     const SceneBudget& budget = scene.budget;
     std::vector<BudgetLine> lines;
-    if (!budget.position_error && !budget.energy_drift) return lines;
+    if (budget.is_empty()) return lines;
     ReferenceEffort effort{.stopped = stopped};
     if (budget.position_error) effort.wanted = *budget.position_error / 200;
     const Reference reference = make_reference(scene, effort);

@@ -103,6 +103,7 @@ struct SceneCamera {
 struct SceneBudget {
     std::optional<double> position_error{};  ///< m, largest of the run
     std::optional<double> energy_drift{};    ///< largest relative change of the energy
+    [[nodiscard]] bool is_empty() const { return !position_error && !energy_drift; }
     friend bool operator==(const SceneBudget&, const SceneBudget&) = default;
 };
 

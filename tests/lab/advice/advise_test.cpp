@@ -7,8 +7,7 @@
 #include <cmath>
 #include <variant>
 
-#include "lab/advice/made_up_clock.hpp"
-#include "lab/measured_scenes.hpp"
+#include "lab/advice/advice_on.hpp"
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
 #include "support/reference.hpp"
@@ -19,29 +18,6 @@ using namespace oiler::lab;
 namespace {
 
 using Real = long double;
-
-std::vector<const Method*> all_methods() {
-    std::vector<const Method*> all;
-    for (const Method& method : methods()) all.push_back(&method);
-    return all;
-}
-
-std::vector<const Method*> splittings() {
-    std::vector<const Method*> all;
-    for (const Method& method : methods())
-        if (std::holds_alternative<Splitting>(method.rule)) all.push_back(&method);
-    return all;
-}
-
-/// The scene, with a reference accurate enough for the requirements.
-MeasuredScene measured_for(const std::string& text, const Requirements& requirements) {
-    return MeasuredScene(text, {.wanted = required_reference_error(requirements) / 2});
-}
-
-Advice advice_on(const std::string& text, const Requirements& requirements) {
-    const MeasuredScene measured = measured_for(text, requirements);
-    return advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-}
 
 // ---- exact motions, from textbooks
 
@@ -333,111 +309,7 @@ TEST(AdviceOnTime, ThatNoSettingMeetsNamesTheTime) {
     }
 }
 
-// ---- requirements that no setting meets
-
-TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
-    const Requirements requirements{
-        .position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"explicit_euler"})};
-    const MeasuredScene measured = measured_for(article_spring, requirements);
-    const Advice advice =
-        advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-    EXPECT_FALSE(advice.meets);
-    ASSERT_TRUE(advice.best);
-    ASSERT_EQ(advice.obstacles.size(), 2U);
-    // Floats between 512 m and 1024 m are 2⁻¹⁴ m apart.
-    const std::string rounding = "in float, round-off alone moves bodies by ";
-    ASSERT_TRUE(advice.obstacles[0].starts_with(rounding)) << advice.obstacles[0];
-    const double moved = std::stod(advice.obstacles[0].substr(rounding.size()));
-    EXPECT_LE(moved, 1.001 * std::ldexp(1, -15));
-    EXPECT_GE(moved, std::ldexp(1, -16));
-    EXPECT_TRUE(holds(advice.obstacles[1], "double"));
-    const std::vector<std::string> words =
-        describe(advice, measured.scene, measured.reference, requirements);
-    EXPECT_TRUE(holds(words.front(), "No setting meets 1e-06 m")) << words.front();
-}
-
-// For a method of first order, the highest rung is the most accurate.
-TEST(Advice, ThatDoesNotExistIsTheClosestSetting) {
-    const Advice advice = advice_on(
-        article_spring,
-        {.position_error = 1e-6, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
-    EXPECT_FALSE(advice.meets);
-    ASSERT_TRUE(advice.best);
-    EXPECT_EQ(advice.best->stepping.rate.steps, 960);
-}
-
-TEST(Advice, OnEnergyThatDoesNotExistNamesEnergy) {
-    const Advice advice = advice_on(
-        article_spring,
-        {.energy_drift = 1e-9, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
-    EXPECT_FALSE(advice.meets);
-    ASSERT_FALSE(advice.obstacles.empty());
-    EXPECT_TRUE(holds(advice.obstacles.front(), "energy")) << advice.obstacles.front();
-}
-
-void expect_refused(const MeasuredScene& measured, const Requirements& requirements,
-                    const std::string& named) {
-    try {
-        (void)advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-        ADD_FAILURE() << "is not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(holds(error.what(), "expected at least")) << error.what();
-        EXPECT_TRUE(holds(error.what(), named)) << error.what();
-        EXPECT_FALSE(holds(error.what(), "--duration 0")) << error.what();
-        EXPECT_FALSE(holds(error.what(), "\n"));
-    }
-}
-
-TEST(Advice, BelowTheFloorIsRefused) {
-    expect_refused(MeasuredScene(article_spring),
-                   {.position_error = 1e-14, .methods = all_methods()}, "1e-14 m");
-    expect_refused(MeasuredScene(article_spring), {.energy_drift = 1e-15, .methods = all_methods()},
-                   "1e-15");
-}
-
-// A reference that misses its wanted error blames the tolerance, not the scene.
-TEST(Advice, BelowTheFloorOfAReferenceMadeForItIsRefused) {
-    const Requirements requirements{.position_error = 1e-14, .methods = all_methods()};
-    expect_refused(measured_for(article_spring, requirements), requirements, "1e-14");
-}
-
-/// A double pendulum of stiff springs, started upright: chaotic.
-std::string double_pendulum(const std::string& duration) {
-    return "[scene]\naxes = 2\nrate = 100\nduration = " + duration +
-           "\n[gravity]\nacceleration = [0.0, -9.81]\n"
-           "[[body]]\nname = \"a\"\nposition = [0.0, 1.0]\n"
-           "[[body]]\nname = \"b\"\nposition = [0.1, 2.0]\n"
-           "[[spring]]\nbody = \"a\"\nanchor = [0.0, 0.0]\nstiffness = 500.0\nrest_length = 1.0\n"
-           "[[spring]]\nbody = \"b\"\nto = \"a\"\nstiffness = 500.0\nrest_length = 1.0\n";
-}
-
-TEST(Advice, OnAChaoticSceneIsRefusedAndTheRemedyHelps) {
-    const Requirements requirements{.position_error = 1e-3,
-                                    .methods = methods_of({"rk4", "kahan_li8_kdk"})};
-    const ReferenceEffort effort{.wanted = required_reference_error(requirements) / 2,
-                                 .most_work = 2e7};
-    const MeasuredScene measured(double_pendulum("60.0"), effort);
-    ASSERT_FALSE(measured.reference.why_no_longer.empty());
-    std::string line;
-    try {
-        (void)advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-        FAIL() << "is not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        line = error.what();
-    }
-    const std::string remedy = "ask for ";
-    ASSERT_TRUE(holds(line, remedy)) << line;
-    const std::string rest = line.substr(line.find(remedy) + remedy.size());
-    const std::string duration = rest.substr(0, rest.find(' '));
-    EXPECT_GT(std::stod(duration), 1) << line;
-    const MeasuredScene shorter(double_pendulum(holds(duration, ".") ? duration : duration + ".0"),
-                                effort);
-    EXPECT_NO_THROW(
-        (void)advise(shorter.scene, shorter.reference, requirements, clock_by_evaluations()))
-        << duration;
-}
+// ---- limits of rates
 
 // The stiff spring of a body at rest, 316.2 rad/s, is stable from 158.1 Hz on. The slow body meets
 // 0.1 m at any of these rates.
@@ -453,49 +325,6 @@ TEST(Advice, KeepsFivePercentFromTheLimitOfStability) {
     EXPECT_GE(advice.best->stepping.rate.steps, 167);  // 158.1/0.95
     EXPECT_LE(advice.best->stepping.rate.steps, 175);  // the next of a bisection to 1/32
 }
-
-// Runs that exceed 20 times the tolerance end early; those that are named do not.
-TEST(Advice, ThatMeetsNothingNamesTheClosest) {
-    const Requirements requirements{
-        .position_error = 1e-6,
-        .max_rate = 2000,
-        .methods = methods_of({"semi_implicit_euler", "velocity_verlet", "ruth3"})};
-    const MeasuredScene measured = measured_for(article_spring, requirements);
-    const Advice advice =
-        advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-    ASSERT_FALSE(advice.meets);
-    ASSERT_TRUE(advice.best && advice.runner_up);
-    const auto error_of = [&](const Stepping& choice) {
-        return judge(measured.scene, Settings{choice}, measured.reference).position_error;
-    };
-    for (const TradeoffRow& row : {*advice.best, *advice.runner_up}) {
-        EXPECT_TRUE(row.judgement.complete);
-        EXPECT_EQ(row.judgement.position_error, error_of(row.stepping));
-    }
-    for (const Method* method : requirements.methods)
-        EXPECT_LE(advice.best->judgement.position_error,
-                  error_of({method, {1920}, Precision::double_}))
-            << method->name;
-}
-
-TEST(Advice, NamesAMethodOnce) {
-    for (const double tolerance : {1.0, 10.0, 100.0}) {
-        const Advice advice =
-            advice_on(article_spring, {.position_error = tolerance, .methods = all_methods()});
-        ASSERT_TRUE(advice.meets);
-        for (const Alternative& alternative : advice.alternatives) {
-            EXPECT_NE(alternative.method, advice.best->stepping.method);
-            for (const TradeoffRow& tie : advice.ties)
-                EXPECT_NE(alternative.method, tie.stepping.method) << tolerance;
-            if (!alternative.row) continue;
-            EXPECT_TRUE(alternative.row->ns_per_second > advice.best->ns_per_second ||
-                        excess(alternative.row->judgement, {.position_error = tolerance}) > 1)
-                << alternative.method->name << " at " << tolerance;
-        }
-    }
-}
-
-// ---- limits of rates
 
 TEST(Advice, StaysAboveTheLowestRate) {
     for (const std::int64_t lowest : {30, 99, 130, 250}) {
@@ -548,6 +377,23 @@ TEST(Advice, IsEmptyIfStopped) {
                {.stopped = [] { return true; }});
     EXPECT_FALSE(advice.best);
     EXPECT_FALSE(advice.meets);
+}
+
+TEST(Advice, NamesAMethodOnce) {
+    for (const double tolerance : {1.0, 10.0, 100.0}) {
+        const Advice advice =
+            advice_on(article_spring, {.position_error = tolerance, .methods = all_methods()});
+        ASSERT_TRUE(advice.meets);
+        for (const Alternative& alternative : advice.alternatives) {
+            EXPECT_NE(alternative.method, advice.best->stepping.method);
+            for (const TradeoffRow& tie : advice.ties)
+                EXPECT_NE(alternative.method, tie.stepping.method) << tolerance;
+            if (!alternative.row) continue;
+            EXPECT_TRUE(alternative.row->ns_per_second > advice.best->ns_per_second ||
+                        excess(alternative.row->judgement, {.position_error = tolerance}) > 1)
+                << alternative.method->name << " at " << tolerance;
+        }
+    }
 }
 
 TEST(Advice, SaysTheConclusionFirst) {

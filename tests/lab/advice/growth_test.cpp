@@ -54,6 +54,8 @@ TEST(Growth, IsNotHiddenByWhatDoesNotGrow) {
     EXPECT_NEAR(growth.holds_until(3), 200, 1e-2);
     EXPECT_NEAR(growth_of([&](double t) { return 1 + slow(t); }).holds_until(3), 200, 0.5);
     EXPECT_TRUE(std::isinf(growth.holds_until(90))) << "over 1000 × 8 s";
+    EXPECT_EQ(growth.holds_until(1.07), 8) << "1.08 m at 8 s";
+    EXPECT_EQ(growth.holds_until(0.5), 8) << "less than the lines add";
 }
 
 TEST(Growth, OfRoundOffHasNoLaw) {

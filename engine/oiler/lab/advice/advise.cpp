@@ -15,13 +15,13 @@ namespace oiler::lab {
 namespace {
 
 constexpr std::size_t most_contenders = 8;
+constexpr int timing_rounds = 9;
 
 /// The number with two digits that is not above it.
 double rounded_down(double number) {
     const double digit = std::pow(10, std::floor(std::log10(std::abs(number))) - 1);
     return std::floor(number / digit) * digit;
 }
-constexpr int timing_rounds = 9;
 
 /// The first row of each method in each precision and with each treatment of damping.
 std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) {

@@ -54,6 +54,7 @@ bool is_exponential(const std::vector<double>& errors) {
 double Growth::holds_until(double tolerance) const {
     constexpr double longest = 1000;
     const double left = tolerance - lines;
+    if (left < at_steps) return until;
     double time = infinity;
     if (law == Law::exponential)
         time = until + std::log(left / at_steps) / rate;

@@ -28,7 +28,8 @@ struct Growth {
     double rate = 0;       ///< 1/s, of an exponential law
 
     /// The time at which the error as drawn passes a tolerance (m), s, if it continues to grow by
-    /// the law. Infinite for a bounded error, and beyond 1000 × the measured time.
+    /// the law; `until` if it has passed it before. Infinite for a bounded error, and beyond 1000 ×
+    /// the measured time.
     [[nodiscard]] double holds_until(double tolerance) const;
 };
 

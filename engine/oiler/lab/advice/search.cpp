@@ -296,8 +296,10 @@ void Search::find_most_accurate() {
 
 void Search::refine() {
     std::size_t left = most_refined;
-    for (const TradeoffRow& row : meeting_rows())
-        if (left > 0 && refine(row)) --left;
+    for (const TradeoffRow& row : meeting_rows()) {
+        if (left == 0) break;
+        if (refine(row)) --left;
+    }
 }
 
 /// Tries the most accurate settings at the highest rate within the time.
