@@ -43,6 +43,7 @@ TEST(Growth, HasTheLawOfTheErrorsAndPassesATolerance) {
     const Growth exponential = growth_of([](double t) { return 2 * std::exp(2 * (t - 8)); });
     EXPECT_EQ(exponential.law, Law::exponential);
     EXPECT_NEAR(exponential.holds_until(20), 8 + std::log(10) / 2, 1e-9);
+    EXPECT_EQ(exponential.holds_until(1), 8);
 }
 
 // Lines that add 1 m leave the steps 2 m of 3 m, which t/100 m passes at 200 s: the error as drawn
@@ -56,6 +57,8 @@ TEST(Growth, IsNotHiddenByWhatDoesNotGrow) {
     EXPECT_TRUE(std::isinf(growth.holds_until(90))) << "over 1000 × 8 s";
     EXPECT_EQ(growth.holds_until(1.07), 8) << "1.08 m at 8 s";
     EXPECT_EQ(growth.holds_until(0.5), 8) << "less than the lines add";
+    const Growth fast = growth_of([](double t) { return 2 * std::exp(2 * (t - 8)); }, 1);
+    EXPECT_EQ(fast.holds_until(0.5), 8) << "less than the lines add";
 }
 
 TEST(Growth, OfRoundOffHasNoLaw) {
