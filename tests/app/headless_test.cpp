@@ -37,12 +37,12 @@ protected:
         options.out = folder / "film";
         AnyGameOf<Walker> game(options.settings);
         Recorder none({}, {}, game.world());
-        Playback playback(game, none, true);
+        Playback playback(game, none, Keep::hashes);
         About about = Walker::about;
         about.duration = seconds;
-        run_headless(playback, options, about);
+        EXPECT_EQ(run_headless(playback, options, about, nullptr), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
-        EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 1);
+        EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);
         return manifest;
     }
     std::size_t frames(double seconds, int fps) {

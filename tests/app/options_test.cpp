@@ -93,7 +93,7 @@ CommandLine parse_file(std::vector<std::string> words) {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     return parse_command_line(static_cast<int>(argv.size()), argv.data(), about,
-                              [](const std::string& path) {
+                              [](const std::string& path, const std::optional<Manifest>&) {
                                   EXPECT_EQ(path, "some scene.toml");
                                   return About{.name = "scene",
                                                .title = "A scene",

@@ -50,7 +50,7 @@ struct Drifter {
 struct Shown {
     AnyGameOf<Walker> game{Settings{.stepping = {.rate = {1}}}};
     Recorder recorder{{}, {}, game.world()};
-    Playback playback{game, recorder, true};
+    Playback playback{game, recorder, Keep::hashes};
     Input input;
 
     Point at(std::int64_t tick, double alpha) {
@@ -112,7 +112,7 @@ struct Jumper : Walker {
 TEST(Playback, DoesNotInterpolateATeleport) {
     AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}}};
     Recorder none{{}, {}, game.world()};
-    Playback playback{game, none, false};
+    Playback playback{game, none, Keep::nothing};
     Input input;
     for (int i = 0; i < 40; ++i) {
         const double t = 0.1 * i;
@@ -128,7 +128,7 @@ TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};
     Recorder none{{}, {}, together.world()};
     Input input;
-    Playback(together, none, false).step_to(10'000, input);
+    Playback(together, none, Keep::nothing).step_to(10'000, input);
     for (int i = 0; i < 10'000; ++i) single.step(1, input);
     EXPECT_EQ(together.world().tick(), 10'000);
     EXPECT_EQ(together.world().state_hash(), single.world().state_hash());

@@ -28,7 +28,7 @@ TEST(Program, CapturesTheSameFolderTwice) {
         const Folder folder;
         for (const char* name : {"a", "b"})
             EXPECT_EQ(shell(demo + small + "--frames 12 --out " + quoted(folder / name)).exit, 0);
-        EXPECT_EQ(names_in(folder / "a").size(), 13U);
+        EXPECT_EQ(names_in(folder / "a").size(), 14U);
         EXPECT_EQ(shell("diff -r " + quoted(folder / "a") + " " + quoted(folder / "b")).exit, 0);
     }
 }
@@ -160,7 +160,7 @@ TEST(Program, AnInterruptedCaptureIsCompleteUpToThere) {
     EXPECT_EQ(run.exit, 130);
     const Json manifest = Json::parse(text_of(folder / "o" / "manifest.json"));
     EXPECT_GE(manifest["frames"].size(), 4U);
-    EXPECT_EQ(names_in(folder / "o").size(), manifest["frames"].size() + 1) << "no other file";
+    EXPECT_EQ(names_in(folder / "o").size(), manifest["frames"].size() + 2) << "no other file";
 }
 
 TEST(Program, TraceReadsBackAndJsonDescribesTheRun) {

@@ -2,6 +2,7 @@
 #include "oiler/capture/capture.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@ using oiler::Capture;
 using oiler::Error;
 using oiler::Exit;
 using oiler::Manifest;
+using oiler::Shot;
 using oiler::test::Folder;
 using oiler::test::names_in;
 using oiler::test::put;
@@ -39,12 +41,28 @@ Manifest header() {
     manifest.precision = "double";
     manifest.scene = "spring \"damper\" \xff";
     manifest.seed = 18'446'744'073'709'551'615U;
+    manifest.damping = "drift";
+    manifest.scene_text = "[scene]\n";
     return manifest;
 }
 
+Manifest header(int frames) {
+    Manifest manifest = header();
+    manifest.planned_frames = frames;
+    return manifest;
+}
+
+Shot shot(int i) {
+    return {.tick = i,
+            .alpha = 0.1 * i,
+            .state_hash = 0xfedcba9876543210U,
+            .picture_hash = 0x0123456789abcdefU,
+            .rgb = bottom_up};
+}
+
 void capture(const fs::path& folder, int frames) {
-    Capture capture(folder, header());
-    for (int i = 0; i < frames; ++i) capture.add(i, 0.1 * i, 0xfedcba9876543210U, size, bottom_up);
+    Capture capture(folder, header(frames));
+    for (int i = 0; i < frames; ++i) capture.add(shot(i));
     capture.finish();
 }
 
@@ -94,6 +112,10 @@ TEST(Capture, ManifestHasEachFieldOfTheHeader) {
     EXPECT_EQ(json["precision"], "double");
     EXPECT_EQ(json["scene"], "spring \"damper\" \xef\xbf\xbd");
     EXPECT_EQ(json["seed"], 18'446'744'073'709'551'615U);
+    EXPECT_EQ(json["damping"], "drift");
+    EXPECT_EQ(json["scene_text"], "[scene]\n");
+    EXPECT_EQ(json["planned_frames"], 1);
+    EXPECT_EQ(json["finished"], true);
 }
 
 TEST(Capture, ManifestHasOneLinePerFrame) {
@@ -101,7 +123,8 @@ TEST(Capture, ManifestHasOneLinePerFrame) {
     capture(folder / "out", 2);
     const std::string text = text_of(folder / "out/manifest.json");
     EXPECT_NE(text.find("\n    {\"index\":1,\"file\":\"frame_000001.png\",\"tick\":1,\"alpha\":0.1,"
-                        "\"state_hash\":\"fedcba9876543210\",\"pixel_hash\":\""),
+                        "\"state_hash\":\"fedcba9876543210\",\"picture_hash\":\"0123456789abcdef\","
+                        "\"pixel_hash\":\""),
               std::string::npos)
         << text;
     EXPECT_TRUE(text.ends_with("}\n  ]\n}\n"));
@@ -124,49 +147,99 @@ TEST(Capture, AShorterRunLeavesNoStaleFrame) {
     EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json", "notes.txt"}));
 }
 
+// A capture that is not finished is one that was killed.
 TEST(Capture, AKilledRunLeavesNoStaleFrameEither) {
     const Folder folder;
     {
-        Capture killed(folder / "out", header());
-        EXPECT_TRUE(fs::exists(folder / "out/manifest.json")) << "there from the start";
-        for (int i = 0; i < 5; ++i) killed.add(i, 0, 0, size, bottom_up);
+        Capture killed(folder / "out", header(9));
+        const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
+        EXPECT_EQ(json["finished"], false) << "there from the start";
+        EXPECT_EQ(json["frames"].size(), 0U);
+        for (int i = 0; i < 5; ++i) killed.add(shot(i));
     }
+    EXPECT_EQ(names_in(folder / "out").size(), 6U);
     capture(folder / "out", 1);
     EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json"}));
 }
 
-TEST(Capture, AHostileManifestRemovesNothingElse) {
+TEST(Capture, AnInterruptedRunNamesTheFramesThatAreThere) {
     const Folder folder;
-    fs::create_directories(folder / "out/sub");
-    const Names kept = {"victim",
-                        "frame_000001.png",
-                        "out/frame_.png",
-                        "out/frame_1.png",
-                        "out/frame_00000a.png",
-                        "out/sub/frame_000001.png",
-                        "out/xframe_000001.png"};
-    std::string frames;
-    for (const std::string& name : kept) {
-        put(folder / name, "keep");
-        frames += R"({"file":"../)" + name + R"("},{"file":")" + (folder / name).string() +
-                  R"("},{"file":")" + fs::relative(folder / name, folder / "out").string() +
-                  R"("},)";
+    {
+        Capture stopped(folder / "out", header(9));
+        for (int i = 0; i < 2; ++i) stopped.add(shot(i));
+        stopped.finish();
     }
-    put(folder / "out/manifest.json",
-        R"({"gl_renderer":"x","frames":[)" + frames + R"({"file":""}]})");
-    capture(folder / "out", 0);
+    const auto json = nlohmann::json::parse(text_of(folder / "out/manifest.json"));
+    EXPECT_EQ(json["finished"], false);
+    EXPECT_EQ(json["frames"].size(), 2U);
+    EXPECT_EQ(json["planned_frames"], 9);
+}
+
+// Readers of frame_*.png would mix such files with the frames of a capture.
+TEST(Capture, FramesOfAnotherProgramAreRefused) {
+    for (const char* name : {"frame_000000.png", "frame_1.png", "frame_.png", "frame_00000a.png",
+                             "frame_000007.png", "frame_1000000.png", "frames.jsonl.gz"}) {
+        const Folder folder;
+        fs::create_directories(folder / "out");
+        for (const bool after_a_capture : {false, true}) {
+            if (after_a_capture) {
+                fs::remove(folder / "out" / name);
+                capture(folder / "out", 7);
+                if (fs::exists(folder / "out" / name)) continue;  // a frame of ours
+            }
+            put(folder / "out" / name, "keep");
+            const Names before = names_in(folder / "out");
+            expect_io_error(folder / "out");
+            EXPECT_EQ(text_of(folder / "out" / name), "keep") << name;
+            EXPECT_EQ(names_in(folder / "out"), before) << name;
+        }
+    }
+}
+
+TEST(Capture, OtherFilesStay) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    fs::create_directories(folder / "out/sub");
+    const Names kept = {"out/xframe_000001.png", "out/sub/frame_000001.png", "out/notes.png"};
+    for (const std::string& name : kept) put(folder / name, "keep");
+    capture(folder / "out", 1);
     for (const std::string& name : kept) EXPECT_EQ(text_of(folder / name), "keep") << name;
 }
 
-TEST(Capture, AStaleFrameThatIsALinkLosesOnlyTheLink) {
+TEST(Capture, AFrameThatIsALinkIsRefused) {
     const Folder folder;
     capture(folder / "out", 2);
     put(folder / "victim", "keep");
     fs::remove(folder / "out/frame_000001.png");
     fs::create_symlink("../victim", folder / "out/frame_000001.png");
-    capture(folder / "out", 1);
+    expect_io_error(folder / "out");
     EXPECT_EQ(text_of(folder / "victim"), "keep");
-    EXPECT_EQ(names_in(folder / "out"), (Names{"frame_000000.png", "manifest.json"}));
+}
+
+TEST(Capture, ASecondCaptureIntoTheFolderIsRefusedWithTheOwner) {
+    const Folder folder;
+    Capture first(folder / "out", header(1));
+    first.add(shot(0));
+    try {
+        const Capture second(folder / "out", header(1));
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::io);
+        EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid())),
+                  std::string::npos)
+            << error.what();
+    }
+    first.finish();
+    EXPECT_EQ(names_in(folder / "out"),
+              (Names{".oiler-capture", "frame_000000.png", "manifest.json"}));
+}
+
+TEST(Capture, ADeadOwnerIsNamedAndItsFolderFree) {
+    const Folder folder;
+    fs::create_directories(folder / "out");
+    put(folder / "out/.oiler-capture", "process 1234 of elsewhere\n");
+    const Capture next(folder / "out", header(1));
+    EXPECT_EQ(next.dead_owner(), "process 1234 of elsewhere");
 }
 
 TEST(Capture, AManifestOfAnotherProgramIsNotTouched) {
@@ -183,10 +256,10 @@ TEST(Capture, AManifestOfAnotherProgramIsNotTouched) {
 
 TEST(Capture, AFolderThatStayedEmptyIsRemoved) {
     const Folder folder;
-    { const Capture unused(folder / "out", header()); }
+    { const Capture unused(folder / "out", header(1)); }
     EXPECT_FALSE(fs::exists(folder / "out"));
     fs::create_directory(folder / "mine");
-    { const Capture unused(folder / "mine", header()); }
+    { const Capture unused(folder / "mine", header(1)); }
     EXPECT_TRUE(fs::exists(folder / "mine"));
 }
 

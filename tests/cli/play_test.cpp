@@ -77,7 +77,7 @@ TEST(Play, FilmLastsTheDurationOfTheScene) {
                               "'; oiler play short.toml --headless --quiet --fps 10 --size 64x36");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 0) << run.err;
-    EXPECT_EQ(names_in(folder / "frames/short").size(), 12U + 1);
+    EXPECT_EQ(names_in(folder / "frames/short").size(), 12U + 2);
     const Json manifest = Json::parse(text_of(folder / "frames/short/manifest.json"));
     EXPECT_EQ(manifest.at("scene"), "short");
     EXPECT_EQ(manifest.at("frames").back().at("tick"), 110);

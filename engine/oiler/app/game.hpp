@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -19,8 +20,9 @@ struct About {
     int rate = 100;          ///< steps per second
     std::string_view method = "semi_implicit_euler";
     Precision precision = Precision::double_;
-    double duration = 4;            ///< s, length of a headless film
-    std::string_view damping = "";  ///< "kick" or "drift"; empty: the method's default
+    double duration = 4;               ///< s, length of a headless film
+    std::string_view damping = "";     ///< "kick" or "drift"; empty: the method's default
+    std::string_view scene_text = "";  ///< the scene file; empty for a game
 };
 
 /// The key of an entity's element in a picture. `part` distinguishes several elements of one
@@ -91,6 +93,10 @@ public:
     virtual void step(std::int64_t count, Input& input) = 0;
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
+    /// Name of a body in comparisons.
+    [[nodiscard]] virtual std::string name_of(Entity entity) const {
+        return "body " + std::to_string(entity.index);
+    }
 };
 
 template <class G>

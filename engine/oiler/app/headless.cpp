@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/film.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/capture/capture.hpp"
+#include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/picture/picture_hash.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
@@ -30,8 +31,14 @@ std::int64_t frames_in(double seconds, int fps) {
     return static_cast<std::int64_t>(frames);
 }
 
-Manifest describe(const Options& options, const About& about, int fps, const Surface& surface,
+std::string damping_of(const Stepping& stepping) {
+    return stepping.damping ? std::string(name_of(*stepping.damping)) : "";
+}
+
+Manifest describe(const Options& options, const About& about, const Surface& surface,
                   const Renderer& renderer) {
+    const Stepping& stepping = options.settings.stepping;
+    const int fps = options.fps.value_or(default_fps);
     return {.version = std::string(version()),
             .compiler = compiler(),
             .provider = std::string(surface.provider()),
@@ -39,59 +46,99 @@ Manifest describe(const Options& options, const About& about, int fps, const Sur
             .gl_version = renderer.gl_version(),
             .size = options.size,
             .fps = fps,
-            .rate = static_cast<int>(options.settings.stepping.rate.steps),
-            .method = std::string(options.settings.stepping.method->name),
-            .precision = std::string(name_of(options.settings.stepping.precision)),
+            .rate = static_cast<int>(stepping.rate.steps),
+            .method = std::string(stepping.method->name),
+            .damping = damping_of(stepping),
+            .precision = std::string(name_of(stepping.precision)),
             .scene = std::string(about.name),
+            .scene_text = std::string(about.scene_text),
             .seed = options.settings.seed,
-            .frames = {}};
+            .planned_frames = options.frames ? *options.frames : frames_in(about.duration, fps)};
 }
 
-/// Finishes after an error, which matters more than a second one of the same disk.
-void finish_ignoring_errors(const Capture& capture) {
-    try {
-        capture.finish();
-    } catch (const Error&) {
+/// Draws the frames in their order until the last one or an interrupt.
+void draw_frames(Film& film, Playback& playback, const Manifest& header, bool quiet) {
+    Progress progress(quiet, "frames", header.planned_frames);
+    Input no_input;
+    for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
+        const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
+        const Picture picture = playback.show(at.step, at.alpha, no_input);
+        if (Interrupt::requested()) return;
+        film.add(picture, at, playback);
+        progress.show(frame + 1);
     }
 }
 
-/// Draws frames into the folder. `header` is the manifest without frames.
-void film(Playback& playback, Renderer& renderer, const Manifest& header, std::int64_t frames,
-          const Options& options) {
-    // Made with the first frame, so that a failure to draw leaves no folder.
-    std::optional<Capture> capture;
-    Progress progress(options.quiet, "frames", frames);
-    Pixels pixels;
-    Input no_input;
+void film(Playback& playback, Renderer& renderer, const Manifest& header, const Options& options,
+          Profile* profile) {
+    Film film(renderer, header, options, profile);
     try {
-        for (std::int64_t frame = 0; frame < frames; ++frame) {
-            const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-            const Picture picture = playback.show(at.step, at.alpha, no_input);
-            if (Interrupt::requested()) break;
-            renderer.draw(picture, header.size);
-            renderer.read(pixels);
-            if (!capture) capture.emplace(options.out, header);
-            capture->add(at.step, at.alpha, playback.state_hash(), pixels.size, pixels.rgb);
-            progress.show(frame + 1);
-        }
-    } catch (const Error&) {
-        if (capture) finish_ignoring_errors(*capture);
+        draw_frames(film, playback, header, options.quiet);
+    } catch (const Error& error) {
+        if (error.exit() == Exit::diverged)
+            film.finish();
+        else
+            film.finish_capture_ignoring_errors();
         throw;
     }
-    if (capture) capture->finish();
+    film.finish();
+    if (film.frames() == header.planned_frames)
+        remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
+    else
+        remark(false, "interrupted: {} of {} frames are complete in {}", film.frames(),
+               header.planned_frames, options.out.string());
+}
+
+/// Names the hashes that differ from those of the manifest; empty if none does.
+std::string changes_of(const Manifest::Frame& expected, std::uint64_t state, std::uint64_t picture,
+                       std::uint64_t pixels) {
+    std::string changes;
+    const auto add = [&](bool equal, std::string_view name) {
+        if (!equal) changes.append(changes.empty() ? "" : ", ").append(name);
+    };
+    add(expected.state_hash == state, "state");
+    add(expected.picture_hash == picture, "picture");
+    add(expected.pixel_hash == pixels, "pixels");
+    return changes;
+}
+
+/// Draws one frame, and compares it with that of the manifest, if there is one.
+Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
+                const Options& options) {
+    const std::int64_t frame = *options.frame;
+    const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
+    Input no_input;
+    const Picture picture = playback.show(at.step, at.alpha, no_input);
+    if (Interrupt::requested()) return Exit::interrupted;
+    Pixels pixels;
+    renderer.draw(picture, header.size);
+    renderer.read(pixels);
+    const auto path = options.out / fmt::format("still_{:06}.png", frame);
+    make_folder(options.out);
+    write_file(path, encode_png(pixels.size, pixels.rgb));
+    remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
+           static_cast<double>(frame) / header.fps, path.string());
+    if (!options.from || frame >= std::int64_t(options.from->frames.size())) return Exit::done;
+    const std::string changes =
+        changes_of(options.from->frames[static_cast<std::size_t>(frame)], playback.state_hash(),
+                   hash_of(picture), hash_top_down(pixels.size, pixels.rgb));
+    remark(options.quiet && changes.empty(), "{}",
+           changes.empty() ? "state, picture and pixels are those of the manifest"
+                           : "differs from the manifest: " + changes);
+    return changes.empty() ? Exit::done : Exit::comparison_failed;
 }
 
 }  // namespace
 
-void run_headless(Playback& playback, const Options& options, const About& about) {
+Exit run_headless(Playback& playback, const Options& options, const About& about,
+                  Profile* profile) {
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
-    const int fps = options.fps.value_or(default_fps);
-    const std::int64_t frames = options.frames ? *options.frames : frames_in(about.duration, fps);
-    film(playback, renderer, describe(options, about, fps, *surface, renderer), frames, options);
-    if (!Interrupt::requested())
-        remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
+    const Manifest header = describe(options, about, *surface, renderer);
+    if (options.frame) return draw_still(playback, renderer, header, options);
+    film(playback, renderer, header, options, profile);
+    return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 
 }  // namespace oiler

@@ -13,8 +13,9 @@
 namespace oiler {
 
 /// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
-/// run is interrupted or throws Error, frames and manifest are complete up to there.
-void run_headless(Playback& playback, const Options& options, const About& about);
+/// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
+/// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
+Exit run_headless(Playback& playback, const Options& options, const About& about, Profile* profile);
 
 /// Shows the game in a window in real time until the user quits. Returns the simulated time that
 /// late frames dropped.

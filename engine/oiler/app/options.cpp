@@ -2,6 +2,8 @@
 #include "oiler/app/options.hpp"
 
 #include <array>
+#include <cstdlib>
+#include <type_traits>
 #include <utility>
 
 #include "oiler/app/parse.hpp"
@@ -26,6 +28,10 @@ struct Words {
     int fps = 60;
     std::uint64_t seed = 0;
     int threads = 1;
+    std::string png = "all";
+    std::filesystem::path from;
+    std::int64_t frame = 0;
+    bool force = false;
 };
 
 /// Default values, for --help.
@@ -74,6 +80,32 @@ void declare_drawing(CLI::App& app, Options& options, Words& words, const Defaul
                             "take N steps as fast as possible and draw nothing");
 }
 
+void declare_capture(CLI::App& app, Options& options, Words& words) {
+    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* type,
+                              const char* help) {
+        app.add_option(name, path, help)->type_name(type);
+    };
+    app.add_option("--png", words.png, "write PNG frames: all, or none for hashes only")
+        ->check(CLI::IsMember({"all", "none"}))
+        ->type_name("NAME")
+        ->capture_default_str();
+    add_whole<std::int64_t>(app, "--keyframes", options.keyframes, 1, 1'000'000,
+                            "write a PNG for every Nth frame only, hashes for all");
+    add_file("--video", options.video, "FILE",
+             "write the frames as .mp4, .gif or .apng, too; needs ffmpeg");
+    add_file("--sheet", options.sheet, "FILE", "write up to 12 frames of the run on one PNG");
+    add_file("--golden", options.golden, "DIR",
+             "compare the frames with those in DIR: exit 1 with the cause if they differ");
+    app.add_flag("--update-golden", options.update_golden,
+                 "write the frames into the folder of --golden")
+        ->disable_flag_override();
+    app.add_flag("--force", words.force, "let --update-golden run in CI")->disable_flag_override();
+    add_file("--junit", options.junit, "FILE", "write the comparison with --golden as JUnit XML");
+    add_file("--from", words.from, "FILE", "take the settings of a capture from its manifest.json");
+    add_whole<std::int64_t>(app, "--frame", words.frame, 0, 999'999,
+                            "draw frame N only; with --from, compare it with the manifest");
+}
+
 void declare_stepping(CLI::App& app, Words& words, const Defaults& defaults) {
     app.add_option(
            "--method", words.method,
@@ -104,17 +136,24 @@ void declare_output(CLI::App& app, Options& options) {
     add_file("--trace", options.trace, "write each body after each step as CSV, - for stdout");
     add_file("--energy", options.energy, "write energies after each step as CSV, - for stdout");
     add_file("--json", options.json, "write a summary of the run as JSON, - for stdout");
+    add_file("--profile", options.profile,
+             "write the times of all stages in Chrome's trace format");
     app.add_flag("--quiet", options.quiet, "print no remarks and no progress on standard error")
         ->disable_flag_override();
 }
 
 /// Checks that no path is empty and no two are the same.
 void check_paths(const CLI::App& app, const Options& options) {
-    const std::array<std::pair<const char*, const std::filesystem::path*>, 4> paths{{
+    const std::array<std::pair<const char*, const std::filesystem::path*>, 9> paths{{
         {"--trace", &options.trace},
         {"--energy", &options.energy},
         {"--json", &options.json},
         {"--out", &options.out},
+        {"--golden", &options.golden},
+        {"--junit", &options.junit},
+        {"--video", &options.video},
+        {"--sheet", &options.sheet},
+        {"--profile", &options.profile},
     }};
     for (const auto& [option, path] : paths) {
         if (app.count(option) > 0 && path->empty()) fail(Exit::usage, "{}: give a path", option);
@@ -140,19 +179,68 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
         refuse("--surface " + words.surface, "draws without a window; add --headless");
     if (words.surface == "window" && options.headless)
         refuse("--surface window", "opens a window; leave out --headless");
-    if (app.count("--out") > 0 && !options.headless)
-        refuse("--out", "needs a run without a window; add --headless");
+    for (const char* option :
+         {"--out", "--png", "--keyframes", "--video", "--sheet", "--golden", "--from", "--frame"})
+        if (app.count(option) > 0 && !options.headless)
+            refuse(option, "needs a run without a window; add --headless");
+    if (words.png == "none" && app.count("--keyframes") > 0)
+        refuse("--keyframes", "chooses PNG frames, but --png none writes none; give one of them");
+    for (const char* option : {"--update-golden", "--junit"})
+        if (app.count(option) > 0 && options.golden.empty())
+            refuse(option, "needs a golden; add --golden DIR");
+    if (app.count("--frame") > 0)
+        for (const char* other : {"--frames", "--video", "--sheet", "--golden", "--keyframes"})
+            if (app.count(other) > 0) refuse(other, "draws more frames than --frame; give one");
 }
 
-void fill_in(const CLI::App& app, Words& words, const About& about) {
-    if (app.count("--method") == 0) words.method = about.method;
-    if (app.count("--precision") == 0) words.precision = name_of(about.precision);
-    if (app.count("--rate") == 0) words.rate = about.rate;
-    if (app.count("--damping") == 0) words.damping = about.damping;
+/// The golden is replaced on purpose only: a CI job that updates it would always pass.
+void check_update(const CLI::App& app, const Options& options, const Words& words) {
+    if (words.force && !options.update_golden)
+        fail(Exit::usage, "--force: lets --update-golden run in CI; add --update-golden");
+    if (!options.update_golden) return;
+    for (const char* other : {"--out", "--junit"})
+        if (app.count(other) > 0)
+            fail(Exit::usage, "{}: --update-golden writes {} only; leave it out", other,
+                 options.golden.string());
+    if (std::getenv("CI") != nullptr && !words.force)
+        fail(Exit::usage,
+             "--update-golden: the variable CI is set, and a job that updates its golden always "
+             "passes; run it on your computer, or add --force");
+}
+
+/// Settings that the command line does not give come from the manifest or from the game.
+void fill_in(const CLI::App& app, Words& words, CommandLine& line) {
+    const About& about = line.about;
+    const std::optional<Manifest>& from = line.options.from;
+    if (from && from->scene != about.name)
+        fail(Exit::usage, "--from: the manifest is of {}, not of {}; run that program", from->scene,
+             about.name);
+    const auto fill = [&](const char* option, auto& word, auto of_manifest, auto of_about) {
+        if (app.count(option) == 0)
+            word = from ? static_cast<std::decay_t<decltype(word)>>(of_manifest(*from))
+                        : static_cast<std::decay_t<decltype(word)>>(of_about);
+    };
+    fill(
+        "--method", words.method, [](const Manifest& m) { return m.method; }, about.method);
+    fill(
+        "--precision", words.precision, [](const Manifest& m) { return m.precision; },
+        name_of(about.precision));
+    fill(
+        "--rate", words.rate, [](const Manifest& m) { return m.rate; }, about.rate);
+    fill(
+        "--damping", words.damping, [](const Manifest& m) { return m.damping; }, about.damping);
+    fill(
+        "--seed", words.seed, [](const Manifest& m) { return m.seed; }, std::uint64_t{0});
+    if (!from) return;
+    if (app.count("--fps") == 0) line.options.fps = from->fps;
+    if (app.count("--frames") == 0) line.options.frames = from->planned_frames;
+    if (app.count("--size") == 0)
+        words.size = fmt::format("{}x{}", from->size.width, from->size.height);
 }
 
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
     check_conflicts(app, options, words);
+    check_update(app, options, words);
     check_paths(app, options);
     options.settings = {.stepping = {.method = &find_method(words.method),
                                      .rate = {words.rate},
@@ -169,13 +257,16 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     if (app.count("--frames") > 0) options.frames = words.frames;
     if (app.count("--fps") > 0) options.fps = words.fps;
     if (app.count("--steps") > 0) options.steps = words.steps;
+    if (app.count("--frame") > 0) options.frame = words.frame;
+    options.has_png = words.png == "all";
+    if (options.update_golden) options.out = options.golden;
     if (options.out.empty()) options.out = std::filesystem::path("frames") / about.name;
     return options;
 }
 
 void declare_scene(CLI::App& app, Words& words) {
-    app.add_option("SCENE", words.scene, "scene file in TOML, see assets/scenes/README.md")
-        ->required();
+    app.add_option("SCENE", words.scene,
+                   "scene file in TOML, see assets/scenes/README.md; not needed with --from");
 }
 
 std::string footer(const std::string& program) {
@@ -191,22 +282,24 @@ CommandLine parse_command_line(int argc, char** argv, const About& about) {
 }
 
 CommandLine parse_command_line(int argc, char** argv, const About& about,
-                               const AboutFile& about_file) {
+                               const AboutScene& about_scene) {
     const std::string name(about.name);
     CLI::App app(std::string(about.title), name);
-    app.footer(footer(name + (about_file ? " assets/scenes/cloth.toml" : "")));
+    app.footer(footer(name + (about_scene ? " assets/scenes/cloth.toml" : "")));
     app.set_version_flag("--version", name + " " + std::string(version()));
     CommandLine line{.options = {}, .text = {}, .about = about};
     Words words;
-    const Defaults defaults = about_file ? Defaults::of_scene() : Defaults(about);
-    if (about_file) declare_scene(app, words);
+    const Defaults defaults = about_scene ? Defaults::of_scene() : Defaults(about);
+    if (about_scene) declare_scene(app, words);
     declare_drawing(app, line.options, words, defaults);
+    declare_capture(app, line.options, words);
     declare_stepping(app, words, defaults);
     declare_output(app, line.options);
     line.text = parse(app, argc, argv);
     if (!line.text.empty()) return line;
-    if (about_file) line.about = about_file(words.scene);
-    fill_in(app, words, line.about);
+    if (!words.from.empty()) line.options.from = read_manifest(words.from);
+    if (about_scene) line.about = about_scene(words.scene, line.options.from);
+    fill_in(app, words, line);
     line.options = collect(app, std::move(line.options), words, line.about);
     return line;
 }

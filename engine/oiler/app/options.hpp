@@ -8,6 +8,7 @@
 #include <string>
 
 #include "oiler/app/game.hpp"
+#include "oiler/capture/manifest.hpp"
 #include "oiler/core/size.hpp"
 #include "oiler/platform/surface.hpp"
 
@@ -22,10 +23,20 @@ struct Options {
     std::optional<int> fps;
     Size size{1280, 720};
     std::filesystem::path out;
+    bool has_png = true;         ///< false: hashes only
+    std::int64_t keyframes = 1;  ///< every so many frames have a PNG
+    std::filesystem::path video;
+    std::filesystem::path sheet;
+    std::filesystem::path golden;  ///< a capture to compare the frames with
+    bool update_golden = false;    ///< `out` is the golden
+    std::filesystem::path junit;
+    std::optional<std::int64_t> frame;  ///< if set, only that frame is drawn
+    std::optional<Manifest> from;       ///< the capture whose settings and frame are taken
     std::optional<std::int64_t> steps;  ///< if set, the run draws no frames
     std::filesystem::path trace;        ///< empty: not written, also for `energy` and `json`
     std::filesystem::path energy;
     std::filesystem::path json;
+    std::filesystem::path profile;
     bool quiet = false;
 };
 
@@ -36,8 +47,10 @@ struct CommandLine {
     About about;  ///< name and defaults of the game or the scene file
 };
 
-/// Reads name and defaults of a scene file. Their texts must outlive the command line.
-using AboutFile = std::function<About(const std::string& path)>;
+/// Reads name and defaults of a scene file or, if the path is empty, of the scene in a manifest.
+/// Their texts must outlive the command line.
+using AboutScene =
+    std::function<About(const std::string& path, const std::optional<Manifest>& from)>;
 
 /// Parses the options of a game. Throws Error{usage} with the option and its allowed values.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about);
@@ -46,6 +59,6 @@ using AboutFile = std::function<About(const std::string& path)>;
 /// unless the command line gives others. Throws Error{usage} with the option and its allowed
 /// values.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about,
-                                             const AboutFile& about_file);
+                                             const AboutScene& about_scene);
 
 }  // namespace oiler

@@ -6,23 +6,49 @@
 #include <utility>
 
 #include "oiler/app/interrupt.hpp"
+#include "oiler/core/state_hash.hpp"
 
 namespace oiler {
 namespace {
 
 constexpr std::int64_t steps_between_interrupts = 4096;
+constexpr std::size_t most_bodies_kept = 1000;
+constexpr std::size_t tick_digits = 4;
+
+std::vector<BodyState> states_of(const AnyGame& game) {
+    const World& world = game.world();
+    const Bodies& bodies = world.bodies();
+    std::vector<BodyState> states;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        BodyState& state = states.emplace_back(game.name_of(world.entity_of_row(row)));
+        for (int axis = 0; axis < bodies.axes(); ++axis) {
+            state.position[static_cast<std::size_t>(axis)] = bodies.position(row)[axis];
+            state.velocity[static_cast<std::size_t>(axis)] = bodies.velocity(row)[axis];
+        }
+    }
+    return states;
+}
 
 }  // namespace
 
-Playback::Playback(AnyGame& game, Recorder& recorder, bool hashes)
-    : game_(game), recorder_(recorder), hashes_(hashes) {}
+Playback::Playback(AnyGame& game, Recorder& recorder, Keep keep, Profile* profile)
+    : game_(game), recorder_(recorder), keep_(keep), profile_(profile) {}
+
+bool Playback::hashes_ticks() const {
+    return keep_ == Keep::hashes && game_.world().bodies().size() <= most_bodies_kept;
+}
 
 void Playback::step_to(std::int64_t tick, Input& input) {
+    const Span span(profile_, "step");
     const World& world = game_.world();
     while (world.tick() < tick && !Interrupt::requested()) {
-        const std::int64_t most = recorder_.active() ? 1 : steps_between_interrupts;
+        const bool single = recorder_.active() || hashes_ticks();
+        const std::int64_t most = single ? 1 : steps_between_interrupts;
         game_.step(std::min(tick - world.tick(), most), input);
         recorder_.record(world);
+        if (keep_ != Keep::hashes) continue;
+        if (hashes_ticks()) tick_hashes_ += hash_text(world.state_hash()).substr(16 - tick_digits);
+        tick_hashes_.resize(tick_digits * static_cast<std::size_t>(world.tick()), '.');
     }
 }
 
@@ -40,13 +66,25 @@ Picture Playback::show(std::int64_t tick, double alpha, Input& input) {
         step_to(tick + 1, input);
         after_ = sample();
     }
+    const Span span(profile_, "picture");
     return alpha > 0 ? between(before_.picture, after_.picture, static_cast<float>(alpha))
                      : before_.picture;
 }
 
 Playback::Moment Playback::sample() const {
+    const Span span(profile_, "picture");
     const World& world = game_.world();
-    return {world.tick(), hashes_ ? world.state_hash() : 0, game_.picture()};
+    Moment moment{.tick = world.tick(), .picture = game_.picture()};
+    if (keep_ == Keep::hashes) moment.state_hash = world.state_hash();
+    if (hashes_ticks()) moment.bodies = states_of(game_);
+    return moment;
+}
+
+std::string Playback::tick_hashes(std::int64_t first, std::int64_t last) const {
+    const std::string hashes = tick_hashes_.substr(
+        std::min(tick_digits * static_cast<std::size_t>(first), tick_hashes_.size()),
+        tick_digits * static_cast<std::size_t>(last - first));
+    return hashes.find('.') == std::string::npos ? hashes : "";
 }
 
 }  // namespace oiler

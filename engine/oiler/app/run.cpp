@@ -7,6 +7,7 @@
 #include <span>
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/golden.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
@@ -32,14 +33,14 @@ void run_steps(Playback& playback, const Options& options) {
     }
 }
 
-std::chrono::nanoseconds loop(Playback& playback, const Options& options, const About& about) {
+Exit loop(Playback& playback, const Options& options, const About& about, RunReport& report,
+          Profile* profile) {
+    if (options.headless) return run_headless(playback, options, about, profile);
     if (options.steps)
         run_steps(playback, options);
-    else if (options.headless)
-        run_headless(playback, options, about);
     else
-        return run_window(playback, options, about);
-    return {};
+        report.dropped = run_window(playback, options, about);
+    return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 
 }  // namespace
@@ -53,15 +54,20 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     for (const std::string& line : game->world().preflight()) remark(options.quiet, "{}", line);
     RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
     Recorder recorder(options.trace, options.energy, game->world());
-    Playback playback(*game, recorder, options.headless);
+    std::optional<Profile> profile;
+    if (!options.profile.empty()) profile.emplace();
+    Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing,
+                      profile ? &*profile : nullptr);
     const Clock::time_point start = Clock::now();
+    Exit exit = Exit::done;
     try {
-        report.dropped = loop(playback, options, about);
+        exit = loop(playback, options, about, report, profile ? &*profile : nullptr);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged) recorder.commit();
         throw;
     }
     recorder.commit();
+    if (profile) write_file(options.profile, profile->to_json());
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());
@@ -69,13 +75,15 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     const bool is_checked = options.headless || !options.json.empty();
     if (measure_budget && is_checked && !Interrupt::requested()) report.budget = measure_budget();
     if (!options.json.empty()) write_report(options.json, report, game->world());
-    if (Interrupt::requested()) return Exit::interrupted;
+    if (exit == Exit::interrupted) return exit;
+    if (!options.golden.empty() && !options.update_golden)
+        exit = std::max(exit, compare_with_golden(options));
     bool kept = true;
     for (const BudgetEntry& entry : report.budget) {
         remark(options.quiet && entry.kept, "[budget] {}", entry.words);
         kept = kept && entry.kept;
     }
-    return kept ? Exit::done : Exit::comparison_failed;
+    return kept ? exit : Exit::comparison_failed;
 }
 
 int guard_main(std::string_view name, const std::function<Exit()>& program) {

@@ -1,105 +1,153 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/capture.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cassert>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <system_error>
 #include <utility>
 
-#include "oiler/capture/file.hpp"
+#include "oiler/capture/gzip.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/state_hash.hpp"
 
 namespace oiler {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* manifest_name = "manifest.json";
-
-std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
-
-/// Returns whether frame_name() may have made the name.
-bool is_frame_name(std::string_view name) {
-    constexpr std::string_view head = "frame_";
-    constexpr std::string_view tail = ".png";
-    if (!name.starts_with(head) || !name.ends_with(tail)) return false;
-    if (name.size() < head.size() + 6 + tail.size()) return false;
-    name.remove_prefix(head.size());
-    name.remove_suffix(tail.size());
-    return std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void remove_if_present(const fs::path& path) {
-    std::error_code error;
-    fs::remove(path, error);
-    if (error)
-        fail(Exit::io, "cannot remove {} of an earlier capture: {}; choose another folder",
-             path.string(), error.message());
-}
-
-/// Removes the manifest last: if removal fails half-way, the next run continues it.
-void remove_earlier_capture(const fs::path& folder) {
-    const fs::path manifest = folder / manifest_name;
-    std::error_code unreadable;
-    if (!fs::exists(manifest, unreadable)) return;
-    if (!fs::is_regular_file(manifest, unreadable) || !is_manifest(read_text(manifest)))
-        fail(Exit::io, "{} is not from a capture and would be lost; choose another folder",
-             manifest.string());
-    for (const auto& entry : fs::directory_iterator(folder, unreadable))
-        if (is_frame_name(entry.path().filename().string())) remove_if_present(entry.path());
-    remove_if_present(manifest);
-}
-
-std::uint64_t hash_top_down(Size size, std::span<const std::uint8_t> rgb_bottom_up) {
-    const auto row = static_cast<std::size_t>(size.width) * 3;
-    StateHash hash;
-    for (std::size_t y = rgb_bottom_up.size() / row; y-- > 0;)
-        hash.add(std::as_bytes(rgb_bottom_up.subspan(y * row, row)));
-    return hash.value();
-}
+/// One core draws; the others encode. More than eight threads wait for the drawing.
+unsigned worker_count() { return std::clamp(std::thread::hardware_concurrency(), 2U, 9U) - 1; }
 
 }  // namespace
 
-Capture::Capture(fs::path folder, Manifest header)
-    : folder_(std::move(folder)), manifest_(std::move(header)) {
+Capture::Capture(fs::path folder, Manifest header, Profile* profile)
+    : folder_(std::move(folder)), manifest_(std::move(header)), profile_(profile) {
     assert(manifest_.frames.empty());
-    made_folder_ = make_folder(folder_);
-    remove_earlier_capture(folder_);
-    finish();
+    write_manifest();
+    for (unsigned i = 0; i < worker_count(); ++i) workers_.emplace_back([this] { work(); });
 }
 
 Capture::~Capture() {
+    stop_workers();
     std::error_code ignored;
-    if (manifest_.frames.empty()) fs::remove(folder_ / manifest_name, ignored);
-    if (made_folder_) fs::remove(folder_, ignored);
+    if (manifest_.frames.empty()) fs::remove(folder_.file(manifest_name), ignored);
 }
 
-void Capture::add(std::int64_t tick, double alpha, std::uint64_t state_hash, Size size,
-                  std::span<const std::uint8_t> rgb_bottom_up) {
-    assert(size == manifest_.size);
-    const auto index = static_cast<std::int64_t>(manifest_.frames.size());
-    const std::string name = frame_name(index);
-    write_file(folder_ / name, encode_png(size, rgb_bottom_up));
-    manifest_.frames.push_back(
-        {index, name, tick, alpha, state_hash, hash_top_down(size, rgb_bottom_up)});
+void Capture::add(Shot shot) {
+    const std::size_t index = manifest_.frames.size();
+    if (shot.record) shot.record->index = static_cast<std::int64_t>(index);
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return error_ || jobs_.size() < workers_.size(); });
+    if (error_) std::rethrow_exception(error_);
+    manifest_.frames.push_back({.index = static_cast<std::int64_t>(index),
+                                .file = shot.has_png ? frame_name(std::int64_t(index)) : "",
+                                .tick = shot.tick,
+                                .alpha = shot.alpha,
+                                .state_hash = shot.state_hash,
+                                .picture_hash = shot.picture_hash,
+                                .tick_hashes = std::move(shot.tick_hashes)});
+    complete_.push_back(false);
+    jobs_.push_back({index, std::move(shot)});
+    changed_.notify_all();
 }
 
-void Capture::finish() const {
-    File file(folder_ / manifest_name);
+std::vector<std::uint8_t> Capture::spare_buffer() {
+    const std::lock_guard lock(mutex_);
+    if (spare_.empty()) return {};
+    std::vector<std::uint8_t> buffer = std::move(spare_.back());
+    spare_.pop_back();
+    return buffer;
+}
+
+void Capture::work() {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return closed_ || !jobs_.empty(); });
+        if (jobs_.empty()) return;
+        Job job = std::move(jobs_.front());
+        jobs_.pop_front();
+        lock.unlock();
+        changed_.notify_all();
+        try {
+            write(job);
+        } catch (...) {
+            const std::lock_guard relock(mutex_);
+            if (!error_) error_ = std::current_exception();
+            changed_.notify_all();
+        }
+    }
+}
+
+void Capture::write(Job& job) {
+    const auto hash = [&] {
+        const Span span(profile_, "hash");
+        return hash_top_down(manifest_.size, job.shot.rgb);
+    }();
+    if (job.shot.has_png) {
+        std::vector<std::byte> png;
+        {
+            const Span span(profile_, "encode");
+            png = encode_png(manifest_.size, job.shot.rgb);
+        }
+        const Span span(profile_, "write");
+        write_file(folder_.file(frame_name(std::int64_t(job.index))), png);
+    }
+    std::vector<std::byte> record;
+    if (job.shot.record) {
+        const Span span(profile_, "record");
+        record = gzip(to_json(*job.shot.record));
+    }
+    const std::lock_guard lock(mutex_);
+    write_record(job.index, std::move(record));
+    manifest_.frames[job.index].pixel_hash = hash;
+    complete_[job.index] = true;
+    spare_.push_back(std::move(job.shot.rgb));
+}
+
+void Capture::write_record(std::size_t index, std::vector<std::byte> record) {
+    waiting_records_[index] = std::move(record);
+    for (auto next = waiting_records_.begin();
+         next != waiting_records_.end() && next->first == next_record_;
+         next = waiting_records_.erase(next), ++next_record_) {
+        if (next->second.empty()) continue;
+        if (!records_) records_.emplace(folder_.file(records_name));
+        records_->write(next->second);
+    }
+}
+
+void Capture::write_manifest() const {
+    File file(folder_.file(manifest_name));
     file.write(to_json(manifest_));
     file.commit();
+}
+
+void Capture::stop_workers() {
+    {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+    workers_.clear();
+}
+
+void Capture::drop_incomplete() {
+    const auto first = static_cast<std::size_t>(
+        std::find(complete_.begin(), complete_.end(), false) - complete_.begin());
+    std::error_code ignored;
+    for (std::size_t i = first; i < manifest_.frames.size(); ++i)
+        if (!manifest_.frames[i].file.empty())
+            fs::remove(folder_.file(manifest_.frames[i].file), ignored);
+    manifest_.frames.resize(first);
+}
+
+void Capture::finish() {
+    stop_workers();
+    drop_incomplete();
+    if (manifest_.frames.empty()) return;
+    if (records_) records_->commit();
+    write_manifest();
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 }  // namespace oiler

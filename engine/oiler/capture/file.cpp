@@ -118,6 +118,10 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes) {
     file.commit();
 }
 
+void write_file(const fs::path& path, std::string_view text) {
+    write_file(path, std::as_bytes(std::span(text)));
+}
+
 bool make_folder(const fs::path& path) {
     std::error_code error;
     const bool made = fs::create_directories(path, error);

@@ -45,6 +45,7 @@ private:
 
 /// Writes all of `bytes` to `path` through File.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_file(const std::filesystem::path& path, std::string_view text);
 
 /// Makes the folder and its parents. Returns whether it was missing. Throws Error(Exit::io).
 bool make_folder(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/state_hash.hpp"
 
 namespace {
 
@@ -34,6 +35,11 @@ unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_cou
 #define STBI_WRITE_NO_STDIO
 #define STBIW_ZLIB_COMPRESS deflate_fast
 #include <stb/stb_image_write.h>
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
 
 namespace oiler {
 namespace {
@@ -71,6 +77,31 @@ std::vector<std::byte> encode_png(Size size, std::span<const std::uint8_t> rgb_b
     if (!png) throw std::bad_alloc();
     const auto* first = reinterpret_cast<const std::byte*>(png.get());
     return {first, first + count};
+}
+
+Image decode_png(std::span<const std::byte> png, std::string_view file) {
+    int width = 0;
+    int height = 0;
+    int channels_there = 0;
+    stbi_set_flip_vertically_on_load_thread(1);
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
+                              static_cast<int>(png.size()), &width, &height, &channels_there,
+                              channels),
+        stbi_image_free);
+    if (!pixels)
+        fail(Exit::usage, "{}: not a valid PNG ({}); capture again", file, stbi_failure_reason());
+    const auto count =
+        std::size_t{channels} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {{width, height}, {pixels.get(), pixels.get() + count}};
+}
+
+std::uint64_t hash_top_down(Size size, std::span<const std::uint8_t> rgb_bottom_up) {
+    const auto row = static_cast<std::size_t>(size.width) * channels;
+    StateHash hash;
+    for (std::size_t y = rgb_bottom_up.size() / row; y-- > 0;)
+        hash.add(std::as_bytes(rgb_bottom_up.subspan(y * row, row)));
+    return hash.value();
 }
 
 }  // namespace oiler

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "oiler/core/size.hpp"
@@ -15,5 +16,17 @@ namespace oiler {
 /// bytes. Throws Error(Exit::usage) for an empty frame or a frame of 1 GiB and more.
 [[nodiscard]] std::vector<std::byte> encode_png(Size size,
                                                 std::span<const std::uint8_t> rgb_bottom_up);
+
+/// Pixels as encode_png() takes them.
+struct Image {
+    Size size;
+    std::vector<std::uint8_t> rgb_bottom_up;
+};
+
+/// Decodes a PNG file. Throws Error{usage} if it is damaged; `file` is named in the message.
+[[nodiscard]] Image decode_png(std::span<const std::byte> png, std::string_view file);
+
+/// XXH3 over the rows of pixels, top row first, as in the PNG.
+[[nodiscard]] std::uint64_t hash_top_down(Size size, std::span<const std::uint8_t> rgb_bottom_up);
 
 }  // namespace oiler

@@ -7,9 +7,9 @@
 #include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/cli/files.hpp"
-#include "oiler/cli/markup.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
+#include "oiler/core/junit.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
@@ -35,68 +35,28 @@ struct CheckResult {
     }
 };
 
-/// Replaces all but printable ASCII characters: XML allows no control characters and no bytes
-/// outside its encoding.
-std::string for_xml(std::string text) {
-    for (char& c : text)
-        if (c < ' ' || c > '~') c = '?';
-    return escaped(text);
+/// One test case for each number of a budget, one for the warnings of a scene and one for a run
+/// that diverged. A scene without a budget is a skipped case.
+void add(JunitSuite& suite, const CheckResult& result) {
+    if (!result.warnings.empty())
+        suite.add_passed(result.file, "preflight",
+                         fmt::format("{}", fmt::join(result.warnings, "; ")));
+    if (!result.divergence.empty()) suite.add_failed(result.file, "run", result.divergence);
+    for (const BudgetLine& line : result.lines)
+        if (line.kept)
+            suite.add_passed(result.file, line.name, describe(line));
+        else
+            suite.add_failed(result.file, line.name, describe(line));
+    if (!result.lines.empty()) return;
+    if (!result.error.empty())
+        suite.add_error(result.file, "budget", result.error);
+    else
+        suite.add_skipped(result.file, "budget", "no [budget]");
 }
 
-/// A JUnit test suite: one test case for each number of a budget, one for the warnings of a scene
-/// and one for a run that diverged. A scene without a budget is a skipped case.
-class TestSuite {
-public:
-    void add(const CheckResult& result) {
-        if (!result.warnings.empty())
-            add_passed(result.file, "preflight",
-                       fmt::format("{}", fmt::join(result.warnings, "; ")));
-        if (!result.divergence.empty())
-            add_case(result.file, "run", "failure", result.divergence, failures_);
-        for (const BudgetLine& line : result.lines) add_line(result.file, line);
-        if (!result.lines.empty()) return;
-        if (!result.error.empty())
-            add_case(result.file, "budget", "error", result.error, errors_);
-        else
-            add_case(result.file, "budget", "skipped", "no [budget]", skipped_);
-    }
-    [[nodiscard]] std::string xml() const {
-        return fmt::format(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"oiler check\" "
-            "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
-            tests_, failures_, errors_, skipped_, cases_);
-    }
-
-private:
-    void add_line(const std::string& file, const BudgetLine& line) {
-        if (!line.kept) return add_case(file, line.name, "failure", describe(line), failures_);
-        add_passed(file, line.name, describe(line));
-    }
-    void add_passed(const std::string& file, const std::string& name, const std::string& text) {
-        ++tests_;
-        cases_ += fmt::format(
-            "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
-            for_xml(file), name, for_xml(text));
-    }
-    void add_case(const std::string& file, const std::string& name, const std::string& outcome,
-                  const std::string& message, int& count) {
-        ++tests_;
-        ++count;
-        cases_ += fmt::format(
-            "  <testcase classname=\"{}\" name=\"{}\"><{} message=\"{}\"/></testcase>\n",
-            for_xml(file), name, outcome, for_xml(message));
-    }
-
-    std::string cases_;
-    int tests_ = 0;
-    int failures_ = 0;
-    int errors_ = 0;
-    int skipped_ = 0;
-};
-
 std::string to_junit(const std::vector<CheckResult>& all) {
-    TestSuite suite;
-    for (const CheckResult& result : all) suite.add(result);
+    JunitSuite suite("oiler check");
+    for (const CheckResult& result : all) add(suite, result);
     return suite.xml();
 }
 

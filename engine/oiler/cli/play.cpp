@@ -7,6 +7,7 @@
 #include "oiler/cli/files.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/draw.hpp"
+#include "oiler/scene/guard.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 
@@ -25,6 +26,9 @@ public:
     }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override { return draw_scene(scene_, world_, camera_); }
+    [[nodiscard]] std::string name_of(Entity entity) const override {
+        return scene_.name_of_body(entity.index);
+    }
 
 private:
     const Scene& scene_;
@@ -32,14 +36,31 @@ private:
     Camera camera_;
 };
 
-About describe(const Scene& scene, const std::string& name) {
+About describe(const Scene& scene, const std::string& name, const std::string& text) {
     return {.name = name,
             .title = scene.title.empty() ? name : scene.title,
             .rate = static_cast<int>(scene.stepping.rate.steps),
             .method = scene.stepping.method->name,
             .precision = scene.stepping.precision,
             .duration = scene.duration,
-            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : ""};
+            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : "",
+            .scene_text = text};
+}
+
+struct SceneFile {
+    std::string name;
+    std::string text;
+};
+
+/// The scene of the file, or the one that the manifest holds.
+SceneFile find_scene(const std::string& path, const std::optional<Manifest>& from) {
+    if (!path.empty()) return {path, read_scene_text(path)};
+    if (!from)
+        fail(Exit::usage, "give a scene file, or --from manifest.json (see oiler play --help)");
+    if (from->scene_text.empty())
+        fail(Exit::usage, "--from: the manifest is of the game {}, not of a scene; run {} --from",
+             from->scene, from->scene);
+    return {from->scene, from->scene_text};
 }
 
 std::vector<BudgetEntry> check(const Scene& scene, const Settings& settings) {
@@ -66,10 +87,13 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
     constexpr About program{.name = "oiler play", .title = "Play a scene file"};
     Scene scene;
     std::string name;
-    const auto read = [&](const std::string& path) {
-        scene = read_scene(path);
-        name = std::filesystem::path(path).stem().string();
-        return describe(scene, name);
+    std::string text;
+    const auto read = [&](const std::string& path, const std::optional<Manifest>& from) {
+        const SceneFile file = find_scene(path, from);
+        text = file.text;
+        scene = parse_scene(text, file.name);
+        name = std::filesystem::path(file.name).stem().string();
+        return describe(scene, name, text);
     };
     const CommandLine line = parse_command_line(argc, argv, program, read);
     if (!line.text.empty()) {

@@ -6,10 +6,10 @@
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/files.hpp"
-#include "oiler/cli/markup.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/report_data.hpp"
 #include "oiler/cli/shared_options.hpp"
+#include "oiler/core/markup.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
 

@@ -13,7 +13,8 @@
 namespace oiler {
 namespace {
 
-std::string text_of(double value) {
+template <class Real>
+std::string text_of(Real value) {
     if (!std::isfinite(value)) return "null";
     std::string digits = fmt::format("{}", value);
     if (digits.find_first_of(".e") == digits.npos) digits += ".0";
@@ -71,6 +72,7 @@ Json::Json() : text_("null") {}
 Json::Json(std::nullptr_t) : Json() {}
 Json::Json(bool value) : text_(value ? "true" : "false") {}
 Json::Json(double value) : text_(text_of(value)) {}
+Json::Json(float value) : text_(text_of(value)) {}
 Json::Json(std::string value) : kind_(Kind::string), text_(std::move(value)) {}
 Json::Json(std::string_view value) : Json(std::string(value)) {}
 Json::Json(const char* value) : Json(std::string(value)) {}

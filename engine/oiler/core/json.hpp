@@ -24,6 +24,7 @@ public:
     /// Writes the shortest digits that read back to the same bits. Infinities and NaN, which JSON
     /// lacks, become null.
     Json(double value);
+    Json(float value);
     template <std::integral Integer>
     Json(Integer value) : text_(std::to_string(value)) {}
     Json(std::string value);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/cli/markup.hpp"
+#include "oiler/core/markup.hpp"
 
 #include <cstdint>
 
-namespace oiler::cli {
+namespace oiler {
 namespace {
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -71,4 +71,4 @@ std::string fill_in(std::string_view page, const std::map<std::string, std::stri
     return text;
 }
 
-}  // namespace oiler::cli
+}  // namespace oiler

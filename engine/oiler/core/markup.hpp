@@ -9,7 +9,7 @@
 
 #include "oiler/core/json.hpp"
 
-namespace oiler::cli {
+namespace oiler {
 
 // Texts and data in HTML and XML.
 
@@ -26,4 +26,4 @@ namespace oiler::cli {
 [[nodiscard]] std::string fill_in(std::string_view page,
                                   const std::map<std::string, std::string>& parts);
 
-}  // namespace oiler::cli
+}  // namespace oiler

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "oiler/app/options.hpp"
+#include "oiler/app/playback.hpp"
+#include "oiler/app/sheet.hpp"
+#include "oiler/capture/capture.hpp"
+#include "oiler/capture/video.hpp"
+#include "oiler/core/step_clock.hpp"
+#include "oiler/render/renderer.hpp"
+
+namespace oiler {
+
+/// The outputs of a headless run: a capture and, on request, a video and a sheet. They are made
+/// with the first frame, so that a failure to draw leaves no folder.
+class Film {
+public:
+    /// `header` is the manifest without frames.
+    Film(Renderer& renderer, const Manifest& header, const Options& options, Profile* profile);
+
+    /// Draws the picture as the next frame. Throws Error{io}.
+    void add(const Picture& picture, const HeadlessFrame& at, const Playback& playback);
+    /// Completes the files with the frames so far. Throws Error{io}.
+    void finish();
+    /// Completes the capture after an error, which matters more than a second one of the same disk.
+    void finish_capture_ignoring_errors();
+
+    [[nodiscard]] std::int64_t frames() const { return frames_; }
+
+private:
+    void open();
+    [[nodiscard]] Shot shot_of(const Picture& picture, const HeadlessFrame& at,
+                               const Playback& playback) const;
+
+    Renderer& renderer_;
+    const Manifest& header_;
+    const Options& options_;
+    Profile* profile_;
+    std::int64_t frames_ = 0;
+    std::int64_t last_tick_ = 0;
+    Pixels pixels_;
+    std::optional<Capture> capture_;
+    std::optional<Video> video_;
+    std::optional<Sheet> sheet_;
+};
+
+}  // namespace oiler

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/capture_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "oiler/capture/file.hpp"
+#include "oiler/capture/manifest.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view lock_name = ".oiler-capture";
+
+/// Returns whether a reader of frame_*.png would take the file for a frame.
+bool is_frame_like(std::string_view name) {
+    return name.starts_with("frame_") && name.ends_with(".png");
+}
+
+/// Returns whether the capture of that manifest may have written the file.
+bool may_have_written(const Manifest& manifest, std::string_view name) {
+    if (name == manifest_name || name == records_name) return true;
+    std::int64_t index = -1;
+    if (is_frame_like(name)) name.remove_prefix(std::string_view("frame_").size());
+    std::from_chars(name.data(), name.data() + name.size(), index);
+    if (index < 0 || !frame_name(index).ends_with(name)) return false;
+    const auto listed = std::int64_t(manifest.frames.size());
+    if (index < listed) return !manifest.frames[static_cast<std::size_t>(index)].file.empty();
+    return index < manifest.planned_frames;
+}
+
+Manifest read_earlier(const fs::path& path) try {
+    return read_manifest(path);
+} catch (const Error& error) {
+    fail(Exit::io, "{} is not from a capture and would be lost ({}); choose another folder",
+         path.string(), error.what());
+}
+
+bool is_regular(const fs::path& path) {
+    std::error_code error;
+    return fs::symlink_status(path, error).type() == fs::file_type::regular;
+}
+
+/// Returns the files of the earlier capture without its manifest. Throws Error{io} if a file would
+/// lie between the new frames.
+std::vector<fs::path> find_earlier_files(const fs::path& folder) {
+    std::error_code error;
+    const fs::path manifest_path = folder / manifest_name;
+    std::optional<Manifest> manifest;
+    if (fs::exists(fs::symlink_status(manifest_path, error)))
+        manifest = read_earlier(manifest_path);
+    std::vector<fs::path> earlier;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (manifest && may_have_written(*manifest, name) && is_regular(entry.path()))
+            earlier.push_back(entry.path());
+        else if (is_frame_like(name) || name == records_name || name == manifest_name)
+            fail(Exit::io, "{} is not from a capture of Oiler; remove it or choose another folder",
+                 entry.path().string());
+    }
+    std::erase(earlier, manifest_path);
+    return earlier;
+}
+
+/// Removes the manifest last: if removal fails half-way, the next run continues it.
+void remove_earlier_capture(const fs::path& folder) {
+    std::vector<fs::path> earlier = find_earlier_files(folder);
+    earlier.push_back(folder / manifest_name);
+    for (const fs::path& path : earlier) {
+        std::error_code error;
+        fs::remove(path, error);
+        if (error)
+            fail(Exit::io, "cannot remove {} of an earlier capture: {}; choose another folder",
+                 path.string(), error.message());
+    }
+}
+
+std::string host_name() {
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+std::string read_owner(int descriptor) {
+    std::array<char, 300> text{};
+    const ssize_t count = pread(descriptor, text.data(), text.size() - 1, 0);
+    const std::string_view line(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+    return std::string(line.substr(0, line.find('\n')));
+}
+
+/// Waits for a process that has just locked the file and has not written its name yet.
+std::string wait_for_owner(int descriptor) {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        if (const std::string owner = read_owner(descriptor); !owner.empty()) return owner;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return "another process";
+}
+
+bool is_same_file(int descriptor, const fs::path& path) {
+    struct stat held {};
+    struct stat named {};
+    return fstat(descriptor, &held) == 0 && lstat(path.c_str(), &named) == 0 &&
+           held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
+
+CaptureFolder::CaptureFolder(fs::path path) : path_(std::move(path)) {
+    do {
+        made_ = make_folder(path_) || made_;
+    } while (!lock());
+    try {
+        remove_earlier_capture(path_);
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+CaptureFolder::~CaptureFolder() { release(); }
+
+bool CaptureFolder::lock() {
+    const fs::path path = file(lock_name);
+    const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0 && errno == ENOENT) return false;
+    if (descriptor < 0)
+        fail(Exit::io, "cannot write {}: {}; choose another folder", path.string(),
+             system_reason(errno));
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        const std::string owner = wait_for_owner(descriptor);
+        close(descriptor);
+        fail(Exit::io, "{} is in use: {} captures into it; choose another folder", path_.string(),
+             owner);
+    }
+    if (!is_same_file(descriptor, path)) {
+        close(descriptor);
+        return false;
+    }
+    lock_ = descriptor;
+    dead_owner_ = read_owner(descriptor);
+    const std::string owner = fmt::format("process {} of {}\n", getpid(), host_name());
+    if (ftruncate(lock_, 0) != 0 ||
+        pwrite(lock_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
+        const int error_number = errno;
+        release();
+        fail(Exit::io, "cannot write {}: {}; free some space or choose another place",
+             path.string(), system_reason(error_number));
+    }
+    return true;
+}
+
+void CaptureFolder::release() {
+    if (lock_ < 0) return;
+    std::error_code ignored;
+    fs::remove(file(lock_name), ignored);
+    close(std::exchange(lock_, -1));
+    if (made_) fs::remove(path_, ignored);
+}
+
+}  // namespace oiler

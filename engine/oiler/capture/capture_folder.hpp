@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace oiler {
+
+/// The files of a capture in its folder.
+inline constexpr std::string_view manifest_name = "manifest.json";
+inline constexpr std::string_view records_name = "frames.jsonl.gz";
+[[nodiscard]] std::string frame_name(std::int64_t index);
+
+/// A folder that belongs to one capture while that runs. The owner holds a lock on the file
+/// .oiler-capture, which the system releases when the process ends in any way. Files of an earlier
+/// capture are removed, so that a shorter run does not keep the last frames of a longer one.
+class CaptureFolder {
+public:
+    /// Makes the folder if it is missing. Throws Error{io} and changes no file if another process
+    /// captures into the folder, or if it has frames that no capture of ours wrote.
+    explicit CaptureFolder(std::filesystem::path path);
+    /// Removes the lock, and the folder if this object made it and it is empty.
+    ~CaptureFolder();
+    CaptureFolder(const CaptureFolder&) = delete;
+    CaptureFolder& operator=(const CaptureFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
+    /// "process 1234 of host" if that process was killed while it captured into the folder.
+    [[nodiscard]] const std::string& dead_owner() const { return dead_owner_; }
+
+private:
+    /// Returns false if the lock file was removed meanwhile.
+    [[nodiscard]] bool lock();
+    void release();
+
+    std::filesystem::path path_;
+    std::string dead_owner_;
+    int lock_ = -1;  ///< descriptor
+    bool made_ = false;
+};
+
+}  // namespace oiler

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/captured.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "oiler/capture/capture_folder.hpp"
+#include "oiler/capture/gzip.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/core/state_hash.hpp"
+
+namespace oiler {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_bytes(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail(Exit::usage, "{}: cannot be read; capture again", path.string());
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+Captured::Captured(fs::path folder)
+    : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {
+    const fs::path path = folder_ / records_name;
+    std::error_code error;
+    if (!fs::exists(path, error)) return;
+    const std::string bytes = read_bytes(path);
+    const std::string lines = gunzip(std::as_bytes(std::span(bytes)), path.string());
+    for (FrameRecord& record : parse_frame_records(lines, path.string()))
+        records_.insert_or_assign(record.index, std::move(record));
+}
+
+const FrameRecord* Captured::record(std::int64_t index) const {
+    const auto found = records_.find(index);
+    return found == records_.end() ? nullptr : &found->second;
+}
+
+bool Captured::has_image(std::int64_t index) const {
+    const std::string& file = manifest_.frames[static_cast<std::size_t>(index)].file;
+    std::error_code error;
+    return !file.empty() && fs::is_regular_file(folder_ / file, error);
+}
+
+Image Captured::image(std::int64_t index) const {
+    const Manifest::Frame& frame = manifest_.frames[static_cast<std::size_t>(index)];
+    const fs::path path = folder_ / frame.file;
+    const std::string bytes = read_bytes(path);
+    Image image = decode_png(std::as_bytes(std::span(bytes)), path.string());
+    if (image.size != manifest_.size ||
+        hash_top_down(image.size, image.rgb_bottom_up) != frame.pixel_hash)
+        fail(Exit::usage, "{}: its pixels are not those of manifest.json; capture again",
+             path.string());
+    return image;
+}
+
+std::map<std::int64_t, std::string> Captured::tick_hashes() const {
+    constexpr std::int64_t digits = 4;
+    std::map<std::int64_t, std::string> hashes;
+    std::int64_t last = 0;
+    for (const Manifest::Frame& frame : manifest_.frames) {
+        const auto count = static_cast<std::int64_t>(frame.tick_hashes.size()) / digits;
+        if (count == frame.tick - last)
+            for (std::int64_t i = 0; i < count; ++i)
+                hashes[last + 1 + i] = frame.tick_hashes.substr(
+                    static_cast<std::size_t>(i * digits), static_cast<std::size_t>(digits));
+        last = frame.tick;
+    }
+    return hashes;
+}
+
+}  // namespace oiler

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/comparison.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "oiler/capture/captured.hpp"
+#include "oiler/capture/picture_changes.hpp"
+#include "oiler/capture/state_changes.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+std::string or_own(const std::string& text) { return text.empty() ? "the method's own" : text; }
+
+std::string change_of(const std::string& golden, const std::string& actual) {
+    return golden == actual ? "" : fmt::format("{} → {}", golden, actual);
+}
+
+std::vector<SettingChange> setting_changes(const Manifest& a, const Manifest& b) {
+    const auto text = [](auto number) { return std::to_string(number); };
+    const auto size = [](Size s) { return fmt::format("{}x{}", s.width, s.height); };
+    std::vector<SettingChange> all{{"scene", a.scene, b.scene},
+                                   {"size", size(a.size), size(b.size)},
+                                   {"fps", text(a.fps), text(b.fps)},
+                                   {"frames", text(a.planned_frames), text(b.planned_frames)},
+                                   {"rate", text(a.rate), text(b.rate)},
+                                   {"method", a.method, b.method},
+                                   {"damping", or_own(a.damping), or_own(b.damping)},
+                                   {"precision", a.precision, b.precision},
+                                   {"seed", text(a.seed), text(b.seed)},
+                                   {"version", a.version, b.version},
+                                   {"compiler", a.compiler, b.compiler},
+                                   {"surface", a.provider, b.provider}};
+    std::erase_if(all, [](const SettingChange& change) { return change.golden == change.actual; });
+    return all;
+}
+
+/// The first line in which two scene files differ; empty if they are equal.
+std::string scene_change(const std::string& golden, const std::string& actual) {
+    std::istringstream before(golden);
+    std::istringstream after(actual);
+    for (int line = 1; before || after; ++line) {
+        std::string a;
+        std::string b;
+        std::getline(before, a);
+        std::getline(after, b);
+        if (a != b) return fmt::format("scene file changed, line {}: {} → {}", line, a, b);
+    }
+    return {};
+}
+
+struct PixelChange {
+    std::int64_t differing = 0;
+    int largest = 0;
+};
+
+PixelChange pixel_change(const Image& golden, const Image& actual) {
+    PixelChange change;
+    for (std::size_t i = 0; i < golden.rgb_bottom_up.size(); i += 3) {
+        int largest = 0;
+        for (std::size_t channel = i; channel < i + 3; ++channel)
+            largest = std::max(
+                largest, std::abs(golden.rgb_bottom_up[channel] - actual.rgb_bottom_up[channel]));
+        change.differing += largest > 0 ? 1 : 0;
+        change.largest = std::max(change.largest, largest);
+    }
+    return change;
+}
+
+/// Compares two captures frame by frame.
+class Comparer {
+public:
+    Comparer(const Captured& golden, const Captured& actual, const PixelTolerance& tolerance)
+        : golden_(golden),
+          actual_(actual),
+          tolerance_(tolerance),
+          golden_ticks_(golden.tick_hashes()),
+          actual_ticks_(actual.tick_hashes()) {}
+
+    [[nodiscard]] Comparison compare() {
+        const Manifest& before = golden_.manifest();
+        const Manifest& after = actual_.manifest();
+        Comparison comparison{
+            .golden = golden_.folder(), .actual = actual_.folder(), .tolerance = tolerance_};
+        comparison.renderer = change_of(before.gl_renderer, after.gl_renderer);
+        comparison.settings = setting_changes(before, after);
+        if (auto change = scene_change(before.scene_text, after.scene_text); !change.empty())
+            comparison.findings.push_back(std::move(change));
+        const std::size_t count = std::max(before.frames.size(), after.frames.size());
+        for (std::size_t i = 0; i < count; ++i)
+            comparison.frames.push_back(compare_frame(static_cast<std::int64_t>(i)));
+        comparison.verdict = verdict_of(comparison);
+        return comparison;
+    }
+
+private:
+    [[nodiscard]] const Manifest::Frame& golden(std::int64_t index) const {
+        return golden_.manifest().frames[static_cast<std::size_t>(index)];
+    }
+    [[nodiscard]] const Manifest::Frame& actual(std::int64_t index) const {
+        return actual_.manifest().frames[static_cast<std::size_t>(index)];
+    }
+
+    [[nodiscard]] FrameComparison compare_frame(std::int64_t index) {
+        const bool has_golden = index < std::int64_t(golden_.manifest().frames.size());
+        const bool has_actual = index < std::int64_t(actual_.manifest().frames.size());
+        const Manifest::Frame& any = has_golden ? golden(index) : actual(index);
+        FrameComparison result{.index = index,
+                               .tick = any.tick,
+                               .time = static_cast<double>(index) / golden_.manifest().fps};
+        if (!has_golden || !has_actual) {
+            result.cause = Cause::missing;
+            result.words =
+                has_golden ? "the frame was not captured" : "the golden has no such frame";
+            return result;
+        }
+        result.cause = cause_of(index);
+        if (result.cause == Cause::simulation) result.words = describe_simulation(index);
+        if (result.cause == Cause::picture) result.words = describe_picture(index);
+        if (result.cause != Cause::none) compare_pixels(result);
+        if (result.cause == Cause::none && !golden(index).file.empty()) require_images(result);
+        return result;
+    }
+
+    [[nodiscard]] Cause cause_of(std::int64_t index) const {
+        const Manifest::Frame& before = golden(index);
+        const Manifest::Frame& after = actual(index);
+        if (before.state_hash != after.state_hash || before.tick != after.tick)
+            return Cause::simulation;
+        if (before.picture_hash != after.picture_hash || before.alpha != after.alpha)
+            return Cause::picture;
+        const bool same_size = golden_.manifest().size == actual_.manifest().size;
+        return before.pixel_hash == after.pixel_hash && same_size ? Cause::none : Cause::pixels;
+    }
+
+    /// A golden whose hashes are equal is still wrong if a file is gone.
+    void require_images(FrameComparison& result) const {
+        if (golden_.has_image(result.index)) return;
+        result.cause = Cause::missing;
+        result.words = golden(result.index).file + " of the golden is missing";
+    }
+
+    /// The first tick whose state differs, in words.
+    [[nodiscard]] std::string describe_tick(std::int64_t index) const {
+        const std::int64_t tick = golden(index).tick;
+        if (tick != actual(index).tick)
+            return fmt::format("at frame {}, which shows tick {} instead of {}", index,
+                               actual(index).tick, tick);
+        const std::int64_t last = index > 0 ? golden(index - 1).tick : 0;
+        for (std::int64_t t = last + 1; t <= tick; ++t) {
+            if (!golden_ticks_.contains(t) || !actual_ticks_.contains(t))
+                return fmt::format("between ticks {} and {}", last, tick);
+            if (golden_ticks_.at(t) != actual_ticks_.at(t)) return fmt::format("at tick {}", t);
+        }
+        return fmt::format("at tick {}", tick);
+    }
+
+    [[nodiscard]] std::string describe_simulation(std::int64_t index) const {
+        const std::string where = describe_tick(index);
+        const FrameRecord* const before = golden_.record(index);
+        const FrameRecord* const after = actual_.record(index);
+        if (!before || !after) return where;
+        const std::string shift = describe_shift(index, [&](std::int64_t a, std::int64_t b) {
+            const FrameRecord* const moved = actual_.record(a);
+            const FrameRecord* const other = golden_.record(b);
+            return moved && other && !other->bodies.empty() && moved->bodies == other->bodies;
+        });
+        if (!shift.empty()) return fmt::format("{}: frame {} {}", where, index, shift);
+        const std::string change =
+            describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
+        if (change.empty()) return where;
+        const std::string tick = fmt::format("at tick {}", golden(index).tick);
+        return fmt::format("{}: {}{}", where, change, where == tick ? "" : ", " + tick);
+    }
+
+    [[nodiscard]] std::string describe_picture(std::int64_t index) const {
+        const std::string shift = describe_shift(index, [&](std::int64_t a, std::int64_t b) {
+            return actual(a).picture_hash == golden(b).picture_hash;
+        });
+        if (!shift.empty()) return "it " + shift;
+        const FrameRecord* const before = golden_.record(index);
+        const FrameRecord* const after = actual_.record(index);
+        if (!before || !after) return "no records of this frame";
+        return describe_picture_change(before->picture, after->picture, golden_.manifest().size);
+    }
+
+    /// Words if this frame and the next are later or earlier frames of the golden. `is_same`
+    /// compares an actual frame with a golden one.
+    template <class IsSame>
+    [[nodiscard]] std::string describe_shift(std::int64_t index, const IsSame& is_same) const {
+        constexpr std::int64_t most_shift = 8;  // frames
+        const auto golden_count = std::int64_t(golden_.manifest().frames.size());
+        const auto actual_count = std::int64_t(actual_.manifest().frames.size());
+        const auto fits = [&](std::int64_t frame, std::int64_t shift) {
+            const std::int64_t other = frame + shift;
+            return other >= 0 && other < golden_count && is_same(frame, other);
+        };
+        for (std::int64_t distance = 1; distance <= most_shift; ++distance)
+            for (const std::int64_t shift : {distance, -distance}) {
+                const bool has_next = index + 1 < actual_count && index + 1 + shift < golden_count;
+                if (fits(index, shift) && (!has_next || fits(index + 1, shift)))
+                    return fmt::format(
+                        "shows frame {} of the golden (tick {}): shifted by {} "
+                        "frame{}",
+                        index + shift, golden(index + shift).tick, shift, distance == 1 ? "" : "s");
+            }
+        return {};
+    }
+
+    /// Decoding is slow: besides frames of which only pixels differ, only those of the page are
+    /// decoded.
+    void compare_pixels(FrameComparison& result) {
+        const bool pixels_only = result.cause == Cause::pixels;
+        if (!pixels_only && images_ == most_shown_frames) return;
+        if (golden_.manifest().size != actual_.manifest().size) {
+            if (pixels_only) result.words = "frames of another size";
+            return;
+        }
+        if (!golden_.has_image(result.index) || !actual_.has_image(result.index)) {
+            if (pixels_only) judge_without_images(result);
+            return;
+        }
+        const PixelChange change =
+            pixel_change(golden_.image(result.index), actual_.image(result.index));
+        const Size size = golden_.manifest().size;
+        result.has_images = true;
+        ++images_;
+        result.differing = change.differing;
+        result.largest = change.largest;
+        result.share = static_cast<double>(change.differing) / size.width / size.height;
+        if (!pixels_only) return;
+        result.tolerated = change.largest <= tolerance_.channel && result.share <= tolerance_.share;
+        result.words = fmt::format("{} of {} pixels differ, by at most {}", change.differing,
+                                   size.width * size.height, change.largest);
+    }
+
+    /// Without a PNG, pixels can only be equal. Another renderer may draw other ones.
+    void judge_without_images(FrameComparison& result) const {
+        result.tolerated = golden_.manifest().gl_renderer != actual_.manifest().gl_renderer &&
+                           golden(result.index).file.empty();
+        result.words = result.tolerated ? "pixels of another renderer, not compared without a PNG"
+                                        : "pixels differ, but a PNG is missing";
+    }
+
+    [[nodiscard]] std::string verdict_of(const Comparison& comparison) const {
+        const auto first = [&](Cause cause) -> const FrameComparison* {
+            for (const FrameComparison& frame : comparison.frames)
+                if (frame.cause == cause && !frame.passed()) return &frame;
+            return nullptr;
+        };
+        if (const auto* frame = first(Cause::simulation))
+            return fmt::format("simulation changed {}", frame->words);
+        if (const auto* frame = first(Cause::picture))
+            return fmt::format("picture changed at frame {}: {}", frame->index, frame->words);
+        if (const auto* frame = first(Cause::pixels))
+            return fmt::format("only pixels changed, at frame {}: {}{}", frame->index, frame->words,
+                               comparison.renderer.empty() ? "" : "; the renderer differs");
+        if (const auto* frame = first(Cause::missing))
+            return fmt::format("{} frames are missing, the first is frame {}: {}",
+                               comparison.count(Cause::missing), frame->index, frame->words);
+        const std::int64_t tolerated = comparison.count(Cause::pixels);
+        const std::size_t count = comparison.frames.size();
+        if (tolerated == 0) return fmt::format("{} frames are equal", count);
+        return fmt::format("{} frames are equal, {} of them within the tolerance of the pixels",
+                           count, tolerated);
+    }
+
+    const Captured& golden_;
+    const Captured& actual_;
+    const PixelTolerance& tolerance_;
+    std::map<std::int64_t, std::string> golden_ticks_;
+    std::map<std::int64_t, std::string> actual_ticks_;
+    std::int64_t images_ = 0;  ///< pairs of images compared so far
+};
+
+}  // namespace
+
+std::string_view name_of(Cause cause) {
+    switch (cause) {
+        case Cause::missing:
+            return "missing";
+        case Cause::simulation:
+            return "simulation";
+        case Cause::picture:
+            return "picture";
+        case Cause::pixels:
+            return "pixels";
+        case Cause::none:
+            break;
+    }
+    return "none";
+}
+
+bool Comparison::passed() const {
+    return std::all_of(frames.begin(), frames.end(),
+                       [](const FrameComparison& frame) { return frame.passed(); });
+}
+
+std::int64_t Comparison::count(Cause cause) const {
+    return std::count_if(frames.begin(), frames.end(),
+                         [&](const FrameComparison& frame) { return frame.cause == cause; });
+}
+
+Comparison compare_captures(const std::filesystem::path& golden,
+                            const std::filesystem::path& actual, const PixelTolerance& tolerance) {
+    const Captured before(golden);
+    const Captured after(actual);
+    if (!before.manifest().is_finished())
+        fail(Exit::usage, "{}: the capture was not finished ({} of {} frames); write it again",
+             golden.string(), before.manifest().frames.size(), before.manifest().planned_frames);
+    return Comparer(before, after, tolerance).compare();
+}
+
+std::string describe(const Comparison& comparison) {
+    std::string text;
+    if (!comparison.renderer.empty())
+        text += fmt::format("renderer differs: {}\n", comparison.renderer);
+    text += comparison.verdict + "\n";
+    for (const SettingChange& change : comparison.settings)
+        text += fmt::format("{}: {} → {}\n", change.name, change.golden, change.actual);
+    for (const std::string& finding : comparison.findings) text += finding + "\n";
+    if (comparison.passed()) return text;
+    text += fmt::format("{} frames:", comparison.frames.size());
+    for (const Cause cause :
+         {Cause::none, Cause::simulation, Cause::picture, Cause::pixels, Cause::missing})
+        if (const std::int64_t count = comparison.count(cause); count > 0)
+            text += fmt::format(" {} {};", count, cause == Cause::none ? "equal" : name_of(cause));
+    text.back() = '\n';
+    return text;
+}
+
+Json json_of(const Comparison& comparison) {
+    Json json{{"golden", comparison.golden.string()},
+              {"actual", comparison.actual.string()},
+              {"passed", comparison.passed()},
+              {"verdict", comparison.verdict},
+              {"renderer", comparison.renderer.empty() ? Json() : Json(comparison.renderer)},
+              {"findings", comparison.findings}};
+    Json& settings = json["settings"] = Json::array();
+    for (const SettingChange& change : comparison.settings)
+        settings.push_back(
+            {{"name", change.name}, {"golden", change.golden}, {"actual", change.actual}});
+    json["counts"] = {{"frames", comparison.frames.size()},
+                      {"equal", comparison.count(Cause::none)},
+                      {"simulation", comparison.count(Cause::simulation)},
+                      {"picture", comparison.count(Cause::picture)},
+                      {"pixels", comparison.count(Cause::pixels)},
+                      {"missing", comparison.count(Cause::missing)}};
+    Json& frames = json["frames"] = Json::array();
+    for (const FrameComparison& frame : comparison.frames)
+        if (frame.cause != Cause::none)
+            frames.push_back({{"index", frame.index},
+                              {"tick", frame.tick},
+                              {"time", frame.time},
+                              {"cause", name_of(frame.cause)},
+                              {"tolerated", frame.tolerated},
+                              {"text", frame.words},
+                              {"differing", frame.differing},
+                              {"share", frame.share},
+                              {"largest", frame.largest}});
+    return json;
+}
+
+}  // namespace oiler

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "oiler/capture/comparison.hpp"
+
+namespace oiler {
+
+/// Writes index.html, a page that shows the failed frames without a network, and for each of the
+/// first 20 of them expected_N.png, actual_N.png and difference_N.png, the difference × 16. Removes
+/// the files of an earlier comparison; if the comparison passed, it only does that. Throws
+/// Error{io}.
+void write_differences(const Comparison& comparison, const std::filesystem::path& folder);
+
+/// The folder beside that of the frames where a page of differences is expected:
+/// frames/spring-differences.
+[[nodiscard]] std::filesystem::path differences_folder(const std::filesystem::path& actual);
+
+/// The comparison as a JUnit suite with a case for each cause.
+[[nodiscard]] std::string junit_of(const Comparison& comparison);
+
+}  // namespace oiler

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/frame_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "oiler/core/error.hpp"
+#include "oiler/core/json.hpp"
+
+namespace oiler {
+namespace {
+
+using Parsed = nlohmann::json;
+
+constexpr std::size_t most_bodies_recorded = 1000;
+constexpr std::size_t most_points_recorded = 20'000;
+
+Json json_of(Point point) { return Json::array({point.x, point.y}); }
+
+Json json_of(Colour colour) { return Json::array({colour.r, colour.g, colour.b, colour.a}); }
+
+Json json_of(const ElementKey& key) { return Json::array({key.object, key.part, key.jump}); }
+
+/// The members that all kinds of elements share.
+template <class Element>
+Json json_of_common(const Element& element) {
+    return {{"key", json_of(element.key)},
+            {"space", element.space == Space::world ? "world" : "canvas"},
+            {"colour", json_of(element.colour)}};
+}
+
+Json json_of(const Polyline& line) {
+    Json json = json_of_common(line);
+    json["width"] = line.width;
+    Json& points = json["points"] = Json::array();
+    for (const Point point : line.points) {
+        points.push_back(point.x);
+        points.push_back(point.y);
+    }
+    return json;
+}
+
+Json json_of(const Disc& disc) {
+    Json json = json_of_common(disc);
+    json["centre"] = json_of(disc.centre);
+    json["radius"] = disc.radius;
+    return json;
+}
+
+Json json_of(const Label& label) {
+    Json json = json_of_common(label);
+    json["at"] = json_of(label.at);
+    json["text"] = label.text;
+    json["size"] = label.size;
+    json["align"] = static_cast<int>(label.align);
+    return json;
+}
+
+Json json_of(const BodyState& body) {
+    Json json = Json::array({body.name});
+    for (const auto& vector : {body.position, body.velocity})
+        for (const double value : vector) json.push_back(value);
+    return json;
+}
+
+template <class Element>
+Json json_of_all(const std::vector<Element>& elements) {
+    Json json = Json::array();
+    for (const Element& element : elements) json.push_back(json_of(element));
+    return json;
+}
+
+Json json_of(const Picture& picture) {
+    return {{"background", json_of(picture.background)}, {"centre", json_of(picture.camera.centre)},
+            {"height", picture.camera.height},           {"lines", json_of_all(picture.polylines)},
+            {"discs", json_of_all(picture.discs)},       {"labels", json_of_all(picture.labels)}};
+}
+
+Point to_point(const Parsed& json) { return {json.at(0), json.at(1)}; }
+
+Colour to_colour(const Parsed& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
+
+template <class Element>
+Element to_common(const Parsed& json) {
+    Element element;
+    const Parsed& key = json.at("key");
+    element.key = {.object = key.at(0), .part = key.at(1), .jump = key.at(2)};
+    element.space = json.at("space") == "world" ? Space::world : Space::canvas;
+    element.colour = to_colour(json.at("colour"));
+    return element;
+}
+
+Polyline to_line(const Parsed& json) {
+    auto line = to_common<Polyline>(json);
+    line.width = json.at("width");
+    const Parsed& points = json.at("points");
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+        line.points.push_back({points[i], points[i + 1]});
+    return line;
+}
+
+Disc to_disc(const Parsed& json) {
+    auto disc = to_common<Disc>(json);
+    disc.centre = to_point(json.at("centre"));
+    disc.radius = json.at("radius");
+    return disc;
+}
+
+Label to_label(const Parsed& json) {
+    auto label = to_common<Label>(json);
+    label.at = to_point(json.at("at"));
+    label.text = json.at("text");
+    label.size = json.at("size");
+    label.align = static_cast<Align>(json.at("align").get<std::uint8_t>());
+    return label;
+}
+
+BodyState to_body(const Parsed& json) {
+    BodyState body{.name = json.at(0)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        body.position[axis] = json.at(1 + axis);
+        body.velocity[axis] = json.at(4 + axis);
+    }
+    return body;
+}
+
+FrameRecord to_record(const Parsed& json) {
+    FrameRecord record{.index = json.at("frame")};
+    for (const Parsed& body : json.at("bodies")) record.bodies.push_back(to_body(body));
+    const Parsed& picture = json.at("picture");
+    record.picture.background = to_colour(picture.at("background"));
+    record.picture.camera = {to_point(picture.at("centre")), picture.at("height")};
+    for (const Parsed& line : picture.at("lines"))
+        record.picture.polylines.push_back(to_line(line));
+    for (const Parsed& disc : picture.at("discs")) record.picture.discs.push_back(to_disc(disc));
+    for (const Parsed& label : picture.at("labels"))
+        record.picture.labels.push_back(to_label(label));
+    return record;
+}
+
+}  // namespace
+
+bool is_recordable(std::size_t bodies, const Picture& picture) {
+    std::size_t points = picture.discs.size() + picture.labels.size();
+    for (const Polyline& line : picture.polylines) points += line.points.size();
+    return bodies <= most_bodies_recorded && points <= most_points_recorded;
+}
+
+std::string to_json(const FrameRecord& record) {
+    const Json json{{"frame", record.index},
+                    {"bodies", json_of_all(record.bodies)},
+                    {"picture", json_of(record.picture)}};
+    return json.dump(-1) + "\n";
+}
+
+std::vector<FrameRecord> parse_frame_records(std::string_view lines, std::string_view file) try {
+    std::vector<FrameRecord> records;
+    while (!lines.empty()) {
+        const std::size_t end = std::min(lines.find('\n'), lines.size());
+        records.push_back(to_record(Parsed::parse(lines.substr(0, end))));
+        lines.remove_prefix(std::min(end + 1, lines.size()));
+    }
+    return records;
+} catch (const Parsed::exception& error) {
+    fail(Exit::usage, "{}: not the records of a capture ({}); capture again", file, error.what());
+}
+
+}  // namespace oiler

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oiler/picture/picture.hpp"
+
+namespace oiler {
+
+/// The state of a body at the tick of a frame.
+struct BodyState {
+    std::string name;                  ///< "bob", or "body 3"
+    std::array<double, 3> position{};  ///< m
+    std::array<double, 3> velocity{};  ///< m/s
+    friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+/// The contents of a frame before OpenGL: hashes tell that two frames differ, records tell where.
+struct FrameRecord {
+    std::int64_t index = 0;
+    std::vector<BodyState> bodies{};
+    Picture picture{};
+};
+
+/// Returns whether the record is small enough to be kept: up to 1000 bodies and 20,000 points.
+[[nodiscard]] bool is_recordable(std::size_t bodies, const Picture& picture);
+
+/// One line of JSON with a line feed. Numbers read back to the same bits.
+[[nodiscard]] std::string to_json(const FrameRecord& record);
+
+/// Reads the lines of to_json(). Throws Error{usage}; `file` is named in the message.
+[[nodiscard]] std::vector<FrameRecord> parse_frame_records(std::string_view lines,
+                                                           std::string_view file);
+
+}  // namespace oiler

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/picture_changes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+namespace oiler {
+namespace {
+
+/// The numbers of an element that are compared, whatever its kind is.
+struct Element {
+    ElementKey key;
+    Space space = Space::world;
+    Colour colour;
+    std::vector<Point> points;
+    float extent = 0;  ///< width, radius or size
+    std::string text{};
+    Align align = Align::left;
+    friend bool operator==(const Element&, const Element&) = default;
+};
+
+struct Kind {
+    const char* name;    ///< of one element
+    const char* extent;  ///< name of its extent
+};
+constexpr Kind line_kind{"line", "width"};
+constexpr Kind disc_kind{"disc", "radius"};
+constexpr Kind label_kind{"label", "size"};
+
+std::vector<Element> elements_of(const std::vector<Polyline>& lines) {
+    std::vector<Element> elements;
+    for (const Polyline& line : lines)
+        elements.push_back({line.key, line.space, line.colour, line.points, line.width});
+    return elements;
+}
+
+std::vector<Element> elements_of(const std::vector<Disc>& discs) {
+    std::vector<Element> elements;
+    for (const Disc& disc : discs)
+        elements.push_back({disc.key, disc.space, disc.colour, {disc.centre}, disc.radius});
+    return elements;
+}
+
+std::vector<Element> elements_of(const std::vector<Label>& labels) {
+    std::vector<Element> elements;
+    for (const Label& label : labels)
+        elements.push_back({label.key,
+                            label.space,
+                            label.colour,
+                            {label.at},
+                            label.size,
+                            label.text,
+                            label.align});
+    return elements;
+}
+
+struct Pair {
+    const Element* golden;
+    const Element* actual;
+};
+
+/// Elements of both pictures that correspond to each other and differ, and those without a partner.
+struct Matches {
+    std::vector<Pair> changed;
+    std::vector<const Element*> missing;
+    std::vector<const Element*> added;
+};
+
+/// Moves pairs that `belong` together from the unmatched elements to `take`.
+template <class Belong, class Take>
+void match(Matches& matches, const Belong& belong, const Take& take) {
+    std::vector<const Element*> missing;
+    for (const Element* golden : matches.missing) {
+        const auto found =
+            std::find_if(matches.added.begin(), matches.added.end(),
+                         [&](const Element* actual) { return belong(*golden, *actual); });
+        if (found == matches.added.end()) {
+            missing.push_back(golden);
+            continue;
+        }
+        take(Pair{golden, *found});
+        matches.added.erase(found);
+    }
+    matches.missing = std::move(missing);
+}
+
+/// Equal elements first, so that one missing label does not shift all others against each other.
+Matches match_all(const std::vector<Element>& golden, const std::vector<Element>& actual) {
+    Matches matches;
+    for (const Element& element : golden) matches.missing.push_back(&element);
+    for (const Element& element : actual) matches.added.push_back(&element);
+    const auto keep = [&](const Pair& pair) { matches.changed.push_back(pair); };
+    match(
+        matches, [](const Element& a, const Element& b) { return a == b; }, [](const Pair&) {});
+    match(
+        matches,
+        [](const Element& a, const Element& b) { return a.key.object != 0 && a.key == b.key; },
+        keep);
+    match(
+        matches,
+        [](const Element& a, const Element& b) {
+            return a.key.object == 0 && b.key.object == 0 && a.text == b.text;
+        },
+        keep);
+    match(
+        matches,
+        [](const Element& a, const Element& b) {
+            return a.key.object == 0 && b.key.object == 0 && a.points == b.points;
+        },
+        keep);
+    return matches;
+}
+
+int largest_channel(Colour a, Colour b) {
+    return std::max(
+        {std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
+}
+
+/// Largest distance of corresponding points in units of the canvas.
+float shift_of(const Element& golden, const Element& actual, const Camera& before,
+               const Camera& after) {
+    float largest = 0;
+    for (std::size_t i = 0; i < golden.points.size(); ++i) {
+        const bool world = golden.space == Space::world;
+        const Point from = world ? before.to_canvas(golden.points[i]) : golden.points[i];
+        const Point to = world ? after.to_canvas(actual.points[i]) : actual.points[i];
+        largest = std::max(largest, std::hypot(to.x - from.x, to.y - from.y));
+    }
+    return largest;
+}
+
+std::string count_of(std::size_t count, const char* name) {
+    return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+}
+
+/// Sentences about one kind of elements, joined by semicolons.
+class Report {
+public:
+    Report(const Kind& kind, std::string& words) : kind_(kind), words_(words) {}
+
+    template <class Differs, class Describe>
+    void add(const std::vector<Pair>& pairs, const Differs& differs, const Describe& describe) {
+        std::vector<Pair> chosen;
+        std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(chosen),
+                     [&](const Pair& pair) { return differs(*pair.golden, *pair.actual); });
+        if (!chosen.empty()) append(count_of(chosen.size(), kind_.name) + describe(chosen));
+    }
+    void add_unmatched(const std::vector<const Element*>& elements, const char* what) {
+        if (elements.empty()) return;
+        std::string names;
+        for (const Element* element : elements)
+            if (!element->text.empty() && names.size() < 60)
+                names += fmt::format("{} '{}'", names.empty() ? ":" : ",", element->text);
+        append(fmt::format("{} {}{}", count_of(elements.size(), kind_.name), what, names));
+    }
+
+    void append(const std::string& words) {
+        if (!words_.empty()) words_ += "; ";
+        words_ += words;
+    }
+
+private:
+    const Kind& kind_;
+    std::string& words_;
+};
+
+template <class Shape>
+void compare_kind(const Kind& kind, const std::vector<Shape>& golden_shapes,
+                  const std::vector<Shape>& actual_shapes, const Picture& golden,
+                  const Picture& actual, float pixels_per_unit, std::string& words) {
+    const std::vector<Element> before = elements_of(golden_shapes);
+    const std::vector<Element> after = elements_of(actual_shapes);
+    if (before == after) return;
+    const Matches matches = match_all(before, after);
+    Report report(kind, words);
+    report.add_unmatched(matches.missing, "missing");
+    report.add_unmatched(matches.added, "new");
+    const auto has_as_many_points = [](const Element& a, const Element& b) {
+        return a.points.size() == b.points.size();
+    };
+    report.add(
+        matches.changed,
+        [&](const Element& a, const Element& b) {
+            return has_as_many_points(a, b) && a.points != b.points;
+        },
+        [&](const std::vector<Pair>& pairs) {
+            float largest = 0;
+            for (const Pair& pair : pairs)
+                largest = std::max(
+                    largest, shift_of(*pair.golden, *pair.actual, golden.camera, actual.camera));
+            return fmt::format(" moved by at most {:.2g} px", largest * pixels_per_unit);
+        });
+    report.add(
+        matches.changed,
+        [&](const Element& a, const Element& b) { return !has_as_many_points(a, b); },
+        [](const std::vector<Pair>& pairs) {
+            return fmt::format(": {} → {} points", pairs[0].golden->points.size(),
+                               pairs[0].actual->points.size());
+        });
+    report.add(
+        matches.changed, [](const Element& a, const Element& b) { return a.extent != b.extent; },
+        [&](const std::vector<Pair>& pairs) {
+            return fmt::format(": {} {} → {}", kind.extent, pairs[0].golden->extent,
+                               pairs[0].actual->extent);
+        });
+    report.add(
+        matches.changed, [](const Element& a, const Element& b) { return a.colour != b.colour; },
+        [](const std::vector<Pair>& pairs) {
+            int largest = 0;
+            for (const Pair& pair : pairs)
+                largest =
+                    std::max(largest, largest_channel(pair.golden->colour, pair.actual->colour));
+            return fmt::format(" of another colour, by at most {}/255", largest);
+        });
+    report.add(
+        matches.changed, [](const Element& a, const Element& b) { return a.text != b.text; },
+        [](const std::vector<Pair>& pairs) {
+            return fmt::format(": text '{}' → '{}'", pairs[0].golden->text, pairs[0].actual->text);
+        });
+    report.add(
+        matches.changed,
+        [](const Element& a, const Element& b) { return a.align != b.align || a.space != b.space; },
+        [](const std::vector<Pair>&) { return std::string(" placed in another way"); });
+    if (matches.missing.empty() && matches.added.empty() && matches.changed.empty())
+        report.append(fmt::format("{}s in another order", kind.name));
+}
+
+}  // namespace
+
+std::string describe_picture_change(const Picture& golden, const Picture& actual, Size size) {
+    std::string words;
+    if (golden.background != actual.background)
+        words = fmt::format("background of another colour, by at most {}/255",
+                            largest_channel(golden.background, actual.background));
+    const Camera& before = golden.camera;
+    const Camera& after = actual.camera;
+    if (before.centre != after.centre || before.height != after.height)
+        words += fmt::format("{}camera: centre ({}, {}) → ({}, {}), height {} → {} m",
+                             words.empty() ? "" : "; ", before.centre.x, before.centre.y,
+                             after.centre.x, after.centre.y, before.height, after.height);
+    const float pixels_per_unit = std::min(static_cast<float>(size.width) / canvas_width,
+                                           static_cast<float>(size.height) / canvas_height);
+    compare_kind(line_kind, golden.polylines, actual.polylines, golden, actual, pixels_per_unit,
+                 words);
+    compare_kind(disc_kind, golden.discs, actual.discs, golden, actual, pixels_per_unit, words);
+    compare_kind(label_kind, golden.labels, actual.labels, golden, actual, pixels_per_unit, words);
+    return words;
+}
+
+}  // namespace oiler

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/video.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "oiler/capture/file.hpp"
+#include "oiler/core/error.hpp"
+
+extern char** environ;
+
+namespace oiler {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view ending;
+    std::vector<std::string> arguments;  ///< filters and encoder
+};
+
+/// Frames come bottom row first. H.264 with the usual chroma needs even sizes.
+const std::array<Format, 3>& formats() {
+    static const std::array<Format, 3> all{
+        {{".mp4",
+          {"-vf", "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast",
+           "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"}},
+         {".gif",
+          {"-filter_complex", "vflip,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none",
+           "-f", "gif"}},
+         {".apng", {"-vf", "vflip", "-plays", "0", "-f", "apng"}}}};
+    return all;
+}
+
+const Format& format_of(const fs::path& path) {
+    for (const Format& format : formats())
+        if (path.extension() == format.ending) return format;
+    fail(Exit::usage, "--video {}: give a file that ends with .mp4, .gif or .apng", path.string());
+}
+
+std::vector<std::string> command_of(const fs::path& path, const fs::path& target, Size size,
+                                    int fps) {
+    std::vector<std::string> words{"ffmpeg",
+                                   "-v",
+                                   "error",
+                                   "-nostdin",
+                                   "-y",
+                                   "-f",
+                                   "rawvideo",
+                                   "-pixel_format",
+                                   "rgb24",
+                                   "-video_size",
+                                   fmt::format("{}x{}", size.width, size.height),
+                                   "-framerate",
+                                   std::to_string(fps),
+                                   "-i",
+                                   "pipe:0"};
+    const Format& format = format_of(path);
+    words.insert(words.end(), format.arguments.begin(), format.arguments.end());
+    words.insert(words.end(), {"-fflags", "+bitexact", "file:" + target.string()});
+    return words;
+}
+
+/// Starts a program with `input` and `errors` as its standard streams. It is in a process group of
+/// its own, so that Ctrl-C in a terminal lets it complete its file. Returns an errno value.
+int spawn(pid_t& process, const std::vector<std::string>& words, int input, int errors) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, errors, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t defaults;
+    sigfillset(&defaults);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    const int error =
+        posix_spawnp(&process, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+/// The last line that ffmpeg wrote.
+std::string last_line(int descriptor) {
+    std::string text(4096, '\0');
+    const off_t end = lseek(descriptor, 0, SEEK_END);
+    const off_t start = std::max<off_t>(0, end - static_cast<off_t>(text.size()));
+    const ssize_t count = pread(descriptor, text.data(), text.size(), start);
+    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
+}  // namespace
+
+Video::Video(const fs::path& path, Size size, int fps) : path_(path) {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    temporary_ = path.parent_path() / fmt::format(".oiler-{}-video.tmp", getpid());
+    const std::vector<std::string> words = command_of(path, temporary_, size, fps);
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        fail(Exit::io, "cannot start ffmpeg: {}", system_reason(errno));
+    frames_ = ends[1];
+    errors_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+    const int error = spawn(process_, words, ends[0], errors_);
+    close(ends[0]);
+    if (error == 0) return;
+    process_ = -1;
+    close(frames_);
+    close(errors_);
+    fail(Exit::io,
+         "--video {}: cannot start ffmpeg: {}; install the Debian package ffmpeg, or leave out "
+         "--video",
+         path.string(), system_reason(error));
+}
+
+Video::~Video() {
+    if (process_ > 0) {
+        kill(process_, SIGKILL);
+        wait();
+    }
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+    close(errors_);
+}
+
+int Video::wait() {
+    close(std::exchange(frames_, -1));
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
+    process_ = -1;
+    return status;
+}
+
+void Video::fail_with_reason(int status) {
+    const std::string words = last_line(errors_);
+    const std::string end = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                                : fmt::format("exit code {}", WEXITSTATUS(status));
+    fail(Exit::io, "cannot write {}: ffmpeg ended with {}{}{}", path_.string(), end,
+         words.empty() ? "" : ": ", words);
+}
+
+void Video::add(std::span<const std::uint8_t> rgb_bottom_up) {
+    while (!rgb_bottom_up.empty()) {
+        const ssize_t count = ::write(frames_, rgb_bottom_up.data(), rgb_bottom_up.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail_with_reason(wait());
+        rgb_bottom_up = rgb_bottom_up.subspan(static_cast<std::size_t>(count));
+    }
+}
+
+void Video::finish() {
+    const int status = wait();
+    if (status != 0) fail_with_reason(status);
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+        fail(Exit::io, "cannot write {}: {}; choose another place", path_.string(),
+             system_reason(errno));
+    temporary_.clear();
+}
+
+}  // namespace oiler

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "oiler/core/size.hpp"
+
+namespace oiler {
+
+/// A video that ffmpeg encodes from raw frames while they are drawn. The ending of the path chooses
+/// the format: .mp4 (H.264), .gif or .apng. ffmpeg writes into a temporary file, which gets its
+/// name when it is complete.
+class Video {
+public:
+    /// Starts ffmpeg. Throws Error{usage} for another ending, and Error{io} if ffmpeg is missing.
+    Video(const std::filesystem::path& path, Size size, int fps);
+    /// Without finish(), ffmpeg is stopped and no file is left.
+    ~Video();
+    Video(const Video&) = delete;
+    Video& operator=(const Video&) = delete;
+
+    /// Rows of RGB, bottom row first. Throws Error{io} with the words of ffmpeg if it has failed.
+    void add(std::span<const std::uint8_t> rgb_bottom_up);
+    /// Waits for ffmpeg and names the file. Throws Error{io}.
+    void finish();
+
+private:
+    [[noreturn]] void fail_with_reason(int status);
+    /// Closes the pipe and returns the status of ffmpeg's end.
+    int wait();
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    int frames_ = -1;  ///< descriptor of the pipe to ffmpeg
+    int errors_ = -1;  ///< descriptor of the memory that takes ffmpeg's messages
+    pid_t process_ = -1;
+};
+
+}  // namespace oiler

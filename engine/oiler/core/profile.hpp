@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace oiler {
+
+/// The spans of the stages of a run, for the trace viewers of Chrome and Perfetto. Threads may add
+/// spans at the same time.
+class Profile {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    void add(const char* stage, Clock::time_point begin, Clock::time_point end);
+    /// JSON in Chrome's trace event format; times are in µs since the profile was made.
+    [[nodiscard]] std::string to_json() const;
+
+private:
+    struct Event {
+        const char* stage;
+        std::size_t thread;
+        Clock::time_point begin;
+        Clock::time_point end;
+    };
+
+    mutable std::mutex mutex_;
+    Clock::time_point start_ = Clock::now();
+    std::vector<Event> events_;
+};
+
+/// Adds the time from its construction to its destruction. A null profile measures nothing.
+class Span {
+public:
+    Span(Profile* profile, const char* stage) : profile_(profile), stage_(stage) {
+        if (profile_) begin_ = Profile::Clock::now();
+    }
+    ~Span() {
+        if (profile_) profile_->add(stage_, begin_, Profile::Clock::now());
+    }
+    Span(const Span&) = delete;
+    Span& operator=(const Span&) = delete;
+
+private:
+    Profile* profile_;
+    const char* stage_;
+    Profile::Clock::time_point begin_{};
+};
+
+}  // namespace oiler
