@@ -35,9 +35,10 @@ void run_steps(Playback& playback, const Options& options) {
 
 Exit loop(Playback& playback, const Options& options, const About& about, RunReport& report,
           Profile* profile) {
-    if (options.headless) return run_headless(playback, options, about, profile);
     if (options.steps)
         run_steps(playback, options);
+    else if (options.headless)
+        return run_headless(playback, options, about, profile);
     else
         report.dropped = run_window(playback, options, about);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;

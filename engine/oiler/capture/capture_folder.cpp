@@ -36,10 +36,11 @@ bool is_frame_like(std::string_view name) {
 /// Returns whether the capture of that manifest may have written the file.
 bool may_have_written(const Manifest& manifest, std::string_view name) {
     if (name == manifest_name || name == records_name) return true;
+    if (!is_frame_like(name)) return false;
+    const std::string_view digits = name.substr(std::string_view("frame_").size());
     std::int64_t index = -1;
-    if (is_frame_like(name)) name.remove_prefix(std::string_view("frame_").size());
-    std::from_chars(name.data(), name.data() + name.size(), index);
-    if (index < 0 || !frame_name(index).ends_with(name)) return false;
+    std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (index < 0 || name != frame_name(index)) return false;
     const auto listed = std::int64_t(manifest.frames.size());
     if (index < listed) return !manifest.frames[static_cast<std::size_t>(index)].file.empty();
     return index < manifest.planned_frames;

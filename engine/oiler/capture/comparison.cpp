@@ -41,7 +41,13 @@ std::vector<SettingChange> setting_changes(const Manifest& a, const Manifest& b)
     return all;
 }
 
-/// The first line in which two scene files differ; empty if they are equal.
+std::string without_comment(const std::string& line) {
+    std::string text = line.substr(0, line.find('#'));
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+/// The first line in which two scene files differ besides comments; empty if there is none.
 std::string scene_change(const std::string& golden, const std::string& actual) {
     std::istringstream before(golden);
     std::istringstream after(actual);
@@ -50,7 +56,9 @@ std::string scene_change(const std::string& golden, const std::string& actual) {
         std::string b;
         std::getline(before, a);
         std::getline(after, b);
-        if (a != b) return fmt::format("scene file changed, line {}: {} → {}", line, a, b);
+        if (without_comment(a) != without_comment(b))
+            return fmt::format("scene file changed, line {}: `{}` → `{}`", line, without_comment(a),
+                               without_comment(b));
     }
     return {};
 }
@@ -176,7 +184,7 @@ private:
             describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
         if (change.empty()) return where;
         const std::string tick = fmt::format("at tick {}", golden(index).tick);
-        return fmt::format("{}: {}{}", where, change, where == tick ? "" : ", " + tick);
+        return fmt::format("{}: {}{}", where, where == tick ? "" : tick + ", ", change);
     }
 
     [[nodiscard]] std::string describe_picture(std::int64_t index) const {

@@ -98,8 +98,11 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     const auto digits = [&](double value) {
         return single ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
     };
+    const std::string ulps = change.ulps < 1'000'000
+                                 ? fmt::format("{}", change.ulps)
+                                 : fmt::format("{:.2g}", static_cast<double>(change.ulps));
     return fmt::format("body '{}', {}: {} → {}, {} ulp", change.body, field_names[change.field],
-                       digits(change.golden), digits(change.actual), change.ulps);
+                       digits(change.golden), digits(change.actual), ulps);
 }
 
 }  // namespace oiler
