@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""A headless Chromium for the tests of pages.
+
+Needs Debian's chromium and nothing else: it is spoken to over a pipe, in its DevTools protocol.
+"""
+import base64
+import fcntl
+import json
+import os
+import select
+import subprocess
+import time
+
+PATIENCE = 60  # seconds, for anything
+
+
+class Browser:
+    """One tab of a headless Chromium; file descriptors 3 and 4 are where it expects the pipe."""
+
+    def __init__(self, profile):
+        theirs, self.out = os.pipe()
+        self.inward, back = os.pipe()
+        high = [fcntl.fcntl(fd, fcntl.F_DUPFD, 10) for fd in (theirs, back)]
+
+        def connect():
+            os.dup2(high[0], 3)
+            os.dup2(high[1], 4)
+
+        program = os.environ.get("CHROMIUM", "chromium")
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
+             "--disable-dev-shm-usage", "--disable-background-networking",
+             "--force-color-profile=srgb",
+             "--remote-debugging-pipe", f"--user-data-dir={profile}", "about:blank"],
+            preexec_fn=connect, close_fds=False, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
+        for fd in (theirs, back, *high):
+            os.close(fd)
+        self.buffer, self.events, self.sent, self.session = b"", [], 0, None
+        self.url = None
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self.session = self.call("Target.attachToTarget", targetId=target,
+                                 flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        os.close(self.out)
+        os.close(self.inward)
+
+    def receive(self, deadline):
+        while b"\0" not in self.buffer:
+            if not select.select([self.inward], [], [], max(0, deadline - time.monotonic()))[0]:
+                raise TimeoutError("chromium did not answer")
+            more = os.read(self.inward, 1 << 16)
+            if not more:
+                raise ConnectionError("chromium ended")
+            self.buffer += more
+        message, self.buffer = self.buffer.split(b"\0", 1)
+        return json.loads(message)
+
+    def call(self, method, **params):
+        self.sent += 1
+        message = {"id": self.sent, "method": method, "params": params}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.out, json.dumps(message).encode() + b"\0")
+        deadline = time.monotonic() + PATIENCE
+        while (answer := self.receive(deadline)).get("id") != self.sent:
+            self.events.append(answer)
+        if "error" in answer:
+            raise RuntimeError(f"{method}: {answer['error']['message']}")
+        return answer["result"]
+
+    def value(self, expression):
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in answer:
+            details = answer["exceptionDetails"]
+            raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
+        return answer["result"].get("value")
+
+    def resize(self, width):
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=900,
+                  deviceScaleFactor=1, mobile=False)
+
+    def open(self, url):
+        self.url = url
+        self.call("Page.navigate", url=url)
+        deadline = time.monotonic() + PATIENCE
+        while not self.value("document.readyState === 'complete'"
+                             " && location.href !== 'about:blank'"):
+            if time.monotonic() > deadline:
+                raise TimeoutError("the page did not load")
+            time.sleep(0.05)
+
+    def mouse(self, kind, place, held=False):
+        self.call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1],
+                  button="none" if kind == "mouseMoved" and not held else "left",
+                  buttons=int(held), clickCount=1)
+
+    def press(self, key, shift=False):
+        """`key` as in KeyboardEvent.key."""
+        text = {"text": key} if len(key) == 1 else {}
+        code = {" ": 32, "ArrowLeft": 37, "ArrowRight": 39}.get(key, ord(key[0].upper()))
+        common = dict(key=key, windowsVirtualKeyCode=code, modifiers=8 if shift else 0)
+        self.call("Input.dispatchKeyEvent", type="keyDown", **text, **common)
+        self.call("Input.dispatchKeyEvent", type="keyUp", **common)
+
+    def screenshot(self, x, y, width, height):
+        """A PNG of a part of the window."""
+        clip = dict(x=x, y=y, width=width, height=height, scale=1)
+        return base64.b64decode(self.call("Page.captureScreenshot", clip=clip)["data"])
+
+    def click(self, element):
+        """Where the mouse finds it, so that what is covered or hidden is not clicked."""
+        place = self.value(f"""(() => {{ const e = {element};
+            e.scrollIntoView({{block: 'center'}}); const box = e.getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2]; }})()""")
+        self.mouse("mousePressed", place)
+        self.mouse("mouseReleased", place)
+
+    def complaints(self):
+        """What was asked of the network, and what the console says."""
+        for event in self.events:
+            params = event.get("params", {})
+            if event["method"] == "Network.requestWillBeSent":
+                url = params["request"]["url"]
+                if not url.startswith("data:") and url != self.url:
+                    yield f"asked the network for {url[:120]}"
+            elif event["method"] == "Runtime.exceptionThrown":
+                details = params["exceptionDetails"]
+                yield "exception: " + details.get("exception", {}).get("description",
+                                                                       details["text"])
+            elif event["method"] == "Runtime.consoleAPICalled":
+                words = [str(one.get("value", one["type"])) for one in params["args"]]
+                yield f"console: {params['type']} {' '.join(words)}"
+            elif event["method"] == "Log.entryAdded" and params["entry"]["level"] != "verbose":
+                yield f"log: {params['entry']['text']}"
