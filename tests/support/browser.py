@@ -86,6 +86,11 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=900,
                   deviceScaleFactor=1, mobile=False)
 
+    def scheme(self, name):
+        """`light` or `dark`."""
+        self.call("Emulation.setEmulatedMedia",
+                  features=[{"name": "prefers-color-scheme", "value": name}])
+
     def open(self, url):
         self.url = url
         self.call("Page.navigate", url=url)
@@ -111,7 +116,8 @@ class Browser:
 
     def screenshot(self, x, y, width, height):
         """A PNG of a part of the window."""
-        clip = dict(x=x, y=y, width=width, height=height, scale=1)
+        left, top = self.value("[scrollX, scrollY]")
+        clip = dict(x=x + left, y=y + top, width=width, height=height, scale=1)
         return base64.b64decode(self.call("Page.captureScreenshot", clip=clip)["data"])
 
     def click(self, element):

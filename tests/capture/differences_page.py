@@ -1,0 +1,553 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Opens pages of differences between frames in Chromium and compares them with their own data.
+
+    differences_page.py [PAGE...]    a line per failure; exits with 0 or 1
+
+Two pages with known pixels and hostile names are made from the template and tested first.
+Needs Debian's chromium and nothing else.
+"""
+import base64
+import json
+import re
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import png
+from browser import Browser, PATIENCE
+from pictures import hostile_data, plain_data
+
+TEMPLATE = Path(__file__).resolve().parents[2] / "engine/oiler/capture/differences.html"
+NAMES = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels beyond the tolerance",
+         "~": "pixels within the tolerance", "m": "missing"}
+COUNTED = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels", "m": "missing"}
+LACK = {"expected": "no frame in the golden", "actual": "no actual frame"}
+CAPTIONS = {"expected": "expected (golden)", "actual": "actual", "difference": "difference × 16"}
+PANES = "document.querySelectorAll('figure')"
+LUMINANCE = """(colour) => { const linear = colour.match(/[\\d.]+/g).slice(0, 3).map(c => c / 255)
+    .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]; }"""
+
+
+def decoded(frame):
+    start = "data:image/png;base64,"
+    return {kind: frame[kind] and png.decode(base64.b64decode(frame[kind].removeprefix(start)))
+            for kind in CAPTIONS}
+
+
+def gaps(a, b):
+    return [[abs(x - y) for x, y in zip(p, q)] for p, q in zip(a.rows, b.rows)]
+
+
+def first_difference(shown, wanted):
+    return next((i // 3 for i, (a, b) in enumerate(zip(shown, wanted)) if a != b), None)
+
+
+def number(x, digits=6):
+    text = f"{float(f'{x:.{digits}g}'):,.12f}"
+    return text.rstrip("0").rstrip(".")
+
+
+class Check:
+    def __init__(self, browser, data):
+        self.browser, self.data, self.failures = browser, data, []
+
+    def expect(self, holds, words):
+        if not holds:
+            self.failures.append(words)
+
+    def texts(self, selector):
+        """Only texts that are visible."""
+        return self.browser.value(f"""[...document.querySelectorAll({json.dumps(selector)})]
+            .filter(e => e.checkVisibility()).map(e => e.textContent.trim())""")
+
+    def wait(self, condition, words):
+        deadline = time.monotonic() + PATIENCE
+        while not (holds := self.browser.value(condition)) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        self.expect(holds, f"waited in vain: {words}")
+
+    def settle(self):
+        self.wait("document.querySelector('#viewer').ariaBusy === 'false'", "the viewer is busy")
+
+    def button(self, text):
+        """Clicks it, and settles."""
+        self.browser.click(f"[...document.querySelectorAll('#bar button')].find("
+                           f"b => b.textContent.includes({json.dumps(text)}))")
+        self.settle()
+
+    def press(self, key, shift=False):
+        self.browser.press(key, shift)
+        self.settle()
+
+    # Verdict, settings and timeline
+
+    def heading(self):
+        data = self.data
+        self.expect(self.texts("h1") == [data["verdict"]], f"the verdict is {self.texts('h1')}")
+        self.expect(self.texts("#folders code") == [data["golden"], data["actual"]],
+                    f"the folders are {self.texts('#folders')}")
+        self.expect(self.texts("#findings li") == data["findings"],
+                    f"the findings are {self.texts('#findings li')}")
+        rows = [[row["name"], row["golden"], row["actual"]] for row in data["settings"]]
+        cells = self.texts("#settings tbody :is(th, td)")
+        self.expect(cells == sum(rows, []), f"the settings are {cells}")
+        self.expect(bool(self.texts("#settings")) == bool(rows), "an empty table of settings")
+        first = self.texts("main > *")[0]
+        if data["renderer"] is None:
+            self.expect(first == data["verdict"], f"first comes {first}")
+        else:
+            self.expect(first.endswith(data["renderer"]), f"first comes {first}")
+
+    def timeline(self):
+        data, timeline = self.data, self.data["timeline"]
+        self.expect(len(timeline) == data["counts"]["frames"], f"{len(timeline)} letters")
+        cells = self.browser.value("""[...document.querySelectorAll('#strip .cell')].map(e =>
+            [e.textContent, e.tagName === 'BUTTON', e.title, getComputedStyle(e).backgroundColor])""")
+        pictured = {frame["index"] for frame in data["frames"]}
+        wanted = [[letter.upper(), index in pictured, f"frame {index}: {NAMES[letter]}"]
+                  for index, letter in enumerate(timeline)]
+        wrong = [(cell[:3], one) for cell, one in zip(cells, wanted) if cell[:3] != one]
+        self.expect(not wrong and len(cells) == len(wanted), f"the cells differ: {wrong[:3]}")
+        self.expect(len({cell[3] for cell in cells}) == len(set(timeline)),
+                    "two causes have one colour")
+        firsts = [str(first) for first in range(0, len(timeline), 10)]
+        self.expect(self.texts("#strip small") == firsts, "the numbers above the cells differ")
+        self.legend()
+
+    def legend(self):
+        data, texts = self.data, self.texts("#legend li")
+        for letter, key in COUNTED.items():
+            if letter != "=":  # frames within the tolerance may count as equal
+                self.expect(data["counts"][key] == data["timeline"].count(letter),
+                            f"{key}: {data['counts'][key]} frames, not as the timeline")
+        counts = {letter: data["counts"][key] for letter, key in COUNTED.items()}
+        counts["~"] = data["timeline"].count("~")
+        wanted = [f"{letter.upper()} {name}: {counts[letter]:,}" for letter, name in NAMES.items()]
+        self.expect(texts == wanted, f"the legend is {texts}")
+
+    # Frames
+
+    def go(self, at):
+        """By a click on its cell."""
+        index = self.data["frames"][at]["index"]
+        self.browser.click(f"document.querySelectorAll('#strip .cell')[{index}]")
+        self.settle()
+        self.is_at(at, "a click on its cell")
+
+    def is_at(self, at, after):
+        frame = self.data["frames"][at]
+        heading = self.texts("#heading")
+        self.expect(heading == [f"Frame {frame['index']}: {frame['cause']}"],
+                    f"after {after}: {heading}, not frame {frame['index']}")
+        marked = self.browser.value("""[...document.querySelectorAll('#strip .cell')].flatMap(
+            (e, i) => e.ariaCurrent === 'true' ? [i] : [])""")
+        self.expect(marked == [frame["index"]], f"after {after} the marked cells are {marked}")
+
+    def facts(self, frame, pictures):
+        self.expect(self.texts("#text") == [frame["text"]], f"the text is {self.texts('#text')}")
+        facts = dict(zip(self.texts("#facts dt"), self.texts("#facts dd")))
+        wanted = {"tick": number(frame["tick"]), "time": f"{number(frame['time'])} s"}
+        if pictures["expected"] and pictures["actual"]:
+            wanted |= self.pixel_facts(frame, pictures)
+        self.expect(facts == wanted, f"frame {frame['index']}: {facts}, not {wanted}")
+
+    def pixel_facts(self, frame, pictures):
+        """Counted again here."""
+        width, height = frame["width"], frame["height"]
+        triples = [max(row[i:i + 3]) for row in gaps(pictures["expected"], pictures["actual"])
+                   for i in range(0, 3 * width, 3)]
+        most, index = max(triples), frame["index"]
+        self.expect(most == frame["largest"], f"frame {index}: the largest difference is {most}")
+        channel = self.data["tolerance"]["channel"]
+        counts = [sum(gap > least for gap in triples) for least in (0, channel)]
+        self.expect(frame["differing"] in counts, f"frame {index}: {counts} pixels differ")
+        self.expect(abs(frame["share"] - frame["differing"] / (width * height)) < 1e-6,
+                    f"frame {index}: the share is {frame['share']}")
+        at = triples.index(most)
+        where = f" at x {at % width}, y {at // width}" if most else ""
+        return {"differing pixels": f"{number(frame['differing'])} of {number(width * height)} "
+                                    f"({number(frame['share'] * 100, 3)} %)",
+                "largest difference": f"{most} of 255{where}", "size": f"{width} × {height}"}
+
+    def true_difference(self, frame, pictures):
+        if pictures["difference"] and pictures["expected"] and pictures["actual"]:
+            rows = [bytes(min(255, 16 * gap) for gap in row)
+                    for row in gaps(pictures["expected"], pictures["actual"])]
+            self.expect(pictures["difference"].rows == rows,
+                        f"frame {frame['index']}: the difference is not 16 × that of the pictures")
+
+    # Views
+
+    def box(self, pane):
+        """The place of the canvas in the window, the part of it that is visible, and the zoom."""
+        return self.browser.value(f"""(() => {{
+            const figure = {PANES}[{pane}], canvas = figure.querySelector('canvas');
+            figure.scrollIntoView({{block: 'start', behavior: 'instant'}});
+            const scroll = figure.querySelector('.scroll');
+            const box = canvas.getBoundingClientRect(), outer = scroll.getBoundingClientRect();
+            const [left, top] = [Math.round(box.left), Math.round(box.top)];
+            const from = [Math.max(left, Math.ceil(outer.left + 1), 0),
+                          Math.max(top, Math.ceil(outer.top + 1), 0)];
+            const to = [Math.min(Math.round(box.right), Math.floor(outer.left) + scroll.clientWidth,
+                                 innerWidth),
+                        Math.min(Math.round(box.bottom), Math.floor(outer.top) + scroll.clientHeight,
+                                 innerHeight)];
+            return {{left, top, from, to, zoom: box.width / canvas.width}}; }})()""")
+
+    def shows(self, pane, picture, words, seam=None):
+        """Compares the visible part of a pane with a picture, pixel by pixel. Columns beside the
+        seam, where the divider is drawn, are left out."""
+        box = self.box(pane)
+        zoom, (x0, y0), (x1, y1) = round(box["zoom"]), box["from"], box["to"]
+        self.expect(x1 - x0 > 4 and y1 - y0 > 4, f"{words}: hardly visible: {box}")
+        shot = png.decode(self.browser.screenshot(x0, y0, x1 - x0, y1 - y0))
+        columns = [(x - box["left"]) // zoom for x in range(x0, x1)]
+        skip = None if seam is None else box["left"] + seam * zoom - x0
+        for y, row in enumerate(shot.rows):
+            source = picture.rows[(y + y0 - box["top"]) // zoom]
+            wanted = b"".join(source[3 * x:3 * x + 3] for x in columns)
+            if skip is not None:
+                start, end = 3 * max(skip - 1, 0), 3 * max(skip + 1, 0)
+                row, wanted = (text[:start] + text[end:] for text in (row, wanted))
+            if row != wanted:
+                self.expect(False, f"{words}: another pixel at column {first_difference(row, wanted)}"
+                                   f" of row {y} of {box}")
+                return
+
+    def captions(self):
+        return self.texts("figcaption")
+
+    def pane(self, pane, kind, pictures, words):
+        """One picture alone in a pane."""
+        caption, wanted = self.captions()[pane], CAPTIONS[kind]
+        if pictures[kind]:
+            self.expect(caption == wanted, f"{words}: the caption is {caption}")
+            self.shows(pane, pictures[kind], f"{words}, {kind}")
+            return
+        lack = LACK.get(kind) or next(LACK[k] for k in LACK if not pictures[k])
+        self.expect(caption == f"{wanted}: {lack}", f"{words}: the caption is {caption}")
+        self.expect(self.is_blank(pane), f"{words}: a picture where {kind} is missing")
+
+    def is_blank(self, pane, columns=None):
+        start, end = columns or (0, None)
+        return self.browser.value(f"""(() => {{
+            const canvas = {PANES}[{pane}].querySelector('canvas');
+            const width = {json.dumps(end)} === null ? canvas.width : {json.dumps(end)} - {start};
+            return canvas.getContext('2d').getImageData({start}, 0, width, canvas.height)
+                .data.every(byte => byte === 0); }})()""")
+
+    def flip(self, pictures, words):
+        self.button("flip")
+        if self.captions()[0].startswith("actual"):
+            self.press(" ")
+        self.pane(0, "expected", pictures, f"{words}, flip")
+        self.press(" ")
+        self.pane(0, "actual", pictures, f"{words}, flip by Space")
+        box = self.box(0)
+        place = [(a + b) / 2 for a, b in zip(box["from"], box["to"])]
+        self.browser.mouse("mousePressed", place)
+        self.browser.mouse("mouseReleased", place)
+        self.pane(0, "expected", pictures, f"{words}, flip by a click")
+        self.expect(len(self.captions()) == 1, f"{words}, flip: {self.captions()}")
+
+    def slide(self, pictures, words):
+        self.button("slide")
+        box = self.box(0)
+        zoom, (x0, y0), (x1, y1) = box["zoom"], box["from"], box["to"]
+        y, third = (y0 + y1) / 2, (x1 - x0) // 3
+        self.browser.mouse("mousePressed", (x0 + third, y))
+        self.divider(pictures, (x0 + third - box["left"]) / zoom, f"{words}, pressed")
+        y = sum(self.box(0)[key][1] for key in ("from", "to")) / 2
+        self.browser.mouse("mouseMoved", (x0 + 2 * third, y), held=True)
+        self.browser.mouse("mouseReleased", (x0 + 2 * third, y))
+        at = self.divider(pictures, (x0 + 2 * third - box["left"]) / zoom, f"{words}, dragged")
+        self.browser.mouse("mouseMoved", (x0 + third, y))
+        self.divider(pictures, at, f"{words}, released")
+        for key, shift, step in (("ArrowLeft", False, -1), ("ArrowRight", True, 10),
+                                 ("ArrowRight", False, 1), ("ArrowLeft", True, -10)):
+            self.press(key, shift)
+            at = self.divider(pictures, at + step, f"{words}, {key}")
+
+    def divider(self, pictures, wanted, words):
+        """Returns where it is."""
+        at = self.browser.value("Number(document.querySelector('.divider').ariaValueNow)")
+        known = next(p for p in pictures.values() if p)
+        self.expect(abs(at - min(max(wanted, 0), known.width)) <= 0.51,
+                    f"{words}: the divider is at {at}, not {wanted}")
+        sides = [("expected", (0, at)), ("actual", (at, known.width))]
+        for kind, (start, end) in sides:
+            if not pictures[kind]:
+                self.expect(LACK[kind] in self.captions()[0] and
+                            (start == end or self.is_blank(0, (start, end))),
+                            f"{words}: a picture where {kind} is missing")
+        if all(pictures[kind] for kind, _ in sides):
+            left, right = pictures["expected"], pictures["actual"]
+            rows = [a[:3 * at] + b[3 * at:] for a, b in zip(left.rows, right.rows)]
+            self.shows(0, png.Picture(left.width, left.height, rows), f"{words}, slide", seam=at)
+            self.line(at, words)
+        return at
+
+    def line(self, at, words):
+        """Where the divider is drawn: a black and a white column."""
+        box = self.box(0)
+        x = box["left"] + round(at * box["zoom"])
+        if box["from"][0] < x < box["to"][0]:
+            row = png.decode(self.browser.screenshot(x - 1, box["from"][1], 2, 1)).rows[0]
+            self.expect(row == b"\0\0\0\xff\xff\xff", f"{words}: the line is {list(row)}")
+
+    def side(self, pictures, words):
+        self.button("side by side")
+        for pane, kind in enumerate(("expected", "actual")):
+            self.pane(pane, kind, pictures, f"{words}, side by side")
+
+    def difference(self, pictures, words):
+        self.button("difference")
+        self.pane(0, "difference", pictures, f"{words}, difference")
+
+    def hover(self, pictures, words):
+        for pane in range(len(self.captions())):
+            box = self.box(pane)
+            spans = list(zip(box["from"], box["to"]))
+            for share in (0.02, 0.37, 0.71, 0.99):
+                place = [int(a + share * (b - a)) for a, b in spans]
+                self.browser.mouse("mouseMoved", place)
+                self.readout(pictures, box, place, words)
+        self.browser.mouse("mouseMoved", (1, 1))
+        texts = [" ".join(text.split()) for text in self.texts("#spot")]
+        self.expect(not re.search(r"\d", texts[0]), f"{words}: away from the picture: {texts}")
+
+    def readout(self, pictures, box, place, words):
+        x, y = (int((at - start) // box["zoom"])
+                for at, start in zip(place, (box["left"], box["top"])))
+        colours = {kind: pictures[kind] and pictures[kind].pixel(x, y) for kind in LACK}
+        plain = lambda colour: " ".join(map(str, colour)) if colour else "–"
+        gap = all(colours.values()) and [abs(a - b) for a, b in zip(*colours.values())]
+        wanted = (f"x {x}, y {y}expected {plain(colours['expected'])}"
+                  f"actual {plain(colours['actual'])}difference {plain(gap)}")
+        [text] = self.texts("#spot")
+        self.expect(text == wanted, f"{words}: under the mouse: {text}, not {wanted}")
+        swatches = self.browser.value("""[...document.querySelectorAll('.swatch:not([hidden])')].map(
+            e => getComputedStyle(e).backgroundColor)""")
+        self.expect(swatches == [f"rgb({', '.join(map(str, c))})" for c in colours.values() if c],
+                    f"{words}: the swatches are {swatches}")
+
+    def scrolling(self):
+        """Both panes scroll together, also back to where one followed the other."""
+        for pane, left in ((0, 90), (1, 40), (1, 90), (0, 40), (1, 0)):
+            places = self.browser.value(f"""(async () => {{
+                const frames = () => new Promise(done => requestAnimationFrame(() =>
+                    requestAnimationFrame(() => requestAnimationFrame(done))));
+                const scrolls = [...document.querySelectorAll('.scroll')];
+                scrolls[{pane}].scrollTo({left}, {left} / 2);
+                await frames();
+                return scrolls.map(s => [s.scrollLeft, s.scrollTop]); }})()""")
+            self.expect(places[0] == places[1], f"pane {pane} at {left}: the panes are at {places}")
+
+    def zoom_to_largest(self, frame, pictures):
+        """Without the mouse, zooming shows the largest difference; with it, the pixel under it."""
+        self.press("b")
+        self.press("4")
+        found = re.search(r"x (\d+), y (\d+)", self.texts("#facts")[0])
+        if found:
+            self.is_visible([int(x) for x in found.groups()], "the largest difference")
+        boxes = [self.box(pane) for pane in (0, 1)]
+        offsets = [[box["from"][i] - box[key] for i, key in enumerate(("left", "top"))]
+                   for box in boxes]
+        self.expect(offsets[0] == offsets[1], f"the panes are scrolled apart: {offsets}")
+        self.side(pictures, "zoomed to the largest difference")
+        self.scrolling()
+        self.hover(pictures, "zoomed to the largest difference")
+        self.press("1")
+        box = self.box(0)
+        place = [int(a + 0.8 * (b - a)) for a, b in zip(box["from"], box["to"])]
+        self.browser.mouse("mouseMoved", place)
+        self.press("4")
+        self.is_visible([at - box[key] for at, key in zip(place, ("left", "top"))],
+                        "the pixel under the mouse")
+        self.browser.mouse("mouseMoved", (1, 1))
+        self.press("1")
+
+    def is_visible(self, pixel, words):
+        box = self.box(0)
+        spans = [((start - origin) / 4, (end - origin) / 4) for start, end, origin
+                 in zip(box["from"], box["to"], (box["left"], box["top"]))]
+        self.expect(all(low - 1 <= at <= high + 1 for at, (low, high) in zip(pixel, spans)),
+                    f"zooming hides {words}, {pixel}; visible: {spans}")
+
+    def frame(self, at):
+        frame, words = self.data["frames"][at], f"frame {self.data['frames'][at]['index']}"
+        self.go(at)
+        pictures = decoded(frame)
+        self.facts(frame, pictures)
+        self.true_difference(frame, pictures)
+        for mode in (self.flip, self.slide, self.side, self.difference):
+            mode(pictures, words)
+            self.hover(pictures, f"{words}, {mode.__name__}")
+        for zoom in ("2×", "4×", "1×"):
+            self.button(zoom)
+            self.expect(self.box(0)["zoom"] == int(zoom[0]), f"the zoom is not {zoom}")
+            self.flip(pictures, f"{words} at {zoom}")
+            self.hover(pictures, f"{words} at {zoom}")
+            if zoom == "4×":
+                self.slide(pictures, f"{words} at {zoom}")
+        if pictures["expected"] and pictures["actual"]:
+            self.zoom_to_largest(frame, pictures)
+
+    # Mouse and keys
+
+    def steps(self):
+        last = len(self.data["frames"]) - 1
+        self.go(0)
+        for mode, forth, back in (("f", "ArrowRight", "ArrowLeft"), ("d", "j", "k"),
+                                  ("s", "j", "k"), ("b", "ArrowRight", "ArrowLeft")):
+            self.press(mode)
+            for key, sign in ((forth, 1), (back, -1)):
+                for at in range(last)[::1] if sign > 0 else range(last, 0, -1):
+                    self.press(key)
+                    self.is_at(at + sign, f"{key} in mode {mode}")
+                self.press(key)
+                self.is_at(last if sign > 0 else 0, f"{key} at the end in mode {mode}")
+        if last:
+            self.button("next")
+            self.is_at(1, "next")
+            self.button("previous")
+            self.is_at(0, "previous")
+        disabled = self.browser.value("""[...document.querySelectorAll('#bar button')]
+            .filter(b => b.disabled).map(b => b.textContent)""")
+        self.expect(disabled[:1] == ["◂ previous"] and (last > 0) == (len(disabled) == 1),
+                    f"at the first frame these buttons are disabled: {disabled}")
+
+    def mode_keys(self):
+        names = {"s": "slide", "b": "side by side", "d": "difference × 16", "f": "flip"}
+        zooms = {"2": "2×", "4": "4×", "1": "1×"}
+        for key, name in (names | zooms).items():
+            self.press(key)
+            pressed = self.browser.value("""[...document.querySelectorAll(
+                '#bar [aria-pressed=true]')].map(b => b.textContent)""")
+            self.expect(name in pressed and len(pressed) == 2, f"after {key}: {pressed}")
+        self.button("slide")
+        before = self.captions()
+        self.press(" ")
+        self.expect(self.captions() == before, "Space flips in mode slide")
+        self.press("f")
+
+    def automatic(self):
+        """Four turns take 2 s; the bound is half of it, as the first may come late."""
+        self.browser.value("""(() => { window.turns = []; new MutationObserver(() =>
+            turns.push([performance.now(), document.querySelector('figcaption').textContent]))
+            .observe(document.querySelector('figcaption'), {childList: true}); })()""")
+        self.press("f")
+        self.browser.value("turns.length = 0")
+        self.button("0.5 s")
+        start = "turns.filter(([, text], i) => i === 0 || text !== turns[i - 1][1])"
+        self.wait(f"{start}.length >= 5", "automatic flips")
+        turns = self.browser.value(start)
+        self.expect(turns[4][0] - turns[0][0] > 1000, f"the automatic flips are too fast: {turns}")
+        self.expect(turns[1][1].split(":")[0] != turns[2][1].split(":")[0], f"no flips: {turns}")
+        self.press("a")
+        count = self.browser.value("turns.length")
+        time.sleep(1.2)
+        self.expect(self.browser.value("turns.length") == count, "the flips do not stop")
+
+    # The page as a whole
+
+    def looks(self):
+        for scheme in ("light", "dark"):
+            self.browser.scheme(scheme)
+            contrasts = self.browser.value(f"""(() => {{ const luminance = {LUMINANCE};
+                const of = (e) => {{ const style = getComputedStyle(e);
+                    const [a, b] = [luminance(style.color), luminance(style.backgroundColor)];
+                    return [e.textContent.slice(0, 12), a > b,
+                            (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05)]; }};
+                return [document.body, ...document.querySelectorAll(
+                    '#legend .cell, #bar button:not(:disabled)')].map(of); }})()""")
+            self.expect(contrasts[0][1] == (scheme == "dark"), f"the page is not {scheme}")
+            faint = [words for words, _, contrast in contrasts if contrast < 4.5]
+            self.expect(not faint, f"hardly legible in {scheme} mode: {faint}")
+        self.browser.scheme("light")
+        for width in (1600, 1000, 400):
+            self.browser.resize(width)
+            wide = self.browser.value("""new Promise(done => requestAnimationFrame(() =>
+                requestAnimationFrame(() => done(document.documentElement.scrollWidth))))""")
+            self.expect(wide <= width, f"at a width of {width} the page is {wide} wide")
+        self.browser.resize(1000)
+
+    def chosen(self):
+        """The first frames, those with a missing picture, and the last."""
+        frames = self.data["frames"]
+        partial = [at for at, frame in enumerate(frames)
+                   if frame["expected"] is None or frame["actual"] is None]
+        return sorted({0, 1, *partial[:2], *(at for at, frame in enumerate(frames) if
+                       (frame["expected"] is None) != (frame["actual"] is None)
+                       and at in (partial[0], partial[-1])), len(frames) - 1} & set(range(len(frames))))
+
+    def all(self):
+        self.heading()
+        self.timeline()
+        self.expect(bool(self.texts("#viewer")) == bool(self.data["frames"]),
+                    "a viewer without frames, or none with frames")
+        if self.data["frames"]:
+            self.settle()
+            self.is_at(0, "opening")
+            for at in self.chosen():
+                self.frame(at)
+            for step in (self.steps, self.mode_keys, self.automatic, self.looks):
+                step()
+        self.expect(self.browser.value("window.hostile === undefined"), "a text was executed")
+
+
+def own_data(page):
+    """As Python reads it from the file, not as the page's script understands it."""
+    found = re.findall(r"<script>const data = (.*?);</script>", page.read_text(encoding="utf-8"),
+                       re.S)
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} scripts with data")
+    return json.loads(found[0])
+
+
+def test(page):
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        browser = Browser(profile)
+        try:
+            browser.resize(1000)
+            check = Check(browser, own_data(page))
+            browser.open(page.resolve().as_uri())
+            try:
+                check.all()
+            except (RuntimeError, ValueError, LookupError, TypeError) as error:
+                check.failures.append(f"stopped: {type(error).__name__}: {error}")
+            return check.failures + list(browser.complaints())
+        finally:
+            browser.close()
+
+
+def write_page(folder, name, data):
+    text = json.dumps(data).replace("<", "\\u003c")
+    page = Path(folder) / name
+    page.write_text(TEMPLATE.read_text(encoding="utf-8").replace("@DATA@", text), encoding="utf-8")
+    return page
+
+
+def main(arguments):
+    failed = False
+    with tempfile.TemporaryDirectory() as folder:
+        pages = [write_page(folder, "hostile.html", hostile_data()),
+                 write_page(folder, "plain.html", plain_data()), *map(Path, arguments)]
+        for page in pages:
+            try:
+                failures = test(page)
+            except (OSError, RuntimeError, ValueError) as error:
+                failures = [f"{type(error).__name__}: {error}"]
+            for failure in failures:
+                print(f"{page.name}:", " ".join(str(failure).split()))
+            failed = failed or bool(failures)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
