@@ -337,16 +337,24 @@ class Check:
                     f"{words}: the swatches are {swatches}")
 
     def scrolling(self):
-        """Both panes scroll together, also back to where one followed the other."""
-        for pane, left in ((0, 90), (1, 40), (1, 90), (0, 40), (1, 0)):
-            places = self.browser.value(f"""(async () => {{
-                const frames = () => new Promise(done => requestAnimationFrame(() =>
-                    requestAnimationFrame(() => requestAnimationFrame(done))));
-                const scrolls = [...document.querySelectorAll('.scroll')];
-                scrolls[{pane}].scrollTo({left}, {left} / 2);
-                await frames();
-                return scrolls.map(s => [s.scrollLeft, s.scrollTop]); }})()""")
-            self.expect(places[0] == places[1], f"pane {pane} at {left}: the panes are at {places}")
+        """The wheel over one pane scrolls both."""
+        for pane, distance in ((0, 90), (1, -40), (1, 70), (0, -300)):
+            box, before = self.box(pane), self.offsets()
+            place = [(a + b) / 2 for a, b in zip(box["from"], box["to"])]
+            self.browser.mouse("mouseMoved", place)
+            self.browser.wheel(place, distance)
+            self.wait("""new Promise(done => { const scrolls = document.querySelectorAll('.scroll');
+                const places = () => [...scrolls].map(s => [s.scrollLeft, s.scrollTop].join());
+                const before = places(); setTimeout(() => { const [left, right] = places();
+                done(left === right && left === before[0] && right === before[1]); }, 200); })""",
+                      f"a wheel over pane {pane} scrolls the panes apart: {self.offsets()}")
+            if self.browser.value("document.querySelector('canvas').width > 1000"):
+                self.expect(self.offsets() != before, f"the wheel over pane {pane} scrolls nothing")
+        self.browser.mouse("mouseMoved", (1, 1))
+
+    def offsets(self):
+        return self.browser.value("""[...document.querySelectorAll('.scroll')]
+            .map(s => [s.scrollLeft, s.scrollTop])""")
 
     def zoom_to_largest(self, frame, pictures):
         """Without the mouse, zooming shows the largest difference; with it, the pixel under it."""

@@ -106,6 +106,11 @@ class Browser:
                   button="none" if kind == "mouseMoved" and not held else "left",
                   buttons=int(held), clickCount=1)
 
+    def wheel(self, place, distance):
+        """Down and to the right."""
+        self.call("Input.dispatchMouseEvent", type="mouseWheel", x=place[0], y=place[1],
+                  deltaX=distance, deltaY=distance)
+
     def press(self, key, shift=False):
         """`key` as in KeyboardEvent.key."""
         text = {"text": key} if len(key) == 1 else {}
