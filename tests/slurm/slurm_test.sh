@@ -83,7 +83,9 @@ errors_json() { grep -vE '"(ns_per_second|ns_spread|ns_together|pareto|cores)":'
 same_errors() {
     cmp <(errors_csv "$1") <(errors_csv "$2") && cmp <(errors_json "$1") <(errors_json "$2")
 }
-merge() { "$OILER" merge "$parts"/part-*-of-8.json --out "$folder/merged" --quiet >"$folder/merge.log"; }
+merge() {
+    "$OILER" merge "$parts"/part-*-of-8.json --out "$folder/merged" --quiet >"$folder/merged.log" 2>&1
+}
 
 cp "$source/assets/scenes/chain.toml" "$scene"
 refuses "usage: slurm.sh SCENE N OUT" "$scene" 8
@@ -126,7 +128,7 @@ echo "$(($(wc -l <"$out/tradeoff.csv") - 1)) rows are equal after $SECONDS s"
 awk '/"rows"/ { rows = 1 } rows && !changed { changed = sub(/"velocity_error": [0-9]/, "&1") } 1' \
     "$(part 5)" >"$folder/changed"
 mv "$folder/changed" "$(part 5)"
-if merge && same_errors "$folder/whole" "$folder/merged"; then fail "a changed number is not found"; fi
+if merge && same_errors "$folder/whole" "$folder/merged" >/dev/null; then fail "a changed number is not found"; fi
 rm "$(part 5)"
 if merge; then fail "a missing part is not noticed"; fi
 
