@@ -12,7 +12,7 @@ folder=$(mktemp -d)
 out="$folder/the sweep"
 parts=$out/parts
 scene="$folder/a chain.toml"
-options=(--max-rate 250 --duration 120)
+options=(--max-rate 250 --duration 60)
 # shellcheck source=tests/slurm/cluster.sh
 . "$here/cluster.sh"
 whole=
@@ -114,7 +114,7 @@ scontrol requeue "${array}_3"
 # Job 8 is the last of the array: its own number is also that of the array.
 reach_the_middle 8 "$kept_by_8"
 scancel --signal=USR1 --batch "${array}_8"
-until_true 100 is_idle || fail "the jobs do not finish"
+until_true 300 is_idle || fail "the jobs do not finish"
 [ "$(job_state "$merged")" = JobState=COMPLETED ] || fail "the merge: $(job_state "$merged")"
 continued 1 1
 continued 3 2
