@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
+#include <vector>
 
 #include "oiler/core/step_clock.hpp"
 
@@ -132,6 +135,49 @@ TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     for (int i = 0; i < 10'000; ++i) single.step(1, input);
     EXPECT_EQ(together.world().tick(), 10'000);
     EXPECT_EQ(together.world().state_hash(), single.world().state_hash());
+}
+
+/// A game whose steps take a given time, at least.
+class Sluggish final : public AnyGame {
+public:
+    void step(std::int64_t count, Input&) override {
+        calls.push_back(count);
+        world_.step(count);
+        std::this_thread::sleep_for(count * time_of_step);
+    }
+    [[nodiscard]] const World& world() const override { return world_; }
+    [[nodiscard]] Picture picture() const override { return {}; }
+
+    std::chrono::microseconds time_of_step{0};
+    std::vector<std::int64_t> calls;
+
+private:
+    World world_{1, Settings{}};
+};
+
+// A call of 8 steps takes 8 ms, longer than the shortest call of 5 ms.
+TEST(Playback, SlowStepsShareNoLongCall) {
+    Sluggish game;
+    Recorder none{{}, {}, game.world()};
+    Input input;
+    game.time_of_step = std::chrono::milliseconds(1);
+    Playback(game, none, false).step_to(40, input);
+    EXPECT_LE(*std::max_element(game.calls.begin(), game.calls.end()), 8);
+}
+
+// 256 slower steps take 25.6 ms, longer than the longest call of 20 ms.
+TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
+    Sluggish game;
+    Recorder none{{}, {}, game.world()};
+    Playback playback(game, none, false);
+    Input input;
+    playback.step_to(100'000, input);
+    EXPECT_GT(*std::max_element(game.calls.begin(), game.calls.end()), 100);
+    game.time_of_step = std::chrono::microseconds(100);
+    playback.step_to(110'000, input);
+    game.calls.clear();
+    playback.step_to(111'000, input);
+    EXPECT_LE(*std::max_element(game.calls.begin(), game.calls.end()), 256);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(Program, AnInterruptedCaptureIsCompleteUpToThere) {
     const Outcome run =
         shell("hello" + small + "--frames 100000 --out " + quoted(folder / "o") +
               " & for i in $(seq 400); do [ -e " + quoted(folder / "o" / "frame_000003.png") +
-              " ] && break; sleep 0.05; done; kill -INT $!; wait $!");
+              " ] && break; sleep 0.05; done; kill -TERM $!; wait $!");
     EXPECT_EQ(run.exit, 130);
     const Json manifest = Json::parse(text_of(folder / "o" / "manifest.json"));
     EXPECT_GE(manifest["frames"].size(), 4U);

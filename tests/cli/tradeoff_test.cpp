@@ -56,7 +56,7 @@ TEST(TradeoffCommand, InterruptedIsResumed) {
         "oiler tradeoff scene.toml --methods splitting --max-rate 6400 --size 64x36 --quiet --out ";
     const Outcome run = desk.run(command +
                                  "a & program=$!; while ! test -e a/tradeoff.json; do sleep 0.01; "
-                                 "done; kill -INT $program; wait $program");
+                                 "done; kill -TERM $program; wait $program");
     EXPECT_EQ(run.exit, 130) << run.err;
     const Json part = desk.json("a/tradeoff.json");
     EXPECT_EQ(desk.names("a"), std::vector<std::string>{"tradeoff.json"});

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <csignal>
+#include <ctime>
+#include <string_view>
 
 namespace oiler {
 
-/// Handles signals during its lifetime. SIGINT (Ctrl-C), SIGTERM and SIGHUP only set a flag, so
-/// that a run stops between two frames with complete files. SIGPIPE is ignored, so that a closed
-/// pipe is a write error.
+/// The signals that end a program. SIGINT (Ctrl-C), SIGTERM and SIGHUP set a flag, and the program
+/// ends where it polls the flag, with complete files. A program that has not ended after `grace` is
+/// ended with Exit::interrupted: it computes without polling, or a system call blocks. Signals that
+/// the parent ignores, as nohup ignores SIGHUP, stay ignored. SIGPIPE and SIGXFSZ are ignored, so
+/// that a closed pipe and a limit of file size are write errors.
 class Interrupt {
 public:
-    Interrupt();
-    ~Interrupt();
-    Interrupt(const Interrupt&) = delete;
-    Interrupt& operator=(const Interrupt&) = delete;
+    static constexpr std::timespec grace{.tv_sec = 0, .tv_nsec = 700'000'000};
+
+    /// Sets the handlers for the rest of the process: a second signal may arrive while it exits.
+    /// `name` starts the line on standard error of a program that is ended after `grace`.
+    static void handle_signals(std::string_view name);
 
     [[nodiscard]] static bool requested();
-
-private:
-    struct Former {
-        int signal;
-        struct sigaction action;
-    };
-    std::array<Former, 4> former_{};
 };
 
 }  // namespace oiler

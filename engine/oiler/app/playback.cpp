@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "oiler/app/interrupt.hpp"
@@ -11,7 +12,12 @@
 namespace oiler {
 namespace {
 
-constexpr std::int64_t steps_between_interrupts = 4096;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t most_steps_per_call = 4096;
+// Between two polls of the interrupt, unless a single step takes longer.
+constexpr std::chrono::milliseconds shortest_call{5};
+constexpr std::chrono::milliseconds longest_call{20};
 constexpr std::size_t most_bodies_kept = 1000;
 constexpr std::size_t tick_digits = 4;
 
@@ -43,13 +49,24 @@ void Playback::step_to(std::int64_t tick, Input& input) {
     const World& world = game_.world();
     while (world.tick() < tick && !Interrupt::requested()) {
         const bool single = recorder_.active() || hashes_ticks();
-        const std::int64_t most = single ? 1 : steps_between_interrupts;
-        game_.step(std::min(tick - world.tick(), most), input);
+        const std::int64_t most = single ? 1 : steps_per_call_;
+        step(std::min(tick - world.tick(), most), input);
         recorder_.record(world);
         if (keep_ != Keep::hashes) continue;
         if (hashes_ticks()) tick_hashes_ += hash_text(world.state_hash()).substr(16 - tick_digits);
         tick_hashes_.resize(tick_digits * static_cast<std::size_t>(world.tick()), '.');
     }
+}
+
+/// Adapts the steps per call to the time that they take. Results do not depend on it.
+void Playback::step(std::int64_t count, Input& input) {
+    const Clock::time_point start = Clock::now();
+    game_.step(count, input);
+    const Clock::duration spent = Clock::now() - start;
+    if (spent > longest_call)
+        steps_per_call_ = std::max<std::int64_t>(1, count / 2);
+    else if (spent < shortest_call && count == steps_per_call_)
+        steps_per_call_ = std::min(most_steps_per_call, 2 * count);
 }
 
 Picture Playback::show(std::int64_t tick, double alpha, Input& input) {

@@ -25,7 +25,8 @@ public:
     Playback(AnyGame& game, Recorder& recorder, Keep keep, Profile* profile = nullptr);
 
     /// Steps to `tick`, which is not before the game's tick. Takes many steps per call unless they
-    /// are recorded or hashed. Stops early if interrupted.
+    /// are recorded or hashed, but no more than a short time's, because it stops early if
+    /// interrupted.
     void step_to(std::int64_t tick, Input& input);
 
     /// Returns the picture at `alpha` in [0, 1) between `tick` and the next. `tick` must not
@@ -49,12 +50,14 @@ private:
     };
 
     [[nodiscard]] Moment sample() const;
+    void step(std::int64_t count, Input& input);
     [[nodiscard]] bool hashes_ticks() const;
 
     AnyGame& game_;
     Recorder& recorder_;
     Keep keep_;
     Profile* profile_;
+    std::int64_t steps_per_call_ = 1;
     std::string tick_hashes_;  ///< four digits for each tick from 1, or dots
     Moment before_;
     Moment after_;

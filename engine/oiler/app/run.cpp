@@ -44,11 +44,28 @@ Exit loop(Playback& playback, const Options& options, const About& about, RunRep
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 
+struct Ending {
+    Exit exit = Exit::done;
+    std::string error{};  ///< a line without the program's name; empty: none
+};
+
+Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
+    try {
+        fill_closed_streams();
+        Interrupt::handle_signals(name);
+        require_ieee_arithmetic();
+        return {program()};
+    } catch (const Error& error) {
+        return {error.exit(), error.what()};
+    } catch (const std::bad_alloc&) {
+        return {Exit::io, "not enough memory; take fewer bodies or a shorter time"};
+    }
+}
+
 }  // namespace
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
-    const Interrupt interrupt;
     const std::unique_ptr<AnyGame> game = make(options.settings);
     game->world().require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
@@ -88,17 +105,12 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
 }
 
 int guard_main(std::string_view name, const std::function<Exit()>& program) {
-    try {
-        fill_closed_streams();
-        require_ieee_arithmetic();
-        return static_cast<int>(program());
-    } catch (const Error& error) {
-        say(fmt::format("{}: {}", name, error.what()));
-        return static_cast<int>(error.exit());
-    } catch (const std::bad_alloc&) {
-        say(fmt::format("{}: not enough memory; take fewer bodies or a shorter time", name));
-        return static_cast<int>(Exit::io);
-    }
+    Ending ending = ending_of(name, program);
+    if (Interrupt::requested())
+        ending = {Exit::interrupted,
+                  "interrupted" + (ending.error.empty() ? "" : ": " + ending.error)};
+    if (!ending.error.empty()) say(fmt::format("{}: {}", name, ending.error));
+    return static_cast<int>(ending.exit);
 }
 
 int run_program(int argc, char** argv, const About& about, const MakeGame& make) {

@@ -134,7 +134,6 @@ struct AdviseCommand {
     }
 
     [[nodiscard]] Exit run() const {
-        const Interrupt interrupt;
         const Scene scene = read_scene();
         const Requirements requirements = this->requirements(scene);
         const Reference reference = measure_reference(

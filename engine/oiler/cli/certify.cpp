@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/interrupt.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
@@ -127,12 +128,14 @@ struct CertifyCommand {
 
     [[nodiscard]] bool has_table() const { return json != "-"; }
 
+    /// Returns fewer certificates when interrupted.
     [[nodiscard]] Results measure(const std::vector<const Method*>& methods) const {
         // A table on the terminal shows the progress itself.
         Progress progress(quiet || (has_table() && isatty(STDOUT_FILENO) == 1), "methods",
                           static_cast<std::int64_t>(methods.size()));
         Results results;
         for (const Method* method : methods) {
+            if (Interrupt::requested()) break;
             const Certificate certificate =
                 certify::certify(*method, chosen.damping_of(*method), steps);
             results.certificates.push_back(to_json(certificate));
@@ -148,6 +151,7 @@ struct CertifyCommand {
         const std::vector<const Method*> methods = chosen.methods();
         if (has_table()) print(header());
         Results results = measure(methods);
+        if (Interrupt::requested()) return Exit::interrupted;
         if (has_table()) print(legend(steps));
         if (!json.empty()) write_json(json, results.certificates);
         if (results.failures.empty()) return Exit::done;

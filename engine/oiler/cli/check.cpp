@@ -160,7 +160,6 @@ struct CheckCommand {
     }
 
     [[nodiscard]] Exit run() const {
-        const Interrupt interrupt;
         std::vector<CheckResult> all;
         for (const std::filesystem::path& path : scenes) {
             all.push_back(check(path));

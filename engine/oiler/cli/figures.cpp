@@ -2,6 +2,7 @@
 #include "oiler/certify/figures.hpp"
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/shared_options.hpp"
@@ -29,6 +30,7 @@ struct FiguresCommand {
         Progress progress(quiet, "figures", static_cast<std::int64_t>(figures.size()));
         std::int64_t drawn = 0;
         for (const certify::Figure& figure : figures) {
+            if (Interrupt::requested()) return Exit::interrupted;
             stills.write(figure.picture, pictures.out / (figure.name + ".png"));
             progress.show(++drawn);
         }

@@ -107,7 +107,6 @@ struct RatesCommand {
 
     [[nodiscard]] Exit run() const {
         const std::vector<std::int64_t> wanted = parse_rates(rates);
-        const Interrupt interrupt;
         const Scene scene = scene_options.read();
         const Reference reference = measure_reference(scene, 0, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;

@@ -121,7 +121,6 @@ std::string ReportCommand::page_of(const Scene& scene, const std::string& name, 
 }
 
 Exit ReportCommand::run() const {
-    const Interrupt interrupt;
     Scene scene = scene_options.read();
     const Reference reference = measure_meaningful(scene);
     if (Interrupt::requested()) return Exit::interrupted;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/console.hpp"
+#include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/certify/region.hpp"
@@ -26,11 +27,13 @@ struct StabilityCommand {
         add_quiet(arguments, quiet);
     }
 
+    /// Returns fewer regions when interrupted.
     [[nodiscard]] std::vector<StabilityRegion> measure(const std::vector<const Method*>& methods,
                                                        const StabilityGrid& grid) const {
         Progress progress(quiet, "methods", static_cast<std::int64_t>(methods.size()));
         std::vector<StabilityRegion> regions;
         for (const Method* method : methods) {
+            if (Interrupt::requested()) break;
             regions.push_back(measure_region(*method, chosen.damping_of(*method), grid));
             progress.show(static_cast<std::int64_t>(regions.size()));
         }
@@ -42,6 +45,7 @@ struct StabilityCommand {
         Stills stills(pictures.size());
         const StabilityGrid grid;
         const std::vector<StabilityRegion> regions = measure(methods, grid);
+        if (Interrupt::requested()) return Exit::interrupted;
         make_folder(pictures.out);
         write_text(pictures.out / "stability.csv", to_csv(regions, grid));
         stills.write(atlas(regions, grid), pictures.out / "stability.png");

@@ -149,7 +149,7 @@ private:
                          [&](const Tradeoff& so_far) { save(so_far, part_); });
         save(tradeoff, part_);
         if (Interrupt::requested()) {
-            remark(quiet(), "interrupted; the same command continues from {}", part_.string());
+            remark(quiet(), "the same command continues from {}", part_.string());
             return Exit::interrupted;
         }
         if (!stills) {
@@ -172,7 +172,6 @@ private:
 }  // namespace
 
 Exit TradeoffCommand::run() const {
-    const Interrupt interrupt;
     const Shard shard = parse_shard(shard_words);
     return TradeoffRun(*this, shard, pictures.size()).run();
 }
