@@ -32,29 +32,29 @@ void raise_all() {
 
 TEST(Interrupt, AProgramThatPollsEndsWithALine) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        EXPECT_EXIT(exit(guard_main("game",
-                                    [&] {
-                                        EXPECT_FALSE(Interrupt::requested());
-                                        raise(signal);
-                                        return Interrupt::requested() ? Exit::interrupted
-                                                                      : Exit::done;
-                                    })),
+        EXPECT_EXIT(_exit(guard_main("game",
+                                     [&] {
+                                         EXPECT_FALSE(Interrupt::requested());
+                                         raise(signal);
+                                         return Interrupt::requested() ? Exit::interrupted
+                                                                       : Exit::done;
+                                     })),
                     ExitedWithCode(130), "^game: interrupted\n$")
             << signal;
 }
 
 TEST(Interrupt, WhateverTheProgramReturnsItWasInterrupted) {
-    EXPECT_EXIT(exit(guard_main("game",
-                                [] {
-                                    raise_all();
-                                    return Exit::done;
-                                })),
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 [] {
+                                     raise_all();
+                                     return Exit::done;
+                                 })),
                 ExitedWithCode(130), "^game: interrupted\n$");
-    EXPECT_EXIT(exit(guard_main("game",
-                                []() -> Exit {
-                                    raise_all();
-                                    fail(Exit::io, "cannot write f");
-                                })),
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 []() -> Exit {
+                                     raise_all();
+                                     fail(Exit::io, "cannot write f");
+                                 })),
                 ExitedWithCode(130), "^game: interrupted: cannot write f\n$");
 }
 
@@ -72,7 +72,7 @@ TEST(Interrupt, ASignalAfterTheProgramDoesNotChangeItsEnd) {
         {
             const int code = guard_main("game", [] { return Exit::usage; });
             raise_all();
-            exit(code);
+            _exit(code);
         },
         ExitedWithCode(2), "^$");
 }
@@ -96,7 +96,7 @@ TEST(Interrupt, IgnoredSignalsStayIgnored) {
     EXPECT_EXIT(
         {
             std::signal(SIGHUP, SIG_IGN);
-            exit(guard_main("game", [] {
+            _exit(guard_main("game", [] {
                 raise(SIGHUP);
                 return Interrupt::requested() ? Exit::interrupted : Exit::comparison_failed;
             }));

@@ -8,6 +8,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/library.hpp"
+#include "oiler/platform/lost_display.hpp"
 #include "oiler/platform/surface.hpp"
 
 namespace oiler {
@@ -128,7 +129,9 @@ public:
                  reason.empty() ? "only an invisible driver" : reason);
         }
     }
-    ~Sdl() { sdl_.quit(); }
+    ~Sdl() {
+        if (!display_is_lost()) sdl_.quit();
+    }
     Sdl(const Sdl&) = delete;
     Sdl& operator=(const Sdl&) = delete;
 
@@ -160,6 +163,7 @@ public:
             fail(Exit::no_display, "cannot open a window with OpenGL 3.3 ({}); run with --headless",
                  reason);
         }
+        survive_lost_display(library);
         take_over_thread();
         sdl_->swap_interval(1);
     }
@@ -182,10 +186,10 @@ public:
         return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
     }
 
-    bool poll(Input& input) override {
+    State poll(Input& input) override {
         bool quit = false;
         SDL_Event event;
-        while (sdl_->poll_event(&event) != 0) {
+        while (!display_is_lost() && sdl_->poll_event(&event) != 0) {
             if (event.type == SDL_KEYDOWN || event.type == SDL_KEYUP) {
                 apply(event.key, input);
             }
@@ -193,7 +197,8 @@ public:
                 event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
             quit = quit || closed || event.type == SDL_QUIT;
         }
-        return quit;
+        if (display_is_lost()) return State::lost;
+        return quit ? State::closed : State::open;
     }
 
     void present() override { sdl_->swap_window(window_); }
@@ -214,6 +219,7 @@ private:
     }
 
     void close() {
+        if (display_is_lost()) return;
         if (context_ != nullptr) {
             sdl_->make_current(window_, nullptr);
             sdl_->delete_context(context_);

@@ -36,9 +36,13 @@ public:
     [[nodiscard]] virtual Size size() const = 0;
     /// Refresh rate of the display, in Hz; 60 if unknown.
     [[nodiscard]] virtual int refresh_rate() const = 0;
-    /// Adds keys pressed and released since the last call to `input`. Returns whether the user has
-    /// closed the window.
-    [[nodiscard]] virtual bool poll(Input& input) = 0;
+    enum class State {
+        open,
+        closed,  ///< by the user
+        lost,    ///< the display has ended
+    };
+    /// Adds keys pressed and released since the last call to `input`.
+    [[nodiscard]] virtual State poll(Input& input) = 0;
     /// Shows framebuffer 0.
     virtual void present() = 0;
 };
