@@ -1,12 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Runs a demo in a real window: pause freezes the picture, a single step changes it, Q quits with
-# exit code 0, and --frames N quits after N frames. Usage: window_test.sh PROGRAM TITLE. Exit 77:
+# exit code 0, and --frames N quits after N frames. A closed window leaves with 0, a killed server
+# with 3 and complete files. Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
 set -u
 program=$1
 title=$2
-command -v Xvfb >/dev/null && command -v xdotool >/dev/null || exit 77
+command -v Xvfb >/dev/null && command -v xdotool >/dev/null && command -v python3 >/dev/null || exit 77
 
 folder=$(mktemp -d)
 server=
@@ -69,4 +70,33 @@ steps=$(steps_in_frames 1)
 [ "$steps" = 0 ] || fail "--frames 1 takes '$steps' steps"
 steps=$(steps_in_frames 2)
 [ "$steps" -gt 0 ] && [ "$steps" -le 250 ] || fail "--frames 2 takes '$steps' steps"
+
+# The window is closed and a key is pressed between two polls.
+"$program" --size 640x360 --quiet &
+game=$!
+until_true window_focused || fail "no second window"
+until_true moves || fail "the second window shows nothing"
+kill -STOP $game
+"$(dirname "$0")/close_window.py" "$(xdotool search --name "$title")" || fail "the window cannot be closed"
+xdotool key w
+kill -CONT $game
+wait $game
+status=$?
+[ $status -eq 0 ] || fail "a closed window leaves with exit code $status"
+
+"$program" --size 640x360 --quiet --trace "$folder/trace.csv" --energy "$folder/energy.csv" \
+    --json "$folder/lost.json" 2>"$folder/err" &
+game=$!
+until_true window_focused || fail "no third window"
+until_true moves || fail "the third window shows nothing"
+kill -KILL $server
+wait $game
+status=$?
+[ $status -eq 3 ] || fail "a killed server leaves with exit code $status"
+[ "$(wc -l <"$folder/err")" = 1 ] || fail "not one line: $(cat "$folder/err")"
+steps=$(sed -n 's/^ *"steps": \([0-9]*\),$/\1/p' "$folder/lost.json")
+for file in trace energy; do
+    last=$(tail -n 1 "$folder/$file.csv")
+    [ "${last%%,*}" = "$steps" ] || fail "$file ends at '$last', not at step '$steps'"
+done
 echo "window_test: passed"

@@ -17,9 +17,14 @@ namespace oiler {
 /// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
 Exit run_headless(Playback& playback, const Options& options, const About& about, Profile* profile);
 
-/// Shows the game in a window in real time until the user quits. Returns the simulated time that
-/// late frames dropped.
-std::chrono::nanoseconds run_window(Playback& playback, const Options& options, const About& about);
+/// The end of a run in a loop.
+struct Played {
+    Exit exit = Exit::done;               ///< Exit::no_display if the display ended
+    std::chrono::nanoseconds dropped{0};  ///< simulated time that late frames dropped
+};
+
+/// Shows the game in a window in real time until the user quits or the display ends.
+Played run_window(Playback& playback, const Options& options, const About& about);
 
 /// Measures the budget of a run without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>()>;

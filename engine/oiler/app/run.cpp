@@ -33,15 +33,21 @@ void run_steps(Playback& playback, const Options& options) {
     }
 }
 
-Exit loop(Playback& playback, const Options& options, const About& about, RunReport& report,
-          Profile* profile) {
-    if (options.steps)
-        run_steps(playback, options);
-    else if (options.headless)
-        return run_headless(playback, options, about, profile);
-    else
-        report.dropped = run_window(playback, options, about);
-    return Interrupt::requested() ? Exit::interrupted : Exit::done;
+Played loop(Playback& playback, const Options& options, const About& about, Profile* profile) {
+    if (options.headless && !options.steps)
+        return {run_headless(playback, options, about, profile)};
+    if (!options.steps) return run_window(playback, options, about);
+    run_steps(playback, options);
+    return {Interrupt::requested() ? Exit::interrupted : Exit::done};
+}
+
+Exit show_budget(const std::vector<BudgetEntry>& budget, bool quiet) {
+    bool kept = true;
+    for (const BudgetEntry& entry : budget) {
+        remark(quiet && entry.kept, "[budget] {}", entry.words);
+        kept = kept && entry.kept;
+    }
+    return kept ? Exit::done : Exit::comparison_failed;
 }
 
 struct Ending {
@@ -77,31 +83,31 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing,
                       profile ? &*profile : nullptr);
     const Clock::time_point start = Clock::now();
-    Exit exit = Exit::done;
+    Played played;
     try {
-        exit = loop(playback, options, about, report, profile ? &*profile : nullptr);
+        played = loop(playback, options, about, profile ? &*profile : nullptr);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged) recorder.commit();
         throw;
     }
     recorder.commit();
     if (profile) write_file(options.profile, profile->to_json());
+    report.dropped = played.dropped;
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());
     report.wall = Clock::now() - start;
     const bool is_checked = options.headless || !options.json.empty();
-    if (measure_budget && is_checked && !Interrupt::requested()) report.budget = measure_budget();
+    if (measure_budget && is_checked && played.exit == Exit::done && !Interrupt::requested())
+        report.budget = measure_budget();
     if (!options.json.empty()) write_report(options.json, report, game->world());
-    if (exit == Exit::interrupted) return exit;
+    if (played.exit == Exit::no_display)
+        fail(Exit::no_display,
+             "the display has ended; the files of the run are complete up to there");
+    if (Interrupt::requested()) return Exit::interrupted;
     if (!options.golden.empty() && !options.update_golden)
-        exit = std::max(exit, compare_with_golden(options));
-    bool kept = true;
-    for (const BudgetEntry& entry : report.budget) {
-        remark(options.quiet && entry.kept, "[budget] {}", entry.words);
-        kept = kept && entry.kept;
-    }
-    return kept ? exit : Exit::comparison_failed;
+        played.exit = std::max(played.exit, compare_with_golden(options));
+    return std::max(played.exit, show_budget(report.budget, options.quiet));
 }
 
 int guard_main(std::string_view name, const std::function<Exit()>& program) {

@@ -74,8 +74,7 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 
 }  // namespace
 
-std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
-                                    const About& about) {
+Played run_window(Playback& playback, const Options& options, const About& about) {
     const auto window = open_window(options.size, std::string(about.title));
     Renderer renderer([&](const char* name) { return window->procedure(name); });
     remark(options.quiet, "drawing with {} ({}): P pause, . step, - and = pace, Q quit",
@@ -90,7 +89,9 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
     for (std::int64_t frame = 0; !quit && !Interrupt::requested(); ++frame) {
         const std::chrono::nanoseconds start = now();
         keys.forget_presses();
-        quit = window->poll(keys) || (options.frames && frame + 1 >= *options.frames);
+        const Window::State state = window->poll(keys);
+        if (state == Window::State::lost) return {Exit::no_display, clock.dropped_time()};
+        quit = state == Window::State::closed || (options.frames && frame + 1 >= *options.frames);
         quit = control(keys, clock, pace) || quit;
         for_step.gather(keys);
         clock.advance(start);
@@ -99,7 +100,7 @@ std::chrono::nanoseconds run_window(Playback& playback, const Options& options,
         show(picture, renderer, *window);
         limit_frame_rate(start, fps);
     }
-    return clock.dropped_time();
+    return {.dropped = clock.dropped_time()};
 }
 
 }  // namespace oiler

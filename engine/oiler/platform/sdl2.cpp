@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #define SDL_MAIN_HANDLED
 #include <SDL2/SDL.h>
+#include <SDL2/SDL_syswm.h>
 
 #include <array>
 #include <cstdlib>
@@ -8,8 +9,8 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/library.hpp"
-#include "oiler/platform/lost_display.hpp"
 #include "oiler/platform/surface.hpp"
+#include "oiler/platform/x11.hpp"
 
 namespace oiler {
 namespace {
@@ -37,6 +38,7 @@ struct SdlFunctions {
         library.resolve(swap_interval, "SDL_GL_SetSwapInterval");
         library.resolve(drawable_size, "SDL_GL_GetDrawableSize");
         library.resolve(swap_window, "SDL_GL_SwapWindow");
+        library.resolve(window_info, "SDL_GetWindowWMInfo");
     }
 
     decltype(&SDL_SetHint) set_hint = nullptr;
@@ -58,6 +60,7 @@ struct SdlFunctions {
     decltype(&SDL_GL_SetSwapInterval) swap_interval = nullptr;
     decltype(&SDL_GL_GetDrawableSize) drawable_size = nullptr;
     decltype(&SDL_GL_SwapWindow) swap_window = nullptr;
+    decltype(&SDL_GetWindowWMInfo) window_info = nullptr;
 };
 
 struct KeyCode {
@@ -163,7 +166,7 @@ public:
             fail(Exit::no_display, "cannot open a window with OpenGL 3.3 ({}); run with --headless",
                  reason);
         }
-        survive_lost_display(library);
+        outlive_x11_display();
         take_over_thread();
         sdl_->swap_interval(1);
     }
@@ -216,6 +219,13 @@ private:
     void take_over_thread() const {
         sdl_->make_current(window_, nullptr);
         sdl_->make_current(window_, context_);
+    }
+
+    void outlive_x11_display() const {
+        SDL_SysWMinfo info;
+        SDL_VERSION(&info.version);
+        if (sdl_->window_info(window_, &info) == SDL_TRUE && info.subsystem == SDL_SYSWM_X11)
+            outlive_display(info.info.x11.display);
     }
 
     void close() {
