@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
-#include <array>
 #include <cstdlib>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "oiler/app/parse.hpp"
 #include "oiler/app/parse_size.hpp"
+#include "oiler/capture/capture_folder.hpp"
+#include "oiler/capture/paths.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
 
@@ -142,27 +144,22 @@ void declare_output(CLI::App& app, Options& options) {
         ->disable_flag_override();
 }
 
-/// Checks that no path is empty and no two are the same.
-void check_paths(const CLI::App& app, const Options& options) {
-    const std::array<std::pair<const char*, const std::filesystem::path*>, 9> paths{{
-        {"--trace", &options.trace},
-        {"--energy", &options.energy},
-        {"--json", &options.json},
-        {"--out", &options.out},
-        {"--golden", &options.golden},
-        {"--junit", &options.junit},
-        {"--video", &options.video},
-        {"--sheet", &options.sheet},
-        {"--profile", &options.profile},
-    }};
-    for (const auto& [option, path] : paths) {
-        if (app.count(option) > 0 && path->empty()) fail(Exit::usage, "{}: give a path", option);
-        for (const auto& [other, same] : paths)
-            if (option != other && !path->empty() &&
-                path->lexically_normal() == same->lexically_normal())
-                fail(Exit::usage, "{} and {}: both are {}; give two paths", option, other,
-                     path->string());
-    }
+/// Checks that no path is empty, no output is an input and no two outputs are the same.
+void check_paths(const CLI::App& app, const Options& options, const Words& words) {
+    std::vector<NamedPath> outputs{
+        {"--trace", options.trace},     {"--energy", options.energy}, {"--json", options.json},
+        {"--profile", options.profile}, {"--junit", options.junit},   {"--video", options.video},
+        {"--sheet", options.sheet}};
+    if (options.headless && !options.steps)
+        outputs.push_back({"--out", options.out, is_capture_file});
+    std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
+    if (!options.update_golden) inputs.push_back({"--golden", options.golden});
+    for (const std::vector<NamedPath>& paths : {outputs, inputs})
+        for (const NamedPath& path : paths)
+            if (path.name != "SCENE" && app.count(path.name) > 0 && path.path.empty())
+                fail(Exit::usage, "{}: give a path", path.name);
+    std::erase_if(inputs, [](const NamedPath& input) { return input.path.empty(); });
+    require_distinct(inputs, outputs);
 }
 
 /// Refuses options that contradict each other.
@@ -241,7 +238,6 @@ void fill_in(const CLI::App& app, Words& words, CommandLine& line) {
 Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
     check_conflicts(app, options, words);
     check_update(app, options, words);
-    check_paths(app, options);
     options.settings = {.stepping = {.method = &find_method(words.method),
                                      .rate = {words.rate},
                                      .precision = words.precision == "float" ? Precision::single
@@ -259,8 +255,10 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     if (app.count("--steps") > 0) options.steps = words.steps;
     if (app.count("--frame") > 0) options.frame = words.frame;
     options.has_png = words.png == "all";
-    if (options.update_golden) options.out = options.golden;
-    if (options.out.empty()) options.out = std::filesystem::path("frames") / about.name;
+    if (app.count("--out") == 0)
+        options.out = options.update_golden ? options.golden
+                                            : std::filesystem::path("frames") / about.name;
+    check_paths(app, options, words);
     return options;
 }
 

@@ -71,7 +71,7 @@ std::vector<fs::path> find_earlier_files(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         if (manifest && may_have_written(*manifest, name) && is_regular(entry.path()))
             earlier.push_back(entry.path());
-        else if (is_frame_like(name) || name == records_name || name == manifest_name)
+        else if (is_capture_file(name))
             fail(Exit::io, "{} is not from a capture of Oiler; remove it or choose another folder",
                  entry.path().string());
     }
@@ -122,6 +122,10 @@ bool is_same_file(int descriptor, const fs::path& path) {
 }
 
 }  // namespace
+
+bool is_capture_file(std::string_view name) {
+    return is_frame_like(name) || name == records_name || name == manifest_name;
+}
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 

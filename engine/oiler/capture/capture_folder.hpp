@@ -12,6 +12,8 @@ namespace oiler {
 inline constexpr std::string_view manifest_name = "manifest.json";
 inline constexpr std::string_view records_name = "frames.jsonl.gz";
 [[nodiscard]] std::string frame_name(std::int64_t index);
+/// Returns whether the name is that of a file of a capture, or would be taken for one.
+[[nodiscard]] bool is_capture_file(std::string_view name);
 
 /// A folder that belongs to one capture while that runs. The owner holds a lock on the file
 /// .oiler-capture, which the system releases when the process ends in any way. Files of an earlier

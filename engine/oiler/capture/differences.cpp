@@ -42,7 +42,7 @@ fs::path image_path(const fs::path& folder, std::string_view name, std::int64_t 
     return folder / fmt::format("{}_{:06}.png", name, index);
 }
 
-bool is_our_image(const std::string& name) {
+bool is_our_image(std::string_view name) {
     return name.ends_with(".png") &&
            std::any_of(image_names.begin(), image_names.end(), [&](std::string_view image) {
                return name.starts_with(fmt::format("{}_", image));
@@ -142,6 +142,10 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
     const std::string html =
         std::string(page_mark) + "\n" + fill_in(page(), {{"@DATA@", for_script(data)}});
     write_file(folder / page_name, html);
+}
+
+bool is_differences_file(std::string_view name) {
+    return name == page_name || is_our_image(name);
 }
 
 fs::path differences_folder(const fs::path& actual) {

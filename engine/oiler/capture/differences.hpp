@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "oiler/capture/comparison.hpp"
 
@@ -13,6 +14,9 @@ namespace oiler {
 /// the files of an earlier comparison; if the comparison passed, it only does that. Throws
 /// Error{io}.
 void write_differences(const Comparison& comparison, const std::filesystem::path& folder);
+
+/// Returns whether write_differences() may write a file of that name.
+[[nodiscard]] bool is_differences_file(std::string_view name);
 
 /// The folder beside that of the frames where a page of differences is expected:
 /// frames/spring-differences.

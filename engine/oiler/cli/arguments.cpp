@@ -32,7 +32,12 @@ std::map<std::string, Command::Run> declare(CLI::App& app, const std::vector<Com
         subcommand->footer(fmt::format("Example: oiler {} {}{}{}", name, texts.example,
                                        texts.notes.empty() ? "" : "\n", texts.notes));
         Arguments arguments(*subcommand);
-        if (command.declare) runs[name] = command.declare(arguments);
+        if (!command.declare) continue;
+        runs[name] = [run = command.declare(arguments), arguments] {
+            const NamedPaths paths = arguments.paths();
+            require_distinct(paths.inputs, paths.outputs);
+            return run();
+        };
     }
     return runs;
 }
@@ -52,11 +57,15 @@ std::string names_of(const std::vector<Command>& commands) {
 void Arguments::add_required(const std::string& name, std::filesystem::path& target,
                              const std::string& help) {
     command_.add_option(name, target, help)->required();
+    paths_.emplace_back([name, &target](NamedPaths& all) { all.inputs.push_back({name, target}); });
 }
 
 void Arguments::add_required(const std::string& name, std::vector<std::filesystem::path>& target,
                              const std::string& help) {
     command_.add_option(name, target, help)->required();
+    paths_.emplace_back([name, &target](NamedPaths& all) {
+        for (const std::filesystem::path& path : target) all.inputs.push_back({name, path});
+    });
 }
 
 void Arguments::add_words(const std::string& name, std::vector<std::string>& target,
@@ -73,9 +82,35 @@ void Arguments::add_option(const std::string& name, std::string& target, const s
     command_.add_option(name, target, help)->type_name(type)->default_str(target);
 }
 
-void Arguments::add_option(const std::string& name, std::filesystem::path& target,
-                           const std::string& type, const std::string& help) {
-    command_.add_option(name, target, help)->type_name(type)->default_str(target.string());
+void Arguments::add_output(const std::string& name, std::filesystem::path& target,
+                           const std::string& help) {
+    add_path(name, target, "FILE", nullptr, help);
+}
+
+void Arguments::add_output_folder(const std::string& name, std::filesystem::path& target,
+                                  bool (*writes)(std::string_view name), const std::string& help) {
+    add_path(name, target, "DIR", writes, help);
+}
+
+void Arguments::add_path(const std::string& name, std::filesystem::path& target,
+                         const std::string& type, bool (*writes)(std::string_view name),
+                         const std::string& help) {
+    const auto set = [name, &target](const std::string& path) {
+        if (path.empty()) throw CLI::ValidationError(name + ": give a path");
+        target = path;
+    };
+    command_.add_option_function<std::string>(name, set, help)
+        ->type_name(type)
+        ->default_str(target.string());
+    paths_.emplace_back([name, &target, writes](NamedPaths& all) {
+        all.outputs.push_back({name, target, writes});
+    });
+}
+
+NamedPaths Arguments::paths() const {
+    NamedPaths all;
+    for (const auto& add : paths_) add(all);
+    return all;
 }
 
 void Arguments::add_integer(const std::string& name, std::int64_t& target, std::int64_t low,

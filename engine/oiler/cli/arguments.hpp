@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "oiler/capture/paths.hpp"
 #include "oiler/cli/command.hpp"
 
 namespace CLI {
@@ -15,6 +18,12 @@ class App;
 }
 
 namespace oiler::cli {
+
+/// The files and folders of a command line.
+struct NamedPaths {
+    std::vector<NamedPath> inputs;
+    std::vector<NamedPath> outputs;
+};
 
 /// Declares the arguments of one command. CLI11 stays behind this class because it takes five
 /// seconds to compile: only arguments.cpp includes it.
@@ -26,9 +35,10 @@ class Arguments {
 public:
     explicit Arguments(CLI::App& command) : command_(command) {}
 
+    /// An input file.
     void add_required(const std::string& name, std::filesystem::path& target,
                       const std::string& help);
-    /// One or more paths.
+    /// One or more input files.
     void add_required(const std::string& name, std::vector<std::filesystem::path>& target,
                       const std::string& help);
     /// Any number of words.
@@ -38,8 +48,12 @@ public:
     void add_flag(const std::string& name, bool& target, const std::string& help);
     void add_option(const std::string& name, std::string& target, const std::string& type,
                     const std::string& help);
-    void add_option(const std::string& name, std::filesystem::path& target, const std::string& type,
+    /// `--NAME FILE`, an output file.
+    void add_output(const std::string& name, std::filesystem::path& target,
                     const std::string& help);
+    /// `--NAME DIR`, an output folder. `writes` is that of NamedPath.
+    void add_output_folder(const std::string& name, std::filesystem::path& target,
+                           bool (*writes)(std::string_view name), const std::string& help);
     /// An integer from `low` to `high` in decimal digits.
     void add_integer(const std::string& name, std::int64_t& target, std::int64_t low,
                      std::int64_t high, const std::string& help);
@@ -51,8 +65,15 @@ public:
     /// `--damping kick|drift`, as in all games.
     void add_damping(std::string& target);
 
+    /// The current values of the declared inputs and outputs.
+    [[nodiscard]] NamedPaths paths() const;
+
 private:
+    void add_path(const std::string& name, std::filesystem::path& target, const std::string& type,
+                  bool (*writes)(std::string_view name), const std::string& help);
+
     CLI::App& command_;
+    std::vector<std::function<void(NamedPaths&)>> paths_;  ///< each adds those of an argument
 };
 
 /// A class declares a command with `static constexpr CommandTexts texts`, and either

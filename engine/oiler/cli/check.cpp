@@ -154,7 +154,7 @@ struct CheckCommand {
 
     void declare(Arguments& arguments) {
         arguments.add_required("SCENE", scenes, "scene files");
-        arguments.add_option("--junit", junit, "FILE",
+        arguments.add_output("--junit", junit,
                              "write the result as JUnit XML for CI, - for stdout");
         add_json(arguments, json);
     }

@@ -24,13 +24,14 @@ struct CompareCommand {
     void declare(Arguments& arguments) {
         arguments.add_required("GOLDEN", golden, "folder with the expected frames");
         arguments.add_required("ACTUAL", actual, "folder with the frames to check");
-        arguments.add_option("--out", out, "DIR",
-                             "folder for the page of differences, ACTUAL-differences if not given");
+        arguments.add_output_folder(
+            "--out", out, is_differences_file,
+            "folder for the page of differences, ACTUAL-differences if not given");
         arguments.add_integer("--most-difference", channel, 0, 255,
                               "largest difference of a channel of a pixel, 2 if not given");
         arguments.add_integer("--most-pixels", percent, 0, 100,
                               "largest share of differing pixels in percent, 1 if not given");
-        arguments.add_option("--junit", junit, "FILE",
+        arguments.add_output("--junit", junit,
                              "write the result as JUnit XML for CI, - for stdout");
         add_json(arguments, json);
     }

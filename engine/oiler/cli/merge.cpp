@@ -21,7 +21,7 @@ struct MergeCommand {
     void declare(Arguments& arguments) {
         arguments.add_required("PART", parts, "part files of all shards");
         arguments.add_flag("--all", all, "print all rows");
-        pictures.declare(arguments);
+        pictures.declare(arguments, is_tradeoff_file);
         add_json(arguments, json);
         add_quiet(arguments, quiet);
     }

@@ -52,7 +52,7 @@ struct ReportCommand {
     void declare(Arguments& arguments) {
         scene_options.declare(arguments);
         tolerances.declare(arguments);
-        arguments.add_option("--out", out, "FILE", "output file");
+        arguments.add_output("--out", out, "output file");
     }
 
     [[nodiscard]] Exit run() const;

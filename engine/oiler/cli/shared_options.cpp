@@ -22,7 +22,7 @@ bool is_in_group(const Method& method, const std::string& group) {
 }  // namespace
 
 void add_json(Arguments& arguments, std::filesystem::path& target) {
-    arguments.add_option("--json", target, "FILE", "write the result as JSON, - for stdout");
+    arguments.add_output("--json", target, "write the result as JSON, - for stdout");
 }
 
 void add_quiet(Arguments& arguments, bool& target) {
@@ -60,8 +60,8 @@ int parse_integer(const std::string& words) {
     return error == std::errc() && last == end ? number : 0;
 }
 
-void PictureOptions::declare(Arguments& arguments) {
-    arguments.add_option("--out", out, "DIR", "output folder");
+void PictureOptions::declare(Arguments& arguments, bool (*writes)(std::string_view name)) {
+    arguments.add_output_folder("--out", out, writes, "output folder");
     arguments.add_option("--size", size_words, "WxH",
                          "size of the pictures in pixels; their content is 16:9");
 }

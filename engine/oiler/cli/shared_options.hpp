@@ -37,7 +37,8 @@ struct PictureOptions {
     std::filesystem::path out;
     std::string size_words = "1280x720";
 
-    void declare(Arguments& arguments);
+    /// `writes` is that of NamedPath.
+    void declare(Arguments& arguments, bool (*writes)(std::string_view name) = nullptr);
     /// Throws Error{usage}.
     [[nodiscard]] Size size() const;
 };

@@ -61,6 +61,10 @@ struct Shard {
     }
 };
 
+bool is_file_of_sweep(std::string_view name) {
+    return is_tradeoff_file(name) || (name.starts_with("part-") && name.ends_with(".json"));
+}
+
 /// Parses "K/N"; no words are the whole sweep. Throws Error{usage}.
 Shard parse_shard(const std::string& words) {
     if (words.empty()) return {};
@@ -101,7 +105,7 @@ struct TradeoffCommand {
             "highest rate in Hz besides the scene's own, 61,440 or more if not given");
         arguments.add_option("--shard", shard_words, "K/N", "measure part K of N");
         arguments.add_flag("--all", all, "print all rows");
-        pictures.declare(arguments);
+        pictures.declare(arguments, is_file_of_sweep);
     }
 
     [[nodiscard]] Exit run() const;
@@ -157,7 +161,7 @@ private:
             return Exit::done;
         }
         publish(tradeoff, {out, options_.scene_options.json, options_.all, quiet()}, *stills);
-        draw_energies(tradeoff, scene_, reference, out / "energy_over_time.png", *stills);
+        draw_energies(tradeoff, scene_, reference, out / energy_picture, *stills);
         return Exit::done;
     }
 

@@ -18,6 +18,11 @@ using namespace lab;
 
 namespace {
 
+constexpr const char* data_file = "tradeoff.json";
+constexpr const char* table_file = "tradeoff.csv";
+constexpr const char* time_picture = "error_over_time.png";
+constexpr const char* evaluations_picture = "error_over_evaluations.png";
+
 constexpr auto legend = R"(
 * Pareto front: no cheaper setting is more accurate; > current setting. drawn m: the largest error of
 any body at any time, on straight lines between steps; steps m: at the steps; phase: at the end, +
@@ -122,21 +127,28 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
 
 }  // namespace
 
+bool is_tradeoff_file(std::string_view name) {
+    for (const char* const one :
+         {data_file, table_file, time_picture, evaluations_picture, energy_picture})
+        if (name == one) return true;
+    return false;
+}
+
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
     write_text(path, to_json(tradeoff));
 }
 
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
-    save(tradeoff, output.out / "tradeoff.json");
-    write_text(output.out / "tradeoff.csv", to_csv(tradeoff));
+    save(tradeoff, output.out / data_file);
+    write_text(output.out / table_file, to_csv(tradeoff));
     if (!output.json.empty()) save(tradeoff, output.json);
     if (output.json != "-") print(table_of(tradeoff, output.all));
     stills.write(
         work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),
-        output.out / "error_over_time.png");
+        output.out / time_picture);
     stills.write(
         work_precision(tradeoff, {evaluations_of, 1, "force evaluations in the run", "forces"}),
-        output.out / "error_over_evaluations.png");
+        output.out / evaluations_picture);
     remark(output.quiet, "the table and the pictures are in {}", output.out.string());
 }
 

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "oiler/app/stills.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::cli {
+
+inline constexpr const char* energy_picture = "energy_over_time.png";
+
+/// Returns whether a trade-off may write a file of that name into its folder.
+[[nodiscard]] bool is_tradeoff_file(std::string_view name);
 
 /// The places where a trade-off is shown.
 struct TradeoffOutput {
