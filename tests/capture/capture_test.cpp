@@ -75,6 +75,22 @@ void expect_io_error(const fs::path& folder) {
     }
 }
 
+TEST(Capture, ReplacesLinksInItsFolder) {
+    const Folder folder;
+    put(folder / "victim", "old");
+    fs::create_directory(folder / "out");
+    fs::create_symlink("../victim", folder / "out/frame_000000.png");
+    capture(folder / "out", 1);
+    EXPECT_EQ(text_of(folder / "victim"), "old");
+    EXPECT_FALSE(fs::is_symlink(folder / "out/frame_000000.png"));
+    fs::rename(folder / "out/manifest.json", folder / "manifest.json");
+    fs::create_symlink("../manifest.json", folder / "out/manifest.json");
+    const std::string before = text_of(folder / "manifest.json");
+    capture(folder / "out", 2);
+    EXPECT_EQ(text_of(folder / "manifest.json"), before);
+    EXPECT_FALSE(fs::is_symlink(folder / "out/manifest.json"));
+}
+
 TEST(Capture, WritesFramesAndAManifestThatNamesThem) {
     const Folder folder;
     capture(folder / "out", 2);

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/sysmacros.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
@@ -17,7 +29,10 @@ namespace fs = std::filesystem;
 using oiler::Error;
 using oiler::Exit;
 using oiler::File;
+using oiler::Links;
 using oiler::make_folder;
+using oiler::require_writable;
+using oiler::Sync;
 using oiler::write_file;
 using oiler::test::Folder;
 using oiler::test::names_in;
@@ -29,15 +44,35 @@ std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-std::string io_error_of(const std::function<void()>& action) {
+std::string error_of(const std::function<void()>& action, Exit exit) {
     try {
         action();
     } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
+        EXPECT_EQ(error.exit(), exit);
         return error.what();
     }
     ADD_FAILURE() << "nothing thrown";
     return {};
+}
+
+std::string io_error_of(const std::function<void()>& action) { return error_of(action, Exit::io); }
+
+/// Runs tests in a child process, whose limits and signals die with it. A test that fails in it
+/// fails.
+void in_child(const std::function<void()>& tests) {
+    const pid_t child = fork();
+    if (child == 0) {
+        EXPECT_NO_THROW(tests());
+        std::fflush(stdout);
+        _exit(testing::Test::HasFailure() ? 1 : 0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+unsigned permissions_of(const fs::path& path) {
+    return static_cast<unsigned>(fs::status(path).permissions());
 }
 
 TEST(File, HasItsNameOnlyOnceCommitted) {
@@ -62,6 +97,85 @@ TEST(File, LeavesNothingWithoutACommit) {
     EXPECT_EQ(names_in(folder.path()), Names{"a.txt"});
 }
 
+// Names of all files, also hidden ones, while a file is written and after a kill.
+TEST(File, AKilledRunLeavesNothing) {
+    const Folder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+        File file(folder / "a");
+        file.write(std::string(1 << 20, 'x'));
+        raise(SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    if (!names_in(folder.path()).empty()) {
+        const int unnamed = open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+        if (unnamed < 0) GTEST_SKIP() << "this file system has no files without names";
+        close(unnamed);
+    }
+    EXPECT_EQ(names_in(folder.path()), Names{});
+}
+
+/// Lets the system calls `numbers` fail with `error_number` from now on if their argument `index`
+/// has a bit of `bits`; with no bits, always.
+void refuse_calls(const std::vector<unsigned>& numbers, unsigned index, unsigned bits,
+                  unsigned error_number) {
+    constexpr auto offset = [](std::size_t of) { return static_cast<unsigned>(of); };
+    std::vector<sock_filter> filter;
+    for (const unsigned number : numbers) {
+        filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offset(offsetof(seccomp_data, nr))));
+        filter.push_back(
+            BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, static_cast<__u8>(bits == 0 ? 1 : 3)));
+        if (bits != 0) {
+            filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS,
+                                      offset(offsetof(seccomp_data, args)) + 8 * index));
+            filter.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, bits, 0, 1));
+        }
+        filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error_number));
+    }
+    filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
+    const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
+    ASSERT_EQ(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), 0);
+    ASSERT_EQ(prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program), 0);
+}
+
+/// Writes files where only named temporary files are possible.
+void expect_named_temporary_files() {
+    const Folder folder;
+    const mode_t before = umask(027);
+    {
+        File dropped(folder / "b");
+        File file(folder / "a");
+        file.write("new");
+        EXPECT_EQ(names_in(folder.path()).size(), 2U);
+        file.commit();
+    }
+    EXPECT_EQ(permissions_of(folder / "a"), 0640U);
+    fs::permissions(folder / "a", fs::perms{0600});
+    write_file(folder / "a", bytes_of("newer"));
+    umask(before);
+    EXPECT_EQ(text_of(folder / "a"), "newer");
+    EXPECT_EQ(permissions_of(folder / "a"), 0600U);
+    EXPECT_EQ(names_in(folder.path()), Names{"a"});
+}
+
+TEST(File, HasATemporaryNameWhereFilesNeedNames) {
+    // The bit that O_TMPFILE has besides O_DIRECTORY.
+    constexpr unsigned tmpfile = O_TMPFILE & ~O_DIRECTORY;
+    in_child([] {
+        refuse_calls({SYS_openat}, 2, tmpfile, EOPNOTSUPP);
+        expect_named_temporary_files();
+    });
+}
+
+TEST(File, HasATemporaryNameWithoutProc) {
+    in_child([] {
+        refuse_calls({SYS_access, SYS_faccessat, 439 /* faccessat2 */}, 0, 0, ENOENT);
+        expect_named_temporary_files();
+    });
+}
+
 TEST(File, SeveralAtOnceHaveDifferentTemporaryFiles) {
     const Folder folder;
     File a(folder / "a");
@@ -81,10 +195,6 @@ TEST(File, OnceCommittedDoesNotTouchTheNextOne) {
     first.reset();
     second.commit();
     EXPECT_EQ(names_in(folder.path()), (Names{"a", "b"}));
-}
-
-unsigned permissions_of(const fs::path& path) {
-    return static_cast<unsigned>(fs::status(path).permissions());
 }
 
 TEST(File, HasThePermissionsOfAnyNewFile) {
@@ -128,6 +238,37 @@ TEST(File, KeepsASymbolicLinkAndWritesItsTarget) {
     EXPECT_EQ(text_of(folder / "real"), "new");
 }
 
+// Names within an output folder are Oiler's: a link there must not lead to another file.
+TEST(File, ReplacesASymbolicLinkWhenAsked) {
+    const Folder folder;
+    put(folder / "victim", "old");
+    fs::permissions(folder / "victim", fs::perms{0600});
+    for (const char* const target : {"victim", "nothing", "/dev/null"}) {
+        fs::create_symlink(target, folder / "link");
+        write_file(folder / "link", bytes_of("new"), Links::replaced);
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "link"))) << target;
+        EXPECT_EQ(text_of(folder / "link"), "new") << target;
+        EXPECT_EQ(text_of(folder / "victim"), "old") << target;
+        EXPECT_NE(permissions_of(folder / "link"), 0600U);
+        fs::remove(folder / "link");
+    }
+    EXPECT_EQ(names_in(folder.path()), Names{"victim"});
+}
+
+TEST(File, ReplacesAPipeButNoFolderWhenAsked) {
+    const Folder folder;
+    ASSERT_EQ(mkfifo((folder / "a").c_str(), 0600), 0);
+    const int reader = open((folder / "a").c_str(), O_RDONLY | O_NONBLOCK);
+    write_file(folder / "a", bytes_of("new"), Links::replaced);
+    close(reader);
+    ASSERT_TRUE(fs::is_regular_file(folder / "a"));
+    EXPECT_EQ(text_of(folder / "a"), "new");
+    EXPECT_NE(io_error_of([&] { File(folder.path(), Links::replaced); }).find("Is a directory"),
+              std::string::npos);
+    EXPECT_NE(io_error_of([&] { File(folder / "new/", Links::replaced); }).find("Is a directory"),
+              std::string::npos);
+}
+
 TEST(File, AcceptsTheLongestNameOfTheFileSystem) {
     const Folder folder;
     const std::string name(255, 'n');
@@ -166,6 +307,71 @@ TEST(File, StandardOutputIsWrittenInPlaceEvenWhenItIsAFile) {
     fclose(redirected);
     EXPECT_TRUE(fs::is_symlink(folder / "stdout"));
     EXPECT_EQ(text_of(folder / "out"), "before data after");
+}
+
+// A reader that never comes, and one that never reads.
+TEST(File, AnInterruptedWaitForAPipeIsAnInterruption) {
+    const Folder folder;
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    in_child([&] {
+        struct sigaction action {};
+        action.sa_handler = [](int) {};
+        sigaction(SIGALRM, &action, nullptr);  // without SA_RESTART
+        ualarm(50'000, 50'000);
+        EXPECT_EQ(error_of([&] { File file(pipe); }, Exit::interrupted),
+                  "interrupted while writing " + pipe.string() +
+                      ": it is incomplete; run the command again");
+        const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+        ASSERT_GE(reader, 0);
+        error_of([&] { write_file(pipe, bytes_of(std::string(1 << 22, 'x'))); }, Exit::interrupted);
+        alarm(0);
+    });
+}
+
+TEST(File, ALimitOfItsSizeIsAnErrorWithARemedy) {
+    const Folder folder;
+    put(folder / "a", "old");
+    in_child([&] {
+        signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{1 << 16, 1 << 16};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        EXPECT_EQ(
+            io_error_of([&] { write_file(folder / "a", bytes_of(std::string(1 << 20, 'x'))); }),
+            "cannot write " + (folder / "a").string() +
+                ": File too large; raise the limit of `ulimit -f`, or write less");
+    });
+    EXPECT_EQ(text_of(folder / "a"), "old");
+    EXPECT_EQ(names_in(folder.path()), Names{"a"});
+}
+
+// A failed sync leaves the old file, so the sync comes before the name.
+TEST(File, MayBeSyncedBeforeItHasItsName) {
+    const Folder folder;
+    put(folder / "a", "old");
+    File file(folder / "a");
+    file.write("new");
+    file.commit(Sync::disk);
+    EXPECT_EQ(text_of(folder / "a"), "new");
+    in_child([&] {
+        refuse_calls({SYS_fsync, SYS_fdatasync}, 0, 0, EIO);
+        File failing(folder / "a");
+        failing.write("newer");
+        EXPECT_NE(io_error_of([&] { failing.commit(Sync::disk); }).find("Input/output error"),
+                  std::string::npos);
+    });
+    EXPECT_EQ(text_of(folder / "a"), "new");
+}
+
+TEST(RequireWritable, RefusesAFileThatIsReadOnlyForAll) {
+    const Folder folder;
+    put(folder / "a", "old");
+    require_writable(folder / "a");
+    require_writable(folder / "missing");
+    fs::permissions(folder / "a", fs::perms{0444});
+    EXPECT_EQ(
+        io_error_of([&] { require_writable(folder / "a"); }),
+        "cannot write " + (folder / "a").string() + ": it is read-only; allow it with `chmod u+w`");
 }
 
 TEST(File, MakesItsFolder) {

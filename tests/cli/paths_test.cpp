@@ -106,5 +106,54 @@ TEST(OutputPaths, AreNotEmpty) {
         }
 }
 
+// A link of that name must not lead the output to another file.
+TEST(OutputPaths, NamesInAnOutputFolderReplaceLinks) {
+    const Desk desk;
+    for (const std::string command :
+         {"figures", "stability exact", "tradeoff scene.toml --methods exact --max-rate 60",
+          "play scene.toml --headless --frames 1"}) {
+        const std::string line = "oiler " + command + " --quiet --size 64x36 --out ";
+        const Outcome first = desk.run(line + "o");
+        if (first.exit == 3) GTEST_SKIP() << first.err;
+        ASSERT_EQ(first.exit, 0) << command << first.err;
+        const auto names = desk.names("o");
+        ASSERT_EQ(
+            desk.run("mkdir l; for n in $(ls o); do cp o/$n old-$n; ln -s ../old-$n l/$n; done; "
+                     "md5sum old-* >sums; rm -f l/tradeoff.json")
+                .exit,
+            0);
+        EXPECT_EQ(desk.run(line + "l").exit, 0) << command;
+        EXPECT_EQ(desk.names("l"), names);
+        EXPECT_EQ(desk.run("md5sum --quiet -c sums && test -z \"$(find l -type l)\"").exit, 0)
+            << command;
+        ASSERT_EQ(desk.run("rm -r o l old-* sums").exit, 0);
+    }
+}
+
+TEST(OutputPaths, AReadOnlySceneIsNotReplacedByAdvice) {
+    const Desk desk;
+    const std::string scene = desk.text("scene.toml");
+    ASSERT_EQ(desk.run("chmod a-w scene.toml").exit, 0);
+    const Outcome run =
+        desk.run("oiler advise scene.toml --position-error 1 --methods exact --quiet --apply");
+    EXPECT_EQ(run.exit, 4);
+    EXPECT_EQ(run.out, "");
+    EXPECT_TRUE(holds(run.err, "scene.toml: it is read-only; allow it with `chmod u+w`"))
+        << run.err;
+    EXPECT_EQ(desk.text("scene.toml"), scene);
+}
+
+TEST(OutputPaths, DataForAClosedStandardOutputAreAnError) {
+    const Desk desk;
+    for (const std::string command :
+         {"methods", "--help", "check scene.toml", "play scene.toml --steps 2 --json -"}) {
+        const Outcome run = desk.run("oiler " + command + " >&-");
+        EXPECT_EQ(run.exit, 4) << command;
+        EXPECT_TRUE(holds(run.err, "cannot write the standard output")) << run.err;
+    }
+    EXPECT_EQ(desk.run("oiler play scene.toml --steps 2 --trace t.csv >&-").exit, 0);
+    EXPECT_EQ(desk.names(), (std::vector<std::string>{"scene.toml", "t.csv"}));
+}
+
 }  // namespace
 }  // namespace oiler::test

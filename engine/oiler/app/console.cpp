@@ -9,10 +9,10 @@
 namespace oiler {
 
 void fill_closed_streams() {
-    // open() takes the lowest free descriptor: each closed stream in turn, then one above them.
-    int descriptor = 0;
-    while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
-    if (descriptor > STDERR_FILENO) close(descriptor);
+    // open() takes the lowest free descriptor, which is the closed stream itself.
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            (void)open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 void say(const std::string& line) {

@@ -11,7 +11,8 @@
 namespace oiler {
 
 /// Opens /dev/null in place of closed standard streams. Otherwise the first opened file would take
-/// their descriptor, and remarks would be written into the user's data.
+/// their descriptor, and remarks would be written into the user's data. A closed standard output is
+/// opened for reading, so that data for it are a write error.
 void fill_closed_streams();
 
 /// Prints a line on standard error. Write errors are ignored.

@@ -115,7 +115,7 @@ Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
     renderer.read(pixels);
     const auto path = options.out / fmt::format("still_{:06}.png", frame);
     make_folder(options.out);
-    write_file(path, encode_png(pixels.size, pixels.rgb));
+    write_file(path, encode_png(pixels.size, pixels.rgb), Links::replaced);
     remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
            static_cast<double>(frame) / header.fps, path.string());
     if (!options.from || frame >= std::int64_t(options.from->frames.size())) return Exit::done;

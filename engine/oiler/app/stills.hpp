@@ -22,7 +22,8 @@ public:
 
     /// Returns the bytes of a PNG file.
     [[nodiscard]] std::vector<std::byte> png(const Picture& picture);
-    /// Writes a PNG file. Throws Error{io}; partial files are removed.
+    /// Writes a PNG file into an output folder and replaces a link of that name. Throws Error{io};
+    /// partial files are removed.
     void write(const Picture& picture, const std::filesystem::path& path);
 
 private:

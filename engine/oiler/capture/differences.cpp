@@ -80,7 +80,7 @@ Image difference_of(const Image& golden, const Image& actual) {
 /// Writes the image and returns its data URL.
 std::string write_image(const Image& image, const fs::path& path) {
     const std::vector<std::byte> png = encode_png(image.size, image.rgb_bottom_up);
-    write_file(path, png);
+    write_file(path, png, Links::replaced);
     return data_url_of(png);
 }
 
@@ -141,7 +141,7 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
             frames.push_back(frame_json(frame, golden, actual, folder));
     const std::string html =
         std::string(page_mark) + "\n" + fill_in(page(), {{"@DATA@", for_script(data)}});
-    write_file(folder / page_name, html);
+    write_file(folder / page_name, html, Links::replaced);
 }
 
 bool is_differences_file(std::string_view name) {

@@ -7,8 +7,12 @@
 
 #include <cassert>
 #include <cerrno>
+#include <climits>
+#include <cstdio>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 
@@ -28,14 +32,13 @@ std::string_view remedy(int error_number) {
             return "choose a place that you may write to";
         case EISDIR:
             return "name a file, not a folder";
+        case EFBIG:
+            return "raise the limit of `ulimit -f`, or write less";
+        case EBADF:
+            return "do not close it, or name a file";
         default:
             return "choose another place";
     }
-}
-
-[[noreturn]] void fail_write(const fs::path& path, int error_number) {
-    fail(Exit::io, "cannot write {}: {}; {}", path.string(), system_reason(error_number),
-         remedy(error_number));
 }
 
 bool is_same_file(int descriptor, const struct stat& other) {
@@ -56,70 +59,159 @@ std::optional<int> open_in_place(const fs::path& path) {
     return open(path.c_str(), O_WRONLY | O_CLOEXEC);
 }
 
-}  // namespace
-
-File::File(const fs::path& path) : path_(path), target_(path) {
-    std::error_code missing;
-    if (fs::path followed = fs::canonical(path, missing); !missing) target_ = std::move(followed);
-    if (missing && fs::is_symlink(fs::symlink_status(path, missing))) fail_write(path_, ENOENT);
-    const std::optional<int> in_place = open_in_place(path);
-    if (!in_place && target_.has_parent_path()) make_folder(target_.parent_path());
-    const int descriptor = in_place ? *in_place : open_temporary();
-    if (descriptor < 0) fail_write(path_, errno);
-    file_.reset(fdopen(descriptor, "wb"));
-    if (!file_) {
-        const int error_number = errno;
-        close(descriptor);
-        if (!temporary_.empty()) unlink(temporary_.c_str());
-        fail_write(path_, error_number);
-    }
+/// Whether `path` can only be the name of a folder.
+bool names_folder(const fs::path& path) {
+    std::error_code none;
+    return !path.has_filename() || fs::is_directory(fs::symlink_status(path, none));
 }
 
-File::~File() {
-    if (!temporary_.empty()) unlink(temporary_.c_str());
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-/// Like mkstemp(), but with the permissions of a new file under the user's umask.
-int File::open_temporary() {
+/// Calls `make` with the names of temporary files until it returns no -1 of EEXIST. Returns the
+/// result and leaves the name in `name`.
+template <class Make>
+int make_temporary(const fs::path& folder, fs::path& name, Make make) {
     constexpr int most_attempts = 10'000;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        const fs::path name =
-            target_.parent_path() / fmt::format(".oiler-{}-{}.tmp", getpid(), attempt);
-        const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno == EEXIST) continue;
-        if (descriptor >= 0) temporary_ = name;
-        return descriptor;
+        fs::path tried = folder / fmt::format(".oiler-{}-{}.tmp", getpid(), attempt);
+        const int result = make(tried.c_str());
+        if (result < 0 && errno == EEXIST) continue;
+        if (result >= 0) name = std::move(tried);
+        return result;
     }
     return -1;
 }
 
+/// The path by which a file without a name can be linked.
+std::string path_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
+int open_without_name(const fs::path& folder) {
+    const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0 || access(path_of(descriptor).c_str(), F_OK) == 0) return descriptor;
+    close(descriptor);
+    return -1;
+}
+
+}  // namespace
+
+File::File(const fs::path& path, Links links)
+    : path_(path), target_(path), largest_write_(std::size_t{1} << 20) {
+    std::optional<int> in_place;
+    if (links == Links::followed) {
+        std::error_code missing;
+        if (fs::path followed = fs::canonical(path, missing); !missing)
+            target_ = std::move(followed);
+        if (missing && fs::is_symlink(fs::symlink_status(path, missing))) fail_write(ENOENT);
+        in_place = open_in_place(path);
+    }
+    in_place_ = in_place.has_value();
+    if (in_place_) largest_write_ = PIPE_BUF;
+    if (!in_place_ && names_folder(target_)) fail_write(EISDIR);
+    if (!in_place_ && target_.has_parent_path()) make_folder(target_.parent_path());
+    descriptor_ = in_place_ ? *in_place : open_temporary();
+    if (descriptor_ < 0) fail_write(errno);
+}
+
+File::~File() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void File::fail_write(int error_number) const {
+    const std::string name = path_ == "-" ? "the standard output" : path_.string();
+    if (error_number == EINTR)
+        fail(Exit::interrupted, "interrupted while writing {}: it is incomplete; run the command again", name);
+    fail(Exit::io, "cannot write {}: {}; {}", name, system_reason(error_number),
+         remedy(error_number));
+}
+
+/// Not all file systems have files without names.
+int File::open_temporary() {
+    const int descriptor = open_without_name(folder_of(target_));
+    return descriptor >= 0 ? descriptor : open_with_name();
+}
+
+/// Like mkstemp(), but with the permissions of a new file under the user's umask.
+int File::open_with_name() {
+    return make_temporary(folder_of(target_), temporary_, [](const char* name) {
+        return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    });
+}
+
 void File::write(std::span<const std::byte> bytes) {
-    assert(file_);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-        fail_write(path_, errno);
+    assert(descriptor_ >= 0);
+    constexpr std::size_t most_buffered = 1 << 16;
+    buffer_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (buffer_.size() >= most_buffered) flush();
 }
 
 void File::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
-void File::commit() {
-    assert(file_);
-    if (std::fclose(file_.release()) != 0) fail_write(path_, errno);
+void File::flush() {
+    for (std::string_view left = buffer_; !left.empty();) {
+        const std::string_view next = left.substr(0, largest_write_);
+        const ssize_t written = ::write(descriptor_, next.data(), next.size());
+        if (written < 0) fail_write(errno);
+        left.remove_prefix(static_cast<std::size_t>(written));
+    }
+    buffer_.clear();
+}
+
+void File::keep_permissions() const {
+    struct stat replaced = {};
+    if (lstat(target_.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode))
+        fchmod(descriptor_, replaced.st_mode & 07777);
+}
+
+/// Links a file without a name to its final name or, if that exists, to a temporary one.
+void File::give_name() {
+    const std::string own = path_of(descriptor_);
+    const auto link_to = [&](const char* name) {
+        return linkat(AT_FDCWD, own.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+    };
+    if (link_to(target_.c_str()) == 0) return;
+    if (errno != EEXIST || make_temporary(folder_of(target_), temporary_, link_to) != 0)
+        fail_write(errno);
+}
+
+/// Closes before the file is renamed, because network file systems report errors then.
+void File::close_descriptor() {
+    const int descriptor = std::exchange(descriptor_, -1);
+    if (close(descriptor) != 0 && errno != EINTR) fail_write(errno);
+}
+
+void File::commit(Sync sync) {
+    assert(descriptor_ >= 0);
+    flush();
+    if (in_place_) return close_descriptor();
+    keep_permissions();
+    if (sync == Sync::disk && fsync(descriptor_) != 0) fail_write(errno);
+    if (temporary_.empty()) give_name();
+    close_descriptor();
     if (temporary_.empty()) return;
-    std::error_code none;
-    const fs::file_status replaced = fs::status(target_, none);
-    if (!none && fs::exists(replaced)) fs::permissions(temporary_, replaced.permissions(), none);
-    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, errno);
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(errno);
     temporary_.clear();
 }
 
-void write_file(const fs::path& path, std::span<const std::byte> bytes) {
-    File file(path);
+void write_file(const fs::path& path, std::span<const std::byte> bytes, Links links) {
+    File file(path, links);
     file.write(bytes);
     file.commit();
 }
 
-void write_file(const fs::path& path, std::string_view text) {
-    write_file(path, std::as_bytes(std::span(text)));
+void write_file(const fs::path& path, std::string_view text, Links links) {
+    write_file(path, std::as_bytes(std::span(text)), links);
+}
+
+void require_writable(const fs::path& path) {
+    struct stat found = {};
+    constexpr mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
+    if (stat(path.c_str(), &found) != 0) return;
+    if ((found.st_mode & writable) == 0 || access(path.c_str(), W_OK) != 0)
+        fail(Exit::io, "cannot write {}: it is read-only; allow it with `chmod u+w`",
+             path.string());
 }
 
 bool make_folder(const fs::path& path) {

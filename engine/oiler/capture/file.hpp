@@ -2,23 +2,36 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace oiler {
 
-/// A file that is written completely or not at all, so that a failed or interrupted run leaves no
-/// partial frame. Bytes go to a temporary file in the same folder. commit() renames it to its final
-/// name; without commit() it is deleted. A missing folder is made. "-" is the standard output.
-/// Devices, pipes and the targets of standard output and standard error (/dev/stdout) cannot be
-/// replaced and are written in place.
-/// Every failure throws Error(Exit::io) with the path, the reason and a remedy.
+/// The treatment of a symbolic link at the path of a file.
+enum class Links {
+    followed,  ///< for paths that a user names
+    replaced,  ///< for names that Oiler chooses within an output folder
+};
+
+/// Whether the bytes are on the disk before the file has its name, so that a power failure leaves
+/// the old file or the new one.
+enum class Sync { none, disk };
+
+/// A file that is written completely or not at all, so that a failed, interrupted or killed run
+/// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() gives it
+/// its name; without commit() it disappears. A missing folder is made.
+///
+/// With Links::followed, "-" is the standard output. Devices, pipes and the targets of standard
+/// output and standard error (/dev/stdout) cannot be replaced and are written in place. With
+/// Links::replaced, everything at the path but a folder is replaced.
+///
+/// Every failure throws Error{io} with the path, the reason and a remedy. A signal that interrupts
+/// the wait for a pipe throws Error{interrupted}.
 class File {
 public:
-    explicit File(const std::filesystem::path& path);
+    explicit File(const std::filesystem::path& path, Links links = Links::followed);
     ~File();
     File(const File&) = delete;
     File& operator=(const File&) = delete;
@@ -27,25 +40,36 @@ public:
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    /// Flushes, closes and renames the file. No write may follow.
-    void commit();
+    /// Flushes, names and closes the file. No write may follow.
+    void commit(Sync sync = Sync::none);
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
-    int open_temporary();
+    [[nodiscard]] int open_temporary();
+    [[nodiscard]] int open_with_name();
+    void keep_permissions() const;
+    void give_name();
+    void flush();
+    void close_descriptor();
+    [[noreturn]] void fail_write(int error_number) const;
 
     std::filesystem::path path_;       // as given by the user, for messages
-    std::filesystem::path target_;     // path_ with symbolic links followed
-    std::filesystem::path temporary_;  // empty if written in place or committed
-    std::unique_ptr<std::FILE, Closer> file_;
+    std::filesystem::path target_;     // path_, with symbolic links followed or not
+    std::filesystem::path temporary_;  // empty for a file without a name, and after commit()
+    std::size_t largest_write_;        // bytes; pipes take these completely or not at all
+    int descriptor_ = -1;
+    bool in_place_ = false;
+    std::string buffer_;
 };
 
 /// Writes all of `bytes` to `path` through File.
-void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
-void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                Links links = Links::followed);
+void write_file(const std::filesystem::path& path, std::string_view text,
+                Links links = Links::followed);
+
+/// Throws Error{io} if the file may not be written, also for a superuser if it is read-only for
+/// all.
+void require_writable(const std::filesystem::path& path);
 
 /// Makes the folder and its parents. Returns whether it was missing. Throws Error(Exit::io).
 bool make_folder(const std::filesystem::path& path);

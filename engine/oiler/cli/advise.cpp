@@ -3,6 +3,7 @@
 
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/parse_size.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
@@ -129,12 +130,15 @@ struct AdviseCommand {
 
     void apply_to_scene(const Stepping& stepping) const {
         const std::string file = scene_options.file.string();
-        write_text(file, apply(read_text(file), file, stepping));
+        File applied(file);
+        applied.write(apply(read_text(file), file, stepping));
+        applied.commit(Sync::disk);
         remark(scene_options.quiet, "{} now has the setting {}", file, describe(stepping));
     }
 
     [[nodiscard]] Exit run() const {
         const Scene scene = read_scene();
+        if (writes_scene) require_writable(scene_options.file);
         const Requirements requirements = this->requirements(scene);
         const Reference reference = measure_reference(
             scene, required_reference_error(requirements) / 2, scene_options.quiet);

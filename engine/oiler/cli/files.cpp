@@ -20,8 +20,8 @@ std::string read_text(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    write_file(path, std::as_bytes(std::span(text)));
+void write_text(const std::filesystem::path& path, const std::string& text, Links links) {
+    write_file(path, std::as_bytes(std::span(text)), links);
 }
 
 void write_json(const std::filesystem::path& path, const Json& json) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/json.hpp"
 
 namespace oiler::cli {
@@ -11,7 +12,8 @@ namespace oiler::cli {
 // Texts in files; the path "-" is standard output. All functions throw Error{io}.
 
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
-void write_text(const std::filesystem::path& path, const std::string& text);
+void write_text(const std::filesystem::path& path, const std::string& text,
+                Links links = Links::followed);
 void write_json(const std::filesystem::path& path, const Json& json);
 
 /// Writes to standard output.

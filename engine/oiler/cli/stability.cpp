@@ -47,7 +47,7 @@ struct StabilityCommand {
         const std::vector<StabilityRegion> regions = measure(methods, grid);
         if (Interrupt::requested()) return Exit::interrupted;
         make_folder(pictures.out);
-        write_text(pictures.out / "stability.csv", to_csv(regions, grid));
+        write_text(pictures.out / "stability.csv", to_csv(regions, grid), Links::replaced);
         stills.write(atlas(regions, grid), pictures.out / "stability.png");
         remark(quiet, "stability.csv and stability.png are in {}", pictures.out.string());
         return Exit::done;

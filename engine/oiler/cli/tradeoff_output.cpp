@@ -135,13 +135,13 @@ bool is_tradeoff_file(std::string_view name) {
 }
 
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
-    write_text(path, to_json(tradeoff));
+    write_text(path, to_json(tradeoff), Links::replaced);
 }
 
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
     save(tradeoff, output.out / data_file);
-    write_text(output.out / table_file, to_csv(tradeoff));
-    if (!output.json.empty()) save(tradeoff, output.json);
+    write_text(output.out / table_file, to_csv(tradeoff), Links::replaced);
+    if (!output.json.empty()) write_text(output.json, to_json(tradeoff));
     if (output.json != "-") print(table_of(tradeoff, output.all));
     stills.write(
         work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),

@@ -22,7 +22,7 @@ struct TradeoffOutput {
     bool quiet;
 };
 
-/// Writes tradeoff.json. Throws Error{io}.
+/// Writes the file of a sweep into its folder. Throws Error{io}.
 void save(const lab::Tradeoff& tradeoff, const std::filesystem::path& path);
 
 /// Writes the files and the diagrams, prints the table. Throws Error{io}.
