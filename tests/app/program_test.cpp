@@ -52,7 +52,8 @@ TEST(Program, WarnsOfASpringThatTheMethodCannotFollow) {
     const Outcome coarse = shell("spring_damper --steps 1 --rate 1");
     EXPECT_EQ(coarse.exit, 0);
     EXPECT_NE(coarse.err.find("spring of body 0: ω·dt = 3.873"), std::string::npos) << coarse.err;
-    EXPECT_NE(coarse.err.find("rate ≥ 2 Hz, or implicit_midpoint"), std::string::npos) << coarse.err;
+    EXPECT_NE(coarse.err.find("rate ≥ 2 Hz, or implicit_midpoint"), std::string::npos)
+        << coarse.err;
     const Outcome euler = shell("spring_damper --steps 1 --method explicit_euler");
     EXPECT_NE(euler.err.find("rate ≥ 151 Hz"), std::string::npos) << euler.err;
     for (const char* fine : {"--rate 2", "--rate 1 --method implicit_euler --quiet",

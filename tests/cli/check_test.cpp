@@ -24,8 +24,7 @@ bool is_well_formed(const std::string& xml) {
         if (xml[at] == '&') {
             const std::string rest = xml.substr(at, 6);
             if (!rest.starts_with("&amp;") && !rest.starts_with("&lt;") &&
-                !rest.starts_with("&quot;") && !rest.starts_with("&gt;") &&
-                !rest.starts_with("&#"))
+                !rest.starts_with("&quot;") && !rest.starts_with("&gt;") && !rest.starts_with("&#"))
                 return false;
             ++at;
             continue;

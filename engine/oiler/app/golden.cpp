@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/golden.hpp"
 
-
 #include "oiler/app/console.hpp"
 #include "oiler/capture/comparison.hpp"
 #include "oiler/capture/differences.hpp"
@@ -13,8 +12,7 @@ Exit compare_with_golden(const Options& options) {
     const Comparison comparison = compare_captures(options.golden, options.out, {});
     const std::filesystem::path folder = differences_folder(options.out);
     write_differences(comparison, folder);
-    if (!options.junit.empty())
-        write_file(options.junit, junit_of(comparison));
+    if (!options.junit.empty()) write_file(options.junit, junit_of(comparison));
     std::string text = describe(comparison);
     text.pop_back();
     remark(options.quiet && comparison.passed(), "{}", text);

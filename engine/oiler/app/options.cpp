@@ -146,10 +146,10 @@ void declare_output(CLI::App& app, Options& options) {
 
 /// Checks that no path is empty, no output is an input and no two outputs are the same.
 void check_paths(const CLI::App& app, const Options& options, const Words& words) {
-    std::vector<NamedPath> outputs{
-        {"--trace", options.trace},     {"--energy", options.energy}, {"--json", options.json},
-        {"--profile", options.profile}, {"--junit", options.junit},   {"--video", options.video},
-        {"--sheet", options.sheet}};
+    std::vector<NamedPath> outputs{{"--trace", options.trace}, {"--energy", options.energy},
+                                   {"--json", options.json},   {"--profile", options.profile},
+                                   {"--junit", options.junit}, {"--video", options.video},
+                                   {"--sheet", options.sheet}};
     if (options.headless && !options.steps)
         outputs.push_back({"--out", options.out, is_capture_file});
     std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
@@ -256,8 +256,8 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     if (app.count("--frame") > 0) options.frame = words.frame;
     options.has_png = words.png == "all";
     if (app.count("--out") == 0)
-        options.out = options.update_golden ? options.golden
-                                            : std::filesystem::path("frames") / about.name;
+        options.out =
+            options.update_golden ? options.golden : std::filesystem::path("frames") / about.name;
     check_paths(app, options, words);
     return options;
 }

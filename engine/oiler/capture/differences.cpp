@@ -144,9 +144,7 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
     write_file(folder / page_name, html, Links::replaced);
 }
 
-bool is_differences_file(std::string_view name) {
-    return name == page_name || is_our_image(name);
-}
+bool is_differences_file(std::string_view name) { return name == page_name || is_our_image(name); }
 
 fs::path differences_folder(const fs::path& actual) {
     const fs::path frames = actual.has_filename() ? actual : actual.parent_path();

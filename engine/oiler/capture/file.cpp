@@ -122,7 +122,8 @@ File::~File() {
 void File::fail_write(int error_number) const {
     const std::string name = path_ == "-" ? "the standard output" : path_.string();
     if (error_number == EINTR)
-        fail(Exit::interrupted, "interrupted while writing {}: it is incomplete; run the command again", name);
+        fail(Exit::interrupted,
+             "interrupted while writing {}: it is incomplete; run the command again", name);
     fail(Exit::io, "cannot write {}: {}; {}", name, system_reason(error_number),
          remedy(error_number));
 }
