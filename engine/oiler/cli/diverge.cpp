@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <future>
+#include <span>
+#include <utility>
+
+#include "oiler/capture/divergence.hpp"
+#include "oiler/capture/trace_file.hpp"
+#include "oiler/capture/ulps.hpp"
+#include "oiler/cli/files.hpp"
+#include "oiler/cli/shared_options.hpp"
+#include "oiler/cli/tables.hpp"
+
+namespace oiler::cli {
+namespace {
+
+/// Two runs and their differences.
+struct DivergeResult {
+    StateLog a;
+    StateLog b;
+    Divergence divergence;
+};
+
+std::string ulps_text(std::uint64_t ulps) {
+    return ulps == not_in_ulps ? "-" : fmt::format("{}", ulps);
+}
+
+std::string describe(const Divergence::Value& value, int axes) {
+    std::string text = fmt::format("body {}, {}: {} and {}, ", value.body,
+                                   field_name(axes, value.field), value.a, value.b);
+    if (value.ulps == 0) return text + "which differ only in their signs";
+    if (value.ulps == not_in_ulps) return text + "of which one is not a number";
+    return text + fmt::format("{} ulp ({:.2g} {})", value.ulps, value.distance,
+                              field_unit(axes, value.field));
+}
+
+/// For example "bodies 3, 4 are only in a.csv"; the text has the first ten bodies.
+std::string describe(std::span<const std::uint32_t> bodies, const std::string& file) {
+    constexpr std::size_t most = 10;
+    const auto first = bodies.first(std::min(most, bodies.size()));
+    const std::string more =
+        bodies.size() > most ? fmt::format(" and {} more", bodies.size() - most) : "";
+    return fmt::format("{} {}{} {} only in {}", bodies.size() == 1 ? "body" : "bodies",
+                       fmt::join(first, ", "), more, bodies.size() == 1 ? "is" : "are", file);
+}
+
+std::string describe(const Divergence::Presence& presence, const DivergeResult& result) {
+    std::string text;
+    if (!presence.only_a.empty()) text = describe(presence.only_a, result.a.name);
+    if (!text.empty() && !presence.only_b.empty()) text += "; ";
+    if (!presence.only_b.empty()) text += describe(presence.only_b, result.b.name);
+    return text;
+}
+
+/// A difference and its tick.
+struct Finding {
+    std::int64_t tick = 0;
+    double time = 0;
+    std::string text;
+};
+
+/// In the order of their ticks. At the same tick the likely cause comes first.
+std::vector<Finding> findings_of(const DivergeResult& result) {
+    const Divergence& found = result.divergence;
+    std::vector<Finding> findings;
+    if (found.times)
+        findings.push_back(
+            {found.times->tick, found.times->a,
+             fmt::format("the time is {} s in {} and {} s in {}, because their "
+                         "rates differ",
+                         found.times->a, result.a.name, found.times->b, result.b.name)});
+    if (found.presence)
+        findings.push_back(
+            {found.presence->tick, found.presence->time, describe(*found.presence, result)});
+    if (found.value)
+        findings.push_back(
+            {found.value->tick, found.value->time, describe(*found.value, result.a.axes)});
+    std::ranges::stable_sort(findings, {}, &Finding::tick);
+    return findings;
+}
+
+std::string explain_precision(const DivergeResult& result) {
+    if (result.divergence.floats)
+        return "1 ulp is that of float: all numbers of both files are shortest digits of floats.";
+    if (result.a.floats == result.b.floats)
+        return "1 ulp is that of double: both files have numbers with more digits than a float.";
+    const auto& [single, other] = result.a.floats ? std::tie(result.a.name, result.b.name)
+                                                  : std::tie(result.b.name, result.a.name);
+    return fmt::format(
+        "1 ulp is that of double: only {} has numbers with more digits than a float. The run of "
+        "{} may be in float.",
+        other, single);
+}
+
+std::string table_of(const std::vector<Divergence::Growth>& growth) {
+    std::string text = fmt::format("\n{:>10} {:>12} {:>12} {:>20}  body\n", "tick", "time, s",
+                                   "distance, m", "ulp");
+    for (const Divergence::Growth& row : growth)
+        text += fmt::format("{:>10} {:>12.6g} {:>12.3g} {:>20}  {}\n", row.tick, row.time,
+                            row.distance, ulps_text(row.ulps), row.body);
+    return text;
+}
+
+/// Tells which run is longer; empty if both have the same last tick.
+std::string describe_rest(const DivergeResult& result) {
+    const std::int64_t last = result.divergence.last_tick;
+    const StateLog& longer = result.a.ticks.back().tick > last ? result.a : result.b;
+    if (longer.ticks.back().tick == last) return {};
+    return fmt::format("{} continues to tick {}; its ticks after {} are not compared.\n",
+                       longer.name, longer.ticks.back().tick, last);
+}
+
+std::string count_bodies(std::size_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "body" : "bodies");
+}
+
+std::string describe_same(const Divergence& divergence) {
+    return fmt::format("The runs are the same: ticks {} to {} ({:g} s), {}.\n",
+                       divergence.first_tick, divergence.last_tick, divergence.last_time,
+                       count_bodies(divergence.bodies));
+}
+
+std::string describe_differences(const DivergeResult& result) {
+    std::string text;
+    for (const Finding& finding : findings_of(result))
+        text += fmt::format("{} tick {} ({:g} s): {}.\n",
+                            text.empty() ? "The runs first differ at" : "At", finding.tick,
+                            finding.time, finding.text);
+    if (!result.divergence.value) return text;
+    const Divergence::Value& value = *result.divergence.value;
+    if (result.divergence.bodies > 1)
+        text += fmt::format("The numbers of {} of {} differ at tick {}.\n", value.bodies,
+                            count_bodies(result.divergence.bodies), value.tick);
+    return text + explain_precision(result) + "\n";
+}
+
+std::string text_of(const DivergeResult& result) {
+    const Divergence& divergence = result.divergence;
+    std::string text = divergence.same() ? describe_same(divergence) : describe_differences(result);
+    text += describe_rest(result);
+    return divergence.growth.empty() ? text : text + table_of(divergence.growth);
+}
+
+Json ulps_json(std::uint64_t ulps) { return ulps == not_in_ulps ? Json(nullptr) : Json(ulps); }
+
+Json json_of(const Divergence::Value& value, int axes) {
+    return {{"tick", value.tick},
+            {"time", value.time},
+            {"body", value.body},
+            {"field", field_name(axes, value.field)},
+            {"a", number(value.a)},
+            {"b", number(value.b)},
+            {"ulps", ulps_json(value.ulps)},
+            {"distance", number(value.distance)},
+            {"unit", field_unit(axes, value.field)},
+            {"bodies_that_differ", value.bodies}};
+}
+
+Json json_of(const Divergence::Presence& presence) {
+    return {{"tick", presence.tick},
+            {"time", presence.time},
+            {"only_a", presence.only_a},
+            {"only_b", presence.only_b}};
+}
+
+Json json_of(const std::vector<Divergence::Growth>& growth) {
+    Json json = Json::array();
+    for (const Divergence::Growth& row : growth)
+        json.push_back({{"tick", row.tick},
+                        {"time", row.time},
+                        {"distance", number(row.distance)},
+                        {"ulps", ulps_json(row.ulps)},
+                        {"body", row.body}});
+    return json;
+}
+
+Json json_of(const StateLog& log) {
+    return {{"file", log.name},
+            {"last_tick", log.ticks.back().tick},
+            {"precision", log.floats ? "float" : "double"}};
+}
+
+Json json_of(const DivergeResult& result) {
+    const Divergence& found = result.divergence;
+    Json json{{"same", found.same()},
+              {"a", json_of(result.a)},
+              {"b", json_of(result.b)},
+              {"first_tick", found.first_tick},
+              {"last_tick", found.last_tick},
+              {"last_time", found.last_time},
+              {"bodies", found.bodies},
+              {"precision", found.floats ? "float" : "double"},
+              {"value", nullptr},
+              {"presence", nullptr},
+              {"times", nullptr},
+              {"growth", json_of(found.growth)}};
+    if (found.value) json["value"] = json_of(*found.value, result.a.axes);
+    if (found.presence) json["presence"] = json_of(*found.presence);
+    if (found.times)
+        json["times"] = {{"tick", found.times->tick}, {"a", found.times->a}, {"b", found.times->b}};
+    return json;
+}
+
+/// Reads both files at once, because a large trace takes seconds.
+DivergeResult read(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::future<StateLog> log_b = std::async(std::launch::async, read_trace, b);
+    StateLog log_a = read_trace(a);
+    return {std::move(log_a), log_b.get(), {}};
+}
+
+}  // namespace
+
+struct DivergeCommand {
+    static constexpr CommandTexts texts{
+        .name = "diverge",
+        .summary = "Find where two runs first differ, in files of --trace: exit 1 if they do",
+        .example = "a.csv b.csv",
+        .notes = "Runs of different lengths are compared up to the last tick of the shorter one."};
+
+    std::filesystem::path a;
+    std::filesystem::path b;
+    std::filesystem::path json;
+
+    void declare(Arguments& arguments) {
+        arguments.add_required("A", a, "trace of a run");
+        arguments.add_required("B", b, "trace of another run");
+        add_json(arguments, json);
+    }
+
+    [[nodiscard]] Exit run() const {
+        DivergeResult result = read(a, b);
+        result.divergence = find_divergence(result.a, result.b);
+        if (!json.empty()) write_json(json, json_of(result));
+        if (json != "-") print(text_of(result));
+        return result.divergence.same() ? Exit::done : Exit::comparison_failed;
+    }
+};
+
+template Command make_command<DivergeCommand>();
+
+}  // namespace oiler::cli
