@@ -26,6 +26,7 @@ struct StateLog {
     std::vector<Tick> ticks;            ///< ascending; each has rows
     std::vector<std::uint32_t> bodies;  ///< of each row, ascending within a tick
     std::vector<double> values;         ///< of each row: the position in m, the velocity in m/s
+    std::vector<std::string> names{};   ///< of the bodies, by number; none in a trace
 
     /// The number of values in a row.
     [[nodiscard]] std::size_t width() const { return 2 * static_cast<std::size_t>(axes); }

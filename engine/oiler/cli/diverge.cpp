@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "oiler/capture/capture_folder.hpp"
+#include "oiler/capture/captured_states.hpp"
 #include "oiler/capture/divergence.hpp"
 #include "oiler/capture/trace_file.hpp"
 #include "oiler/capture/ulps.hpp"
@@ -22,14 +24,23 @@ struct DivergeResult {
     StateLog a;
     StateLog b;
     Divergence divergence;
+    /// Of two captures: the first tick whose hashes differ.
+    std::optional<std::int64_t> first_hash{};
 };
 
 std::string ulps_text(std::uint64_t ulps) {
     return ulps == not_in_ulps ? "-" : fmt::format("{}", ulps);
 }
 
-std::string describe(const Divergence::Value& value, int axes) {
-    std::string text = fmt::format("body {}, {}: {} and {}, ", value.body,
+/// "body 3", or "body 'bob'" if the run names its bodies.
+std::string name_of(std::uint32_t body, const StateLog& log) {
+    return body < log.names.size() ? fmt::format("body '{}'", log.names[body])
+                                   : fmt::format("body {}", body);
+}
+
+std::string describe(const Divergence::Value& value, const StateLog& log) {
+    const int axes = log.axes;
+    std::string text = fmt::format("{}, {}: {} and {}, ", name_of(value.body, log),
                                    field_name(axes, value.field), value.a, value.b);
     if (value.ulps == 0) return text + "which differ only in their signs";
     if (value.ulps == not_in_ulps) return text + "of which one is not a number";
@@ -77,7 +88,7 @@ std::vector<Finding> findings_of(const DivergeResult& result) {
             {found.presence->tick, found.presence->time, describe(*found.presence, result)});
     if (found.value)
         findings.push_back(
-            {found.value->tick, found.value->time, describe(*found.value, result.a.axes)});
+            {found.value->tick, found.value->time, describe(*found.value, result.a)});
     std::ranges::stable_sort(findings, {}, &Finding::tick);
     return findings;
 }
@@ -140,6 +151,10 @@ std::string describe_differences(const DivergeResult& result) {
 std::string text_of(const DivergeResult& result) {
     const Divergence& divergence = result.divergence;
     std::string text = divergence.same() ? describe_same(divergence) : describe_differences(result);
+    if (result.first_hash)
+        text = fmt::format("The hashes first differ at tick {}. States are those of the frames.\n",
+                           *result.first_hash) +
+               text;
     text += describe_rest(result);
     return divergence.growth.empty() ? text : text + table_of(divergence.growth);
 }
@@ -197,6 +212,7 @@ Json json_of(const DivergeResult& result) {
               {"presence", nullptr},
               {"times", nullptr},
               {"growth", json_of(found.growth)}};
+    if (result.first_hash) json["first_different_hash"] = *result.first_hash;
     if (found.value) json["value"] = json_of(*found.value, result.a.axes);
     if (found.presence) json["presence"] = json_of(*found.presence);
     if (found.times)
@@ -205,10 +221,32 @@ Json json_of(const DivergeResult& result) {
 }
 
 /// Reads both files at once, because a large trace takes seconds.
-DivergeResult read(const std::filesystem::path& a, const std::filesystem::path& b) {
+DivergeResult read_traces(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::future<StateLog> log_b = std::async(std::launch::async, read_trace, b);
     StateLog log_a = read_trace(a);
     return {std::move(log_a), log_b.get(), {}};
+}
+
+/// Returns whether the path is a capture, or its manifest.
+bool is_capture(const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::is_directory(path, error) || path.filename() == manifest_name;
+}
+
+DivergeResult read(const std::filesystem::path& a, const std::filesystem::path& b) {
+    if (is_capture(a) != is_capture(b))
+        fail(Exit::usage, "{} and {}: give two traces or two captures", a.string(), b.string());
+    if (!is_capture(a)) return read_traces(a, b);
+    const auto folder = [](const std::filesystem::path& path) {
+        return path.filename() == manifest_name ? path.parent_path() : path;
+    };
+    const Captured captured_a(folder(a));
+    const Captured captured_b(folder(b));
+    DivergeResult result{state_log_of(captured_a, {}), {}, {}};
+    result.b = state_log_of(captured_b, result.a.names);
+    result.a.names = result.b.names;
+    result.first_hash = first_different_tick(captured_a, captured_b);
+    return result;
 }
 
 }  // namespace
@@ -216,7 +254,7 @@ DivergeResult read(const std::filesystem::path& a, const std::filesystem::path& 
 struct DivergeCommand {
     static constexpr CommandTexts texts{
         .name = "diverge",
-        .summary = "Find where two runs first differ, in files of --trace: exit 1 if they do",
+        .summary = "Find where two runs first differ, in traces or captures: exit 1 if they do",
         .example = "a.csv b.csv",
         .notes = "Runs of different lengths are compared up to the last tick of the shorter one."};
 
@@ -225,8 +263,8 @@ struct DivergeCommand {
     std::filesystem::path json;
 
     void declare(Arguments& arguments) {
-        arguments.add_required("A", a, "trace of a run");
-        arguments.add_required("B", b, "trace of another run");
+        arguments.add_required("A", a, "trace of a run, or folder of a capture");
+        arguments.add_required("B", b, "trace of another run, or folder of a capture");
         add_json(arguments, json);
     }
 

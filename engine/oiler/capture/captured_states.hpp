@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oiler/capture/captured.hpp"
+#include "oiler/capture/state_log.hpp"
+
+namespace oiler {
+
+/// The states of a capture's frames that have a record, in three axes. Bodies are numbered by their
+/// names: those of `names` first, then new ones. Throws Error{usage} if no frame has a record.
+[[nodiscard]] StateLog state_log_of(const Captured& captured, std::vector<std::string> names);
+
+/// The first tick whose state hashes differ; empty if they are equal as far as both captures go, or
+/// if a capture has more than 1000 bodies.
+[[nodiscard]] std::optional<std::int64_t> first_different_tick(const Captured& a,
+                                                               const Captured& b);
+
+}  // namespace oiler
