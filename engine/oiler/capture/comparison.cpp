@@ -184,7 +184,7 @@ private:
             describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
         if (change.empty()) return where;
         const std::string tick = fmt::format("at tick {}", golden(index).tick);
-        return fmt::format("{}: {}{}", where, where == tick ? "" : tick + ", ", change);
+        return fmt::format("{}: {}{}", where, change, where == tick ? "" : ", " + tick);
     }
 
     [[nodiscard]] std::string describe_picture(std::int64_t index) const {

@@ -159,10 +159,13 @@ private:
         return std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
     }
 
-    /// Adds no row for a tick that only one run has.
-    void add_growth(std::int64_t tick) {
-        const std::optional<TickPair> pair = find_tick(a_, b_, tick);
-        if (!pair) return;
+    /// Takes the next tick of the run, because captures have only those of their frames. Adds no
+    /// row for a tick that only one run has, or that has one already.
+    void add_growth(std::int64_t wanted) {
+        const auto next = std::ranges::lower_bound(a_.ticks, wanted, {}, &StateLog::Tick::tick);
+        if (next == a_.ticks.end()) return;
+        const std::optional<TickPair> pair = find_tick(a_, b_, next->tick);
+        if (!pair || (!result_.growth.empty() && result_.growth.back().tick >= next->tick)) return;
         std::optional<Divergence::Growth> furthest;
         for_each_body(*pair, [&](std::size_t row_a, std::size_t row_b) {
             const Divergence::Growth growth = growth_of(*pair, row_a, row_b);

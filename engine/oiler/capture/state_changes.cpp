@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <map>
 
@@ -104,11 +105,14 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     const auto digits = [&](double value) {
         return single ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
     };
-    const std::string ulps = change.ulps < 1'000'000
-                                 ? fmt::format("{}", change.ulps)
-                                 : fmt::format("{:.2g}", static_cast<double>(change.ulps));
-    return fmt::format("body '{}', {}: {} → {}, {} ulp", change.body, field_names[change.field],
-                       digits(change.golden), digits(change.actual), ulps);
+    constexpr std::uint64_t most_ulps = 1'000'000;  // above, metres say more
+    const std::string distance =
+        change.ulps <= most_ulps
+            ? fmt::format("{} ulp", change.ulps)
+            : fmt::format("by {:.2g} {}", std::abs(change.actual - change.golden),
+                          change.field < 3 ? "m" : "m/s");
+    return fmt::format("body '{}', {}: {} → {}, {}", change.body, field_names[change.field],
+                       digits(change.golden), digits(change.actual), distance);
 }
 
 }  // namespace oiler

@@ -106,12 +106,12 @@ std::string explain_precision(const DivergeResult& result) {
         other, single);
 }
 
-std::string table_of(const std::vector<Divergence::Growth>& growth) {
-    std::string text = fmt::format("\n{:>10} {:>12} {:>12} {:>20}  body\n", "tick", "time, s",
-                                   "distance, m", "ulp");
+std::string table_of(const std::vector<Divergence::Growth>& growth, const StateLog& log) {
+    std::string text =
+        fmt::format("\n{:>10} {:>12} {:>12} {:>20}  of\n", "tick", "time, s", "distance, m", "ulp");
     for (const Divergence::Growth& row : growth)
         text += fmt::format("{:>10} {:>12.6g} {:>12.3g} {:>20}  {}\n", row.tick, row.time,
-                            row.distance, ulps_text(row.ulps), row.body);
+                            row.distance, ulps_text(row.ulps), name_of(row.body, log));
     return text;
 }
 
@@ -156,7 +156,7 @@ std::string text_of(const DivergeResult& result) {
                            *result.first_hash) +
                text;
     text += describe_rest(result);
-    return divergence.growth.empty() ? text : text + table_of(divergence.growth);
+    return divergence.growth.empty() ? text : text + table_of(divergence.growth, result.a);
 }
 
 Json ulps_json(std::uint64_t ulps) { return ulps == not_in_ulps ? Json(nullptr) : Json(ulps); }
