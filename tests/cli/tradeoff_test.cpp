@@ -159,6 +159,13 @@ TEST(TradeoffCommand, MergedShardsEqualOneRun) {
               accuracy_of(desk.json("whole/tradeoff.json")));
     EXPECT_EQ(desk.text("merged/tradeoff.csv").substr(0, 60),
               desk.text("whole/tradeoff.csv").substr(0, 60));
+    const Outcome twice = desk.run(
+        "cp parts/part-2-of-4.json copy.json; oiler merge parts/part-*.json copy.json --out "
+        "merged");
+    EXPECT_EQ(twice.exit, 2);
+    EXPECT_TRUE(holds(twice.err, "oiler: copy.json: ") &&
+                holds(twice.err, "parts/part-2-of-4.json"))
+        << twice.err;
     // Parts with another duration cannot be merged.
     EXPECT_EQ(desk.run(command + "parts --shard 2/4 --duration 9").exit, 0);
     EXPECT_EQ(desk.run("oiler merge parts/part-*.json --out merged").exit, 2);
@@ -209,13 +216,15 @@ Tradeoff made_up() {
     too_small.judgement.evaluations = 5000;
     TradeoffRow unstable{.stepping = {rk4, {10}, Precision::double_}};
     unstable.judgement.stable = false;
-    Tradeoff tradeoff{.scene = "made_up", .title = "", .fingerprint = "1", .duration = 5};
+    Tradeoff tradeoff{
+        .scene = "made_up", .title = "", .fingerprint = "0123456789abcdef", .duration = 5};
     tradeoff.current = current;
     tradeoff.reference.floor.position = 1e-9;
     tradeoff.reference.extent = 1;
     tradeoff.reference.meaningful_until = 5;
     tradeoff.machines = {{"cpu", 1, "cc"}};
-    tradeoff.ladders = {{.method = rk4, .rows = {unstable, told, too_small}, .done = true}};
+    tradeoff.ladders = {
+        {.method = rk4, .rows = {unstable, told, too_small}, .end = "so", .done = true}};
     return tradeoff;
 }
 

@@ -7,6 +7,18 @@
 
 namespace oiler::cli {
 
+namespace {
+
+lab::Tradeoff read_part(const std::filesystem::path& path) {
+    lab::Tradeoff part = lab::parse_tradeoff(read_text(path), path.string());
+    if (!part.timed())
+        fail(Exit::usage, "{}: has no times because it was interrupted; run its command again",
+             path.string());
+    return part;
+}
+
+}  // namespace
+
 struct MergeCommand {
     static constexpr CommandTexts texts{.name = "merge",
                                         .summary = "Join the part files of tradeoff --shard",
@@ -29,13 +41,8 @@ struct MergeCommand {
     [[nodiscard]] Exit run() const {
         const Size size = pictures.size();
         std::vector<lab::Tradeoff> read;
-        for (const std::filesystem::path& path : parts)
-            read.push_back(lab::parse_tradeoff(read_text(path), path.string()));
+        for (const std::filesystem::path& path : parts) read.push_back(read_part(path));
         const lab::Tradeoff tradeoff = lab::merge(read);
-        if (!tradeoff.timed())
-            fail(
-                Exit::usage,
-                "some parts have no times because they were interrupted: run their commands again");
         make_folder(pictures.out);
         Stills stills(size);
         publish(tradeoff, {pictures.out, json, all, quiet}, stills);

@@ -393,18 +393,38 @@ TEST(Merge, NamesEachMachineOnce) {
 }
 
 TEST(Merge, RefusesPartsOfOtherSweeps) {
-    std::vector<Tradeoff> parts = shards_of(2);
-    parts[1].fingerprint = "another";
-    expect_usage([&] { (void)merge(parts); }, "not of one sweep");
-    parts = shards_of(2);
-    parts[1].ladders.pop_back();
-    expect_usage([&] { (void)merge(parts); }, "not of one sweep");
+    const auto expect_refused = [](const std::function<void(Tradeoff&)>& change) {
+        std::vector<Tradeoff> wrong = shards_of(2);
+        wrong[0].file = "a.json";
+        wrong[1].file = "b.json";
+        change(wrong[1]);
+        expect_usage([&] { (void)merge(wrong); }, "b.json: not of one sweep with a.json");
+    };
+    expect_refused([](Tradeoff& part) { part.fingerprint = "another"; });
+    expect_refused([](Tradeoff& part) { part.scene = "another"; });
+    expect_refused([](Tradeoff& part) { part.title = "another"; });
+    expect_refused([](Tradeoff& part) { part.duration *= 2; });
+    expect_refused([](Tradeoff& part) { part.current.rate.steps *= 2; });
+    expect_refused([](Tradeoff& part) { part.ladders.pop_back(); });
+    expect_refused([](Tradeoff& part) { std::swap(part.ladders[0], part.ladders[2]); });
+}
+
+TEST(Merge, RefusesAPartThatIsGivenTwice) {
+    std::vector<Tradeoff> parts = shards_of(3);
+    parts.push_back(parts[1]);
+    parts[1].file = "b.json";
+    parts[3].file = "copy.json";
+    expect_usage([&] { (void)merge(parts); }, "copy.json: explicit_euler in double is in b.json");
 }
 
 TEST(Merge, RefusesWhereAPartIsMissing) {
     std::vector<Tradeoff> parts = shards_of(4);
+    for (std::size_t i = 0; i < 4; ++i) parts[i].file = std::to_string(i) + ".json";
     parts.erase(parts.begin() + 1);
-    expect_usage([&] { (void)merge(parts); }, "3 of 12");
+    expect_usage(
+        [&] { (void)merge(parts); },
+        "0.json, 2.json, 3.json: 3 of 12 ladders (methods × precisions) are missing, first "
+        "explicit_euler in double");
 }
 
 }  // namespace

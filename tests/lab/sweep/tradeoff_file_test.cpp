@@ -27,13 +27,13 @@ bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
 /// A trade-off with numbers that are hard to write in every field.
 Tradeoff hard_numbers() {
     Tradeoff tradeoff = started(spring(), small_plan());
-    tradeoff.duration = 0.1 + 0.2;
+    tradeoff.duration = 0.7 + 0.1;
     tradeoff.title = "\"Quoted\", <b>µ</b>";
     tradeoff.reference.position_error = 5e-324;
     tradeoff.reference.velocity_error = 1.0 / 3;
     tradeoff.reference.floor = {1e-300, 2.0 / 3, 1.7976931348623157e308};
     tradeoff.reference.extent = std::nextafter(1.0, 2.0);
-    tradeoff.reference.meaningful_until = 0.7 + 0.1;
+    tradeoff.reference.meaningful_until = 0.1 + 0.2;
     tradeoff.reference.why_no_longer = "\"µ\\\n";
     tradeoff.reference.period = std::acos(-1.0);
     tradeoff.machines.push_back({"other", 128, "cc 1.0"});
@@ -46,13 +46,14 @@ Tradeoff hard_numbers() {
                             .ns_per_second = std::exp(rate),
                             .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate,
                             .ns_together = rate % 7 == 0 ? unknown : std::exp(-rate)};
-            row.judgement = {.stable = rate % 5 != 0,
-                             .position_error = rate % 4 == 0 ? unknown : std::sin(rate) * 1e-310,
-                             .step_error = rate % 3 == 0 ? unknown : std::cos(rate) * 1e-300,
-                             .velocity_error = std::pow(7, -rate),
-                             .phase_error = -0.0,
-                             .energy_drift = std::nextafter(rate, 0.0),
-                             .evaluations = std::sqrt(rate)};
+            row.judgement = {
+                .stable = rate % 5 != 0,
+                .position_error = rate % 4 == 0 ? unknown : std::abs(std::sin(rate)) * 1e-310,
+                .step_error = rate % 3 == 0 ? unknown : std::abs(std::cos(rate)) * 1e-300,
+                .velocity_error = std::pow(7, -rate),
+                .phase_error = -0.0,
+                .energy_drift = std::nextafter(rate, 0.0),
+                .evaluations = std::sqrt(rate)};
             ladder.rows.push_back(row);
         }
     }
@@ -89,8 +90,11 @@ TEST(TradeoffFile, ReadsBackToTheSameBits) {
 Tradeoff with_row(const Stepping& choice) {
     Tradeoff tradeoff = started(spring(), small_plan());
     tradeoff.ladders.resize(1);
-    tradeoff.ladders[0] = {
-        .method = choice.method, .precision = choice.precision, .rows = {{.stepping = choice}}};
+    tradeoff.ladders[0] = {.method = choice.method,
+                           .precision = choice.precision,
+                           .rows = {{.stepping = choice}},
+                           .end = "so",
+                           .done = true};
     return tradeoff;
 }
 
@@ -190,6 +194,154 @@ TEST(TradeoffFile, IfInvalidIsRefusedInOneLineThatNamesTheFile) {
     for (const std::string& text : bad)
         expect_usage([&] { (void)parse_tradeoff(text, "a.json"); },
                      holds(text, "explicit_eulr") ? "explicit_eulr" : "a.json");
+}
+
+using Parsed = nlohmann::json;
+
+/// A way to damage a valid file, and the place that the message names.
+struct Damage {
+    const char* pointer;  ///< JSON pointer to a value
+    Parsed value;         ///< in its place; discarded: the value is removed
+    const char* named;
+};
+
+std::vector<Damage> damages() {
+    const Parsed gone(Parsed::value_t::discarded);
+    return {
+        {"/oiler", "0.0.1", "got one of 0.0.1"},
+        {"/oiler", 1, "oiler: expected a text"},
+        {"/oiler", gone, "oiler is missing"},
+        {"/scene", gone, "scene is missing"},
+        {"/scene", 3, "scene: expected a text"},
+        {"/title", nullptr, "title: expected a text"},
+        {"/fingerprint", "", "fingerprint: expected 16"},
+        {"/fingerprint", "0123456789ABCDEF", "fingerprint: expected 16"},
+        {"/fingerprint", 0, "fingerprint: expected a text"},
+        {"/complete", 0, "complete: expected true or false"},
+        {"/complete", true, "complete: expected what the ladders say"},
+        {"/duration", 0, "duration: expected a number above 0"},
+        {"/duration", -1.5, "duration: expected a number above 0"},
+        {"/duration", nullptr, "duration: expected a number above 0"},
+        {"/duration", gone, "duration is missing"},
+        {"/current", Parsed::array(), "current: expected an object"},
+        {"/current/rate", 0, "current.rate: expected a whole number from 1 to 1000000"},
+        {"/current/method", "rk5", "current.method: expected a name of `oiler methods`"},
+        {"/current/precision", "half", "current.precision: expected float or double"},
+        {"/current/damping", "none", "current.damping: expected kick or drift"},
+        {"/reference/words", 1, "reference.words"},
+        {"/reference/closed_form", "yes", "reference.closed_form"},
+        {"/reference/position_error", -1e-9, "reference.position_error: expected a number of 0"},
+        {"/reference/velocity_error", "0", "reference.velocity_error"},
+        {"/reference/position_floor", nullptr, "reference.position_floor"},
+        {"/reference/velocity_floor", -5e-324, "reference.velocity_floor"},
+        {"/reference/energy_floor", -1, "reference.energy_floor"},
+        {"/reference/extent", -1, "reference.extent"},
+        {"/reference/meaningful_until", 0, "reference.meaningful_until"},
+        {"/reference/meaningful_until", 1, "reference.meaningful_until: expected at most"},
+        {"/reference/why_no_longer", gone, "reference.why_no_longer is missing"},
+        {"/reference/period", 0, "reference.period"},
+        {"/machines", Parsed::array(), "machines: expected a machine"},
+        {"/machines/0/cpu", nullptr, "machines[0].cpu"},
+        {"/machines/1/cores", 0, "machines[1].cores"},
+        {"/machines/0/cores", 1e300, "machines[0].cores"},
+        {"/machines/0/compiler", gone, "machines[0].compiler is missing"},
+        {"/ladders", Parsed::array(), "ladders: expected each method in each precision"},
+        {"/ladders/3", gone, "ladders: expected each method in each precision"},
+        {"/ladders/1/precision", "float", "ladders[1]: expected each method once"},
+        {"/ladders/0/method", 7, "ladders[0].method"},
+        {"/ladders/0/done", 1, "ladders[0].done"},
+        {"/ladders/0/done", false, "ladders[0].end"},
+        {"/ladders/0/end", "", "ladders[0].end"},
+        {"/ladders/1/done", true, "ladders[1].end"},
+        {"/rows", Parsed::object(), "rows: expected an array"},
+        {"/rows/2", nullptr, "rows[2]: expected an object"},
+        {"/rows/0/method", "rk4", "rows[0]: expected a row of a ladder that is done"},
+        {"/rows/0/rate", 0, "rows[0].rate"},
+        {"/rows/0/rate", -1, "rows[0].rate"},
+        {"/rows/0/rate", 1e300, "rows[0].rate"},
+        {"/rows/0/rate", 1.0, "rows[0].rate"},
+        {"/rows/0/rate", 1000001, "rows[0].rate"},
+        {"/rows/0/rate", 18446744073709551615U, "rows[0].rate"},
+        {"/rows/1/rate", 1, "rows[1].rate: expected a higher rate"},
+        {"/rows/0/precision", "long double", "rows[0].precision"},
+        {"/rows/0/damping", "kick", "rows[0].damping: expected null for a method"},
+        {"/rows/19/damping", nullptr, "rows[19].damping: expected a text"},
+        {"/rows/0/stable", 1, "rows[0].stable"},
+        {"/rows/0/below_floor", true, "rows[0].below_floor"},
+        {"/rows/0/pareto", "no", "rows[0].pareto"},
+        {"/rows/0/position_error", -1e-9, "rows[0].position_error: expected a number of 0"},
+        {"/rows/0/step_error", -1, "rows[0].step_error"},
+        {"/rows/0/velocity_error", "1", "rows[0].velocity_error"},
+        {"/rows/0/phase_error", true, "rows[0].phase_error"},
+        {"/rows/0/energy_drift", -0.5, "rows[0].energy_drift"},
+        {"/rows/0/evaluations", -1, "rows[0].evaluations"},
+        {"/rows/0/ns_per_second", -1, "rows[0].ns_per_second"},
+        {"/rows/0/ns_spread", -1, "rows[0].ns_spread"},
+        {"/rows/0/ns_together", -1, "rows[0].ns_together"},
+        {"/rows/0/ns_together", gone, "rows[0].ns_together is missing"},
+    };
+}
+
+Parsed damaged(Parsed whole, const Damage& damage) {
+    const Parsed::json_pointer at(damage.pointer);
+    if (!damage.value.is_discarded()) {
+        whole.at(at) = damage.value;
+        return whole;
+    }
+    Parsed& parent = whole.at(at.parent_pointer());
+    if (parent.is_array())
+        parent.erase(static_cast<std::size_t>(std::stoul(at.back())));
+    else
+        parent.erase(at.back());
+    return whole;
+}
+
+TEST(TradeoffFile, DamagedAnywhereIsRefusedWithFileFieldAndRemedy) {
+    const Parsed good = Parsed::parse(to_json(hard_numbers()));
+    EXPECT_GE(damages().size(), 50U);
+    for (const Damage& damage : damages()) {
+        const std::string text = damaged(good, damage).dump();
+        try {
+            (void)parse_tradeoff(text, "dir/a.json");
+            ADD_FAILURE() << damage.pointer << " = " << damage.value.dump() << " is accepted";
+        } catch (const Error& error) {
+            const std::string line = error.what();
+            EXPECT_EQ(error.exit(), Exit::usage);
+            EXPECT_EQ(line.rfind("dir/a.json: ", 0), 0U) << line;
+            EXPECT_TRUE(holds(line, damage.named)) << damage.pointer << ": " << line;
+            EXPECT_TRUE(holds(line, "; measure again")) << line;
+            EXPECT_FALSE(holds(line, "\n")) << line;
+        }
+    }
+}
+
+// The front is that of all rows: a row at which it is wrong is named.
+TEST(TradeoffFile, WithAWrongParetoFrontIsRefused) {
+    Parsed json = Parsed::parse(to_json(hard_numbers()));
+    for (std::size_t i = 0; i < json.at("rows").size(); i += 5) {
+        Parsed wrong = json;
+        wrong["rows"][i]["pareto"] = !wrong["rows"][i]["pareto"].get<bool>();
+        expect_usage([&] { (void)parse_tradeoff(wrong.dump(), "a.json"); },
+                     "rows[" + std::to_string(i) + "].pareto");
+    }
+}
+
+// A field that the reader does not read would be a field without a check.
+TEST(TradeoffFile, WithoutAnyOneOfItsFieldsIsRefused) {
+    const Parsed good = Parsed::parse(to_json(hard_numbers()));
+    std::size_t fields = 0;
+    const auto try_all = [&](const Parsed::json_pointer& at) {
+        for (const auto& [name, value] : good.at(at).items()) {
+            Parsed without = good;
+            without.at(at).erase(name);
+            expect_usage([&] { (void)parse_tradeoff(without.dump(), "a.json"); },
+                         name + " is missing");
+            ++fields;
+        }
+    };
+    for (const char* at : {"", "/current", "/reference", "/machines/1", "/ladders/2", "/rows/4"})
+        try_all(Parsed::json_pointer(at));
+    EXPECT_EQ(fields, 11U + 4 + 11 + 3 + 4 + 16);
 }
 
 TEST(TradeoffFile, OfAnotherVersionIsRefused) {

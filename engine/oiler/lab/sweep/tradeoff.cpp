@@ -237,25 +237,4 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     });
 }
 
-Tradeoff merge(const std::vector<Tradeoff>& parts) {
-    Tradeoff whole = parts.front();
-    for (const Tradeoff& part : parts) {
-        if (part.fingerprint != whole.fingerprint || part.ladders.size() != whole.ladders.size())
-            fail(Exit::usage,
-                 "the parts are not of one sweep: the scene, the options or the version differ");
-        for (const Machine& machine : part.machines)
-            if (std::find(whole.machines.begin(), whole.machines.end(), machine) ==
-                whole.machines.end())
-                whole.machines.push_back(machine);
-        for (std::size_t i = 0; i < part.ladders.size(); ++i)
-            if (part.ladders[i].done) whole.ladders[i] = part.ladders[i];
-    }
-    const auto missing = std::count_if(whole.ladders.begin(), whole.ladders.end(),
-                                       [](const Ladder& ladder) { return !ladder.done; });
-    if (missing > 0)
-        fail(Exit::usage, "{} of {} ladders (methods × precisions) are missing: give all parts",
-             missing, whole.ladders.size());
-    return whole;
-}
-
 }  // namespace oiler::lab

@@ -66,6 +66,7 @@ struct Tradeoff {
     ReferenceSummary reference{};
     std::vector<Machine> machines{};
     std::vector<Ladder> ladders{};  ///< all of the plan; ladders of other shards are not done
+    std::string file{};             ///< from which it was read, for messages
 
     [[nodiscard]] bool complete() const;
     /// Whether all stable rows were timed.
@@ -136,7 +137,8 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch);
 
-/// Joins the shards of a sweep. Throws Error{usage} for parts of different sweeps or missing parts.
+/// Joins the shards of a sweep. Throws Error{usage} with the file of a part of another sweep, of a
+/// part that is given twice, or of all parts if one is missing.
 [[nodiscard]] Tradeoff merge(const std::vector<Tradeoff>& parts);
 
 }  // namespace oiler::lab

@@ -11,8 +11,9 @@ namespace oiler::lab {
 /// A complete or partial trade-off as JSON. Unknown numbers are null.
 [[nodiscard]] std::string to_json(const Tradeoff& tradeoff);
 
-/// Reads to_json's text; numbers keep their bits. Throws Error{usage} if the text is not a
-/// trade-off of this version. `file` is named in the message.
+/// Reads to_json's text; numbers keep their bits. Throws Error{usage} with the file, the field and
+/// a remedy if the text is not a trade-off of this version, if a field is missing or out of range,
+/// or if fields contradict each other.
 [[nodiscard]] Tradeoff parse_tradeoff(std::string_view text, std::string_view file);
 
 /// A header line, and one line per row.
