@@ -249,7 +249,7 @@ class Viewer:
         self.hover(pictures, "zoomed to the largest difference")
         self.press("1")
         box = self.box(0)
-        place = [int(a + 0.8 * (b - a)) for a, b in zip(box["from"], box["to"])]
+        place = [int(a + 0.15 * (b - a)) for a, b in zip(box["from"], box["to"])]
         self.browser.mouse("mouseMoved", place)
         self.press("4")
         self.is_visible([at - box[key] for at, key in zip(place, ("left", "top"))],
