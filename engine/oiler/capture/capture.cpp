@@ -144,9 +144,11 @@ void Capture::drop_incomplete() {
 void Capture::finish() {
     stop_workers();
     drop_incomplete();
-    if (manifest_.frames.empty()) return;
-    if (records_) records_->commit();
-    write_manifest();
+    if (error_) records_.reset();  // a failed write may have left a gap in it
+    if (!manifest_.frames.empty()) {
+        if (records_) records_->commit();
+        write_manifest();
+    }
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 

@@ -51,8 +51,8 @@ public:
     /// Returns a buffer of pixels that is no longer in use, to be filled again.
     [[nodiscard]] std::vector<std::uint8_t> spare_buffer();
 
-    /// Waits for all frames and writes the manifest with them. Throws Error{io}; frames after the
-    /// failed one are then removed.
+    /// Waits for all frames and writes the manifest with them. Throws Error{io}; the failed frame
+    /// and those after it are then removed, and all records.
     void finish();
 
     /// After finish(): the manifest as written.
