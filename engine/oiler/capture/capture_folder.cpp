@@ -58,38 +58,38 @@ bool is_regular(const fs::path& path) {
     return fs::symlink_status(path, error).type() == fs::file_type::regular;
 }
 
-/// Returns the files of the earlier capture without its manifest. Throws Error{io} if a file would
-/// lie between the new frames.
-std::vector<fs::path> find_earlier_files(const fs::path& folder) {
+/// The manifest and the other files of an earlier capture.
+struct Earlier {
+    std::optional<Manifest> manifest;
+    std::vector<fs::path> files;
+};
+
+/// Throws Error{io} if a file would lie between the new frames.
+Earlier find_earlier(const fs::path& folder) {
     std::error_code error;
     const fs::path manifest_path = folder / manifest_name;
-    std::optional<Manifest> manifest;
+    Earlier earlier;
     if (fs::exists(fs::symlink_status(manifest_path, error)))
-        manifest = read_earlier(manifest_path);
-    std::vector<fs::path> earlier;
+        earlier.manifest = read_earlier(manifest_path);
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename().string();
-        if (manifest && may_have_written(*manifest, name) && is_regular(entry.path()))
-            earlier.push_back(entry.path());
+        if (earlier.manifest && may_have_written(*earlier.manifest, name) &&
+            is_regular(entry.path()))
+            earlier.files.push_back(entry.path());
         else if (is_capture_file(name))
             fail(Exit::io, "{} is not from a capture of Oiler; remove it or choose another folder",
                  entry.path().string());
     }
-    std::erase(earlier, manifest_path);
+    std::erase(earlier.files, manifest_path);
     return earlier;
 }
 
-/// Removes the manifest last: if removal fails half-way, the next run continues it.
-void remove_earlier_capture(const fs::path& folder) {
-    std::vector<fs::path> earlier = find_earlier_files(folder);
-    earlier.push_back(folder / manifest_name);
-    for (const fs::path& path : earlier) {
-        std::error_code error;
-        fs::remove(path, error);
-        if (error)
-            fail(Exit::io, "cannot remove {} of an earlier capture: {}; choose another folder",
-                 path.string(), error.message());
-    }
+void remove_file(const fs::path& path) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error)
+        fail(Exit::io, "cannot remove {} of an earlier capture: {}; choose another folder",
+             path.string(), error.message());
 }
 
 std::string host_name() {
@@ -134,7 +134,7 @@ CaptureFolder::CaptureFolder(fs::path path) : path_(std::move(path)) {
         made_ = make_folder(path_) || made_;
     } while (!lock());
     try {
-        remove_earlier_capture(path_);
+        remove_earlier_capture();
     } catch (...) {
         release();
         throw;
@@ -171,6 +171,21 @@ bool CaptureFolder::lock() {
              path.string(), system_reason(error_number));
     }
     return true;
+}
+
+/// The manifest lists no frame before the first one is removed, and is removed last. If this
+/// process is killed meanwhile, the manifest is still true and the next capture continues the
+/// removal.
+void CaptureFolder::remove_earlier_capture() {
+    Earlier earlier = find_earlier(path_);
+    if (earlier.manifest && earlier.manifest->is_finished()) dead_owner_.clear();
+    if (earlier.manifest && !earlier.manifest->frames.empty()) {
+        earlier.manifest->frames.clear();
+        write_file(file(manifest_name), to_json(*earlier.manifest));
+    }
+    for (const fs::path& path : earlier.files) remove_file(path);
+    remove_file(file(manifest_name));
+    remove_abandoned_files(path_);
 }
 
 void CaptureFolder::release() {

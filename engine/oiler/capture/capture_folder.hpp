@@ -30,12 +30,13 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
-    /// "process 1234 of host" if that process was killed while it captured into the folder.
+    /// "process 1234 of host" if that process was killed and left an unfinished capture here.
     [[nodiscard]] const std::string& dead_owner() const { return dead_owner_; }
 
 private:
     /// Returns false if the lock file was removed meanwhile.
     [[nodiscard]] bool lock();
+    void remove_earlier_capture();
     void release();
 
     std::filesystem::path path_;

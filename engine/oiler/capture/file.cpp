@@ -2,6 +2,7 @@
 #include "oiler/capture/file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -57,6 +58,18 @@ std::optional<int> open_in_place(const fs::path& path) {
         if (is_same_file(standard, named)) return fcntl(standard, F_DUPFD_CLOEXEC, 0);
     if (S_ISREG(named.st_mode)) return std::nullopt;
     return open(path.c_str(), O_WRONLY | O_CLOEXEC);
+}
+
+bool is_temporary(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with(".oiler-") && name.ends_with(".tmp");
+}
+
+/// Returns whether the file is locked and still has its name.
+bool lock(int descriptor, const fs::path& path) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+    struct stat named = {};
+    return lstat(path.c_str(), &named) == 0 && is_same_file(descriptor, named);
 }
 
 /// Whether `path` can only be the name of a folder.
@@ -136,9 +149,7 @@ int File::open_temporary() {
 
 /// Like mkstemp(), but with the permissions of a new file under the user's umask.
 int File::open_with_name() {
-    return make_temporary(folder_of(target_), temporary_, [](const char* name) {
-        return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    });
+    return oiler::open_temporary(folder_of(target_), temporary_);
 }
 
 void File::write(std::span<const std::byte> bytes) {
@@ -213,6 +224,34 @@ void require_writable(const fs::path& path) {
     if ((found.st_mode & writable) == 0 || access(path.c_str(), W_OK) != 0)
         fail(Exit::io, "cannot write {}: it is read-only; allow it with `chmod u+w`",
              path.string());
+}
+
+int open_temporary(const fs::path& folder, fs::path& name) {
+    constexpr int most_attempts = 10'000;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        const fs::path path = folder / fmt::format(".oiler-{}-{}.tmp", getpid(), attempt);
+        const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor < 0 && errno == EEXIST) continue;
+        if (descriptor < 0) return -1;
+        if (lock(descriptor, path)) {
+            name = path;
+            return descriptor;
+        }
+        close(descriptor);  // another process took it for abandoned
+    }
+    return -1;
+}
+
+void remove_abandoned_files(const fs::path& folder) {
+    std::error_code error;
+    for (const auto& entry :
+         fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error)) {
+        if (!is_temporary(entry.path()) || !entry.is_regular_file(error)) continue;
+        const int descriptor = open(entry.path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (descriptor < 0) continue;
+        if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(entry.path().c_str());
+        close(descriptor);
+    }
 }
 
 bool make_folder(const fs::path& path) {

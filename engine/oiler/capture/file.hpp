@@ -71,6 +71,12 @@ void write_file(const std::filesystem::path& path, std::string_view text,
 /// all.
 void require_writable(const std::filesystem::path& path);
 
+/// Makes a new hidden file in a folder, with the permissions of a new file under the user's umask,
+/// and locks it. Returns its descriptor and sets `name`, or returns -1 with errno set.
+[[nodiscard]] int open_temporary(const std::filesystem::path& folder, std::filesystem::path& name);
+/// Removes the temporary files in a folder whose processes were killed.
+void remove_abandoned_files(const std::filesystem::path& folder);
+
 /// Makes the folder and its parents. Returns whether it was missing. Throws Error(Exit::io).
 bool make_folder(const std::filesystem::path& path);
 
