@@ -11,11 +11,12 @@ Film::Film(Renderer& renderer, const Manifest& header, const Options& options, P
     : renderer_(renderer), header_(header), options_(options), profile_(profile) {}
 
 void Film::open() {
+    // First, because it may fail: an earlier capture is then still there.
+    if (!options_.video.empty()) video_.emplace(options_.video, header_.size, header_.fps);
     capture_.emplace(options_.out, header_, profile_);
     if (!capture_->dead_owner().empty())
         remark(options_.quiet, "{} has an unfinished capture of {}; its frames are replaced",
                options_.out.string(), capture_->dead_owner());
-    if (!options_.video.empty()) video_.emplace(options_.video, header_.size, header_.fps);
     if (!options_.sheet.empty()) sheet_.emplace(header_.planned_frames, header_.size);
 }
 

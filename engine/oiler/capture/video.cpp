@@ -50,11 +50,12 @@ const Format& format_of(const fs::path& path) {
     fail(Exit::usage, "--video {}: give a file that ends with .mp4, .gif or .apng", path.string());
 }
 
-std::vector<std::string> command_of(const fs::path& path, const fs::path& target, Size size,
+std::vector<std::string> command_of(const Format& format, const fs::path& target, Size size,
                                     int fps) {
     std::vector<std::string> words{"ffmpeg",
                                    "-v",
                                    "error",
+                                   "-xerror",  // else a full disk is no error
                                    "-nostdin",
                                    "-y",
                                    "-f",
@@ -67,7 +68,6 @@ std::vector<std::string> command_of(const fs::path& path, const fs::path& target
                                    std::to_string(fps),
                                    "-i",
                                    "pipe:0"};
-    const Format& format = format_of(path);
     words.insert(words.end(), format.arguments.begin(), format.arguments.end());
     words.insert(words.end(), {"-fflags", "+bitexact", "file:" + target.string()});
     return words;
@@ -112,9 +112,24 @@ std::string last_line(int descriptor) {
 }  // namespace
 
 Video::Video(const fs::path& path, Size size, int fps) : path_(path) {
+    const Format& format = format_of(path);
     if (path.has_parent_path()) make_folder(path.parent_path());
-    temporary_ = path.parent_path() / fmt::format(".oiler-{}-video.tmp", getpid());
-    const std::vector<std::string> words = command_of(path, temporary_, size, fps);
+    remove_abandoned_files(path.parent_path());
+    lock_ = open_temporary(path.parent_path(), temporary_);
+    if (lock_ < 0)
+        fail(Exit::io, "cannot write {}: {}; choose another place", path.string(),
+             system_reason(errno));
+    try {
+        start(command_of(format, temporary_, size, fps));
+    } catch (...) {
+        stop();
+        throw;
+    }
+}
+
+Video::~Video() { stop(); }
+
+void Video::start(const std::vector<std::string>& words) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         fail(Exit::io, "cannot start ffmpeg: {}", system_reason(errno));
@@ -124,22 +139,20 @@ Video::Video(const fs::path& path, Size size, int fps) : path_(path) {
     close(ends[0]);
     if (error == 0) return;
     process_ = -1;
-    close(frames_);
-    close(errors_);
     fail(Exit::io,
          "--video {}: cannot start ffmpeg: {}; install the Debian package ffmpeg, or leave out "
          "--video",
-         path.string(), system_reason(error));
+         path_.string(), system_reason(error));
 }
 
-Video::~Video() {
+void Video::stop() {
     if (process_ > 0) {
         kill(process_, SIGKILL);
         wait();
     }
     std::error_code ignored;
     if (!temporary_.empty()) fs::remove(temporary_, ignored);
-    close(errors_);
+    for (const int descriptor : {frames_, errors_, lock_}) close(descriptor);
 }
 
 int Video::wait() {

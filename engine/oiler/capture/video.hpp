@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "oiler/core/size.hpp"
 
@@ -30,6 +31,9 @@ public:
     void finish();
 
 private:
+    void start(const std::vector<std::string>& words);
+    /// Stops ffmpeg and removes the temporary file, unless the video is finished.
+    void stop();
     [[noreturn]] void fail_with_reason(int status);
     /// Closes the pipe and returns the status of ffmpeg's end.
     int wait();
@@ -38,6 +42,7 @@ private:
     std::filesystem::path temporary_;
     int frames_ = -1;  ///< descriptor of the pipe to ffmpeg
     int errors_ = -1;  ///< descriptor of the memory that takes ffmpeg's messages
+    int lock_ = -1;    ///< descriptor of the temporary file, which another run would remove
     pid_t process_ = -1;
 };
 
