@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/manifest.hpp"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -17,8 +19,6 @@ namespace fs = std::filesystem;
 using Parsed = nlohmann::json;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
-
-std::string text_or_empty(const Parsed& json) { return json.is_null() ? "" : json; }
 
 Json header(const Manifest& manifest) {
     return {{"version", manifest.version},
@@ -52,65 +52,142 @@ Json line(const Manifest::Frame& frame) {
     return json;
 }
 
-std::uint64_t to_hash(const Parsed& json) {
-    const std::string digits = json;
+[[noreturn]] void fail_member(const Parsed& json, const char* name, std::string_view expected) {
+    const auto found = json.find(name);
+    fail(Exit::usage, "{}: expected {}, got {}", name, expected,
+         found == json.end() ? "nothing" : found->dump());
+}
+
+/// Returns a member if `is_valid` holds for it.
+template <class IsValid>
+const Parsed& member(const Parsed& json, const char* name, std::string_view expected,
+                     const IsValid& is_valid) {
+    const auto found = json.find(name);
+    if (found == json.end() || !is_valid(*found)) fail_member(json, name, expected);
+    return *found;
+}
+
+std::string to_text(const Parsed& json, const char* name) {
+    return member(json, name, "a text", [](const Parsed& value) { return value.is_string(); });
+}
+
+std::string to_text_or_empty(const Parsed& json, const char* name) {
+    const Parsed& value = member(json, name, "a text or null", [](const Parsed& there) {
+        return there.is_string() || there.is_null();
+    });
+    return value.is_null() ? "" : value;
+}
+
+std::string to_one_of(const Parsed& json, const char* name, std::string_view first,
+                      std::string_view second, bool may_be_null) {
+    const Parsed& value = member(
+        json, name, fmt::format("\"{}\" or \"{}\"{}", first, second, may_be_null ? " or null" : ""),
+        [&](const Parsed& there) {
+            return there == first || there == second || (may_be_null && there.is_null());
+        });
+    return value.is_null() ? "" : value;
+}
+
+bool is_hexadecimal(std::string_view digits) {
+    return digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+std::uint64_t to_hash(const Parsed& json, const char* name) {
+    const std::string digits = member(json, name, "16 hexadecimal digits", [](const Parsed& value) {
+        return value.is_string() && value.get_ref<const std::string&>().size() == 16 &&
+               is_hexadecimal(value.get_ref<const std::string&>());
+    });
     std::uint64_t hash = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [last, error] = std::from_chars(digits.data(), end, hash, 16);
-    if (digits.size() != 16 || error != std::errc() || last != end)
-        fail(Exit::usage, "expected a hash of 16 hexadecimal digits, got {}", digits);
+    std::from_chars(digits.data(), digits.data() + digits.size(), hash, 16);
     return hash;
+}
+
+/// Four digits for each tick after the frame before, or none.
+std::string to_tick_hashes(const Parsed& json, std::int64_t ticks) {
+    constexpr const char* name = "tick_hashes";
+    if (!json.contains(name)) return {};
+    return member(
+        json, name, fmt::format("{} hexadecimal digits", 4 * ticks), [&](const Parsed& value) {
+            return value.is_string() &&
+                   std::int64_t(value.get_ref<const std::string&>().size()) == 4 * ticks &&
+                   is_hexadecimal(value.get_ref<const std::string&>());
+        });
+}
+
+double to_alpha(const Parsed& json) {
+    return member(json, "alpha", "a number from 0 to less than 1", [](const Parsed& value) {
+        return value.is_number() && value.get<double>() >= 0 && value.get<double>() < 1;
+    });
 }
 
 /// Returns a whole number within limits, which damaged files exceed.
 template <class Whole>
 Whole to_whole(const Parsed& json, const char* name, Whole low, Whole high) {
-    const Parsed& value = json.at(name);
-    const auto number = value.get<std::int64_t>();
-    if (!value.is_number_integer() || number < std::int64_t{low} || number > std::int64_t{high})
-        fail(Exit::usage, "{}: expected a whole number from {} to {}, got {}", name, low, high,
-             value.dump());
-    return static_cast<Whole>(number);
+    return member(json, name, fmt::format("a whole number from {} to {}", low, high),
+                  [&](const Parsed& value) {
+                      if (!value.is_number_integer()) return false;
+                      const auto number = value.get<std::int64_t>();
+                      return number >= std::int64_t{low} && number <= std::int64_t{high} &&
+                             !(value.is_number_unsigned() && number < 0);
+                  });
 }
 
-Manifest::Frame to_frame(const Parsed& json, std::int64_t index) {
+std::uint64_t to_seed(const Parsed& json) {
+    return member(json, "seed", "a whole number from 0 to 18446744073709551615",
+                  [](const Parsed& value) { return value.is_number_unsigned(); });
+}
+
+/// `earlier_tick` is that of the frame before.
+Manifest::Frame to_frame(const Parsed& json, std::int64_t index, std::int64_t earlier_tick) {
     constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
     Manifest::Frame frame{.index = to_whole(json, "index", index, index),
-                          .file = text_or_empty(json.at("file")),
-                          .tick = to_whole(json, "tick", std::int64_t{0}, most_ticks),
-                          .alpha = json.at("alpha"),
-                          .state_hash = to_hash(json.at("state_hash")),
-                          .picture_hash = to_hash(json.at("picture_hash")),
-                          .pixel_hash = to_hash(json.at("pixel_hash")),
-                          .tick_hashes = json.value("tick_hashes", "")};
+                          .file = to_text_or_empty(json, "file"),
+                          .tick = to_whole(json, "tick", earlier_tick, most_ticks),
+                          .alpha = to_alpha(json),
+                          .state_hash = to_hash(json, "state_hash"),
+                          .picture_hash = to_hash(json, "picture_hash"),
+                          .pixel_hash = to_hash(json, "pixel_hash")};
+    frame.tick_hashes = to_tick_hashes(json, frame.tick - earlier_tick);
     if (frame.file.find('/') != std::string::npos)
-        fail(Exit::usage, "frame {}: expected the name of a file in the folder, got {}", index,
-             frame.file);
+        fail_member(json, "file", "the name of a file in the folder");
     return frame;
+}
+
+std::vector<Manifest::Frame> to_frames(const Parsed& json) {
+    std::vector<Manifest::Frame> frames;
+    for (const Parsed& frame :
+         member(json, "frames", "an array", [](const Parsed& value) { return value.is_array(); }))
+        try {
+            const std::int64_t earlier_tick = frames.empty() ? 0 : frames.back().tick;
+            frames.push_back(to_frame(frame, std::int64_t(frames.size()), earlier_tick));
+        } catch (const Error& error) {
+            fail(error.exit(), "frame {}: {}", frames.size(), error.what());
+        }
+    return frames;
 }
 
 Manifest to_manifest(const Parsed& json) {
     constexpr int most = 1'000'000;
-    Manifest manifest{.version = json.at("version"),
-                      .compiler = json.at("compiler"),
-                      .provider = json.at("provider"),
-                      .gl_renderer = json.at("gl_renderer"),
-                      .gl_version = json.at("gl_version"),
+    Manifest manifest{.version = to_text(json, "version"),
+                      .compiler = to_text(json, "compiler"),
+                      .provider = to_text(json, "provider"),
+                      .gl_renderer = to_text(json, "gl_renderer"),
+                      .gl_version = to_text(json, "gl_version"),
                       .size = {to_whole(json, "width", 1, most), to_whole(json, "height", 1, most)},
                       .fps = to_whole(json, "fps", 1, most),
                       .rate = to_whole(json, "rate", 1, most),
-                      .method = json.at("method"),
-                      .damping = text_or_empty(json.at("damping")),
-                      .precision = json.at("precision"),
-                      .scene = json.at("scene"),
-                      .scene_text = text_or_empty(json.at("scene_text")),
-                      .seed = json.at("seed"),
-                      .planned_frames = to_whole(json, "planned_frames", 1, most)};
-    for (const Parsed& frame : json.at("frames"))
-        manifest.frames.push_back(to_frame(frame, std::int64_t(manifest.frames.size())));
-    if (json.at("finished") != manifest.is_finished())
-        fail(Exit::usage, "finished is {}, but {} of {} frames are listed",
-             json.at("finished").dump(), manifest.frames.size(), manifest.planned_frames);
+                      .method = to_text(json, "method"),
+                      .damping = to_one_of(json, "damping", "kick", "drift", true),
+                      .precision = to_one_of(json, "precision", "float", "double", false),
+                      .scene = to_text(json, "scene"),
+                      .scene_text = to_text_or_empty(json, "scene_text"),
+                      .seed = to_seed(json),
+                      .planned_frames = to_whole(json, "planned_frames", 1, most),
+                      .frames = to_frames(json)};
+    member(json, "finished",
+           fmt::format("{}, because {} of {} frames are listed", manifest.is_finished(),
+                       manifest.frames.size(), manifest.planned_frames),
+           [&](const Parsed& value) { return value == manifest.is_finished(); });
     return manifest;
 }
 
