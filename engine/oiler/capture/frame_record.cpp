@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/frame_record.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "oiler/core/error.hpp"
@@ -75,7 +76,13 @@ Json json_of(const Picture& picture) {
             {"discs", json_of_all(picture.discs)},       {"labels", json_of_all(picture.labels)}};
 }
 
-Point to_point(const Parsed& json) { return {json.at(0), json.at(1)}; }
+/// JSON has neither infinities nor NaN: they are null.
+template <class Real = float>
+Real to_number(const Parsed& json) {
+    return json.is_null() ? std::numeric_limits<Real>::quiet_NaN() : json.get<Real>();
+}
+
+Point to_point(const Parsed& json) { return {to_number(json.at(0)), to_number(json.at(1))}; }
 
 Colour to_colour(const Parsed& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
 
@@ -91,17 +98,17 @@ Element to_common(const Parsed& json) {
 
 Polyline to_line(const Parsed& json) {
     auto line = to_common<Polyline>(json);
-    line.width = json.at("width");
+    line.width = to_number(json.at("width"));
     const Parsed& points = json.at("points");
     for (std::size_t i = 0; i + 1 < points.size(); i += 2)
-        line.points.push_back({points[i], points[i + 1]});
+        line.points.push_back({to_number(points[i]), to_number(points[i + 1])});
     return line;
 }
 
 Disc to_disc(const Parsed& json) {
     auto disc = to_common<Disc>(json);
     disc.centre = to_point(json.at("centre"));
-    disc.radius = json.at("radius");
+    disc.radius = to_number(json.at("radius"));
     return disc;
 }
 
@@ -109,7 +116,7 @@ Label to_label(const Parsed& json) {
     auto label = to_common<Label>(json);
     label.at = to_point(json.at("at"));
     label.text = json.at("text");
-    label.size = json.at("size");
+    label.size = to_number(json.at("size"));
     label.align = static_cast<Align>(json.at("align").get<std::uint8_t>());
     return label;
 }
@@ -117,8 +124,8 @@ Label to_label(const Parsed& json) {
 BodyState to_body(const Parsed& json) {
     BodyState body{.name = json.at(0)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        body.position[axis] = json.at(1 + axis);
-        body.velocity[axis] = json.at(4 + axis);
+        body.position[axis] = to_number<double>(json.at(1 + axis));
+        body.velocity[axis] = to_number<double>(json.at(4 + axis));
     }
     return body;
 }
@@ -128,7 +135,7 @@ FrameRecord to_record(const Parsed& json) {
     for (const Parsed& body : json.at("bodies")) record.bodies.push_back(to_body(body));
     const Parsed& picture = json.at("picture");
     record.picture.background = to_colour(picture.at("background"));
-    record.picture.camera = {to_point(picture.at("centre")), picture.at("height")};
+    record.picture.camera = {to_point(picture.at("centre")), to_number(picture.at("height"))};
     for (const Parsed& line : picture.at("lines"))
         record.picture.polylines.push_back(to_line(line));
     for (const Parsed& disc : picture.at("discs")) record.picture.discs.push_back(to_disc(disc));

@@ -29,7 +29,8 @@ struct FrameRecord {
 /// Returns whether the record is small enough to be kept: up to 1000 bodies and 20,000 points.
 [[nodiscard]] bool is_recordable(std::size_t bodies, const Picture& picture);
 
-/// One line of JSON with a line feed. Numbers read back to the same bits.
+/// One line of JSON with a line feed. Finite numbers read back to the same bits, other numbers as
+/// NaN.
 [[nodiscard]] std::string to_json(const FrameRecord& record);
 
 /// Reads the lines of to_json(). Throws Error{usage}; `file` is named in the message.
