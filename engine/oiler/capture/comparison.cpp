@@ -195,7 +195,13 @@ private:
         const FrameRecord* const before = golden_.record(index);
         const FrameRecord* const after = actual_.record(index);
         if (!before || !after) return "no records of this frame";
-        return describe_picture_change(before->picture, after->picture, golden_.manifest().size);
+        const std::string change =
+            describe_picture_change(before->picture, after->picture, golden_.manifest().size);
+        if (!change.empty()) return change;
+        const double alpha = golden(index).alpha;
+        return alpha == actual(index).alpha
+                   ? "numbers of other bits that are equal, such as 0 and -0"
+                   : fmt::format("alpha {} → {}", alpha, actual(index).alpha);
     }
 
     /// Words if this frame and the next are later or earlier frames of the golden. `is_same`

@@ -64,6 +64,11 @@ std::string describe_swap(const ByName& golden, const ByName& actual) {
     return swapped ? fmt::format("bodies '{}' and '{}' are swapped", a, b) : "";
 }
 
+bool has_same_order(const std::vector<BodyState>& golden, const std::vector<BodyState>& actual) {
+    return std::equal(golden.begin(), golden.end(), actual.begin(), actual.end(),
+                      [](const BodyState& a, const BodyState& b) { return a.name == b.name; });
+}
+
 struct Change {
     std::string_view body;
     std::size_t field = 0;
@@ -101,7 +106,8 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     if (const std::string swap = describe_swap(before, after); !swap.empty()) return swap;
     const bool single = precision == "float";
     const Change change = largest_change(before, after, single);
-    if (change.body.empty()) return {};
+    if (change.body.empty())
+        return has_same_order(golden, actual) ? "" : "bodies in another order";
     const auto digits = [&](double value) {
         return single ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
     };
