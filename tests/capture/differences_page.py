@@ -181,9 +181,14 @@ class Check(Viewer):
                     f"at the first frame these buttons are disabled: {disabled}")
 
     def hurry(self):
-        """Clicks faster than pictures load; the last click counts."""
-        self.browser.value("""[...document.querySelectorAll('button.cell')].reverse()
-            .forEach(cell => cell.click())""")
+        """Clicks faster than pictures load, and the first ones load last; the last click counts."""
+        self.browser.value("""(() => { const decode = Image.prototype.decode;
+            let delay = 800;
+            Image.prototype.decode = async function() {
+                await new Promise(done => setTimeout(done, delay *= 0.8));
+                return decode.call(this); };
+            [...document.querySelectorAll('button.cell')].reverse().forEach(cell => cell.click());
+            Image.prototype.decode = decode; })()""")
         time.sleep(1)
         self.settle()
         self.is_at(0, "many clicks")
