@@ -148,9 +148,7 @@ int File::open_temporary() {
 }
 
 /// Like mkstemp(), but with the permissions of a new file under the user's umask.
-int File::open_with_name() {
-    return oiler::open_temporary(folder_of(target_), temporary_);
-}
+int File::open_with_name() { return oiler::open_temporary(folder_of(target_), temporary_); }
 
 void File::write(std::span<const std::byte> bytes) {
     assert(descriptor_ >= 0);

@@ -106,8 +106,7 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     if (const std::string swap = describe_swap(before, after); !swap.empty()) return swap;
     const bool single = precision == "float";
     const Change change = largest_change(before, after, single);
-    if (change.body.empty())
-        return has_same_order(golden, actual) ? "" : "bodies in another order";
+    if (change.body.empty()) return has_same_order(golden, actual) ? "" : "bodies in another order";
     const auto digits = [&](double value) {
         return single ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
     };

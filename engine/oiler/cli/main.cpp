@@ -14,7 +14,7 @@ using AllCommands = CommandList<struct PlayCommand, struct MethodsCommand, struc
                                 struct StabilityCommand, struct FiguresCommand,
                                 struct LedgerCommand, struct TradeoffCommand, struct MergeCommand,
                                 struct AdviseCommand, struct RatesCommand, struct CheckCommand,
-                struct ReportCommand, struct CompareCommand, struct DivergeCommand>;
+                                struct ReportCommand, struct CompareCommand, struct DivergeCommand>;
 
 }  // namespace oiler::cli
 
