@@ -245,6 +245,28 @@ TEST(Capture, ADeadOwnerIsNamedAndItsFolderFree) {
     EXPECT_EQ(next.dead_owner(), "process 1234 of elsewhere");
 }
 
+TEST(Capture, AFinishedCaptureHasNoDeadOwner) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    put(folder / "out/.oiler-capture", "process 1234 of elsewhere\n");
+    const Capture next(folder / "out", header(1));
+    EXPECT_EQ(next.dead_owner(), "");
+}
+
+// A file without a lock is of a process that was killed.
+TEST(Capture, TemporaryFilesOfKilledRunsAreRemoved) {
+    const Folder folder;
+    fs::create_directories(folder / "out/.oiler-3-0.tmp");
+    for (const char* name : {"out/.oiler-1-0.tmp", "out/.oiler-2-7.tmp", "out/.oiler-notes"})
+        put(folder / name, "half");
+    oiler::File mine(folder / "out/notes.txt");
+    mine.write("mine");
+    capture(folder / "out", 1);
+    mine.commit();
+    EXPECT_EQ(names_in(folder / "out"), (Names{".oiler-3-0.tmp", ".oiler-notes", "frame_000000.png",
+                                               "manifest.json", "notes.txt"}));
+}
+
 TEST(Capture, AManifestOfAnotherProgramIsNotTouched) {
     for (const char* text :
          {"{}", "[]", "", "{\"frames\":1}", "{\"gl_renderer\":\"x\"}", "{\"frames\":{}}",
@@ -264,6 +286,34 @@ TEST(Capture, AFolderThatStayedEmptyIsRemoved) {
     fs::create_directory(folder / "mine");
     { const Capture unused(folder / "mine", header(1)); }
     EXPECT_TRUE(fs::exists(folder / "mine"));
+}
+
+/// Captures three frames with records, of which one cannot get its name.
+void capture_with_a_failure(const fs::path& folder, int failing) {
+    Capture capture(folder, header(3));
+    fs::create_directory(folder / oiler::frame_name(failing));
+    put(folder / oiler::frame_name(failing) / "kept", "");
+    for (int i = 0; i < 3; ++i) {
+        Shot next = shot(i);
+        next.record.emplace();
+        capture.add(std::move(next));
+    }
+    capture.finish();
+}
+
+TEST(Capture, AFailedFrameEndsTheCaptureBeforeIt) {
+    for (const int failing : {0, 1, 2}) {
+        const Folder folder;
+        EXPECT_THROW(capture_with_a_failure(folder / "out", failing), Error);
+        Names expected;
+        for (int i = 0; i <= failing; ++i) expected.push_back(oiler::frame_name(i));
+        if (failing > 0) expected.push_back("manifest.json");
+        EXPECT_EQ(names_in(folder / "out"), expected) << "neither later frames nor records";
+        if (failing == 0) continue;
+        const Manifest manifest = oiler::read_manifest(folder / "out");
+        EXPECT_FALSE(manifest.is_finished());
+        EXPECT_EQ(manifest.frames.size(), static_cast<std::size_t>(failing));
+    }
 }
 
 TEST(Capture, AFrameThatCannotBeWrittenIsAnError) {

@@ -38,6 +38,7 @@ public:
         return text_of(folder_.path() / name);
     }
     [[nodiscard]] Json json(const std::string& name) const { return Json::parse(text(name)); }
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
     [[nodiscard]] std::vector<std::string> names(const std::string& name = ".") const {
         return names_in(folder_.path() / name);
     }

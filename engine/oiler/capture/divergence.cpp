@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <unordered_set>
@@ -57,7 +58,7 @@ public:
     Comparison(const StateLog& a, const StateLog& b)
         : a_(a), b_(b), floats_(a.floats && b.floats) {}
 
-    [[nodiscard]] Divergence run() {
+    [[nodiscard]] RunDivergence run() {
         result_.first_tick = std::min(a_.ticks.front().tick, b_.ticks.front().tick);
         result_.last_tick = std::min(a_.ticks.back().tick, b_.ticks.back().tick);
         result_.floats = floats_;
@@ -91,8 +92,8 @@ private:
                            pair.a.size() * width * sizeof(double)) == 0;
     }
 
-    [[nodiscard]] Divergence::Presence presence_of(const TickPair& pair) const {
-        Divergence::Presence presence{pair.tick, pair.time_a, {}, {}};
+    [[nodiscard]] RunDivergence::Presence presence_of(const TickPair& pair) const {
+        RunDivergence::Presence presence{pair.tick, pair.time_a, {}, {}};
         const auto in_a = bodies_of(a_, pair.a);
         const auto in_b = bodies_of(b_, pair.b);
         std::ranges::set_difference(in_a, in_b, std::back_inserter(presence.only_a));
@@ -166,17 +167,17 @@ private:
         if (next == a_.ticks.end()) return;
         const std::optional<TickPair> pair = find_tick(a_, b_, next->tick);
         if (!pair || (!result_.growth.empty() && result_.growth.back().tick >= next->tick)) return;
-        std::optional<Divergence::Growth> furthest;
+        std::optional<RunDivergence::Growth> furthest;
         for_each_body(*pair, [&](std::size_t row_a, std::size_t row_b) {
-            const Divergence::Growth growth = growth_of(*pair, row_a, row_b);
+            const RunDivergence::Growth growth = growth_of(*pair, row_a, row_b);
             if (!furthest || growth.distance > furthest->distance) furthest = growth;
         });
         if (furthest) result_.growth.push_back(*furthest);
     }
 
-    [[nodiscard]] Divergence::Growth growth_of(const TickPair& pair, std::size_t row_a,
-                                               std::size_t row_b) const {
-        Divergence::Growth growth{pair.tick, pair.time_a, a_.bodies[row_a], 0, 0};
+    [[nodiscard]] RunDivergence::Growth growth_of(const TickPair& pair, std::size_t row_a,
+                                                  std::size_t row_b) const {
+        RunDivergence::Growth growth{pair.tick, pair.time_a, a_.bodies[row_a], 0, 0};
         double furthest = 0;
         for (std::size_t axis = 0; axis < static_cast<std::size_t>(a_.axes); ++axis) {
             const double a = a_.row(row_a)[axis];
@@ -194,18 +195,18 @@ private:
     const StateLog& b_;
     bool floats_;
     bool matched_ = true;  ///< whether the tick has the same bodies in both runs
-    Divergence result_;
+    RunDivergence result_;
 };
 
-const char* words_for_axes(int axes) { return axes == 1 ? "axis" : "axes"; }
+const char* axis_or_axes(int axes) { return axes == 1 ? "axis" : "axes"; }
 
 }  // namespace
 
-Divergence find_divergence(const StateLog& a, const StateLog& b) {
+RunDivergence find_divergence(const StateLog& a, const StateLog& b) {
     assert(!a.ticks.empty() && !b.ticks.empty());
     if (a.axes != b.axes)
         fail(Exit::usage, "{} has {} {} and {} has {}; give runs of the same scene", a.name, a.axes,
-             words_for_axes(a.axes), b.name, b.axes);
+             axis_or_axes(a.axes), b.name, b.axes);
     return Comparison(a, b).run();
 }
 

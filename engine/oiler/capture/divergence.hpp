@@ -13,7 +13,7 @@ namespace oiler {
 
 /// The differences between two runs, of which one or both may have ended early. The runs are
 /// compared up to the last tick of the shorter one.
-struct Divergence {
+struct RunDivergence {
     /// Two numbers of one body.
     struct Value {
         std::int64_t tick = 0;
@@ -65,7 +65,7 @@ struct Divergence {
 
 /// Compares the bits of all numbers: 0 differs from −0. Bodies are matched by their numbers, ticks
 /// by theirs. Throws Error(Exit::usage) if the logs have different numbers of axes.
-[[nodiscard]] Divergence find_divergence(const StateLog& a, const StateLog& b);
+[[nodiscard]] RunDivergence find_divergence(const StateLog& a, const StateLog& b);
 
 /// The name of a field, for example "vy", and its unit.
 [[nodiscard]] std::string field_name(int axes, int field);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <future>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
@@ -23,7 +24,7 @@ namespace {
 struct DivergeResult {
     StateLog a;
     StateLog b;
-    Divergence divergence;
+    RunDivergence divergence;
     /// Of two captures: the first tick whose hashes differ.
     std::optional<std::int64_t> first_hash{};
 };
@@ -32,15 +33,14 @@ std::string ulps_text(std::uint64_t ulps) {
     return ulps == not_in_ulps ? "-" : fmt::format("{}", ulps);
 }
 
-/// "body 3", or "body 'bob'" if the run names its bodies.
+/// A number, or "'bob'" if the run names its bodies.
 std::string name_of(std::uint32_t body, const StateLog& log) {
-    return body < log.names.size() ? fmt::format("body '{}'", log.names[body])
-                                   : fmt::format("body {}", body);
+    return body < log.names.size() ? fmt::format("'{}'", log.names[body]) : fmt::to_string(body);
 }
 
-std::string describe(const Divergence::Value& value, const StateLog& log) {
+std::string describe(const RunDivergence::Value& value, const StateLog& log) {
     const int axes = log.axes;
-    std::string text = fmt::format("{}, {}: {} and {}, ", name_of(value.body, log),
+    std::string text = fmt::format("body {}, {}: {} and {}, ", name_of(value.body, log),
                                    field_name(axes, value.field), value.a, value.b);
     if (value.ulps == 0) return text + "which differ only in their signs";
     if (value.ulps == not_in_ulps) return text + "of which one is not a number";
@@ -58,7 +58,7 @@ std::string describe(std::span<const std::uint32_t> bodies, const std::string& f
                        fmt::join(first, ", "), more, bodies.size() == 1 ? "is" : "are", file);
 }
 
-std::string describe(const Divergence::Presence& presence, const DivergeResult& result) {
+std::string describe(const RunDivergence::Presence& presence, const DivergeResult& result) {
     std::string text;
     if (!presence.only_a.empty()) text = describe(presence.only_a, result.a.name);
     if (!text.empty() && !presence.only_b.empty()) text += "; ";
@@ -75,7 +75,7 @@ struct Finding {
 
 /// In the order of their ticks. At the same tick the likely cause comes first.
 std::vector<Finding> findings_of(const DivergeResult& result) {
-    const Divergence& found = result.divergence;
+    const RunDivergence& found = result.divergence;
     std::vector<Finding> findings;
     if (found.times)
         findings.push_back(
@@ -106,10 +106,10 @@ std::string explain_precision(const DivergeResult& result) {
         other, single);
 }
 
-std::string table_of(const std::vector<Divergence::Growth>& growth, const StateLog& log) {
-    std::string text =
-        fmt::format("\n{:>10} {:>12} {:>12} {:>20}  of\n", "tick", "time, s", "distance, m", "ulp");
-    for (const Divergence::Growth& row : growth)
+std::string table_of(const std::vector<RunDivergence::Growth>& growth, const StateLog& log) {
+    std::string text = fmt::format("\n{:>10} {:>12} {:>12} {:>20}  body\n", "tick", "time, s",
+                                   "distance, m", "ulp");
+    for (const RunDivergence::Growth& row : growth)
         text += fmt::format("{:>10} {:>12.6g} {:>12.3g} {:>20}  {}\n", row.tick, row.time,
                             row.distance, ulps_text(row.ulps), name_of(row.body, log));
     return text;
@@ -128,7 +128,7 @@ std::string count_bodies(std::size_t count) {
     return fmt::format("{} {}", count, count == 1 ? "body" : "bodies");
 }
 
-std::string describe_same(const Divergence& divergence) {
+std::string describe_same(const RunDivergence& divergence) {
     return fmt::format("The runs are the same: ticks {} to {} ({:g} s), {}.\n",
                        divergence.first_tick, divergence.last_tick, divergence.last_time,
                        count_bodies(divergence.bodies));
@@ -141,15 +141,15 @@ std::string describe_differences(const DivergeResult& result) {
                             text.empty() ? "The runs first differ at" : "At", finding.tick,
                             finding.time, finding.text);
     if (!result.divergence.value) return text;
-    const Divergence::Value& value = *result.divergence.value;
-    if (result.divergence.bodies > 1)
-        text += fmt::format("The numbers of {} of {} differ at tick {}.\n", value.bodies,
-                            count_bodies(result.divergence.bodies), value.tick);
+    const RunDivergence::Value& value = *result.divergence.value;
+    if (value.bodies > 1)
+        text +=
+            fmt::format("The numbers of {} bodies differ at tick {}.\n", value.bodies, value.tick);
     return text + explain_precision(result) + "\n";
 }
 
 std::string text_of(const DivergeResult& result) {
-    const Divergence& divergence = result.divergence;
+    const RunDivergence& divergence = result.divergence;
     std::string text = divergence.same() ? describe_same(divergence) : describe_differences(result);
     if (result.first_hash)
         text = fmt::format("The hashes first differ at tick {}. States are those of the frames.\n",
@@ -161,7 +161,7 @@ std::string text_of(const DivergeResult& result) {
 
 Json ulps_json(std::uint64_t ulps) { return ulps == not_in_ulps ? Json(nullptr) : Json(ulps); }
 
-Json json_of(const Divergence::Value& value, int axes) {
+Json json_of(const RunDivergence::Value& value, int axes) {
     return {{"tick", value.tick},
             {"time", value.time},
             {"body", value.body},
@@ -174,16 +174,16 @@ Json json_of(const Divergence::Value& value, int axes) {
             {"bodies_that_differ", value.bodies}};
 }
 
-Json json_of(const Divergence::Presence& presence) {
+Json json_of(const RunDivergence::Presence& presence) {
     return {{"tick", presence.tick},
             {"time", presence.time},
             {"only_a", presence.only_a},
             {"only_b", presence.only_b}};
 }
 
-Json json_of(const std::vector<Divergence::Growth>& growth) {
+Json json_of(const std::vector<RunDivergence::Growth>& growth) {
     Json json = Json::array();
-    for (const Divergence::Growth& row : growth)
+    for (const RunDivergence::Growth& row : growth)
         json.push_back({{"tick", row.tick},
                         {"time", row.time},
                         {"distance", number(row.distance)},
@@ -199,7 +199,7 @@ Json json_of(const StateLog& log) {
 }
 
 Json json_of(const DivergeResult& result) {
-    const Divergence& found = result.divergence;
+    const RunDivergence& found = result.divergence;
     Json json{{"same", found.same()},
               {"a", json_of(result.a)},
               {"b", json_of(result.b)},

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/frame_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "oiler/core/error.hpp"
+#include "oiler/picture/picture_hash.hpp"
+#include "support/text.hpp"
+
+namespace {
+
+using oiler::Align;
+using oiler::Colour;
+using oiler::Error;
+using oiler::Exit;
+using oiler::FrameRecord;
+using oiler::parse_frame_records;
+using oiler::Picture;
+using oiler::Space;
+using oiler::test::holds;
+using Json = nlohmann::json;
+
+std::mt19937_64 bits{7};
+
+/// A finite number of random bits.
+template <class Real, class Bits>
+Real number() {
+    const Real value = std::bit_cast<Real>(static_cast<Bits>(bits()));
+    return std::isfinite(value) ? value : Real{0};
+}
+float single() { return number<float, std::uint32_t>(); }
+double twice() { return number<double, std::uint64_t>(); }
+
+Colour colour() {
+    const std::uint64_t b = bits();
+    return {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8U),
+            static_cast<std::uint8_t>(b >> 16U), static_cast<std::uint8_t>(b >> 24U)};
+}
+
+oiler::ElementKey key() {
+    return {bits(), static_cast<std::uint32_t>(bits()), static_cast<std::uint32_t>(bits())};
+}
+
+Space space() { return bits() % 2 == 0 ? Space::world : Space::canvas; }
+
+Picture random_picture() {
+    Picture picture{.background = colour(), .camera = {{single(), single()}, single()}};
+    for (int i = 0; i < 4; ++i) {
+        picture.polylines.push_back({key(), {}, single(), colour(), space()});
+        for (int point = 0; point < i; ++point)
+            picture.polylines.back().points.push_back({single(), single()});
+        picture.discs.push_back({key(), {single(), single()}, single(), colour(), space()});
+        picture.labels.push_back({key(),
+                                  {single(), single()},
+                                  "t = \xE2\x86\x92 \"\\\n" + std::to_string(bits()),
+                                  single(),
+                                  colour(),
+                                  static_cast<Align>(bits() % 3),
+                                  space()});
+    }
+    return picture;
+}
+
+FrameRecord random_record(std::int64_t index) {
+    FrameRecord record{.index = index, .picture = random_picture()};
+    for (int i = 0; i < 3; ++i)
+        record.bodies.push_back({"body " + std::to_string(i),
+                                 {twice(), twice(), twice()},
+                                 {twice(), twice(), twice()}});
+    return record;
+}
+
+TEST(FrameRecord, ReadsBackToTheSameBits) {
+    std::string lines;
+    std::vector<FrameRecord> written;
+    for (int i = 0; i < 1000; ++i) {
+        written.push_back(random_record(i));
+        lines += to_json(written.back());
+    }
+    const std::vector<FrameRecord> read = parse_frame_records(lines, "");
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        EXPECT_EQ(read[i].index, written[i].index);
+        EXPECT_EQ(hash_of(read[i].picture), hash_of(written[i].picture)) << i;
+        EXPECT_EQ(read[i].bodies, written[i].bodies);
+        for (std::size_t body = 0; body < 3; ++body)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                EXPECT_EQ(std::signbit(read[i].bodies[body].velocity[axis]),
+                          std::signbit(written[i].bodies[body].velocity[axis]));
+    }
+}
+
+// As another reader of JSON sees it.
+TEST(FrameRecord, IsALineOfJson) {
+    FrameRecord record{.index = 5};
+    record.bodies = {{"bob", {1, 2, 3}, {4, 5, -0.0}}};
+    record.picture.labels = {{.at = {1, 2}, .text = "a", .align = Align::centre}};
+    record.picture.polylines = {
+        {.points = {{1, 2}, {3, 4.5F}}, .width = 0.1F, .space = Space::canvas}};
+    const std::string line = to_json(record);
+    EXPECT_EQ(oiler::test::lines(line), 1);
+    EXPECT_EQ(line.back(), '\n');
+    const Json json = Json::parse(line);
+    EXPECT_EQ(json.at("frame"), 5);
+    EXPECT_EQ(json.at("bodies"), Json::parse(R"([["bob", 1.0, 2.0, 3.0, 4.0, 5.0, -0.0]])"));
+    EXPECT_EQ(json.at("picture").at("lines")[0].at("points"), (Json{1.0, 2.0, 3.0, 4.5}));
+    EXPECT_EQ(json.at("picture").at("lines")[0].at("space"), "canvas");
+    EXPECT_TRUE(holds(line, "\"width\":0.1,")) << line;
+    EXPECT_EQ(json.at("picture").at("labels")[0].at("align"), 1);
+    EXPECT_EQ(json.at("picture").at("background"), (Json{255, 255, 255, 255}));
+}
+
+// A game may draw a body that is infinitely far away: its captures can still be compared.
+TEST(FrameRecord, NumbersThatAreNotFiniteReadBackAsNan) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    FrameRecord record;
+    record.bodies = {{"lost", {infinity, 1, 0}, {}}};
+    record.picture.discs = {{.centre = {static_cast<float>(infinity), 3}, .radius = 2}};
+    const FrameRecord read = parse_frame_records(to_json(record), "").at(0);
+    EXPECT_TRUE(std::isnan(read.bodies[0].position[0]));
+    EXPECT_EQ(read.bodies[0].position[1], 1);
+    EXPECT_TRUE(std::isnan(read.picture.discs[0].centre.x));
+    EXPECT_EQ(read.picture.discs[0].centre.y, 3);
+}
+
+TEST(FrameRecord, IsKeptUpToItsLimits) {
+    Picture picture;
+    EXPECT_TRUE(oiler::is_recordable(1000, picture));
+    EXPECT_FALSE(oiler::is_recordable(1001, picture));
+    picture.labels.resize(1);
+    picture.discs.resize(2);
+    picture.polylines.resize(2);
+    picture.polylines[0].points.resize(9'997);
+    picture.polylines[1].points.resize(10'000);
+    EXPECT_TRUE(oiler::is_recordable(1000, picture));
+    picture.discs.emplace_back();
+    EXPECT_FALSE(oiler::is_recordable(0, picture));
+}
+
+void expect_refused(const std::string& lines) {
+    try {
+        (void)parse_frame_records(lines, "some/frames.jsonl.gz");
+        ADD_FAILURE() << "accepted: " << lines;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_TRUE(std::string(error.what()).starts_with("some/frames.jsonl.gz: "))
+            << error.what();
+    }
+}
+
+TEST(FrameRecord, DamagedLinesAreRefused) {
+    const std::string good = to_json(random_record(0));
+    for (std::size_t end = 1; end + 1 < good.size(); end += 3)
+        expect_refused(good + good.substr(0, end));
+    for (const char* bad : {"\n", "{}", "[]", "3", "{\"frame\":0}", "not json"})
+        expect_refused(bad);
+    const Json json = Json::parse(good);
+    for (const Json& part : {json, json.at("picture"), json.at("picture").at("discs")[0]})
+        for (const auto& [field, value] : part.items()) {
+            std::string damaged = good;
+            const std::string quoted = "\"" + field + "\":";
+            damaged.replace(damaged.find(quoted), quoted.size(), "\"other\":");
+            expect_refused(damaged);
+        }
+}
+
+}  // namespace

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/capture/picture_changes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "oiler/plot/plot.hpp"
+
+namespace {
+
+using oiler::Align;
+using oiler::describe_picture_change;
+using oiler::Picture;
+using oiler::Space;
+
+/// At this size a unit of the canvas is two pixels.
+constexpr oiler::Size size{1280, 720};
+
+/// The canvas shows 36 m, so that a metre is ten units: 20 pixels.
+Picture picture() {
+    Picture picture{.camera = {.height = 36}};
+    picture.polylines = {{.key = {1}, .points = {{0, 0}, {1, 1}}, .width = 2, .colour = {9, 9, 9}},
+                         {.points = {{5, 5}, {6, 6}}, .width = 1}};
+    picture.discs = {{.key = {1}, .centre = {1, 1}, .radius = 0.5F, .colour = {0, 114, 178}},
+                     {.key = {2}, .centre = {3, 4}, .radius = 0.25F},
+                     {.centre = {10, 10}, .radius = 4, .space = Space::canvas}};
+    picture.labels = {{.at = {1, 1}, .text = "0.0"},
+                      {.at = {2, 1}, .text = "0.5"},
+                      {.at = {3, 1}, .text = "1.0"},
+                      {.key = {7}, .at = {4, 4}, .text = "name"}};
+    return picture;
+}
+
+template <class Change>
+std::string words_of(const Change& change) {
+    Picture actual = picture();
+    change(actual);
+    return describe_picture_change(picture(), actual, size);
+}
+
+TEST(PictureChanges, OfEqualPicturesAreEmpty) {
+    EXPECT_EQ(words_of([](Picture&) {}), "");
+    EXPECT_EQ(describe_picture_change({}, {}, size), "");
+}
+
+TEST(PictureChanges, NameAColour) {
+    EXPECT_EQ(words_of([](Picture& p) { p.discs[0].colour.b += 3; }),
+              "1 disc of another colour, by at most 3/255");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.discs[0].colour.g -= 4;
+                  p.discs[1].colour.a -= 100;
+              }),
+              "2 discs of another colour, by at most 100/255");
+    EXPECT_EQ(words_of([](Picture& p) { p.background.r -= 3; }),
+              "background of another colour, by at most 3/255");
+    EXPECT_EQ(words_of([](Picture& p) { p.polylines[1].colour.r = 255; }),
+              "1 line of another colour, by at most 255/255");
+}
+
+TEST(PictureChanges, NameAThinnerLine) {
+    EXPECT_EQ(words_of([](Picture& p) { p.polylines[0].width *= 0.95F; }), "1 line: width 2 → 1.9");
+    EXPECT_EQ(words_of([](Picture& p) { p.polylines[1].width *= 0.95F; }),
+              "1 line: width 1 → 0.95");
+    EXPECT_EQ(words_of([](Picture& p) { p.discs[1].radius = 0.125F; }),
+              "1 disc: radius 0.25 → 0.125");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels[0].size = 13; }), "1 label: size 12 → 13");
+}
+
+TEST(PictureChanges, NameAMissingLabel) {
+    EXPECT_EQ(words_of([](Picture& p) { p.labels.erase(p.labels.begin() + 1); }),
+              "1 label missing: '0.5'");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels.resize(1); }),
+              "3 labels missing: '0.5', '1.0', 'name'");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.labels.push_back({.at = {9, 9}, .text = "1.5"});
+              }),
+              "1 label new: '1.5'");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels[3].text = "nom"; }),
+              "1 label: text 'name' → 'nom'");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels[1].text = "0.4"; }),
+              "1 label: text '0.5' → '0.4'");
+}
+
+// The labels of a real plot: one tick fewer.
+TEST(PictureChanges, NameAMissingTickOfAPlot) {
+    const oiler::Plot plot{.box = {{80, 60}, {600, 300}},
+                           .x = {0, 1},
+                           .y = {0, 2},
+                           .series = {{.points = {{0, 0}, {1, 2}}}}};
+    Picture whole;
+    plot.draw(whole, {.object = 1});
+    ASSERT_GE(whole.labels.size(), 8U);
+    for (std::size_t i = 0; i < whole.labels.size(); ++i) {
+        Picture without = whole;
+        without.labels.erase(without.labels.begin() + static_cast<std::ptrdiff_t>(i));
+        EXPECT_EQ(describe_picture_change(whole, without, size),
+                  "1 label missing: '" + whole.labels[i].text + "'");
+    }
+}
+
+TEST(PictureChanges, MeasureMovesInPixels) {
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.discs[1].centre = {3.03F, 4.04F};
+              }),
+              "1 disc moved by at most 1 px");
+    EXPECT_EQ(words_of([](Picture& p) { p.discs[2].centre.x += 3; }),
+              "1 disc moved by at most 6 px");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.polylines[0].points[1].x += 0.1F;
+                  p.polylines[1].points[0].y -= 0.5F;
+              }),
+              "2 lines moved by at most 10 px");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels[2].at.y += 1; }), "1 label moved by at most 2 px");
+}
+
+TEST(PictureChanges, NameTheCamera) {
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.camera = {{1, 2}, 18};
+              }),
+              "camera: centre (0, 0) → (1, 2), height 36 → 18 m");
+}
+
+TEST(PictureChanges, NamePointsPlacesAndOrder) {
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.polylines[0].points.push_back({2, 2});
+              }),
+              "1 line: 2 → 3 points");
+    EXPECT_EQ(words_of([](Picture& p) { p.labels[0].align = Align::right; }),
+              "1 label placed in another way");
+    EXPECT_EQ(words_of([](Picture& p) { std::swap(p.discs[0], p.discs[1]); }),
+              "discs in another order");
+    EXPECT_EQ(words_of([](Picture& p) { p.discs.clear(); }), "3 discs missing");
+}
+
+// An element without a key that moved is still the same element.
+TEST(PictureChanges, MatchElementsByKeyAndElseByOrder) {
+    EXPECT_EQ(words_of([](Picture& p) {
+                  std::swap(p.discs[0], p.discs[1]);
+                  p.discs[0].radius = 1;
+              }),
+              "1 disc: radius 0.25 → 1");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.polylines[1].points = {{7, 7}, {8, 8}};
+                  p.polylines[1].width = 3;
+              }),
+              "1 line moved by at most 57 px; 1 line: width 1 → 3");
+}
+
+TEST(PictureChanges, AreJoined) {
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.background.g = 0;
+                  p.polylines[0].width = 1;
+                  p.discs.pop_back();
+                  p.labels[0].size = 1;
+              }),
+              "background of another colour, by at most 255/255; 1 line: width 2 → 1; 1 disc "
+              "missing; 1 label: size 12 → 1");
+}
+
+}  // namespace

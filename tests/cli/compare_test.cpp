@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Captures scenes with one change each, and compares the cause that `oiler compare` names.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+
+#include "cli/desk.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+/// The text with its only `from` replaced.
+std::string with(std::string text, const std::string& from, const std::string& to) {
+    EXPECT_EQ(count_of(text, from), 1U) << from;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+/// Two bodies that have no force in common.
+const std::string two_bodies = R"([scene]
+axes = 2
+rate = 100
+duration = 1.0
+[gravity]
+acceleration = [0.0, -9.81]
+[[body]]
+name = "a"
+position = [1.0, 2.0]
+velocity = [0.5, 0.0]
+colour = "#0072b2"
+[[body]]
+name = "b"
+position = [-1.5, 1.0]
+velocity = [0.5, 0.0]
+)";
+
+const std::string pendulum = R"([scene]
+axes = 2
+rate = 100
+duration = 1.0
+[gravity]
+acceleration = [0.0, -9.81]
+[[body]]
+name = "bob"
+position = [1.0, 0.0]
+linear_drag = 0.1
+[[body]]
+name = "tail"
+position = [2.0, 0.0]
+quadratic_drag = 0.001
+[[spring]]
+body = "bob"
+anchor = [0.0, 0.0]
+stiffness = 200.0
+rest_length = 1.0
+[[spring]]
+body = "tail"
+to = "bob"
+stiffness = 150.0
+damping = 0.3
+rest_length = 1.0
+)";
+
+/// A fall that a small drag changes in few of its steps: float rounds it away in the others.
+const std::string fall = R"([scene]
+axes = 1
+rate = 1000
+precision = "float"
+duration = 1.0
+[gravity]
+acceleration = [-9.81]
+[[body]]
+name = "stone"
+position = [100.0]
+velocity = [3.0]
+linear_drag = 0.00001
+)";
+
+/// The tick of the first row in which two traces differ, -1 if there is none.
+std::int64_t first_different_tick(const std::string& golden, const std::string& actual) {
+    std::istringstream before(golden);
+    std::istringstream after(actual);
+    std::string a;
+    std::string b;
+    while (std::getline(before, a) && std::getline(after, b))
+        if (a != b) return std::stoll(a);
+    return -1;
+}
+
+class Compare : public testing::Test {
+protected:
+    void SetUp() override {
+        const Outcome drawn = desk.run("hello --headless --frames 1 --size 16x9 --out probe");
+        if (drawn.exit == 3) GTEST_SKIP() << drawn.err;
+    }
+    /// Captures the scene into the folder NAME/frames, with a trace.
+    void capture(const std::string& name, const std::string& scene, const std::string& options) {
+        std::filesystem::create_directory(desk.folder() / name);
+        desk.put(name + "/scene.toml", scene);
+        const Outcome run =
+            desk.run("cd " + name + "; oiler play scene.toml --headless --quiet --size 64x36 " +
+                     "--out frames --trace trace.csv " + options);
+        ASSERT_EQ(run.exit, 0) << run.err;
+    }
+    [[nodiscard]] Outcome compare(const std::string& options = "") const {
+        return desk.run("oiler compare golden/frames actual/frames " + options);
+    }
+    /// Compares captures of two scenes and returns what was printed.
+    std::string change(const std::string& golden, const std::string& actual,
+                       const std::string& options) {
+        capture("golden", golden, options);
+        capture("actual", actual, options);
+        const Outcome run = compare("--json result.json");
+        EXPECT_EQ(run.exit, 1) << run.out << run.err;
+        EXPECT_EQ(run.err, "");
+        return run.out;
+    }
+    Desk desk;
+};
+
+struct Constant {
+    const char* name;
+    const std::string* scene;
+    const char* golden;
+    const char* actual;
+    const char* options;
+};
+
+void PrintTo(const Constant& constant, std::ostream* stream) { *stream << constant.name; }
+
+class CompareForces : public Compare, public testing::WithParamInterface<Constant> {};
+
+// The traces of the same runs tell the tick.
+TEST_P(CompareForces, NamesTheFirstTickThatDiffers) {
+    const Constant& constant = GetParam();
+    const std::string text = change(
+        *constant.scene, with(*constant.scene, constant.golden, constant.actual), constant.options);
+    const std::int64_t tick =
+        first_different_tick(desk.text("golden/trace.csv"), desk.text("actual/trace.csv"));
+    ASSERT_GT(tick, 0);
+    const std::string start = "simulation changed at tick " + std::to_string(tick) + ": ";
+    EXPECT_TRUE(text.starts_with(start)) << text << start;
+    const bool has_records = !holds(constant.options, "--png none");
+    EXPECT_EQ(holds(text.substr(0, text.find('\n')), "body '"), has_records) << text;
+    EXPECT_TRUE(holds(text, "scene file changed, line ")) << text;
+    RecordProperty("tick", std::to_string(tick));
+}
+
+constexpr const char* thirty = "--fps 30 --frames 20";
+INSTANTIATE_TEST_SUITE_P(
+    Constants, CompareForces,
+    testing::Values(
+        Constant{"Stiffness", &pendulum, "200.0", "201.0", thirty},
+        Constant{"StiffnessOfALink", &pendulum, "150.0", "150.1", thirty},
+        Constant{"Gravity", &pendulum, "9.81", "9.82", thirty},
+        Constant{"Damping", &pendulum, "0.3", "0.4", thirty},
+        Constant{"LinearDrag", &pendulum, "0.1", "0.2", thirty},
+        Constant{"QuadraticDrag", &pendulum, "0.001", "0.002", thirty},
+        Constant{"ManyTicksPerFrame", &pendulum, "0.001", "0.002", "--fps 3 --frames 4"},
+        Constant{"ManyFramesPerTick", &pendulum, "0.001", "0.002", "--fps 300 --frames 40"},
+        Constant{"WithoutPng", &pendulum, "0.001", "0.002", "--fps 30 --frames 20 --png none"},
+        Constant{"Late", &fall, "0.00001", "0.00002", "--fps 25 --frames 26"},
+        Constant{"Later", &fall, "0.00001", "0.00000", "--fps 1 --frames 2"},
+        Constant{"WithRk4", &pendulum, "0.3", "0.4", "--fps 30 --frames 9 --method rk4"}),
+    [](const auto& constant) { return constant.param.name; });
+
+// At frame 0 no bit differs, at the next frame all frames differ.
+TEST_F(Compare, NamesBodyAndFieldOfAChangedForce) {
+    const std::string text =
+        change(two_bodies, with(two_bodies, "-9.81", "-9.82"), "--fps 100 --frames 3");
+    EXPECT_TRUE(text.starts_with("simulation changed at tick 1: body 'a', vy: -0.0981")) << text;
+    EXPECT_TRUE(holds(text, " ulp\n")) << text;
+    EXPECT_TRUE(holds(text, "scene file changed, line 6: `acceleration = [0.0, -9.81]` → "))
+        << text;
+    EXPECT_TRUE(holds(text, "3 frames: 1 equal; 2 simulation\n")) << text;
+    EXPECT_EQ(desk.json("result.json").at("counts").at("simulation"), 2);
+}
+
+TEST_F(Compare, NamesAColour) {
+    const std::string text =
+        change(two_bodies, with(two_bodies, "#0072b2", "#0072b5"), "--fps 30 --frames 4");
+    EXPECT_TRUE(text.starts_with(
+        "picture changed at frame 0: 1 disc of another colour, by at most 3/255\n"))
+        << text;
+    EXPECT_TRUE(holds(text, "\n4 frames: 4 picture\n")) << text;
+}
+
+TEST_F(Compare, NamesALabel) {
+    const std::string titled = with(two_bodies, "[scene]", "[scene]\ntitle = \"0.5\"");
+    EXPECT_TRUE(change(titled, with(titled, "0.5\"", "\""), "--frames 2")
+                    .starts_with("picture changed at frame 0: 1 label: text '0.5' → ''"));
+}
+
+// With a frame per step, the scene that starts at tick 1 of the other shows frame i + 1 at frame i.
+TEST_F(Compare, NamesAShiftedFrame) {
+    const std::string one_body = two_bodies.substr(0, two_bodies.find("[[body]]\nname = \"b\""));
+    capture("golden", one_body, "--fps 100 --frames 9");
+    std::istringstream trace(desk.text("golden/trace.csv"));
+    std::string row;
+    for (int line = 0; line < 3; ++line) std::getline(trace, row);
+    std::replace(row.begin(), row.end(), ',', ' ');
+    std::istringstream fields(row);
+    std::string tick, time, body, x, y, vx, vy;
+    fields >> tick >> time >> body >> x >> y >> vx >> vy;
+    ASSERT_EQ(tick, "1");
+    const std::string later =
+        with(with(one_body, "position = [1.0, 2.0]", "position = [" + x + ", " + y + "]"),
+             "velocity = [0.5, 0.0]", "velocity = [" + vx + ", " + vy + "]");
+    capture("actual", later, "--fps 100 --frames 9");
+    EXPECT_TRUE(compare().out.starts_with(
+        "simulation changed at tick 0: frame 0 shows frame 1 of the golden (tick 1): shifted by 1 "
+        "frame\n"))
+        << compare().out;
+}
+
+TEST_F(Compare, NamesSwappedBodies) {
+    const std::string swapped =
+        with(with(with(two_bodies, "[1.0, 2.0]", "[first]"), "[-1.5, 1.0]", "[1.0, 2.0]"),
+             "[first]", "[-1.5, 1.0]");
+    EXPECT_TRUE(change(two_bodies, swapped, "--fps 30 --frames 3")
+                    .starts_with("simulation changed at tick 0: bodies 'a' and 'b' are swapped\n"));
+}
+
+TEST_F(Compare, NamesBodiesInAnotherOrder) {
+    const std::size_t a = two_bodies.find("[[body]]\nname = \"a\"");
+    const std::size_t b = two_bodies.find("[[body]]\nname = \"b\"");
+    const std::string reversed =
+        two_bodies.substr(0, a) + two_bodies.substr(b) + two_bodies.substr(a, b - a);
+    EXPECT_TRUE(change(two_bodies, reversed, "--fps 30 --frames 3")
+                    .starts_with("simulation changed at tick 0: bodies in another order\n"));
+}
+
+TEST_F(Compare, EqualCapturesPass) {
+    capture("golden", pendulum, "--fps 30 --frames 5");
+    capture("actual", pendulum, "--fps 30 --frames 5 --threads 3");
+    const Outcome run = compare();
+    EXPECT_EQ(run.exit, 0);
+    EXPECT_EQ(run.out, "5 frames are equal\n");
+    EXPECT_FALSE(std::filesystem::exists(desk.folder() / "actual/frames-differences"));
+}
+
+TEST_F(Compare, GoldenOfARunNamesTheCauseAndThePage) {
+    capture("golden", two_bodies, "--frames 3");
+    desk.put("golden/scene.toml", with(two_bodies, "#0072b2", "#0072b5"));
+    const Outcome run = desk.run(
+        "cd golden; oiler play scene.toml --headless --quiet --size 64x36 --frames 3 --golden "
+        "frames --out ../new --junit ../new.xml");
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_TRUE(run.err.starts_with("picture changed at frame 0: 1 disc of another colour"))
+        << run.err;
+    EXPECT_TRUE(holds(run.err, "differences: ../new-differences/index.html\n")) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(desk.folder() / "new-differences/index.html"));
+    EXPECT_TRUE(holds(desk.text("new.xml"), "failures=\"1\""));
+}
+
+TEST_F(Compare, AnUnfinishedGoldenIsRefused) {
+    capture("golden", two_bodies, "--frames 3");
+    capture("actual", two_bodies, "--frames 3");
+    desk.put("golden/frames/manifest.json",
+             with(with(desk.text("golden/frames/manifest.json"), "\"planned_frames\": 3",
+                       "\"planned_frames\": 4"),
+                  "\"finished\": true", "\"finished\": false"));
+    const Outcome run = compare();
+    EXPECT_EQ(run.exit, 2);
+    EXPECT_TRUE(holds(run.err, "golden/frames: the capture was not finished (3 of 4 frames)"))
+        << run.err;
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/core/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace {
+
+using namespace std::chrono_literals;
+using oiler::Profile;
+using oiler::Span;
+using Json = nlohmann::json;
+
+Json events_of(const Profile& profile) {
+    const Json json = Json::parse(profile.to_json());
+    EXPECT_EQ(json.at("displayTimeUnit"), "ms");
+    return json.at("traceEvents");
+}
+
+TEST(Profile, HasTimesInMicroseconds) {
+    Profile profile;
+    const auto begin = Profile::Clock::now();
+    profile.add("draw", begin + 2s, begin + 2s + 1500us);
+    profile.add("read", begin + 3s, begin + 3s);
+    const Json events = events_of(profile);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].at("name"), "draw");
+    EXPECT_EQ(events[0].at("ph"), "X");
+    EXPECT_EQ(events[0].at("pid"), 1);
+    EXPECT_EQ(events[0].at("tid"), 1);
+    EXPECT_EQ(events[0].at("dur"), 1500);
+    EXPECT_EQ(events[1].at("dur"), 0);
+    EXPECT_NEAR(events[1].at("ts").get<double>() - events[0].at("ts").get<double>(), 1e6, 1e-3);
+    EXPECT_GE(events[0].at("ts"), 2e6) << "since the profile was made";
+}
+
+TEST(Profile, TakesSpansOfManyThreads) {
+    Profile profile;
+    std::vector<std::thread> threads;
+    for (const char* name : {"a", "b", "c"})
+        threads.emplace_back([&profile, name] {
+            for (int i = 0; i < 1000; ++i) const Span span(&profile, name);
+        });
+    for (std::thread& thread : threads) thread.join();
+    std::map<std::string, int> counts;
+    std::map<std::string, int> numbers;
+    for (const Json& event : events_of(profile)) {
+        const std::string name = event.at("name");
+        ++counts[name];
+        EXPECT_EQ(numbers.try_emplace(name, event.at("tid")).first->second, event.at("tid"));
+    }
+    EXPECT_EQ(counts, (std::map<std::string, int>{{"a", 1000}, {"b", 1000}, {"c", 1000}}));
+    EXPECT_EQ(numbers["a"] + numbers["b"] + numbers["c"], 1 + 2 + 3);
+}
+
+TEST(Span, LastsFromItsConstructionToItsDestruction) {
+    Profile profile;
+    const auto begin = Profile::Clock::now();
+    {
+        const Span span(&profile, "sleep");
+        std::this_thread::sleep_for(3ms);
+    }
+    const std::chrono::duration<double, std::micro> whole = Profile::Clock::now() - begin;
+    const double measured = events_of(profile).at(0).at("dur");
+    EXPECT_GE(measured, 3000);
+    EXPECT_LE(measured, whole.count());
+}
+
+TEST(Span, OfNoProfileMeasuresNothing) { const Span span(nullptr, "draw"); }
+
+}  // namespace
