@@ -18,7 +18,8 @@ using Json = nlohmann::json;
 
 Json report_of(const RunReport& report, const World& world) {
     const Folder folder;
-    write_report(folder / "report", report, world);
+    File file(folder / "report");
+    write_report(file, report, world);
     return Json::parse(text_of(folder / "report"));
 }
 
@@ -28,9 +29,12 @@ TEST(Report, HasEachNumberUnderItsName) {
     world.spawn(Body{.mass = 2, .velocity = {3}});
     world.spawn(Body{});
     world.step(3);
-    const Json json = report_of(
-        {.scene = "s", .first = {.kinetic = 1, .potential = 2}, .dropped = 1500ms, .wall = 2250ms},
-        world);
+    const Json json = report_of({.scene = "s",
+                                 .first = {.kinetic = 1, .potential = 2},
+                                 .last = world.bodies().energy(),
+                                 .dropped = 1500ms,
+                                 .wall = 2250ms},
+                                world);
     EXPECT_EQ(json["scene"], "s");
     EXPECT_EQ(json["method"], "semi_implicit_euler");
     EXPECT_EQ(json["damping"], "drift");
@@ -46,6 +50,33 @@ TEST(Report, HasEachNumberUnderItsName) {
     EXPECT_EQ(json["dropped_time"], 1.5);
     EXPECT_EQ(json["wall_seconds"], 2.25);
     EXPECT_FALSE(json.contains("budget"));
+}
+
+TEST(Report, OfADivergenceHasItsMessageAndNullForUnknownNumbers) {
+    const World world(1);
+    const Json lost = report_of({.scene = "s", .first = {1, 2}, .divergence = "at step 3"}, world);
+    EXPECT_EQ(lost["diverged"], "at step 3");
+    EXPECT_EQ(lost["state_hash"], nullptr);
+    EXPECT_EQ(lost["energy"]["first"]["total"], 3);
+    EXPECT_EQ(lost["energy"]["last"], nullptr);
+    const Json overflown = report_of(
+        {.scene = "s", .first = {}, .last = Energy{1, INFINITY}, .divergence = "energy"}, world);
+    EXPECT_TRUE(overflown["state_hash"].is_string());
+    EXPECT_EQ(overflown["energy"]["last"],
+              (Json{{"kinetic", 1}, {"potential", nullptr}, {"total", nullptr}}));
+    EXPECT_EQ(report_of({.scene = "s", .first = {}, .last = Energy{}}, world)["diverged"], nullptr);
+}
+
+// Only splitting methods can put damping elsewhere.
+TEST(Report, HasNoDampingForAMethodWithoutAChoice) {
+    const auto damping = [](const char* method) {
+        const World world(1, {.stepping = {.method = &find_method(method)}});
+        return report_of({.scene = "s", .first = {}}, world)["damping"];
+    };
+    EXPECT_EQ(damping("velocity_verlet"), "drift");
+    EXPECT_EQ(damping("semi_implicit_euler"), "kick");
+    for (const char* const method : {"rk4", "exact", "implicit_midpoint"})
+        EXPECT_EQ(damping(method), nullptr) << method;
 }
 
 TEST(Report, HasEachEntryOfTheBudget) {
@@ -74,7 +105,8 @@ Exit end_of(const std::vector<bool>& kept, Options options) {
     const auto make = [](const Settings& settings) {
         return std::make_unique<AnyGameOf<Empty>>(settings);
     };
-    const auto measure = [&] {
+    const auto measure = [&](double seconds) {
+        EXPECT_EQ(seconds, 0.01);  // one step at 100 Hz
         std::vector<BudgetEntry> entries;
         for (const bool is_kept : kept) entries.push_back({"error", 1, 0, is_kept, "error 0 of 1"});
         return entries;

@@ -268,16 +268,51 @@ TEST_P(BudgetOfPlay, ThatIsExceededFailsInOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BudgetOfPlay,
-                         testing::Values("--headless --frames 2 --size 64x36 --out frames",
-                                         "--steps 20"));
+                         testing::Values("--headless --fps 1 --frames 11 --size 64x36 --out frames",
+                                         "--steps 10000"));
 
 TEST(PlayBudget, IsCheckedHeadlessButNotInAWindow) {
     const Desk desk(spring_scene("[budget]\nposition_error = 5.0\n"));
     const Outcome run =
-        desk.run("oiler play scene.toml --headless --frames 2 --size 64x36 --out frames");
+        desk.run("oiler play scene.toml --headless --fps 1 --frames 11 --size 64x36 --out frames");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 1) << run.err;
-    EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 20 --trace t.csv").exit, 0);
+    EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 1000 --trace t.csv").exit, 0);
+}
+
+// 20 steps at 100 Hz are 0.2 s.
+TEST(PlayBudget, IsMeasuredOverTheTimePlayed) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 50.0\n"));
+    const auto measured = [&](const std::string& scene, int steps) {
+        EXPECT_EQ(desk.run("oiler play " + scene + " --quiet --json a.json --steps " +
+                           std::to_string(steps))
+                      .exit,
+                  0);
+        return desk.json("a.json").at("budget").at("position_error").at("measured").get<double>();
+    };
+    std::string text = desk.text("scene.toml");
+    desk.put("short.toml", text.replace(text.find("10.0"), 4, "0.2"));
+    const double whole = measured("short.toml", 1000);
+    EXPECT_EQ(measured("short.toml", 20), whole);
+    EXPECT_EQ(measured("scene.toml", 20), whole);
+    EXPECT_LT(measured("scene.toml", 2), whole);
+    EXPECT_GT(measured("scene.toml", 1000), whole);
+    EXPECT_EQ(desk.run("oiler play scene.toml --quiet --json a.json --steps 0").exit, 0);
+    EXPECT_FALSE(desk.json("a.json").contains("budget"));
+}
+
+// The energies of the first 0.2 s are no scale for a drift.
+TEST(PlayBudget, OfEnergyNeedsTheDuration) {
+    const Desk desk(spring_scene("[budget]\nenergy_drift = 1e-3\n"));
+    const std::string command = "oiler play scene.toml --json a.json --steps ";
+    const Outcome run = desk.run(command + "20");
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(run.err, "[budget] energy_drift is compared over 10 s, not over 0.2 s\n");
+    EXPECT_FALSE(desk.json("a.json").contains("budget"));
+    for (const char* const steps : {"950", "1000"}) {
+        EXPECT_EQ(desk.run(command + steps).exit, 1) << steps;
+        EXPECT_EQ(desk.json("a.json").at("budget").at("energy_drift").at("kept"), false);
+    }
 }
 
 TEST(PlayBudget, AbsentIsNotReported) {

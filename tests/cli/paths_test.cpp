@@ -93,6 +93,24 @@ TEST(OutputPaths, TwoOutputsOfACommandAreTwoFiles) {
     EXPECT_EQ(desk.run("oiler check scene.toml --json /dev/null --junit /dev/null").exit, 0);
 }
 
+// Fails before the work, which prints a table.
+TEST(OutputPaths, ThatCannotBeWrittenAreNamedBeforeTheWork) {
+    const Desk desk;
+    ASSERT_EQ(desk.run("mkdir folder").exit, 0);
+    for (const char* const path : {"/proc/none", "folder"})
+        for (const std::string command : {"check scene.toml", "rates scene.toml", "methods"}) {
+            const Outcome run = desk.run("oiler " + command + " --json " + path);
+            EXPECT_EQ(run.exit, 4) << command;
+            EXPECT_EQ(lines(run.err), 1) << run.err;
+            EXPECT_TRUE(holds(run.err, path)) << run.err;
+            EXPECT_EQ(run.out, "") << command;
+        }
+    EXPECT_EQ(desk.run("oiler rates scene.toml --rates 0 --json new/a.json").exit, 2);
+    EXPECT_EQ(desk.names(), (std::vector<std::string>{"folder", "scene.toml"}));
+    EXPECT_EQ(desk.run("oiler methods --json new/a.json").exit, 0);
+    EXPECT_EQ(desk.names("new"), std::vector<std::string>{"a.json"});
+}
+
 TEST(OutputPaths, AreNotEmpty) {
     const Desk desk;
     for (const CommandOfHelp& command : commands())

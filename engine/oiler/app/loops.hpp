@@ -26,11 +26,12 @@ struct Played {
 /// Shows the game in a window in real time until the user quits or the display ends.
 Played run_window(Playback& playback, const Options& options, const About& about);
 
-/// Measures the budget of a run without a window; empty if it has none.
-using MeasureBudget = std::function<std::vector<BudgetEntry>()>;
+/// Measures the budget of a run of so many seconds without a window; empty if it has none.
+using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;
 
 /// Plays a game with the given options and writes its files. With --headless or --json it checks
-/// the budget, and returns Exit::comparison_failed if the budget is exceeded.
+/// the budget over the time played, and returns Exit::comparison_failed if the budget is exceeded.
+/// Throws Error{diverged} if the state or the energy is not finite; the files then end before that.
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget = {});
 

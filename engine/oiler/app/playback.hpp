@@ -33,6 +33,7 @@ public:
     /// decrease.
     [[nodiscard]] Picture show(std::int64_t tick, double alpha, Input& input);
 
+    [[nodiscard]] const World& world() const { return game_.world(); }
     /// State hash of the last shown tick; 0 if no hashes are kept.
     [[nodiscard]] std::uint64_t state_hash() const { return before_.state_hash; }
     /// The bodies at the last shown tick; none if no hashes are kept, or above 1000.

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
@@ -24,12 +25,15 @@ struct BudgetEntry {
 struct RunReport {
     std::string_view scene;
     Energy first;
+    std::optional<Energy> last{};  ///< empty if the run diverged
+    std::string divergence{};      ///< its message; empty if the run did not diverge
     std::chrono::nanoseconds dropped{0};
     std::chrono::nanoseconds wall{0};
     std::vector<BudgetEntry> budget{};
 };
 
-/// Writes JSON to `path`, or to standard output for "-". Throws Error{io}.
-void write_report(const std::filesystem::path& path, const RunReport& report, const World& world);
+/// Writes and commits JSON. After a divergence, the time is that of the last finite steps that are
+/// known, and state and last energy are null. Throws Error{io}.
+void write_report(File& file, const RunReport& report, const World& world);
 
 }  // namespace oiler

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <new>
+#include <optional>
 #include <span>
 
 #include "oiler/app/console.hpp"
@@ -68,46 +69,59 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
     }
 }
 
+/// Plays the game. Completes the report, also after a divergence.
+Exit play(Playback& playback, const Options& options, const About& about, RunReport& report,
+          Profile* profile) {
+    const Clock::time_point start = Clock::now();
+    Played played;
+    try {
+        played = loop(playback, options, about, profile);
+        report.last = playback.world().bodies().energy();
+        require_finite(*report.last);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) throw;
+        report.divergence = error.what();
+    }
+    report.dropped = played.dropped;
+    report.wall = Clock::now() - start;
+    return played.exit;
+}
+
 }  // namespace
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
     const std::unique_ptr<AnyGame> game = make(options.settings);
-    game->world().require_applicable();
+    const World& world = game->world();
+    world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
-    for (const std::string& line : game->world().preflight()) remark(options.quiet, "{}", line);
-    RunReport report{.scene = about.name, .first = game->world().bodies().energy()};
-    Recorder recorder(options.trace, options.energy, game->world());
+    for (const std::string& line : world.preflight()) remark(options.quiet, "{}", line);
+    RunReport report{.scene = about.name, .first = world.bodies().energy()};
+    Recorder recorder(options.trace, options.energy, world);
+    std::optional<File> json;  // opened before the run, so that a wrong path costs no time
+    if (!options.json.empty()) json.emplace(options.json);
     std::optional<Profile> profile;
     if (!options.profile.empty()) profile.emplace();
-    Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing,
-                      profile ? &*profile : nullptr);
-    const Clock::time_point start = Clock::now();
-    Played played;
-    try {
-        played = loop(playback, options, about, profile ? &*profile : nullptr);
-    } catch (const Error& error) {
-        if (error.exit() == Exit::diverged) recorder.commit();
-        throw;
-    }
+    Profile* const stages = profile ? &*profile : nullptr;
+    Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
+    Exit exit = play(playback, options, about, report, stages);
     recorder.commit();
     if (profile) write_file(options.profile, profile->to_json());
-    report.dropped = played.dropped;
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());
-    report.wall = Clock::now() - start;
-    const bool is_checked = options.headless || !options.json.empty();
-    if (measure_budget && is_checked && played.exit == Exit::done && !Interrupt::requested())
-        report.budget = measure_budget();
-    if (!options.json.empty()) write_report(options.json, report, game->world());
-    if (played.exit == Exit::no_display)
+    const bool is_checked = (options.headless || json) && report.divergence.empty();
+    if (measure_budget && is_checked && exit == Exit::done && !Interrupt::requested())
+        report.budget = measure_budget(world.time());
+    if (json) write_report(*json, report, world);
+    if (!report.divergence.empty()) throw Error(Exit::diverged, report.divergence);
+    if (exit == Exit::no_display)
         fail(Exit::no_display,
              "the display has ended; the files of the run are complete up to there");
     if (Interrupt::requested()) return Exit::interrupted;
     if (!options.golden.empty() && !options.update_golden)
-        played.exit = std::max(played.exit, compare_with_golden(options));
-    return std::max(played.exit, show_budget(report.budget, options.quiet));
+        exit = std::max(exit, compare_with_golden(options));
+    return std::max(exit, show_budget(report.budget, options.quiet));
 }
 
 int guard_main(std::string_view name, const std::function<Exit()>& program) {

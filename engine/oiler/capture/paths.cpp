@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -70,6 +71,17 @@ bool are_one_file(const NamedPath& a, const NamedPath& b) {
 }
 
 }  // namespace
+
+void require_openable(const NamedPath& output) {
+    if (output.writes || output.path.empty() || output.path == "-") return;
+    std::error_code none;
+    const fs::file_status found = fs::status(output.path, none);
+    if (fs::exists(found) && !fs::is_regular_file(found) && !fs::is_directory(found)) return;
+    // Missing folders are made later: a command that fails leaves none.
+    if (const fs::path folder = output.path.parent_path();
+        folder.empty() || fs::is_directory(folder, none))
+        const File probe(output.path);
+}
 
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs) {
     for (const NamedPath& input : inputs)

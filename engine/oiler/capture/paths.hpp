@@ -12,7 +12,8 @@ namespace oiler {
 struct NamedPath {
     std::string name;            ///< the option or the argument, for messages
     std::filesystem::path path;  ///< empty: none; "-" of an output: the standard output
-    /// For an output folder: whether the command writes a file of that name into it.
+    /// Empty for a file. For an output folder: whether the command writes a file of that name into
+    /// it.
     bool (*writes)(std::string_view name) = nullptr;
 };
 
@@ -20,5 +21,9 @@ struct NamedPath {
 /// not names, so that links and relative paths are seen through. The null device may be given
 /// several times.
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs);
+
+/// Throws Error{io} if the file of an output cannot be made in its folder, so that a command fails
+/// before its work. Makes neither file nor folder.
+void require_openable(const NamedPath& output);
 
 }  // namespace oiler

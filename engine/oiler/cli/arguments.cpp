@@ -36,6 +36,7 @@ std::map<std::string, Command::Run> declare(CLI::App& app, const std::vector<Com
         runs[name] = [run = command.declare(arguments), arguments] {
             const NamedPaths paths = arguments.paths();
             require_distinct(paths.inputs, paths.outputs);
+            for (const NamedPath& output : paths.outputs) require_openable(output);
             return run();
         };
     }

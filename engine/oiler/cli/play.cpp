@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/cli/arguments.hpp"
@@ -63,8 +66,19 @@ SceneFile find_scene(const std::string& path, const std::optional<Manifest>& fro
     return {from->scene, from->scene_text};
 }
 
-std::vector<BudgetEntry> check(const Scene& scene, const Settings& settings) {
+/// Measures over `seconds`, at most over the scene's duration. A drift is relative to the energies
+/// of the motion, which a much shorter run does not show.
+std::vector<BudgetEntry> check(Scene scene, const Options& options, double seconds) {
+    constexpr double least_share = 0.9;
+    const Settings& settings = options.settings;
     std::vector<BudgetEntry> entries;
+    if (seconds <= 0) return entries;
+    if (scene.budget.energy_drift && seconds < least_share * scene.duration) {
+        remark(options.quiet, "[budget] energy_drift is compared over {:g} s, not over {:g} s",
+               scene.duration, seconds);
+        scene.budget.energy_drift.reset();
+    }
+    scene.duration = std::min(scene.duration, seconds);
     for (const lab::BudgetLine& budget : lab::check_budget(scene, settings, Interrupt::requested))
         entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
                            fmt::format("over {:g} s: {}", scene.duration, describe(budget))});
@@ -103,7 +117,7 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
     const auto make = [&](const Settings& settings) {
         return std::make_unique<SceneGame>(scene, settings);
     };
-    const auto measure_budget = [&] { return check(scene, line.options.settings); };
+    const auto measure_budget = [&](double seconds) { return check(scene, line.options, seconds); };
     return run_game(line.options, line.about, make, measure_budget);
 }
 

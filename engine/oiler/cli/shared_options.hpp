@@ -22,8 +22,8 @@ void add_quiet(Arguments& arguments, bool& target);
 /// `--methods`, see parse_methods.
 void add_method_list(Arguments& arguments, std::string& target);
 
-/// Returns the methods of "splitting", "explicit", "all", or of names with commas between them.
-/// Throws Error{usage}.
+/// Returns the methods of groups ("splitting", "explicit", "all") and of names, with commas between
+/// them. Throws Error{usage}.
 [[nodiscard]] std::vector<const Method*> parse_methods(const std::string& words);
 
 /// The rates in Hz that players and displays commonly have.
@@ -38,7 +38,9 @@ struct PictureOptions {
     std::string size_words = "1280x720";
 
     /// `writes` is that of NamedPath.
-    void declare(Arguments& arguments, bool (*writes)(std::string_view name) = nullptr);
+    void declare(
+        Arguments& arguments,
+        bool (*writes)(std::string_view name) = [](std::string_view) { return true; });
     /// Throws Error{usage}.
     [[nodiscard]] Size size() const;
 };
