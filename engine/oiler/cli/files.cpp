@@ -14,9 +14,12 @@ namespace oiler::cli {
 std::string read_text(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::error_code error;
+    const int reason = errno;
     if (std::filesystem::is_directory(path, error))
-        fail(Exit::io, "{}: it is a folder; give a file", path.string());
-    if (!file) fail(Exit::io, "{}: cannot be read: {}", path.string(), system_reason(errno));
+        fail(Exit::usage, "{}: it is a folder; give a file", path.string());
+    if (!file)
+        fail(exit_of_open(reason), "{}: cannot be read: {}; give a file that you may read",
+             path.string(), system_reason(reason));
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -39,6 +39,10 @@ template <class... Args>
     throw Error(exit, fmt::format(line, std::forward<Args>(args)...));
 }
 
+/// The exit code after an input could not be opened: usage if the path names no such file, io if
+/// the machine is the reason.
+[[nodiscard]] Exit exit_of_open(int error_number);
+
 /// The text of an errno value, for example "No space left on device".
 [[nodiscard]] std::string system_reason(int error_number);
 

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 
 #include "oiler/core/error.hpp"
@@ -31,12 +30,6 @@ public:
 private:
     int number_;
 };
-
-/// Returns whether the user's path is wrong, rather than the machine.
-bool is_wrong_path(int error) {
-    constexpr std::array at_fault{ENOENT, ENOTDIR, ENXIO, ELOOP, ENAMETOOLONG};
-    return std::ranges::find(at_fault, error) != at_fault.end();
-}
 
 void require_file(int descriptor, const std::string& path) {
     struct stat status {};
@@ -119,8 +112,7 @@ bool is_text(std::string_view text, std::size_t at) {
 std::string read_scene_text(const std::string& path) {
     const Descriptor file(path);
     if (file.number() < 0)
-        fail(is_wrong_path(errno) ? Exit::usage : Exit::io,
-             "{}: {}; give a scene file such as assets/scenes/cloth.toml", path,
+        fail(exit_of_open(errno), "{}: {}; give a scene file such as assets/scenes/cloth.toml", path,
              system_reason(errno));
     require_file(file.number(), path);
     std::string text(most_scene_bytes + 1, '\0');
