@@ -82,13 +82,6 @@ TEST(Options, ALeadingZeroIsNoOctal) {
     EXPECT_EQ(parse("--rate 010").options.settings.stepping.rate, Rate{10});
 }
 
-// Neither opens a window.
-TEST(Options, StepsMayBeHeadless) {
-    const Options options = parse("--headless --steps 5").options;
-    EXPECT_EQ(options.steps, 5);
-    EXPECT_TRUE(options.headless);
-}
-
 CommandLine parse_file(std::vector<std::string> words) {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -161,7 +154,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--size 99999x1", "99999x1"}, Wrong{"--size 0x10", "0x10"},
         Wrong{"--size 640", "--size"}, Wrong{"--size 640x", "--size"},
         Wrong{"--size x480", "--size"}, Wrong{"--size 640x480x2", "--size"},
-        Wrong{"--size 99999999999x1", "--size"}, Wrong{"--method rk5", "semi_implicit_euler"},
+        Wrong{"--size 99999999999x1", "--size"},
+        Wrong{"--method rk5", "did you mean `rk4`?; `oiler methods` lists all"},
+        Wrong{"--method verlet", "did you mean `velocity_verlet` or `position_verlet`?"},
+        Wrong{"--method xyz", "xyz: no such method; `oiler methods`"},
+        Wrong{"--steps 3 --trase t",
+              "--trase: no such option; did you mean `--trace`? (see demo --help)"},
+        Wrong{"--trase=t", "--trase: no such option; did you mean `--trace`?"},
+        Wrong{"stray", "stray: unexpected argument (see demo --help)"},
         Wrong{"--precision half", "--precision"}, Wrong{"--surface vulkan", "--surface"},
         Wrong{"--seed -1", "--seed"}, Wrong{"--seed 18446744073709551616", "--seed"},
         Wrong{"--rate 1e3", "--rate"}, Wrong{"--rate 0x10", "--rate"},
@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--json - --trace -", "--trace"}, Wrong{"--json=", "--json"},
         Wrong{"--surface osmesa", "--headless"}, Wrong{"--surface egl", "--headless"},
         Wrong{"--headless --surface window", "--headless"}, Wrong{"--out o", "--headless"},
-        Wrong{"--steps 5 --headless --out o", "--out"}, Wrong{"--steps 5 --frames 2", "--frames"},
+        Wrong{"--steps 5 --headless", "--headless"}, Wrong{"--steps 5 --frames 2", "--frames"},
         Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
         Wrong{"--threads 0", "--threads"}, Wrong{"--threads 257", "--threads"},

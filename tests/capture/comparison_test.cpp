@@ -60,7 +60,7 @@ TEST_F(ComparisonOfFilms, AStateNamesTickBodyAndField) {
     EXPECT_EQ(moved.frames[2].cause, Cause::simulation);
     EXPECT_EQ(moved.count(Cause::none), 4);
     EXPECT_TRUE(moved.verdict.starts_with(
-        "simulation changed at tick 5: at tick 6, body 'bob', vy: 3 → 3.5, "))
+        "simulation changed at tick 5: body 'bob', vy: 3 → 3.5, by 0.5 m/s, at tick 6"))
         << moved.verdict;
     EXPECT_EQ(moved.frames[2].differing, 100);
     EXPECT_EQ(moved.frames[2].largest, 99 - 20);

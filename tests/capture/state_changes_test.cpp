@@ -61,7 +61,7 @@ TEST(StateChanges, CountUlpsOfFloat) {
 TEST(StateChanges, ASignOfZeroIsAChange) {
     const Bodies golden{{"a", {0.0}, {}}};
     const Bodies actual{{"a", {-0.0}, {}}};
-    EXPECT_EQ(describe_state_change(golden, actual, "double"), "body 'a', x: 0 → -0, 1 ulp");
+    EXPECT_EQ(describe_state_change(golden, actual, "double"), "body 'a', x: 0 → -0, 0 ulp");
 }
 
 TEST(StateChanges, NameMissingAndNewBodies) {

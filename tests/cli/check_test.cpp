@@ -280,6 +280,17 @@ TEST(PlayBudget, IsCheckedHeadlessButNotInAWindow) {
     EXPECT_EQ(desk.run("oiler play scene.toml --quiet --steps 1000 --trace t.csv").exit, 0);
 }
 
+TEST(CheckCommand, QuietPrintsOnlyWhatFails) {
+    const Desk desk(spring_scene("[budget]\nposition_error = 5.0\n"));
+    desk.put("kept.toml", spring_scene("[budget]\nposition_error = 50.0\n"));
+    desk.put("none.toml", spring_scene(""));
+    const Outcome run = desk.run("oiler check kept.toml none.toml scene.toml --quiet");
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_EQ(lines(run.out), 1) << run.out;
+    EXPECT_TRUE(run.out.starts_with("scene.toml: position_error 19.8 m")) << run.out;
+    EXPECT_EQ(desk.run("oiler check kept.toml none.toml --quiet").out, "");
+}
+
 // 20 steps at 100 Hz are 0.2 s.
 TEST(PlayBudget, IsMeasuredOverTheTimePlayed) {
     const Desk desk(spring_scene("[budget]\nposition_error = 50.0\n"));

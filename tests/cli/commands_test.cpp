@@ -260,13 +260,20 @@ TEST_P(WrongUse, IsRefusedInOneLineThatNamesIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WrongUse,
-    testing::Values(std::pair{"", "give a command"}, std::pair{"certfy", "certfy"},
-                    std::pair{"certify rk5", "rk5"}, std::pair{"certify --steps 1e6", "--steps"},
-                    std::pair{"certify --damping drag", "drag"},
-                    std::pair{"figures --size 10", "--size 10"},
-                    std::pair{"methods extra", "extra"}, std::pair{"--frames 3", "--frames"},
-                    std::pair{"ledger", "SCENE"}, std::pair{"ledger no.toml --steps 1", "--steps"},
-                    std::pair{"ledger '" OILER_SOURCE "/README.md'", "README.md"}));
+    testing::Values(
+        std::pair{"", "give a command"},
+        std::pair{"certfy", "certfy: no such command; did you mean `certify`? (see oiler --help)"},
+        std::pair{"certify rk5", "rk5"},
+        std::pair{"certify --stps 3",
+                  "--stps: no such option; did you mean `--steps`? (see oiler certify --help)"},
+        std::pair{"certify --steps", "(see oiler certify --help)"},
+        std::pair{"certify --steps 1e6", "--steps"}, std::pair{"certify --damping drag", "drag"},
+        std::pair{"figures --size 10", "--size 10"},
+        std::pair{"methods extra", "extra: unexpected argument (see oiler methods --help)"},
+        std::pair{"play x.toml --methd rk4", "did you mean `--method`? (see oiler play --help)"},
+        std::pair{"--frames 3", "--frames"}, std::pair{"ledger", "SCENE"},
+        std::pair{"ledger no.toml --steps 1", "--steps"},
+        std::pair{"ledger '" OILER_SOURCE "/README.md'", "README.md"}));
 
 TEST(Oiler, NamesAFolderThatCannotBeCreated) {
     const Outcome run = shell("oiler figures --out /proc/nowhere");

@@ -58,7 +58,7 @@ TEST(Play, OptionsOverrideTheScene) {
 }
 
 TEST(Play, StepsTakesThatManySteps) {
-    const Json report = report_of(scene("salvo") + " --headless --steps 60");
+    const Json report = report_of(scene("salvo") + " --steps 60 --threads 2");
     EXPECT_EQ(report.at("steps"), 60);
     EXPECT_EQ(report.at("state_hash"), report_of(scene("salvo") + " --steps 60").at("state_hash"));
 }

@@ -150,7 +150,7 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
                                    {"--json", options.json},   {"--profile", options.profile},
                                    {"--junit", options.junit}, {"--video", options.video},
                                    {"--sheet", options.sheet}};
-    if (options.headless && !options.steps)
+    if (options.headless)
         outputs.push_back({"--out", options.out, is_capture_file});
     std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
     if (!options.update_golden) inputs.push_back({"--golden", options.golden});
@@ -169,7 +169,8 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
     };
     const bool offscreen = words.surface == "osmesa" || words.surface == "egl";
     if (app.count("--steps") > 0)
-        for (const char* other : {"--frames", "--fps", "--size", "--out", "--surface"})
+        for (const char* other :
+             {"--headless", "--frames", "--fps", "--size", "--out", "--surface"})
             if (app.count(other) > 0)
                 refuse(other, "draws, but --steps draws nothing; give one of them");
     if (offscreen && !options.headless)

@@ -6,9 +6,12 @@
 #include <charconv>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/nearest.hpp"
 
 namespace oiler {
 
@@ -42,19 +45,55 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
         ->type_name("NAME");
 }
 
+/// The subcommand that the command line names, else the program.
+[[nodiscard]] inline const CLI::App& named_command(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    return chosen.empty() ? app : *chosen.front();
+}
+
+/// "oiler play".
+[[nodiscard]] inline std::string full_name(const CLI::App& app) {
+    const CLI::App* const parent = app.get_parent();
+    return parent ? parent->get_name() + " " + app.get_name() : app.get_name();
+}
+
+/// The message for the first word that no option and no command expects.
+[[nodiscard]] inline std::string describe_extra(const CLI::App& app) {
+    const std::string given = app.remaining(true).front();
+    const CLI::App& command = named_command(app);
+    const std::string word = given.substr(0, given.find('='));
+    const bool is_option = word.starts_with("-");
+    std::vector<std::string> names;
+    if (is_option)
+        for (const CLI::Option* const option : command.get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    else
+        for (const CLI::App* const one : command.get_subcommands({}))
+            names.push_back(one->get_name());
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const char* const kind = is_option       ? "no such option"
+                             : names.empty() ? "unexpected argument"
+                                             : "no such command";
+    return fmt::format("{}: {}{}", word, kind, did_you_mean(word, views));
+}
+
 /// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
-/// Error{usage} in one line that ends with "(see PROGRAM --help)".
+/// Error{usage} in one line that ends with "(see PROGRAM COMMAND --help)".
 [[nodiscard]] inline std::string parse(CLI::App& app, int argc, char** argv) {
+    const auto refuse = [&app](std::string what) {
+        std::replace(what.begin(), what.end(), '\n', ' ');
+        fail(Exit::usage, "{} (see {} --help)", what, full_name(named_command(app)));
+    };
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         return app.help();
     } catch (const CLI::CallForVersion&) {
         return app.version() + "\n";
+    } catch (const CLI::ExtrasError&) {
+        refuse(describe_extra(app));
     } catch (const CLI::ParseError& error) {
-        std::string what = error.what();
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        fail(Exit::usage, "{} (see {} --help)", what, app.get_name());
+        refuse(error.what());
     }
     return {};
 }

@@ -18,6 +18,7 @@ using namespace lab;
 namespace {
 
 constexpr double frames_per_second = 60;
+constexpr const char* default_size = "1280x720";
 
 /// The frames per second of `--display`, 0 for any time. Throws Error{usage}.
 std::int64_t frames_of(const std::string& words) {
@@ -53,7 +54,7 @@ struct AdviseCommand {
     ToleranceOptions tolerances;
     double longer = 0;             ///< s; 0: the scene's duration
     std::optional<double> pixels;  ///< tolerance, in pixels of a picture of `size`
-    std::string size_words = "1280x720";
+    std::string size_words = default_size;
     bool at_steps = false;
     std::string display = "any";
     std::optional<double> budget_us;  ///< per frame of 1/60 s
@@ -97,9 +98,23 @@ struct AdviseCommand {
                  "give a tolerance or a budget: --position-error, --pixels, --energy-drift or "
                  "--budget-us "
                  "(see oiler advise --help)");
+        refuse_without_effect(requirements);
         requirements.min_rate = min_rate;
         requirements.methods = parse_methods(methods);
         return requirements;
+    }
+
+    /// Options that only change the meaning of another one need that one.
+    void refuse_without_effect(const Requirements& requirements) const {
+        constexpr const char* line = "{} has no effect {} (see oiler advise --help)";
+        const bool is_sized = size_words != default_size;
+        const bool is_displayed = requirements.display > 0;
+        if (is_sized && !pixels) fail(Exit::usage, line, "--size", "without --pixels");
+        for (const auto& [given, option] :
+             {std::pair(at_steps, "--at-steps"), std::pair(is_displayed, "--display")})
+            if (given && !requirements.position_error)
+                fail(Exit::usage, line, option, "without --position-error or --pixels");
+        if (at_steps && is_displayed) fail(Exit::usage, line, "--display", "with --at-steps");
     }
 
     [[nodiscard]] Scene read_scene() const {

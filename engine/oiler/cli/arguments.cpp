@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/cli/arguments.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -11,15 +12,27 @@
 namespace oiler::cli {
 namespace {
 
+/// What a number counts, by the placeholder of its option.
+std::string_view unit_of(std::string_view type) {
+    if (type == "M") return "in m, ";
+    if (type == "S") return "in s, ";
+    if (type == "US") return "in µs, ";
+    return "";
+}
+
 template <class Target>
 void add_positive_number(CLI::App& app, const std::string& name, Target& target,
                          const std::string& type, const std::string& help) {
-    const auto set = [name, &target](const double& value) {
-        if (!(value > 0) || !std::isfinite(value))
-            throw CLI::ValidationError(fmt::format("{} {}: give a number above 0", name, value));
+    const auto set = [name, type, &target](const std::string& words) {
+        const char* const end = words.data() + words.size();
+        double value = 0;
+        const auto [last, error] = std::from_chars(words.data(), end, value);
+        if (error != std::errc() || last != end || !(value > 0) || !std::isfinite(value))
+            throw CLI::ValidationError(fmt::format("{} {}: give a number above 0, {}such as 0.01",
+                                                   name, words, unit_of(type)));
         target = value;
     };
-    app.add_option_function<double>(name, set, help)->type_name(type);
+    app.add_option_function<std::string>(name, set, help)->type_name(type);
 }
 
 /// Declares each command as a subcommand; returns their functions by name.

@@ -114,9 +114,11 @@ CheckResult check(const std::filesystem::path& path) {
     return result;
 }
 
-std::string text_of(const std::vector<CheckResult>& all) {
+/// `quiet`: only what fails.
+std::string text_of(const std::vector<CheckResult>& all, bool quiet) {
     std::string text;
     for (const CheckResult& result : all) {
+        if (quiet && result.kept()) continue;
         for (const std::string& warning : result.warnings)
             text += fmt::format("{}: warning: {}\n", result.file, warning);
         if (!result.divergence.empty())
@@ -151,12 +153,14 @@ struct CheckCommand {
     std::vector<std::filesystem::path> scenes;
     std::filesystem::path junit;
     std::filesystem::path json;
+    bool quiet = false;
 
     void declare(Arguments& arguments) {
         arguments.add_required("SCENE", scenes, "scene files");
         arguments.add_output("--junit", junit,
                              "write the result as JUnit XML for CI, - for stdout");
         add_json(arguments, json);
+        arguments.add_flag("--quiet", quiet, "print only scenes that fail");
     }
 
     [[nodiscard]] Exit run() const {
@@ -167,7 +171,7 @@ struct CheckCommand {
         }
         if (!junit.empty()) write_text(junit, to_junit(all));
         if (!json.empty()) write_json(json, to_json(all));
-        if (json != "-" && junit != "-") print(text_of(all));
+        if (json != "-" && junit != "-") print(text_of(all, quiet));
         for (const CheckResult& result : all)
             if (!result.error.empty()) say("oiler: " + result.error);
         return exit_of(all);

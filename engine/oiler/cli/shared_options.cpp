@@ -31,23 +31,28 @@ void add_quiet(Arguments& arguments, bool& target) {
 
 void add_method_list(Arguments& arguments, std::string& target) {
     arguments.add_option("--methods", target, "LIST",
-                         "splitting, explicit, all, or method names with commas");
+                         "splitting, explicit, all and method names, with commas");
 }
 
 std::vector<const Method*> parse_methods(const std::string& words) {
     std::vector<const Method*> chosen;
-    for (const Method& method : methods())
-        if (is_in_group(method, words)) chosen.push_back(&method);
-    if (!chosen.empty()) return chosen;
+    const auto add = [&](const Method& method) {
+        if (std::find(chosen.begin(), chosen.end(), &method) == chosen.end())
+            chosen.push_back(&method);
+    };
     std::istringstream stream(words);
-    for (std::string name; std::getline(stream, name, ',');) {
-        const Method* const method = &find_method(name);
-        if (std::find(chosen.begin(), chosen.end(), method) == chosen.end())
-            chosen.push_back(method);
+    for (std::string word; std::getline(stream, word, ',');) {
+        bool is_group = false;
+        for (const Method& method : methods()) {
+            if (!is_in_group(method, word)) continue;
+            is_group = true;
+            add(method);
+        }
+        if (!is_group) add(find_method(word));
     }
     if (chosen.empty())
         fail(Exit::usage,
-             "--methods: give splitting, explicit, all, or method names with commas between them");
+             "--methods: give splitting, explicit, all, and method names, with commas");
     return chosen;
 }
 

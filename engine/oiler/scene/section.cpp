@@ -8,7 +8,7 @@
 
 #include "oiler/core/require.hpp"
 #include "oiler/scene/colours.hpp"
-#include "oiler/scene/nearest.hpp"
+#include "oiler/core/nearest.hpp"
 
 namespace oiler {
 

@@ -2,8 +2,11 @@
 #include "oiler/physics/methods/methods.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/nearest.hpp"
 
 namespace oiler {
 namespace {
@@ -345,6 +348,23 @@ constexpr std::array list{
                "Hirsch & Smale, Differential Equations, Dynamical Systems, and Linear Algebra, 5"},
 };
 
+/// Names that contain the word, else the nearest name.
+std::string remedy_for(std::string_view word) {
+    constexpr std::size_t shortest = 3;
+    constexpr int most = 4;
+    std::vector<std::string_view> names;
+    std::string containing;
+    int count = 0;
+    for (const Method& method : list) {
+        names.push_back(method.name);
+        if (word.size() < shortest || method.name.find(word) == std::string_view::npos) continue;
+        if (++count > most) continue;
+        containing.append(count == 1 ? "`" : " or `").append(method.name).append("`");
+    }
+    if (count > 0) return "; did you mean " + containing + "?";
+    return did_you_mean(word, names);
+}
+
 }  // namespace
 
 std::span<const Method> methods() { return list; }
@@ -352,13 +372,8 @@ std::span<const Method> methods() { return list; }
 const Method& find_method(std::string_view name) {
     for (const Method& method : list)
         if (method.name == name) return method;
-    fail(Exit::usage, "method {}: no such method; choose one of: {}", name, method_names());
-}
-
-std::string method_names() {
-    std::string names;
-    for (const Method& method : list) names.append(names.empty() ? "" : ", ").append(method.name);
-    return names;
+    fail(Exit::usage, "method {}: no such method{}; `oiler methods` lists all", name,
+         remedy_for(name));
 }
 
 std::string_view name_of(Damping damping) { return damping == Damping::in_kick ? "kick" : "drift"; }

@@ -103,11 +103,8 @@ struct Method {
 /// All methods.
 [[nodiscard]] std::span<const Method> methods();
 
-/// Throws Error{usage} that lists the choices.
+/// Throws Error{usage} that names similar methods.
 [[nodiscard]] const Method& find_method(std::string_view name);
-
-/// All names with commas between them: "explicit_euler, semi_implicit_euler, …".
-[[nodiscard]] std::string method_names();
 
 /// The evaluations of the forces per step of a long run. With damping in the kicks, a method that
 /// starts and ends with a kick needs one more, because the two kicks cannot share an evaluation.

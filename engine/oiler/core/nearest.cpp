@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/scene/nearest.hpp"
+#include "oiler/core/nearest.hpp"
 
 #include <fmt/core.h>
 
