@@ -161,7 +161,7 @@ TEST(Playback, SlowStepsShareNoLongCall) {
     Recorder none{{}, {}, game.world()};
     Input input;
     game.time_of_step = std::chrono::milliseconds(1);
-    Playback(game, none, false).step_to(40, input);
+    Playback(game, none, Keep::nothing).step_to(40, input);
     EXPECT_LE(*std::max_element(game.calls.begin(), game.calls.end()), 8);
 }
 
@@ -169,7 +169,7 @@ TEST(Playback, SlowStepsShareNoLongCall) {
 TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
     Sluggish game;
     Recorder none{{}, {}, game.world()};
-    Playback playback(game, none, false);
+    Playback playback(game, none, Keep::nothing);
     Input input;
     playback.step_to(100'000, input);
     EXPECT_GT(*std::max_element(game.calls.begin(), game.calls.end()), 100);

@@ -90,6 +90,7 @@ TEST(PictureChanges, NameAMissingTickOfAPlot) {
     plot.draw(whole, {.object = 1});
     ASSERT_GE(whole.labels.size(), 8U);
     for (std::size_t i = 0; i < whole.labels.size(); ++i) {
+        if (whole.labels[i].text.empty()) continue;
         Picture without = whole;
         without.labels.erase(without.labels.begin() + static_cast<std::ptrdiff_t>(i));
         EXPECT_EQ(describe_picture_change(whole, without, size),

@@ -56,8 +56,8 @@ TEST(Junit, KeepsItsShapeWithAnyByte) {
             JunitSuite suite(text);
             suite.add_error(text, text, text);
             const std::string xml = suite.xml();
-            EXPECT_EQ(count(xml, '<'), 5) << first << ' ' << second;
-            EXPECT_EQ(count(xml, '>'), 5) << first << ' ' << second;
+            EXPECT_EQ(count(xml, '<'), 6) << first << ' ' << second;
+            EXPECT_EQ(count(xml, '>'), 6) << first << ' ' << second;
             EXPECT_EQ(count(xml, '"'), 4 + 2 * 5 + 2 * 3) << first << ' ' << second;
             EXPECT_TRUE(std::all_of(xml.begin(), xml.end(),
                                     [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }))

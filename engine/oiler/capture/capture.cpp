@@ -29,6 +29,7 @@ Capture::Capture(fs::path folder, Manifest header, Profile* profile)
 
 Capture::~Capture() {
     stop_workers();
+    drop_incomplete();
     std::error_code ignored;
     if (manifest_.frames.empty()) fs::remove(folder_.file(manifest_name), ignored);
 }

@@ -30,6 +30,8 @@ std::string escaped(std::string_view text) {
             safe += "&amp;";
         else if (c == '<')
             safe += "&lt;";
+        else if (c == '>')
+            safe += "&gt;";
         else if (c == '"')
             safe += "&quot;";
         else
