@@ -35,7 +35,6 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"advise scene.toml --position-error 1 --size 9x9", "--size has no"},
                     std::pair{"advise scene.toml --energy-drift 1 --at-steps", "--at-steps has no"},
                     std::pair{"advise scene.toml --energy-drift 1 --display 60", "--display has"},
-                    std::pair{"advise scene.toml --budget-us 1 --at-steps", "--at-steps has no"},
                     std::pair{"advise scene.toml --pixels 1 --at-steps --display 60",
                               "--display has no effect with --at-steps"},
                     std::pair{"rates scene.toml --methods rk4,splittin", "splittin"},

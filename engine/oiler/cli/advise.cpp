@@ -112,8 +112,9 @@ struct AdviseCommand {
         if (is_sized && !pixels) fail(Exit::usage, line, "--size", "without --pixels");
         for (const auto& [given, option] :
              {std::pair(at_steps, "--at-steps"), std::pair(is_displayed, "--display")})
-            if (given && !requirements.position_error)
-                fail(Exit::usage, line, option, "without --position-error or --pixels");
+            if (given && !requirements.position_error && !budget_us)
+                fail(Exit::usage, line, option,
+                     "without --position-error, --pixels or --budget-us");
         if (at_steps && is_displayed) fail(Exit::usage, line, "--display", "with --at-steps");
     }
 
