@@ -81,7 +81,7 @@ TEST(Check, ReportsEachSceneToACi) {
     EXPECT_EQ(count_of(xml, "<failure "), 2U);
     EXPECT_EQ(count_of(xml, "<skipped "), 1U);
     EXPECT_TRUE(holds(xml, "<failure message=\"position_error 19.8 m of 19 m: exceeded\"/>"));
-    EXPECT_TRUE(holds(xml, "classname=\"a &lt;b> &amp; &quot;c&quot;.toml\"")) << xml;
+    EXPECT_TRUE(holds(xml, "classname=\"a &lt;b&gt; &amp; &quot;c&quot;.toml\"")) << xml;
     const Json json = desk.json("a.json");
     ASSERT_EQ(json.size(), 3U);
     EXPECT_EQ(json.at(0).at("kept"), false);

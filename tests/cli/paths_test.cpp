@@ -34,11 +34,21 @@ std::vector<CommandOfHelp> commands() {
          words_in(help.substr(help.find("\nSubcommands:")), "\n  ([a-z]+) ")) {
         const std::string text = shell("oiler " + name + " --help").out;
         CommandOfHelp command{name, "", words_in(text, "\n  (--[a-z-]+) (?:FILE|DIR)")};
-        for (const std::string input : {"SCENE", "PART"})
+        for (const std::string input : {"SCENE", "PART", "GOLDEN"})
             if (holds(text, "\n  " + input)) command.input = input;
+        for (const char* const input : {"--golden", "--from"}) std::erase(command.outputs, input);
         all.push_back(command);
     }
     return all;
+}
+
+/// The command with its input and what else its outputs need.
+std::string line_of(const CommandOfHelp& command) {
+    std::string line = "oiler " + command.name;
+    if (!command.input.empty()) line += " scene.toml";
+    if (command.input == "GOLDEN") line += " scene.toml";
+    if (command.name == "play") line += " --headless --golden none";
+    return line + " ";
 }
 
 TEST(OutputPaths, TheInputOfACommandIsNoneOfItsOutputs) {
@@ -52,9 +62,7 @@ TEST(OutputPaths, TheInputOfACommandIsNoneOfItsOutputs) {
         for (const std::string& option : command.outputs)
             for (const std::string path :
                  {"scene.toml", "./scene.toml", "hard", "soft", "$PWD/hard"}) {
-                const std::string line =
-                    "oiler " + command.name + " scene.toml " + option + " " + path +
-                    (command.name + option == "play--out" ? " --headless" : "");
+                const std::string line = line_of(command) + option + " " + path;
                 const Outcome run = desk.run(line);
                 EXPECT_EQ(run.exit, 2) << line;
                 EXPECT_EQ(lines(run.err), 1) << line << run.err;
@@ -65,11 +73,13 @@ TEST(OutputPaths, TheInputOfACommandIsNoneOfItsOutputs) {
                 tried.insert(command.name + option);
             }
     }
-    EXPECT_EQ(tried,
-              (std::set<std::string>{"advise--json", "check--json", "check--junit", "ledger--json",
-                                     "merge--json", "merge--out", "play--energy", "play--json",
-                                     "play--out", "play--trace", "rates--json", "report--json",
-                                     "report--out", "tradeoff--json", "tradeoff--out"}));
+    EXPECT_EQ(tried, (std::set<std::string>{
+                         "advise--json",   "check--json",   "check--junit", "compare--json",
+                         "compare--junit", "compare--out",  "ledger--json", "merge--json",
+                         "merge--out",     "play--energy",  "play--json",   "play--junit",
+                         "play--out",      "play--profile", "play--sheet",  "play--trace",
+                         "play--video",    "rates--json",   "report--json", "report--out",
+                         "tradeoff--json", "tradeoff--out"}));
 }
 
 TEST(OutputPaths, TwoOutputsOfACommandAreTwoFiles) {
@@ -79,10 +89,8 @@ TEST(OutputPaths, TwoOutputsOfACommandAreTwoFiles) {
         for (const std::string path : {"same", "-"}) {
             const std::string& first = command.outputs.at(0);
             const std::string& second = command.outputs.at(1);
-            const std::string line = "oiler " + command.name +
-                                     (command.input.empty() ? " " : " scene.toml ") + first + " " +
-                                     path + " " + second + " " + path +
-                                     (command.name == "play" ? " --headless" : "");
+            const std::string line =
+                line_of(command) + first + " " + path + " " + second + " " + path;
             const Outcome run = desk.run(line);
             EXPECT_EQ(run.exit, 2) << line;
             EXPECT_TRUE(holds(run.err, first) && holds(run.err, second)) << line << run.err;
@@ -115,21 +123,18 @@ TEST(OutputPaths, AreNotEmpty) {
     const Desk desk;
     for (const CommandOfHelp& command : commands())
         for (const std::string& option : command.outputs) {
-            const std::string line = "oiler " + command.name +
-                                     (command.input.empty() ? " " : " scene.toml ") + option +
-                                     " ''";
+            const std::string line = line_of(command) + option + " ''";
             const Outcome run = desk.run(line);
             EXPECT_EQ(run.exit, 2) << line;
             EXPECT_TRUE(holds(run.err, option + ": ")) << line << run.err;
         }
 }
 
-// A link of that name must not lead the output to another file.
+// A link of that name must not lead the output to another file. Captures refuse links.
 TEST(OutputPaths, NamesInAnOutputFolderReplaceLinks) {
     const Desk desk;
     for (const std::string command :
-         {"figures", "stability exact", "tradeoff scene.toml --methods exact --max-rate 60",
-          "play scene.toml --headless --frames 1"}) {
+         {"figures", "stability exact", "tradeoff scene.toml --methods exact --max-rate 60"}) {
         const std::string line = "oiler " + command + " --quiet --size 64x36 --out ";
         const Outcome first = desk.run(line + "o");
         if (first.exit == 3) GTEST_SKIP() << first.err;

@@ -110,7 +110,7 @@ TEST(Report, IsOneSelfContainedFile) {
     EXPECT_FALSE(holds(page, "https://"));
     EXPECT_FALSE(holds(page, " src=\"") && !holds(page, " src=\"data:"));
     EXPECT_TRUE(holds(page, "data:image/png;base64,"));
-    EXPECT_TRUE(holds(page, "A &lt;spring> &amp; &quot;damper&quot;")) << page.substr(0, 1000);
+    EXPECT_TRUE(holds(page, "A &lt;spring&gt; &amp; &quot;damper&quot;")) << page.substr(0, 1000);
     EXPECT_FALSE(holds(page, "<spring>"));
     for (const char* left : {"@DATA@", "@TITLE@", "@FRAME@", "@CHART_LIBRARY@"})
         EXPECT_FALSE(holds(page, left)) << left;

@@ -173,7 +173,7 @@ private:
         const std::string where = describe_tick(index);
         const FrameRecord* const before = golden_.record(index);
         const FrameRecord* const after = actual_.record(index);
-        if (!before || !after) return where;
+        if (!before || !after) return where + ": no bodies of this frame are recorded";
         const std::string shift = describe_shift(index, [&](std::int64_t a, std::int64_t b) {
             const FrameRecord* const moved = actual_.record(a);
             const FrameRecord* const other = golden_.record(b);
