@@ -73,7 +73,8 @@ TEST_F(ComparisonOfFilms, WithoutTickHashesTheTicksAreBounded) {
         film.shots[2].tick_hashes = "";
         film.shots[2].record.reset();
     });
-    EXPECT_EQ(moved.verdict, "simulation changed between ticks 3 and 6");
+    EXPECT_EQ(moved.verdict,
+              "simulation changed between ticks 3 and 6: no bodies of this frame are recorded");
 }
 
 TEST_F(ComparisonOfFilms, AStateAtTheFirstTick) {
