@@ -3,6 +3,7 @@
 """Interrupts every command of oiler and every demo at random moments. Each must end in time with exit
 code 130 and leave whole files. Exits with 1 after a fault, with 77 without pngcheck."""
 import argparse
+import gzip
 import json
 import os
 import pathlib
@@ -46,9 +47,13 @@ COMMANDS = {
     "check": [[scene("orbit"), scene("cloth"), scene("jump"), "--junit", "{out}/check.xml",
                "--json", "{out}/check.json"]],
     "report": [[scene("orbit"), "--out", "{out}/report.html", "--json", "{out}/report.json"]],
+    "compare": [["{parts}/golden", "{parts}/actual", "--out", "{out}/differences",
+                 "--junit", "{out}/compare.xml", "--json", "{out}/compare.json"]],
+    "diverge": [["{parts}/a.csv", "{parts}/b.csv", "--json", "{out}/diverge.json"]],
 }
+CAPTURE_OWNER = ".oiler-capture"  # stays after a forced end, to tell the next capture
 SHORT = ["play", "certify", "ledger", "report"]
-NORMAL_CODES = {"check": {0, 1}}
+NORMAL_CODES = {"check": {0, 1}, "compare": {0, 1}, "diverge": {0, 1}}
 
 
 def default_signals():
@@ -93,7 +98,12 @@ def fault_of_xml(path):
     xml.etree.ElementTree.parse(path)
 
 
-KINDS = {".csv": fault_of_csv, ".json": fault_of_json, ".html": fault_of_html, ".xml": fault_of_xml}
+def fault_of_gzip(path):
+    gzip.decompress(path.read_bytes())
+
+
+KINDS = {".csv": fault_of_csv, ".gz": fault_of_gzip, ".html": fault_of_html, ".json": fault_of_json,
+         ".xml": fault_of_xml}
 
 
 def faults_of_pictures(pictures):
@@ -106,12 +116,14 @@ def faults_of_pictures(pictures):
 
 
 def faults_of_files(folder):
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    files = sorted(path for path in folder.rglob("*")
+                   if path.is_file() and path.name != CAPTURE_OWNER)
     yield from faults_of_pictures([path for path in files if path.suffix == ".png"])
     for path in (path for path in files if path.suffix != ".png"):
         try:
             fault = KINDS[path.suffix](path) if path.suffix in KINDS else "is an unexpected file"
-        except (ValueError, KeyError, IndexError, xml.etree.ElementTree.ParseError) as error:
+        except (EOFError, OSError, ValueError, KeyError, IndexError,
+                xml.etree.ElementTree.ParseError) as error:
             fault = f"cannot be read: {error}"
         if fault:
             yield f"{path.name} {fault}"
@@ -258,6 +270,10 @@ def prepare_parts(options, work):
         subprocess.run([options.bin / "oiler", "tradeoff", scene("jump"), "--quiet", "--methods",
                         "velocity_verlet", "--max-rate", "240", "--shard", part, "--out",
                         work / "parts"], check=True, stdout=subprocess.DEVNULL)
+    for rate, capture, trace in [("60", "golden", "a.csv"), ("120", "actual", "b.csv")]:
+        for words in [["--headless", "--frames", "30", "--out", work / "parts" / capture],
+                      ["--steps", "100000", "--trace", work / "parts" / trace]]:
+            subprocess.run([options.bin / "hello", "--quiet", "--rate", rate, *words], check=True)
 
 
 def parse():
