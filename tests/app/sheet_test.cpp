@@ -81,6 +81,8 @@ TEST_F(SheetOfTiles, OfFewFramesAreSmall) {
     EXPECT_EQ(sheet(5, 5, {640, 360}).size, (Size{4 * 320 + 3 * 2, 2 * 180 + 2}));
     EXPECT_EQ(sheet(12, 2, {640, 360}).size, (Size{2 * 320 + 2, 180})) << "an interrupted run";
     EXPECT_EQ(sheet(1, 1, {10'000, 1}).size, (Size{320, 1}));
+    EXPECT_EQ(sheet(1, 1, {360, 640}).size, (Size{320, 569}));
+    EXPECT_EQ(sheet(12, 12, {9, 500}).size, (Size{4 * 12 + 3 * 2, 3 * 640 + 2 * 2}));
 }
 
 // The time is in the lower right corner of the tile, and nowhere else.

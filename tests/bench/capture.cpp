@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/stock_png.hpp"
-#include "oiler/capture/captured.hpp"
+#include "oiler/compare/captured.hpp"
 
 namespace {
 

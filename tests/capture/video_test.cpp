@@ -182,6 +182,13 @@ void put_program(const fs::path& path, const std::string& script) {
     fs::permissions(path, fs::perms::owner_all);
 }
 
+TEST_F(Videos, WithoutTheirEndDoNotWaitForFfmpeg) {
+    put_program(folder / "ffmpeg", "exec sleep infinity");
+    const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
+    { const Video video(folder / "a.gif", size, 25); }
+    EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
+}
+
 TEST_F(Videos, TheLastWordsOfFfmpegAreTold) {
     put_program(folder / "ffmpeg", "cat > /dev/null; echo first >&2; echo last words >&2; exit 3");
     const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));

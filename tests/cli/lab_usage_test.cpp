@@ -65,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"tradeoff scene.toml --shard x", "--shard x"},
                     std::pair{"tradeoff scene.toml --shard 1/4x", "--shard 1/4x"},
                     std::pair{"tradeoff scene.toml --shard 1", "--shard 1"},
+                    std::pair{"tradeoff scene.toml --shard 1/2 --json a.json", "--json"},
                     std::pair{"tradeoff scene.toml --max-rate 0", "--max-rate"},
                     std::pair{"tradeoff scene.toml --size 3", "--size"},
                     std::pair{"tradeoff scene.toml --methods rk5", "rk5"},

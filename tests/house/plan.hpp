@@ -36,17 +36,18 @@ inline constexpr std::array plan{
     Row{"platform", "core"},
     Row{"render", "core math picture"},
     Row{"capture", "core math picture"},
+    Row{"compare", "core math picture capture"},
     Row{"inspector", "core math physics sim stability world picture plot scene lab render"},
     Row{"app",
         "core math physics sim stability world picture plot scene certify lab platform render"
-        " capture inspector"},
+        " capture compare inspector"},
     Row{"cli",
         "core math physics sim stability world picture plot scene certify lab platform render"
-        " capture inspector app"},
+        " capture compare inspector app"},
     // The one include of a game: no room may include it.
     Row{"oiler.hpp",
         "core math physics sim stability world picture plot scene certify lab platform render"
-        " capture inspector app"},
+        " capture compare inspector app"},
 };
 
 /// The files that may include headers of windows and of OpenGL's providers.

@@ -11,6 +11,8 @@ log=$folder/log
 trap 'rm -rf "$folder"' EXIT
 trap 'echo "failed in line $LINENO, after:"; tail -n 40 "$log"' ERR
 unset OILER_INSTRUCTIONS PKG_CONFIG_PATH CMAKE_PREFIX_PATH
+CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
+export CMAKE_BUILD_PARALLEL_LEVEL
 # Builds of the engine that compile little: one set of kernels, and what the package's build has left
 # in the compiler's cache.
 quick=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -DOILER_ROOMS=world

@@ -2,9 +2,9 @@
 #include "oiler/app/golden.hpp"
 
 #include "oiler/app/console.hpp"
-#include "oiler/capture/comparison.hpp"
-#include "oiler/capture/differences.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/compare/comparer.hpp"
+#include "oiler/compare/differences.hpp"
 
 namespace oiler {
 

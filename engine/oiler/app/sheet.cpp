@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/png.hpp"
@@ -14,8 +15,16 @@ namespace {
 
 constexpr std::int64_t most_tiles = 12;
 constexpr int columns = 4;
-constexpr int tile_width = 320;  // px
-constexpr int gap = 2;           // px between tiles
+constexpr Size largest_tile{320, 640};  // px
+constexpr int gap = 2;                  // px between tiles
+
+/// The largest size of the same shape that fits into a tile.
+Size fit_tile(Size frame) {
+    const double scale = std::min(static_cast<double>(largest_tile.width) / frame.width,
+                                  static_cast<double>(largest_tile.height) / frame.height);
+    return {std::max(1, static_cast<int>(std::lround(scale * frame.width))),
+            std::max(1, static_cast<int>(std::lround(scale * frame.height)))};
+}
 
 /// A grey picture with room for the tiles.
 Pixels blank(Size tile, int tiles) {
@@ -41,8 +50,7 @@ void place(Pixels& sheet, const Pixels& tile, int index) {
 
 }  // namespace
 
-Sheet::Sheet(std::int64_t frames, Size size)
-    : tile_{tile_width, std::max(1, tile_width * size.height / size.width)} {
+Sheet::Sheet(std::int64_t frames, Size size) : tile_(fit_tile(size)) {
     const std::int64_t tiles = std::min(frames, most_tiles);
     for (std::int64_t i = 0; i < tiles; ++i)
         frames_.push_back(tiles > 1 ? i * (frames - 1) / (tiles - 1) : 0);

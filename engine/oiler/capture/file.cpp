@@ -225,19 +225,13 @@ void require_writable(const fs::path& path) {
 }
 
 int open_temporary(const fs::path& folder, fs::path& name) {
-    constexpr int most_attempts = 10'000;
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        const fs::path path = folder / fmt::format(".oiler-{}-{}.tmp", getpid(), attempt);
-        const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno == EEXIST) continue;
-        if (descriptor < 0) return -1;
-        if (lock(descriptor, path)) {
-            name = path;
-            return descriptor;
-        }
+    return make_temporary(folder, name, [](const char* path) {
+        const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor < 0 || lock(descriptor, path)) return descriptor;
         close(descriptor);  // another process took it for abandoned
-    }
-    return -1;
+        errno = EEXIST;
+        return -1;
+    });
 }
 
 void remove_abandoned_files(const fs::path& folder) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/comparison.hpp"
-#include "oiler/capture/differences.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
+#include "oiler/compare/comparer.hpp"
+#include "oiler/compare/differences.hpp"
 
 namespace oiler::cli {
 

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
-#include "oiler/capture/captured_states.hpp"
-#include "oiler/capture/divergence.hpp"
-#include "oiler/capture/trace_file.hpp"
-#include "oiler/capture/ulps.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
+#include "oiler/compare/captured_states.hpp"
+#include "oiler/compare/divergence.hpp"
+#include "oiler/compare/trace_file.hpp"
+#include "oiler/compare/ulps.hpp"
 
 namespace oiler::cli {
 namespace {

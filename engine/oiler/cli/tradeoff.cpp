@@ -177,6 +177,9 @@ private:
 
 Exit TradeoffCommand::run() const {
     const Shard shard = parse_shard(shard_words);
+    if (!shard.is_whole() && !scene_options.json.empty())
+        fail(Exit::usage, "--json: a part is written to {}; give --json to oiler merge",
+             (pictures.out / shard.file_name()).string());
     return TradeoffRun(*this, shard, pictures.size()).run();
 }
 

@@ -405,6 +405,7 @@ TEST(Merge, RefusesPartsOfOtherSweeps) {
     expect_refused([](Tradeoff& part) { part.title = "another"; });
     expect_refused([](Tradeoff& part) { part.duration *= 2; });
     expect_refused([](Tradeoff& part) { part.current.rate.steps *= 2; });
+    expect_refused([](Tradeoff& part) { part.reference.extent *= 2; });
     expect_refused([](Tradeoff& part) { part.ladders.pop_back(); });
     expect_refused([](Tradeoff& part) { std::swap(part.ladders[0], part.ladders[2]); });
 }

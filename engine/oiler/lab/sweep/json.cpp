@@ -9,20 +9,6 @@
 namespace oiler::lab {
 namespace {
 
-Json json_of(const ReferenceSummary& reference) {
-    return {{"words", reference.words},
-            {"closed_form", reference.closed_form},
-            {"position_error", reference.position_error},
-            {"velocity_error", reference.velocity_error},
-            {"position_floor", reference.floor.position},
-            {"velocity_floor", reference.floor.velocity},
-            {"energy_floor", reference.floor.energy},
-            {"extent", reference.extent},
-            {"meaningful_until", reference.meaningful_until},
-            {"why_no_longer", reference.why_no_longer},
-            {"period", number_or_null(reference.period)}};
-}
-
 Json json_of(const Machine& machine) {
     return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}};
 }
@@ -40,6 +26,20 @@ Json damping_of(const Stepping& choice) {
 }
 
 }  // namespace
+
+Json json_of(const ReferenceSummary& reference) {
+    return {{"words", reference.words},
+            {"closed_form", reference.closed_form},
+            {"position_error", reference.position_error},
+            {"velocity_error", reference.velocity_error},
+            {"position_floor", reference.floor.position},
+            {"velocity_floor", reference.floor.velocity},
+            {"energy_floor", reference.floor.energy},
+            {"extent", reference.extent},
+            {"meaningful_until", reference.meaningful_until},
+            {"why_no_longer", reference.why_no_longer},
+            {"period", number_or_null(reference.period)}};
+}
 
 Json json_of(const Stepping& choice) {
     return {{"method", choice.method->name},

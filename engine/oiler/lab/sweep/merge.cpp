@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/json.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {
@@ -15,10 +16,14 @@ bool is_same_ladder(const Ladder& a, const Ladder& b) {
     return a.method == b.method && a.precision == b.precision;
 }
 
+/// All of its numbers, of which unknown ones are equal here.
+std::string text_of(const ReferenceSummary& reference) { return json_of(reference).dump(1); }
+
 void require_same_sweep(const Tradeoff& part, const Tradeoff& first) {
     const bool same = part.fingerprint == first.fingerprint && part.scene == first.scene &&
                       part.title == first.title && part.duration == first.duration &&
                       part.current == first.current &&
+                      text_of(part.reference) == text_of(first.reference) &&
                       std::ranges::equal(part.ladders, first.ladders, is_same_ladder);
     if (!same)
         fail(Exit::usage,

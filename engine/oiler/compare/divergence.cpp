@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/divergence.hpp"
+#include "oiler/compare/divergence.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,8 +11,8 @@
 #include <span>
 #include <unordered_set>
 
-#include "oiler/capture/tick_walk.hpp"
-#include "oiler/capture/ulps.hpp"
+#include "oiler/compare/tick_walk.hpp"
+#include "oiler/compare/ulps.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/picture_changes.hpp"
+#include "oiler/compare/picture_changes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "oiler/capture/comparison.hpp"
+#include "oiler/compare/comparison.hpp"
 
 namespace oiler {
 

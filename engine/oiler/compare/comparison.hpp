@@ -69,11 +69,8 @@ struct Comparison {
     [[nodiscard]] std::int64_t count(Cause cause) const;
 };
 
-/// Compares the frames of two folders. Throws Error{usage} if a folder has no finished golden or no
-/// capture at all, or if a PNG is damaged.
-[[nodiscard]] Comparison compare_captures(const std::filesystem::path& golden,
-                                          const std::filesystem::path& actual,
-                                          const PixelTolerance& tolerance);
+/// The first cause in one sentence.
+[[nodiscard]] std::string verdict_of(const Comparison& comparison);
 
 /// The comparison as text for a terminal, some lines.
 [[nodiscard]] std::string describe(const Comparison& comparison);

@@ -20,7 +20,7 @@ from browser import Browser
 from differences_viewer import Viewer, decoded, gaps
 from pictures import hostile_data, plain_data
 
-TEMPLATE = Path(__file__).resolve().parents[2] / "engine/oiler/capture/differences.html"
+TEMPLATE = Path(__file__).resolve().parents[2] / "engine/oiler/compare/differences.html"
 NAMES = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels beyond the tolerance",
          "~": "pixels within the tolerance", "m": "missing"}
 COUNTED = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels", "m": "missing"}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/ulps.hpp"
+#include "oiler/compare/ulps.hpp"
 
 #include <algorithm>
 #include <bit>

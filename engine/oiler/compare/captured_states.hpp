@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "oiler/capture/captured.hpp"
-#include "oiler/capture/state_log.hpp"
+#include "oiler/compare/captured.hpp"
+#include "oiler/compare/state_log.hpp"
 
 namespace oiler {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "oiler/capture/state_log.hpp"
+#include "oiler/compare/state_log.hpp"
 
 namespace oiler {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/tick_walk.hpp"
+#include "oiler/compare/tick_walk.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/differences.hpp"
+#include "oiler/compare/differences.hpp"
 
 #include <fmt/core.h>
 
@@ -12,9 +12,9 @@
 #include <system_error>
 #include <vector>
 
-#include "oiler/capture/captured.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/png.hpp"
+#include "oiler/compare/captured.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/junit.hpp"
 #include "oiler/core/markup.hpp"
@@ -147,7 +147,9 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
 bool is_differences_file(std::string_view name) { return name == page_name || is_our_image(name); }
 
 fs::path differences_folder(const fs::path& actual) {
-    const fs::path frames = actual.has_filename() ? actual : actual.parent_path();
+    fs::path frames = actual.has_filename() ? actual : actual.parent_path();
+    if (frames.filename() == "." || frames.filename() == "..")
+        frames = fs::weakly_canonical(frames);
     return frames.parent_path() / (frames.filename().string() + "-differences");
 }
 

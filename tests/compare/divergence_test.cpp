@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/divergence.hpp"
+#include "oiler/compare/divergence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <tuple>
 
-#include "oiler/capture/ulps.hpp"
+#include "oiler/compare/ulps.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler::test {

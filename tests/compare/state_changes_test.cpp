@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/state_changes.hpp"
+#include "oiler/compare/state_changes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace {
@@ -84,11 +85,15 @@ TEST(StateChanges, DoNotTakeOtherExchangesForASwap) {
     Bodies half = bodies;
     std::swap(half[0].position, half[2].position);
     EXPECT_TRUE(describe_state_change(bodies, half, "double").starts_with("body '"));
-    Bodies third = bodies;
-    std::swap(third[0].position, third[2].position);
-    std::swap(third[0].velocity, third[2].velocity);
-    third[1].velocity[2] = moved(-6.0, 1);
-    EXPECT_TRUE(describe_state_change(bodies, third, "double").starts_with("body '"));
+    for (const auto& [first, second, third] :
+         {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+        Bodies actual = bodies;
+        std::swap(actual.at(first).position, actual.at(second).position);
+        std::swap(actual.at(first).velocity, actual.at(second).velocity);
+        double& bit = actual.at(third).velocity[2];
+        bit = moved(bit, 1);
+        EXPECT_TRUE(describe_state_change(bodies, actual, "double").starts_with("body '"));
+    }
 }
 
 TEST(StateChanges, NameAnotherOrder) {

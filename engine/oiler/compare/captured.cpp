@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/captured.hpp"
+#include "oiler/compare/captured.hpp"
 
 #include <fstream>
 #include <iterator>

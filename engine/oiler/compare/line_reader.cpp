@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/line_reader.hpp"
+#include "oiler/compare/line_reader.hpp"
 
 #include <cerrno>
 #include <cstring>

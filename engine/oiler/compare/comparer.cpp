@@ -1,66 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/comparison.hpp"
+#include "oiler/compare/comparer.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <sstream>
 
-#include "oiler/capture/captured.hpp"
-#include "oiler/capture/picture_changes.hpp"
-#include "oiler/capture/state_changes.hpp"
+#include "oiler/compare/captured.hpp"
+#include "oiler/compare/picture_changes.hpp"
+#include "oiler/compare/setting_changes.hpp"
+#include "oiler/compare/state_changes.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
 namespace {
 
-std::string or_own(const std::string& text) { return text.empty() ? "the method's own" : text; }
-
 std::string change_of(const std::string& golden, const std::string& actual) {
     return golden == actual ? "" : fmt::format("{} → {}", golden, actual);
-}
-
-std::vector<SettingChange> setting_changes(const Manifest& a, const Manifest& b) {
-    const auto text = [](auto number) { return std::to_string(number); };
-    const auto size = [](Size s) { return fmt::format("{}x{}", s.width, s.height); };
-    std::vector<SettingChange> all{{"scene", a.scene, b.scene},
-                                   {"size", size(a.size), size(b.size)},
-                                   {"fps", text(a.fps), text(b.fps)},
-                                   {"frames", text(a.planned_frames), text(b.planned_frames)},
-                                   {"rate", text(a.rate), text(b.rate)},
-                                   {"method", a.method, b.method},
-                                   {"damping", or_own(a.damping), or_own(b.damping)},
-                                   {"precision", a.precision, b.precision},
-                                   {"seed", text(a.seed), text(b.seed)},
-                                   {"version", a.version, b.version},
-                                   {"compiler", a.compiler, b.compiler},
-                                   {"surface", a.provider, b.provider}};
-    std::erase_if(all, [](const SettingChange& change) { return change.golden == change.actual; });
-    return all;
-}
-
-std::string without_comment(const std::string& line) {
-    std::string text = line.substr(0, line.find('#'));
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text;
-}
-
-/// The first line in which two scene files differ besides comments; empty if there is none.
-std::string scene_change(const std::string& golden, const std::string& actual) {
-    std::istringstream before(golden);
-    std::istringstream after(actual);
-    for (int line = 1; before || after; ++line) {
-        std::string a;
-        std::string b;
-        std::getline(before, a);
-        std::getline(after, b);
-        if (without_comment(a) != without_comment(b))
-            return fmt::format("scene file changed, line {}: `{}` → `{}`", line, without_comment(a),
-                               without_comment(b));
-    }
-    return {};
 }
 
 struct PixelChange {
@@ -132,7 +89,8 @@ private:
         if (result.cause == Cause::simulation) result.words = describe_simulation(index);
         if (result.cause == Cause::picture) result.words = describe_picture(index);
         if (result.cause != Cause::none) compare_pixels(result);
-        if (result.cause == Cause::none && !golden(index).file.empty()) require_images(result);
+        if (result.cause == Cause::none) require_image(golden_, "golden", result);
+        if (result.cause == Cause::none) require_image(actual_, "actual capture", result);
         return result;
     }
 
@@ -147,11 +105,17 @@ private:
         return before.pixel_hash == after.pixel_hash && same_size ? Cause::none : Cause::pixels;
     }
 
-    /// A golden whose hashes are equal is still wrong if a file is gone.
-    void require_images(FrameComparison& result) const {
-        if (golden_.has_image(result.index)) return;
+    /// Hashes are of the manifests; the files may be gone or hold something else.
+    void require_image(const Captured& capture, const char* owner, FrameComparison& result) const {
+        const Manifest::Frame& frame =
+            capture.manifest().frames[static_cast<std::size_t>(result.index)];
+        if (frame.file.empty()) return;
+        if (capture.has_image(result.index)) {
+            static_cast<void>(capture.image(result.index));
+            return;
+        }
         result.cause = Cause::missing;
-        result.words = golden(result.index).file + " of the golden is missing";
+        result.words = fmt::format("{} of the {} is missing", frame.file, owner);
     }
 
     /// The first tick whose state differs, in words.
@@ -262,29 +226,6 @@ private:
                                         : "pixels differ, but a PNG is missing";
     }
 
-    [[nodiscard]] std::string verdict_of(const Comparison& comparison) const {
-        const auto first = [&](Cause cause) -> const FrameComparison* {
-            for (const FrameComparison& frame : comparison.frames)
-                if (frame.cause == cause && !frame.passed()) return &frame;
-            return nullptr;
-        };
-        if (const auto* frame = first(Cause::simulation))
-            return fmt::format("simulation changed {}", frame->words);
-        if (const auto* frame = first(Cause::picture))
-            return fmt::format("picture changed at frame {}: {}", frame->index, frame->words);
-        if (const auto* frame = first(Cause::pixels))
-            return fmt::format("only pixels changed, at frame {}: {}{}", frame->index, frame->words,
-                               comparison.renderer.empty() ? "" : "; the renderer differs");
-        if (const auto* frame = first(Cause::missing))
-            return fmt::format("{} frames are missing, the first is frame {}: {}",
-                               comparison.count(Cause::missing), frame->index, frame->words);
-        const std::int64_t tolerated = comparison.count(Cause::pixels);
-        const std::size_t count = comparison.frames.size();
-        if (tolerated == 0) return fmt::format("{} frames are equal", count);
-        return fmt::format("{} frames are equal, {} of them within the tolerance of the pixels",
-                           count, tolerated);
-    }
-
     const Captured& golden_;
     const Captured& actual_;
     const PixelTolerance& tolerance_;
@@ -295,32 +236,6 @@ private:
 
 }  // namespace
 
-std::string_view name_of(Cause cause) {
-    switch (cause) {
-        case Cause::missing:
-            return "missing";
-        case Cause::simulation:
-            return "simulation";
-        case Cause::picture:
-            return "picture";
-        case Cause::pixels:
-            return "pixels";
-        case Cause::none:
-            break;
-    }
-    return "none";
-}
-
-bool Comparison::passed() const {
-    return std::all_of(frames.begin(), frames.end(),
-                       [](const FrameComparison& frame) { return frame.passed(); });
-}
-
-std::int64_t Comparison::count(Cause cause) const {
-    return std::count_if(frames.begin(), frames.end(),
-                         [&](const FrameComparison& frame) { return frame.cause == cause; });
-}
-
 Comparison compare_captures(const std::filesystem::path& golden,
                             const std::filesystem::path& actual, const PixelTolerance& tolerance) {
     const Captured before(golden);
@@ -329,56 +244,6 @@ Comparison compare_captures(const std::filesystem::path& golden,
         fail(Exit::usage, "{}: the capture was not finished ({} of {} frames); write it again",
              golden.string(), before.manifest().frames.size(), before.manifest().planned_frames);
     return Comparer(before, after, tolerance).compare();
-}
-
-std::string describe(const Comparison& comparison) {
-    std::string text;
-    if (!comparison.renderer.empty())
-        text += fmt::format("renderer differs: {}\n", comparison.renderer);
-    text += comparison.verdict + "\n";
-    for (const SettingChange& change : comparison.settings)
-        text += fmt::format("{}: {} → {}\n", change.name, change.golden, change.actual);
-    for (const std::string& finding : comparison.findings) text += finding + "\n";
-    if (comparison.passed()) return text;
-    text += fmt::format("{} frames:", comparison.frames.size());
-    for (const Cause cause :
-         {Cause::none, Cause::simulation, Cause::picture, Cause::pixels, Cause::missing})
-        if (const std::int64_t count = comparison.count(cause); count > 0)
-            text += fmt::format(" {} {};", count, cause == Cause::none ? "equal" : name_of(cause));
-    text.back() = '\n';
-    return text;
-}
-
-Json json_of(const Comparison& comparison) {
-    Json json{{"golden", comparison.golden.string()},
-              {"actual", comparison.actual.string()},
-              {"passed", comparison.passed()},
-              {"verdict", comparison.verdict},
-              {"renderer", comparison.renderer.empty() ? Json() : Json(comparison.renderer)},
-              {"findings", comparison.findings}};
-    Json& settings = json["settings"] = Json::array();
-    for (const SettingChange& change : comparison.settings)
-        settings.push_back(
-            {{"name", change.name}, {"golden", change.golden}, {"actual", change.actual}});
-    json["counts"] = {{"frames", comparison.frames.size()},
-                      {"equal", comparison.count(Cause::none)},
-                      {"simulation", comparison.count(Cause::simulation)},
-                      {"picture", comparison.count(Cause::picture)},
-                      {"pixels", comparison.count(Cause::pixels)},
-                      {"missing", comparison.count(Cause::missing)}};
-    Json& frames = json["frames"] = Json::array();
-    for (const FrameComparison& frame : comparison.frames)
-        if (frame.cause != Cause::none)
-            frames.push_back({{"index", frame.index},
-                              {"tick", frame.tick},
-                              {"time", frame.time},
-                              {"cause", name_of(frame.cause)},
-                              {"tolerated", frame.tolerated},
-                              {"text", frame.words},
-                              {"differing", frame.differing},
-                              {"share", frame.share},
-                              {"largest", frame.largest}});
-    return json;
 }
 
 }  // namespace oiler

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/comparison.hpp"
+#include "oiler/compare/comparer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +65,19 @@ TEST_F(ComparisonOfFilms, AStateNamesTickBodyAndField) {
     EXPECT_EQ(moved.frames[2].differing, 100);
     EXPECT_EQ(moved.frames[2].largest, 99 - 20);
     EXPECT_EQ(moved.frames[2].time, 0.2);
+}
+
+TEST_F(ComparisonOfFilms, EachTickOfAFrameCanBeTheFirst) {
+    for (const auto& [hashes, tick] : {std::pair{"ffffffffffff", "4"},
+                                       {"0004ffffffff", "5"},
+                                       {"00040005ffff", "6"},
+                                       {"000400050006", "6"}}) {
+        const Comparison moved = changed([text = hashes](Film& film) {
+            film.shots[2].state_hash = 1;
+            film.shots[2].tick_hashes = text;
+        });
+        EXPECT_EQ(moved.verdict, std::string("simulation changed at tick ") + tick);
+    }
 }
 
 TEST_F(ComparisonOfFilms, WithoutTickHashesTheTicksAreBounded) {
@@ -241,6 +254,27 @@ TEST_F(ComparisonOfFilms, AMissingFileOfTheGoldenIsNamed) {
     const Comparison gap = compare_captures(folder / "golden", folder / "actual", {});
     EXPECT_FALSE(gap.passed());
     EXPECT_TRUE(holds(gap.verdict, "frame_000003.png of the golden is missing")) << gap.verdict;
+}
+
+TEST_F(ComparisonOfFilms, AMissingFileOfTheActualCaptureIsNamed) {
+    (void)changed([](Film&) {});
+    std::filesystem::remove(folder / "actual/frame_000001.png");
+    const Comparison gap = compare_captures(folder / "golden", folder / "actual", {});
+    EXPECT_FALSE(gap.passed());
+    EXPECT_TRUE(holds(gap.verdict, "frame_000001.png of the actual capture is missing"))
+        << gap.verdict;
+}
+
+// The manifests of both are equal, but somebody put another picture in a file.
+TEST_F(ComparisonOfFilms, FilesHoldWhatTheirManifestSays) {
+    for (const char* const owner : {"golden", "actual"}) {
+        (void)changed([](Film&) {});
+        std::filesystem::copy_file(folder / owner / "frame_000001.png",
+                                   folder / owner / "frame_000002.png",
+                                   std::filesystem::copy_options::overwrite_existing);
+        EXPECT_TRUE(holds(refusal(), std::string(owner) + "/frame_000002.png: its pixels are not"))
+            << refusal();
+    }
 }
 
 // Goldens may have hashes only: then pixels of another renderer cannot be compared.

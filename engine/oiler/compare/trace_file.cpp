@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/trace_file.hpp"
+#include "oiler/compare/trace_file.hpp"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "oiler/capture/line_reader.hpp"
+#include "oiler/compare/line_reader.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/state_changes.hpp"
+#include "oiler/compare/state_changes.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <map>
 
-#include "oiler/capture/ulps.hpp"
+#include "oiler/compare/ulps.hpp"
 
 namespace oiler {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/captured_states.hpp"
+#include "oiler/compare/captured_states.hpp"
 
 #include <algorithm>
 #include <map>

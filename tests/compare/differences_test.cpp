@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/differences.hpp"
+#include "oiler/compare/differences.hpp"
+#include "oiler/compare/comparer.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -159,6 +160,10 @@ TEST(DifferencesFolder, IsBesideTheFrames) {
     EXPECT_EQ(differences_folder("frames/spring"), "frames/spring-differences");
     EXPECT_EQ(differences_folder("frames/spring/"), "frames/spring-differences");
     EXPECT_EQ(differences_folder("spring"), "spring-differences");
+    const std::filesystem::path here = std::filesystem::current_path();
+    const std::filesystem::path beside = here.parent_path() / (here.filename() += "-differences");
+    EXPECT_EQ(differences_folder("."), beside);
+    EXPECT_EQ(differences_folder("./"), beside);
 }
 
 TEST_F(Differences, JunitHasACaseForEachCause) {

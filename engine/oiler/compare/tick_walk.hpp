@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "oiler/capture/state_log.hpp"
+#include "oiler/compare/state_log.hpp"
 
 namespace oiler {
 

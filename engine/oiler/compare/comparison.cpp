@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/compare/comparison.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace oiler {
+
+std::string_view name_of(Cause cause) {
+    switch (cause) {
+        case Cause::missing:
+            return "missing";
+        case Cause::simulation:
+            return "simulation";
+        case Cause::picture:
+            return "picture";
+        case Cause::pixels:
+            return "pixels";
+        case Cause::none:
+            break;
+    }
+    return "none";
+}
+
+bool Comparison::passed() const {
+    return std::all_of(frames.begin(), frames.end(),
+                       [](const FrameComparison& frame) { return frame.passed(); });
+}
+
+std::int64_t Comparison::count(Cause cause) const {
+    return std::count_if(frames.begin(), frames.end(),
+                         [&](const FrameComparison& frame) { return frame.cause == cause; });
+}
+
+std::string verdict_of(const Comparison& comparison) {
+    const auto first = [&](Cause cause) -> const FrameComparison* {
+        for (const FrameComparison& frame : comparison.frames)
+            if (frame.cause == cause && !frame.passed()) return &frame;
+        return nullptr;
+    };
+    if (const auto* frame = first(Cause::simulation))
+        return fmt::format("simulation changed {}", frame->words);
+    if (const auto* frame = first(Cause::picture))
+        return fmt::format("picture changed at frame {}: {}", frame->index, frame->words);
+    if (const auto* frame = first(Cause::pixels))
+        return fmt::format("only pixels changed, at frame {}: {}{}", frame->index, frame->words,
+                           comparison.renderer.empty() ? "" : "; the renderer differs");
+    if (const auto* frame = first(Cause::missing))
+        return fmt::format("{} frames are missing, the first is frame {}: {}",
+                           comparison.count(Cause::missing), frame->index, frame->words);
+    const std::int64_t tolerated = comparison.count(Cause::pixels);
+    const std::size_t count = comparison.frames.size();
+    if (tolerated == 0) return fmt::format("{} frames are equal", count);
+    return fmt::format("{} frames are equal, {} of them within the tolerance of the pixels", count,
+                       tolerated);
+}
+
+std::string describe(const Comparison& comparison) {
+    std::string text;
+    if (!comparison.renderer.empty())
+        text += fmt::format("renderer differs: {}\n", comparison.renderer);
+    text += comparison.verdict + "\n";
+    for (const SettingChange& change : comparison.settings)
+        text += fmt::format("{}: {} → {}\n", change.name, change.golden, change.actual);
+    for (const std::string& finding : comparison.findings) text += finding + "\n";
+    if (comparison.passed()) return text;
+    text += fmt::format("{} frames:", comparison.frames.size());
+    for (const Cause cause :
+         {Cause::none, Cause::simulation, Cause::picture, Cause::pixels, Cause::missing})
+        if (const std::int64_t count = comparison.count(cause); count > 0)
+            text += fmt::format(" {} {};", count, cause == Cause::none ? "equal" : name_of(cause));
+    text.back() = '\n';
+    return text;
+}
+
+Json json_of(const Comparison& comparison) {
+    Json json{{"golden", comparison.golden.string()},
+              {"actual", comparison.actual.string()},
+              {"passed", comparison.passed()},
+              {"verdict", comparison.verdict},
+              {"renderer", comparison.renderer.empty() ? Json() : Json(comparison.renderer)},
+              {"findings", comparison.findings}};
+    Json& settings = json["settings"] = Json::array();
+    for (const SettingChange& change : comparison.settings)
+        settings.push_back(
+            {{"name", change.name}, {"golden", change.golden}, {"actual", change.actual}});
+    json["counts"] = {{"frames", comparison.frames.size()},
+                      {"equal", comparison.count(Cause::none)},
+                      {"simulation", comparison.count(Cause::simulation)},
+                      {"picture", comparison.count(Cause::picture)},
+                      {"pixels", comparison.count(Cause::pixels)},
+                      {"missing", comparison.count(Cause::missing)}};
+    Json& frames = json["frames"] = Json::array();
+    for (const FrameComparison& frame : comparison.frames)
+        if (frame.cause != Cause::none)
+            frames.push_back({{"index", frame.index},
+                              {"tick", frame.tick},
+                              {"time", frame.time},
+                              {"cause", name_of(frame.cause)},
+                              {"tolerated", frame.tolerated},
+                              {"text", frame.words},
+                              {"differing", frame.differing},
+                              {"share", frame.share},
+                              {"largest", frame.largest}});
+    return json;
+}
+
+}  // namespace oiler
