@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One core draws; the others encode. More than eight threads wait for the drawing.
-unsigned worker_count() { return std::clamp(std::thread::hardware_concurrency(), 2U, 9U) - 1; }
+/// As many as there are cores: where encoding takes longest, the thread that draws waits. More than
+/// eight threads wait for the drawing.
+unsigned worker_count() { return std::clamp(std::thread::hardware_concurrency(), 1U, 8U); }
 
 }  // namespace
 

@@ -7,21 +7,66 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 
 namespace {
 
-/// stb's compressor. Returns a zlib stream in memory from malloc, or null.
+/// Memory that a thread uses again for its next image. A system takes longer to hand out fresh
+/// pages than libdeflate takes to compress them.
+class Scratch {
+public:
+    /// Returns null if there is not enough memory.
+    void* take(std::size_t size) {
+        Block* fitting = nullptr;
+        for (Block& block : blocks_)
+            if (!block.taken && block.size >= size && (!fitting || block.size < fitting->size))
+                fitting = &block;
+        if (!fitting) fitting = add(size);
+        if (!fitting) return nullptr;
+        fitting->taken = true;
+        return fitting->bytes.get();
+    }
+    void give_back(const void* bytes) {
+        for (Block& block : blocks_)
+            if (block.bytes.get() == bytes) block.taken = false;
+    }
+
+private:
+    struct Block {
+        std::unique_ptr<unsigned char[]> bytes;
+        std::size_t size;
+        bool taken = false;
+    };
+
+    Block* add(std::size_t size) {
+        std::erase_if(blocks_, [](const Block& block) { return !block.taken; });
+        std::unique_ptr<unsigned char[]> bytes(new (std::nothrow) unsigned char[size]);
+        return bytes ? &blocks_.emplace_back(std::move(bytes), size) : nullptr;
+    }
+
+    std::vector<Block> blocks_;
+};
+
+Scratch& scratch() {
+    thread_local Scratch own;
+    return own;
+}
+
+/// stb's compressor. Returns a zlib stream in memory from scratch(), or null.
 unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_count, int) {
     constexpr int fastest = 1;
-    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-        libdeflate_alloc_compressor(fastest), libdeflate_free_compressor);
+    using Compressor =
+        std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)>;
+    thread_local const Compressor compressor(libdeflate_alloc_compressor(fastest),
+                                             libdeflate_free_compressor);
     if (!compressor) return nullptr;
     const auto size = static_cast<std::size_t>(count);
     const std::size_t bound = libdeflate_zlib_compress_bound(compressor.get(), size);
-    auto* compressed = static_cast<unsigned char*>(std::malloc(bound));
+    auto* compressed = static_cast<unsigned char*>(scratch().take(bound));
     if (compressed == nullptr) return nullptr;
     *compressed_count = static_cast<int>(
         libdeflate_zlib_compress(compressor.get(), bytes, size, compressed, bound));
@@ -34,6 +79,9 @@ unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_cou
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
 #define STBIW_ZLIB_COMPRESS deflate_fast
+#define STBIW_MALLOC(size) scratch().take(size)
+#define STBIW_FREE(bytes) scratch().give_back(bytes)
+#define STBIW_REALLOC(bytes, size) nullptr  // only of the compressor that libdeflate replaces
 #include <stb/stb_image_write.h>
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -72,8 +120,9 @@ std::vector<std::byte> encode_png(Size size, std::span<const std::uint8_t> rgb_b
     choose_filter();
     const std::uint8_t* top = rgb_bottom_up.data() + std::ptrdiff_t{row} * (size.height - 1);
     int count = 0;
-    const std::unique_ptr<unsigned char, decltype(&std::free)> png(
-        stbi_write_png_to_mem(top, -row, size.width, size.height, channels, &count), std::free);
+    const auto give_back = [](const unsigned char* bytes) { scratch().give_back(bytes); };
+    const std::unique_ptr<unsigned char, decltype(give_back)> png(
+        stbi_write_png_to_mem(top, -row, size.width, size.height, channels, &count), give_back);
     if (!png) throw std::bad_alloc();
     const auto* first = reinterpret_cast<const std::byte*>(png.get());
     return {first, first + count};
