@@ -117,7 +117,12 @@ TEST(PictureChanges, NameTheCamera) {
     EXPECT_EQ(words_of([](Picture& p) {
                   p.camera = {{1, 2}, 18};
               }),
-              "camera: centre (0, 0) → (1, 2), height 36 → 18 m");
+              "camera: centre (0, 0) → (1, 2); camera: height 36 → 18 m");
+    EXPECT_EQ(words_of([](Picture& p) { p.camera.height = 18; }), "camera: height 36 → 18 m");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.camera.centre = {1, 2};
+              }),
+              "camera: centre (0, 0) → (1, 2)");
 }
 
 TEST(PictureChanges, NamePointsPlacesAndOrder) {

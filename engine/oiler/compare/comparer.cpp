@@ -144,6 +144,7 @@ private:
             return moved && other && !other->bodies.empty() && moved->bodies == other->bodies;
         });
         if (!shift.empty()) return fmt::format("{}: frame {} {}", where, index, shift);
+        if (golden(index).tick != actual(index).tick) return where;
         const std::string change =
             describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
         if (change.empty()) return where;

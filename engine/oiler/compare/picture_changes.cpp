@@ -239,10 +239,13 @@ std::string describe_picture_change(const Picture& golden, const Picture& actual
                             largest_channel(golden.background, actual.background));
     const Camera& before = golden.camera;
     const Camera& after = actual.camera;
-    if (before.centre != after.centre || before.height != after.height)
-        words += fmt::format("{}camera: centre ({}, {}) → ({}, {}), height {} → {} m",
-                             words.empty() ? "" : "; ", before.centre.x, before.centre.y,
-                             after.centre.x, after.centre.y, before.height, after.height);
+    const auto separator = [&] { return words.empty() ? "" : "; "; };
+    if (before.centre != after.centre)
+        words += fmt::format("{}camera: centre ({}, {}) → ({}, {})", separator(), before.centre.x,
+                             before.centre.y, after.centre.x, after.centre.y);
+    if (before.height != after.height)
+        words +=
+            fmt::format("{}camera: height {} → {} m", separator(), before.height, after.height);
     const float pixels_per_unit = std::min(static_cast<float>(size.width) / canvas_width,
                                            static_cast<float>(size.height) / canvas_height);
     compare_kind(line_kind, golden.polylines, actual.polylines, golden, actual, pixels_per_unit,

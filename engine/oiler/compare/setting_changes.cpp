@@ -10,8 +10,18 @@ namespace {
 
 std::string or_own(const std::string& text) { return text.empty() ? "the method's own" : text; }
 
+/// The text of a line of TOML. A # in quotes starts no comment: it may be of a colour.
 std::string without_comment(const std::string& line) {
-    std::string text = line.substr(0, line.find('#'));
+    char quote = 0;
+    std::size_t end = 0;
+    for (; end < line.size() && (quote != 0 || line[end] != '#'); ++end)
+        if (quote == 0 && (line[end] == '"' || line[end] == '\''))
+            quote = line[end];
+        else if (line[end] == '\\' && quote == '"')
+            ++end;
+        else if (line[end] == quote)
+            quote = 0;
+    std::string text = line.substr(0, end);
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text;
 }
