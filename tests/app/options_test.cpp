@@ -175,7 +175,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--threads 0", "--threads"}, Wrong{"--threads 257", "--threads"},
         Wrong{"--frames 1000001", "--frames"}, Wrong{"--steps 1000000000001", "--steps"},
         Wrong{"--size 16385x1", "16385x1"}, Wrong{"--size 1x16385", "1x16385"},
-        Wrong{"--damping none", "--damping"}));
+        Wrong{"--damping none", "--damping"},
+        Wrong{"--headless --golden none",
+              "--golden: none has no capture; write it with --update-golden"},
+        Wrong{"--rate 30 --rate 60", "--rate: given 2 times; give it once (see demo --help)"}));
 
 }  // namespace
 }  // namespace oiler

@@ -281,6 +281,59 @@ TEST(DivergeCommand, RunsWithAnyNumberOfThreadsAreTheSame) {
     EXPECT_TRUE(run.out.ends_with(", 100000 bodies.\n")) << run.out;
 }
 
+/// Frames of a spring at 120 Hz.
+void capture(const Desk& desk, const std::string& folder, const std::string& options) {
+    const Outcome run =
+        desk.run("oiler play scene.toml --headless --quiet --size 32x18 --rate 120 --out " +
+                 folder + " " + options);
+    ASSERT_EQ(run.exit, 0) << run.err;
+}
+
+// Frames at 60 Hz show ticks 0, 2, 4, …, those at 40 Hz show 0, 3, 6, ….
+TEST(DivergeCommand, ComparesFramesThatShowTheSameTick) {
+    const Desk desk;
+    capture(desk, "a", "--fps 60 --frames 10");
+    capture(desk, "b", "--fps 40 --frames 10");
+    const Outcome same = desk.run("oiler diverge a b");
+    EXPECT_EQ(same.exit, 0) << same.out;
+    EXPECT_TRUE(same.out.starts_with("The runs are the same: ticks 0 to 18 (0.15 s), 1 body.\n"))
+        << same.out;
+    EXPECT_TRUE(holds(same.out, "b continues to tick 27")) << same.out;
+    capture(desk, "c", "--fps 40 --frames 10 --method explicit_euler");
+    const Outcome other = desk.run("oiler diverge a c/manifest.json");
+    EXPECT_EQ(other.exit, 1);
+    EXPECT_TRUE(holds(other.out, "The hashes first differ at tick 1.")) << other.out;
+    EXPECT_TRUE(holds(other.out, "The frames first differ at tick 6 (0.05 s): body '")) << other.out;
+}
+
+// The frames show the same, but a tick between them does not.
+TEST(DivergeCommand, FindsHashesThatDifferBetweenTheFrames) {
+    const Desk desk;
+    capture(desk, "a", "--fps 60 --frames 3");
+    capture(desk, "b", "--fps 60 --frames 3");
+    Json manifest = desk.json("b/manifest.json");
+    std::string hashes = manifest.at("frames").at(2).at("tick_hashes");
+    hashes[0] = hashes[0] == '0' ? '1' : '0';
+    manifest.at("frames").at(2).at("tick_hashes") = hashes;
+    desk.put("b/manifest.json", manifest.dump());
+    const Outcome run = desk.run("oiler diverge a b");
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_EQ(run.out,
+              "The hashes first differ at tick 3. States are those of the frames.\n"
+              "The frames have the same positions and velocities.\n");
+    EXPECT_EQ(Json::parse(desk.run("oiler diverge a b --json -").out).at("same"), false);
+}
+
+TEST(DivergeCommand, RefusesCapturesWithoutAStateInCommon) {
+    const Desk desk;
+    capture(desk, "a", "--fps 60 --frames 3");
+    capture(desk, "none", "--fps 60 --frames 3 --png none");
+    const Outcome run = desk.run("oiler diverge a none");
+    EXPECT_EQ(run.exit, 2);
+    EXPECT_TRUE(holds(run.err, "none: no states there, because frames.jsonl.gz is missing"))
+        << run.err;
+}
+
 TEST(DivergeCommand, IsListedWithAnExample) {
     const Desk desk;
     EXPECT_TRUE(holds(desk.run("oiler --help").out, "\n  diverge "));

@@ -49,6 +49,13 @@ TEST_F(ComparisonOfFilms, EqualFramesPass) {
     EXPECT_EQ(same.count(Cause::none), 5);
 }
 
+TEST_F(ComparisonOfFilms, ACaptureIsNamedByItsManifest) {
+    (void)changed([](Film&) {});
+    const Comparison same =
+        compare_captures(folder / "golden/manifest.json", folder / "actual/manifest.json", {});
+    EXPECT_EQ(same.verdict, "5 frames are equal");
+}
+
 TEST_F(ComparisonOfFilms, AStateNamesTickBodyAndField) {
     const Comparison moved = changed([](Film& film) {
         film.shots[2].state_hash = 1;
@@ -265,7 +272,7 @@ TEST_F(ComparisonOfFilms, MissingFramesAreCounted) {
     EXPECT_EQ(shorter.frames.size(), 5U);
     const Comparison longer = changed([](Film& film) { film = film_of(6); });
     EXPECT_EQ(longer.verdict,
-              "1 frames are missing, the first is frame 5: the golden has no such frame");
+              "1 frame is missing, the first is frame 5: the golden has no such frame");
 }
 
 TEST_F(ComparisonOfFilms, AMissingFileOfTheGoldenIsNamed) {

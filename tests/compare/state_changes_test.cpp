@@ -67,10 +67,10 @@ TEST(StateChanges, ASignOfZeroIsAChange) {
 
 TEST(StateChanges, NameMissingAndNewBodies) {
     const Bodies one{bodies[1]};
-    EXPECT_EQ(describe_state_change(bodies, one, "double"), "body 'a' and 1 more is missing");
+    EXPECT_EQ(describe_state_change(bodies, one, "double"), "body 'a' and 1 more are missing");
     EXPECT_EQ(describe_state_change({bodies[0], bodies[1]}, one, "double"), "body 'a' is missing");
     EXPECT_EQ(describe_state_change(one, {bodies[1], bodies[2]}, "double"), "body 'c' is new");
-    EXPECT_EQ(describe_state_change(one, bodies, "double"), "body 'a' and 1 more is new");
+    EXPECT_EQ(describe_state_change(one, bodies, "double"), "body 'a' and 1 more are new");
 }
 
 TEST(StateChanges, NameSwappedBodies) {

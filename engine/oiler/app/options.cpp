@@ -150,8 +150,7 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
                                    {"--json", options.json},   {"--profile", options.profile},
                                    {"--junit", options.junit}, {"--video", options.video},
                                    {"--sheet", options.sheet}};
-    if (options.headless)
-        outputs.push_back({"--out", options.out, is_capture_file});
+    if (options.headless) outputs.push_back({"--out", options.out, is_capture_file});
     std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
     if (!options.update_golden) inputs.push_back({"--golden", options.golden});
     for (const std::vector<NamedPath>& paths : {outputs, inputs})
@@ -189,6 +188,15 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
     if (app.count("--frame") > 0)
         for (const char* other : {"--frames", "--video", "--sheet", "--golden", "--keyframes"})
             if (app.count(other) > 0) refuse(other, "draws more frames than --frame; give one");
+}
+
+/// A golden that is not there is named before the run.
+void check_golden(const Options& options) {
+    std::error_code error;
+    if (!options.golden.empty() && !options.update_golden &&
+        !std::filesystem::exists(options.golden / manifest_name, error))
+        fail(Exit::usage, "--golden: {} has no capture; write it with --update-golden",
+             options.golden.string());
 }
 
 /// The golden is replaced on purpose only: a CI job that updates it would always pass.
@@ -260,6 +268,7 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
         options.out =
             options.update_golden ? options.golden : std::filesystem::path("frames") / about.name;
     check_paths(app, options, words);
+    check_golden(options);
     return options;
 }
 

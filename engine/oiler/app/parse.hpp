@@ -77,11 +77,18 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
     return fmt::format("{}: {}{}", word, kind, did_you_mean(word, views));
 }
 
+[[nodiscard]] inline std::string describe(const CLI::ParseError& error) {
+    constexpr std::string_view repeated = "At Most 1 required but received ";
+    std::string text = error.what();
+    if (const std::size_t at = text.find(repeated); at != text.npos)
+        text = text.replace(at, repeated.size(), "given ") + " times; give it once";
+    return text;
+}
+
 /// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
 /// Error{usage} in one line that ends with "(see PROGRAM COMMAND --help)".
 [[nodiscard]] inline std::string parse(CLI::App& app, int argc, char** argv) {
-    const auto refuse = [&app](std::string what) {
-        std::replace(what.begin(), what.end(), '\n', ' ');
+    const auto refuse = [&app](const std::string& what) {
         fail(Exit::usage, "{} (see {} --help)", what, full_name(named_command(app)));
     };
     try {
@@ -93,7 +100,7 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
     } catch (const CLI::ExtrasError&) {
         refuse(describe_extra(app));
     } catch (const CLI::ParseError& error) {
-        refuse(error.what());
+        refuse(describe(error));
     }
     return {};
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <new>
 #include <optional>
 #include <span>
@@ -55,6 +56,12 @@ struct Ending {
     Exit exit = Exit::done;
     std::string error{};  ///< a line without the program's name; empty: none
 };
+
+/// Names of files and options may have line breaks.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
 
 Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
     try {
@@ -129,7 +136,7 @@ int guard_main(std::string_view name, const std::function<Exit()>& program) {
     if (Interrupt::requested())
         ending = {Exit::interrupted,
                   "interrupted" + (ending.error.empty() ? "" : ": " + ending.error)};
-    if (!ending.error.empty()) say(fmt::format("{}: {}", name, ending.error));
+    if (!ending.error.empty()) say(fmt::format("{}: {}", name, one_line(ending.error)));
     return static_cast<int>(ending.exit);
 }
 

@@ -27,6 +27,8 @@ struct DivergeResult {
     RunDivergence divergence;
     /// Of two captures: the first tick whose hashes differ.
     std::optional<std::int64_t> first_hash{};
+
+    [[nodiscard]] bool same() const { return divergence.same() && !first_hash; }
 };
 
 std::string ulps_text(std::uint64_t ulps) {
@@ -49,20 +51,22 @@ std::string describe(const RunDivergence::Value& value, const StateLog& log) {
 }
 
 /// For example "bodies 3, 4 are only in a.csv"; the text has the first ten bodies.
-std::string describe(std::span<const std::uint32_t> bodies, const std::string& file) {
+std::string describe(std::span<const std::uint32_t> bodies, const StateLog& log) {
     constexpr std::size_t most = 10;
-    const auto first = bodies.first(std::min(most, bodies.size()));
+    std::vector<std::string> first;
+    for (const std::uint32_t body : bodies.first(std::min(most, bodies.size())))
+        first.push_back(name_of(body, log));
     const std::string more =
         bodies.size() > most ? fmt::format(" and {} more", bodies.size() - most) : "";
     return fmt::format("{} {}{} {} only in {}", bodies.size() == 1 ? "body" : "bodies",
-                       fmt::join(first, ", "), more, bodies.size() == 1 ? "is" : "are", file);
+                       fmt::join(first, ", "), more, bodies.size() == 1 ? "is" : "are", log.name);
 }
 
 std::string describe(const RunDivergence::Presence& presence, const DivergeResult& result) {
     std::string text;
-    if (!presence.only_a.empty()) text = describe(presence.only_a, result.a.name);
+    if (!presence.only_a.empty()) text = describe(presence.only_a, result.a);
     if (!text.empty() && !presence.only_b.empty()) text += "; ";
-    if (!presence.only_b.empty()) text += describe(presence.only_b, result.b.name);
+    if (!presence.only_b.empty()) text += describe(presence.only_b, result.b);
     return text;
 }
 
@@ -136,9 +140,10 @@ std::string describe_same(const RunDivergence& divergence) {
 
 std::string describe_differences(const DivergeResult& result) {
     std::string text;
+    const std::string start =
+        fmt::format("The {} first differ at", result.first_hash ? "frames" : "runs");
     for (const Finding& finding : findings_of(result))
-        text += fmt::format("{} tick {} ({:g} s): {}.\n",
-                            text.empty() ? "The runs first differ at" : "At", finding.tick,
+        text += fmt::format("{} tick {} ({:g} s): {}.\n", text.empty() ? start : "At", finding.tick,
                             finding.time, finding.text);
     if (!result.divergence.value) return text;
     const RunDivergence::Value& value = *result.divergence.value;
@@ -150,11 +155,16 @@ std::string describe_differences(const DivergeResult& result) {
 
 std::string text_of(const DivergeResult& result) {
     const RunDivergence& divergence = result.divergence;
-    std::string text = divergence.same() ? describe_same(divergence) : describe_differences(result);
+    std::string text;
     if (result.first_hash)
         text = fmt::format("The hashes first differ at tick {}. States are those of the frames.\n",
-                           *result.first_hash) +
-               text;
+                           *result.first_hash);
+    if (!divergence.same())
+        text += describe_differences(result);
+    else if (result.first_hash)
+        text += "The frames have the same positions and velocities.\n";
+    else
+        text += describe_same(divergence);
     text += describe_rest(result);
     return divergence.growth.empty() ? text : text + table_of(divergence.growth, result.a);
 }
@@ -200,7 +210,7 @@ Json json_of(const StateLog& log) {
 
 Json json_of(const DivergeResult& result) {
     const RunDivergence& found = result.divergence;
-    Json json{{"same", found.same()},
+    Json json{{"same", result.same()},
               {"a", json_of(result.a)},
               {"b", json_of(result.b)},
               {"first_tick", found.first_tick},
@@ -237,14 +247,12 @@ DivergeResult read(const std::filesystem::path& a, const std::filesystem::path& 
     if (is_capture(a) != is_capture(b))
         fail(Exit::usage, "{} and {}: give two traces or two captures", a.string(), b.string());
     if (!is_capture(a)) return read_traces(a, b);
-    const auto folder = [](const std::filesystem::path& path) {
-        return path.filename() == manifest_name ? path.parent_path() : path;
-    };
-    const Captured captured_a(folder(a));
-    const Captured captured_b(folder(b));
+    const Captured captured_a(a);
+    const Captured captured_b(b);
     DivergeResult result{state_log_of(captured_a, {}), {}, {}};
     result.b = state_log_of(captured_b, result.a.names);
     result.a.names = result.b.names;
+    keep_common_ticks(result.a, result.b);
     result.first_hash = first_different_tick(captured_a, captured_b);
     return result;
 }
@@ -273,7 +281,7 @@ struct DivergeCommand {
         result.divergence = find_divergence(result.a, result.b);
         if (!json.empty()) write_json(json, json_of(result));
         if (json != "-") print(text_of(result));
-        return result.divergence.same() ? Exit::done : Exit::comparison_failed;
+        return result.same() ? Exit::done : Exit::comparison_failed;
     }
 };
 

@@ -22,10 +22,17 @@ std::string read_bytes(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// Both frames/spring and frames/spring/manifest.json name a capture.
+fs::path folder_of(fs::path path) {
+    std::error_code error;
+    const bool is_file = fs::is_regular_file(path, error) && path.filename() == manifest_name;
+    return is_file ? path.parent_path() : path;
+}
+
 }  // namespace
 
 Captured::Captured(fs::path folder)
-    : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {
+    : folder_(folder_of(std::move(folder))), manifest_(read_manifest(folder_)) {
     const fs::path path = folder_ / records_name;
     std::error_code error;
     if (!fs::exists(path, error)) return;

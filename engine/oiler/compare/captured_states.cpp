@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "oiler/capture/capture_folder.hpp"
+#include "oiler/compare/tick_walk.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -43,6 +45,27 @@ void add_tick(StateLog& log, const Manifest::Frame& frame, double time,
     }
 }
 
+/// The log without the ticks that the other one passes over.
+StateLog without_ticks_between(const StateLog& log, const StateLog& other) {
+    StateLog kept = log;
+    kept.ticks.clear();
+    kept.bodies.clear();
+    kept.values.clear();
+    for (std::size_t i = 0; i < log.ticks.size(); ++i) {
+        const StateLog::Tick& tick = log.ticks[i];
+        const bool is_after = tick.tick > other.ticks.back().tick;
+        if (!is_after &&
+            !std::ranges::binary_search(other.ticks, tick.tick, {}, &StateLog::Tick::tick))
+            continue;
+        kept.ticks.push_back({tick.tick, tick.time, kept.bodies.size()});
+        for (std::size_t row = tick.first_row; row < log.end_row(i); ++row) {
+            kept.bodies.push_back(log.bodies[row]);
+            kept.values.insert(kept.values.end(), log.row(row).begin(), log.row(row).end());
+        }
+    }
+    return kept;
+}
+
 }  // namespace
 
 StateLog state_log_of(const Captured& captured, std::vector<std::string> names) {
@@ -61,11 +84,22 @@ StateLog state_log_of(const Captured& captured, std::vector<std::string> names) 
     }
     if (log.ticks.empty())
         fail(Exit::usage,
-             "{}: the capture has no states, because it has more than 1000 bodies or no PNG; "
-             "compare two files of --trace",
-             log.name);
+             "{}: no states there, because {} is missing, the capture has no PNG or more than 1000 "
+             "bodies; compare two files of --trace",
+             log.name, records_name);
     log.names = numbering.names();
     return log;
+}
+
+void keep_common_ticks(StateLog& a, StateLog& b) {
+    const StateLog all_of_a = a;
+    a = without_ticks_between(a, b);
+    b = without_ticks_between(b, all_of_a);
+    if (a.ticks.empty() || !find_tick(a, b, a.ticks.front().tick))
+        fail(Exit::usage,
+             "{} and {}: their frames show no tick that both have; capture with the same --rate "
+             "and --fps",
+             a.name, b.name);
 }
 
 std::optional<std::int64_t> first_different_tick(const Captured& a, const Captured& b) {

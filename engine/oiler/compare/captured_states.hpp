@@ -15,6 +15,10 @@ namespace oiler {
 /// names: those of `names` first, then new ones. Throws Error{usage} if no frame has a record.
 [[nodiscard]] StateLog state_log_of(const Captured& captured, std::vector<std::string> names);
 
+/// Removes the ticks that only one log has, up to the end of the shorter one: frames at other times
+/// show other ticks. Throws Error{usage} if no tick is left.
+void keep_common_ticks(StateLog& a, StateLog& b);
+
 /// The first tick whose state hashes differ; empty if they are equal as far as both captures go, or
 /// if a capture has more than 1000 bodies.
 [[nodiscard]] std::optional<std::int64_t> first_different_tick(const Captured& a,

@@ -33,6 +33,14 @@ std::int64_t Comparison::count(Cause cause) const {
                          [&](const FrameComparison& frame) { return frame.cause == cause; });
 }
 
+namespace {
+
+std::string frames_are(std::int64_t count) {
+    return count == 1 ? "1 frame is" : fmt::format("{} frames are", count);
+}
+
+}  // namespace
+
 std::string verdict_of(const Comparison& comparison) {
     const auto first = [&](Cause cause) -> const FrameComparison* {
         for (const FrameComparison& frame : comparison.frames)
@@ -47,13 +55,13 @@ std::string verdict_of(const Comparison& comparison) {
         return fmt::format("only pixels changed, at frame {}: {}{}", frame->index, frame->words,
                            comparison.renderer.empty() ? "" : "; the renderer differs");
     if (const auto* frame = first(Cause::missing))
-        return fmt::format("{} frames are missing, the first is frame {}: {}",
-                           comparison.count(Cause::missing), frame->index, frame->words);
+        return fmt::format("{} missing, the first is frame {}: {}",
+                           frames_are(comparison.count(Cause::missing)), frame->index,
+                           frame->words);
     const std::int64_t tolerated = comparison.count(Cause::pixels);
-    const std::size_t count = comparison.frames.size();
-    if (tolerated == 0) return fmt::format("{} frames are equal", count);
-    return fmt::format("{} frames are equal, {} of them within the tolerance of the pixels", count,
-                       tolerated);
+    const std::string equal = frames_are(std::ssize(comparison.frames)) + " equal";
+    if (tolerated == 0) return equal;
+    return fmt::format("{}, {} of them within the tolerance of the pixels", equal, tolerated);
 }
 
 std::string describe(const Comparison& comparison) {

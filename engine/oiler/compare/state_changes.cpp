@@ -100,9 +100,9 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     const ByName before = by_name(golden);
     const ByName after = by_name(actual);
     if (const auto gone = names_missing_in(before, after); !gone.empty())
-        return list_of(gone) + " is missing";
+        return list_of(gone) + (gone.size() == 1 ? " is missing" : " are missing");
     if (const auto added = names_missing_in(after, before); !added.empty())
-        return list_of(added) + " is new";
+        return list_of(added) + (added.size() == 1 ? " is new" : " are new");
     if (const std::string swap = describe_swap(before, after); !swap.empty()) return swap;
     const bool single = precision == "float";
     const Change change = largest_change(before, after, single);
