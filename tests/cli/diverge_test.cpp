@@ -303,7 +303,8 @@ TEST(DivergeCommand, ComparesFramesThatShowTheSameTick) {
     const Outcome other = desk.run("oiler diverge a c/manifest.json");
     EXPECT_EQ(other.exit, 1);
     EXPECT_TRUE(holds(other.out, "The hashes first differ at tick 1.")) << other.out;
-    EXPECT_TRUE(holds(other.out, "The frames first differ at tick 6 (0.05 s): body '")) << other.out;
+    EXPECT_TRUE(holds(other.out, "The frames first differ at tick 6 (0.05 s): body '"))
+        << other.out;
 }
 
 // The frames show the same, but a tick between them does not.
