@@ -110,7 +110,7 @@ std::string measure_ffmpeg(const std::vector<Image>& images) {
 
 void measure_capture(const std::string& name, const std::string& command, const std::string& size,
                      int frames) {
-    const std::string out = "frames/bench-capture";
+    const std::string out = "frames/bench-" + name;
     const std::string line =
         fmt::format("{} --headless --quiet --size {} --frames {} --out {} --profile {}.json",
                     command, size, frames, out, out);
@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
     const int frames = argc > 3 ? std::atoi(argv[3]) : 120;
     for (const char* size : {"640x360", "1280x720", "1920x1080"}) {
         measure_capture("spring", programs + "/spring_damper", size, frames);
-        measure_capture("100,000 discs",
+        measure_capture("100,000-discs",
                         fmt::format("{}/oiler play {}/hundred_thousand.toml", programs, scenes),
                         size, std::max(1, frames / 4));
     }

@@ -9,6 +9,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "support/folder.hpp"
+#include "support/text.hpp"
 
 namespace {
 
@@ -137,6 +138,26 @@ TEST(Capture, TheSameRunGivesTheSameBytes) {
     ASSERT_EQ(names_in(folder / "a"), names_in(folder / "b"));
     for (const std::string& name : names_in(folder / "a"))
         EXPECT_EQ(text_of(folder / "a" / name), text_of(folder / "b" / name)) << name;
+}
+
+TEST(Capture, ACaptureOfAnotherSceneStays) {
+    const Folder folder;
+    capture(folder / "out", 2);
+    const std::string manifest = text_of(folder / "out/manifest.json");
+    Manifest other = header(1);
+    other.scene = "jump";
+    try {
+        const Capture refused(folder / "out", other);
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::io);
+        EXPECT_TRUE(
+            oiler::test::holds(error.what(), "not of jump; remove it or choose another folder"))
+            << error.what();
+    }
+    EXPECT_EQ(names_in(folder / "out"),
+              (Names{"frame_000000.png", "frame_000001.png", "manifest.json"}));
+    EXPECT_EQ(text_of(folder / "out/manifest.json"), manifest);
 }
 
 TEST(Capture, AShorterRunLeavesNoStaleFrame) {

@@ -77,6 +77,15 @@ protected:
     Folder folder;
 };
 
+// Browsers show a GIF whose frames follow after less than 0.02 s at 10 frames per second.
+TEST_F(Videos, AGifHasAtMostFiftyFramesPerSecond) {
+    Video video(folder / "a.gif", size, 60);
+    for (int i = 0; i < 60; ++i) video.add(frame(i));
+    video.finish();
+    EXPECT_TRUE(probe("a.gif", "r_frame_rate,nb_read_frames").starts_with("50/1,50"))
+        << probe("a.gif", "r_frame_rate,nb_read_frames");
+}
+
 TEST_F(Videos, HaveTheFramesAndTheRate) {
     for (const char* name : {"a.mp4", "a.gif", "a.apng"}) {
         write(folder / name, 10);

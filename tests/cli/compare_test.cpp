@@ -140,8 +140,8 @@ TEST_P(CompareForces, NamesTheFirstTickThatDiffers) {
     const std::int64_t tick =
         first_different_tick(desk.text("golden/trace.csv"), desk.text("actual/trace.csv"));
     ASSERT_GT(tick, 0);
-    const std::string start = "simulation changed at tick " + std::to_string(tick) + ": ";
-    EXPECT_TRUE(text.starts_with(start)) << text << start;
+    const std::string start = "simulation changed at tick " + std::to_string(tick);
+    EXPECT_TRUE(text.starts_with(start + ": ") || text.starts_with(start + "; ")) << text << start;
     const bool has_records = !holds(constant.options, "--png none");
     EXPECT_EQ(holds(text.substr(0, text.find('\n')), "body '"), has_records) << text;
     EXPECT_TRUE(holds(text, "scene file changed, line ")) << text;
@@ -253,6 +253,61 @@ TEST_F(Compare, GoldenOfARunNamesTheCauseAndThePage) {
     EXPECT_TRUE(holds(run.err, "differences: ../new-differences/index.html\n")) << run.err;
     EXPECT_TRUE(std::filesystem::exists(desk.folder() / "new-differences/index.html"));
     EXPECT_TRUE(holds(desk.text("new.xml"), "failures=\"1\""));
+}
+
+TEST_F(Compare, AChangedGoldenHasARemedyAndAJunitWithTheCauseAndTheBudget) {
+    const std::string budget = "\n[budget]\nposition_error = 1e-12\n";
+    capture("golden", two_bodies, "--frames 3");
+    desk.put("golden/scene.toml", with(two_bodies, "#0072b2", "#0072b5") + budget);
+    const Outcome run = desk.run(
+        "cd golden; oiler play scene.toml --headless --quiet --size 64x36 --frames 3 --golden "
+        "frames --out ../new --junit ../new.xml");
+    EXPECT_EQ(run.exit, 1);
+    EXPECT_TRUE(holds(run.err,
+                      "If the change is intended, write the golden again with "
+                      "--update-golden.\n"))
+        << run.err;
+    const std::string junit = desk.text("new.xml");
+    EXPECT_TRUE(holds(junit, "#0072b5")) << junit;
+    EXPECT_TRUE(holds(junit, "classname=\"[budget]\" name=\"position_error\"><failure")) << junit;
+}
+
+/// Names and bytes of a folder's files.
+std::string contents_of(const Desk& desk, const std::string& folder) {
+    return desk.run("cd '" + folder + "'; md5sum .[!.]* * 2>&1").out;
+}
+
+// Neither a divergence nor a stop nor a full disk takes the old golden.
+TEST_F(Compare, AGoldenIsReplacedOnlyByACompleteOne) {
+    capture("golden", pendulum, "--fps 30 --frames 5");
+    const std::string before = contents_of(desk, "golden/frames");
+    const std::vector<std::string> files = desk.names("golden");
+    const std::string update =
+        "cd golden; env -u CI -u JENKINS_URL oiler play scene.toml --headless --quiet --size 64x36 "
+        "--golden frames --update-golden ";
+    desk.put("golden/scene.toml", with(pendulum, "200.0", "900000000.0"));
+    EXPECT_EQ(desk.run(update + "--fps 30 --frames 20").exit, 5);
+    EXPECT_EQ(contents_of(desk, "golden/frames"), before);
+    desk.put("golden/scene.toml", with(pendulum, "200.0", "201.0"));
+    EXPECT_EQ(desk.run(update + "--frames 100000 & sleep 1; kill -TERM $!; wait $!").exit, 130);
+    EXPECT_EQ(contents_of(desk, "golden/frames"), before);
+    EXPECT_EQ(desk.names("golden"), files);
+    EXPECT_EQ(desk.run(update + "--fps 30 --frames 2").exit, 0);
+    EXPECT_EQ(
+        desk.run(
+                "mkdir other; cp golden/scene.toml other; cd other; env -u CI -u JENKINS_URL oiler "
+                "play scene.toml --headless --quiet --size 64x36 --frames 1 --golden new/folder/ "
+                "--update-golden && ls -A new new/folder | tr '\\n' ' '")
+            .out,
+        "new: folder  new/folder: frame_000000.png frames.jsonl.gz manifest.json ");
+    EXPECT_EQ(desk.names("golden/frames"),
+              (std::vector<std::string>{"frame_000000.png", "frame_000001.png", "frames.jsonl.gz",
+                                        "manifest.json"}));
+    EXPECT_EQ(desk.names("golden"), files);
+    EXPECT_EQ(desk.run("cd golden; oiler play scene.toml --headless --quiet --size 64x36 --fps 30 "
+                       "--frames 2 --golden frames/ --out ../now")
+                  .exit,
+              0);
 }
 
 TEST_F(Compare, AnUnfinishedGoldenIsRefused) {

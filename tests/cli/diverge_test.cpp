@@ -325,6 +325,14 @@ TEST(DivergeCommand, FindsHashesThatDifferBetweenTheFrames) {
     EXPECT_EQ(Json::parse(desk.run("oiler diverge a b --json -").out).at("same"), false);
 }
 
+TEST(DivergeCommand, FindsHashesThatDifferAtTheStart) {
+    const Desk desk;
+    capture(desk, "a", "--fps 60 --frames 3");
+    capture(desk, "b", "--fps 60 --frames 3 --precision float");
+    EXPECT_TRUE(
+        desk.run("oiler diverge a b").out.starts_with("The hashes first differ at tick 0."));
+}
+
 TEST(DivergeCommand, RefusesCapturesWithoutAStateInCommon) {
     const Desk desk;
     capture(desk, "a", "--fps 60 --frames 3");

@@ -154,6 +154,25 @@ TEST(OutputPaths, NamesInAnOutputFolderReplaceLinks) {
     }
 }
 
+TEST(OutputPaths, AFileOfTheGoldenIsNoOutput) {
+    const Desk desk;
+    ASSERT_EQ(desk.run("mkdir golden actual; echo '{}' >golden/manifest.json").exit, 0);
+    const std::string play =
+        "oiler play scene.toml --headless --frames 1 --golden golden --out out ";
+    for (const std::string& line :
+         {play + "--junit golden/manifest.json", play + "--json golden/manifest.json",
+          play + "--trace ./golden/frame_000000.png", play + "--sheet golden/frame_000005.png",
+          std::string("oiler compare golden actual --json golden/manifest.json"),
+          std::string("oiler compare actual golden --junit golden/frames.jsonl.gz"),
+          std::string("oiler diverge golden actual --json golden/manifest.json")}) {
+        const Outcome run = desk.run(line);
+        EXPECT_EQ(run.exit, 2) << line;
+        EXPECT_TRUE(holds(run.err, "would overwrite")) << line << run.err;
+    }
+    EXPECT_EQ(desk.text("golden/manifest.json"), "{}\n");
+    EXPECT_EQ(desk.names("golden"), std::vector<std::string>{"manifest.json"});
+}
+
 TEST(OutputPaths, AReadOnlySceneIsNotReplacedByAdvice) {
     const Desk desk;
     const std::string scene = desk.text("scene.toml");

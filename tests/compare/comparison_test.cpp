@@ -68,11 +68,19 @@ TEST_F(ComparisonOfFilms, AStateNamesTickBodyAndField) {
     EXPECT_EQ(moved.frames[2].cause, Cause::simulation);
     EXPECT_EQ(moved.count(Cause::none), 4);
     EXPECT_TRUE(moved.verdict.starts_with(
-        "simulation changed at tick 5: body 'bob', vy: 3 → 3.5, by 0.5 m/s, at tick 6"))
+        "simulation changed at tick 5; frame 2 (tick 6) shows body 'bob', vy: 3 → 3.5, by 0.5 m/s"))
         << moved.verdict;
     EXPECT_EQ(moved.frames[2].differing, 100);
     EXPECT_EQ(moved.frames[2].largest, 99 - 20);
     EXPECT_EQ(moved.frames[2].time, 0.2);
+}
+
+// A change may end before the next frame.
+TEST_F(ComparisonOfFilms, ATickBetweenEqualFramesIsNamed) {
+    const Comparison other =
+        changed([](Film& film) { film.shots[2].tick_hashes = "0004ffff0006"; });
+    EXPECT_FALSE(other.passed());
+    EXPECT_EQ(other.verdict, "simulation changed at tick 5; this frame shows the same bodies");
 }
 
 TEST_F(ComparisonOfFilms, EachTickOfAFrameCanBeTheFirst) {
@@ -84,7 +92,8 @@ TEST_F(ComparisonOfFilms, EachTickOfAFrameCanBeTheFirst) {
             film.shots[2].state_hash = 1;
             film.shots[2].tick_hashes = text;
         });
-        EXPECT_EQ(moved.verdict, std::string("simulation changed at tick ") + tick);
+        EXPECT_EQ(moved.verdict, std::string("simulation changed at tick ") + tick +
+                                     "; this frame shows the same bodies");
     }
 }
 
@@ -112,7 +121,7 @@ TEST_F(ComparisonOfFilms, AnotherTickIsNamed) {
         film.shots[4].tick_hashes = "";
         film.shots[4].record->bodies[0].velocity[1] = 3.5;
     });
-    EXPECT_EQ(late.verdict, "simulation changed at frame 4, which shows tick 13 instead of 12");
+    EXPECT_EQ(late.verdict, "frames show other ticks: frame 4 shows tick 13 instead of 12");
 }
 
 TEST_F(ComparisonOfFilms, APictureIsDescribed) {
@@ -193,9 +202,11 @@ TEST_F(ComparisonOfFilms, PixelsHaveATolerance) {
     EXPECT_TRUE(changed(paint<1, -2>).passed());
 
     EXPECT_EQ(changed(paint<1, 3>).verdict,
-              "only pixels changed, at frame 2: 1 of 100 pixels differ, by at most 3");
+              "only pixels changed, at frame 2: 1 of 100 pixels differ (1 %), by at most 3; "
+              "tolerated are 1 %, by at most 2");
     EXPECT_EQ(changed(paint<2, 2>).verdict,
-              "only pixels changed, at frame 2: 2 of 100 pixels differ, by at most 2");
+              "only pixels changed, at frame 2: 2 of 100 pixels differ (2 %), by at most 2; "
+              "tolerated are 1 %, by at most 2");
     EXPECT_FALSE(changed(paint<1, -3>).passed());
     EXPECT_TRUE(changed(paint<2, 5>, {.channel = 5, .share = 0.02}).passed());
     EXPECT_FALSE(changed(paint<1, 1>, {.channel = 0, .share = 1}).passed());
@@ -203,6 +214,15 @@ TEST_F(ComparisonOfFilms, PixelsHaveATolerance) {
 }
 
 // A tolerance never hides another state or another picture.
+TEST_F(ComparisonOfFilms, ToleratedFramesAreNotCountedAsFailures) {
+    const Comparison both = changed([](Film& film) {
+        film.shots[1].rgb[0] += 1;
+        film.shots[2].rgb[0] += 9;
+    });
+    EXPECT_TRUE(holds(describe(both), "\n5 frames: 3 equal; 1 pixels; 1 tolerated\n"))
+        << describe(both);
+}
+
 TEST_F(ComparisonOfFilms, OnlyPixelsAreTolerated) {
     const auto state = [](Film& film) { film.shots[2].state_hash = 1; };
     EXPECT_FALSE(changed(state, {.channel = 255, .share = 1}).passed());
@@ -218,7 +238,9 @@ TEST_F(ComparisonOfFilms, TheRendererIsNamed) {
     const Comparison other = changed(drawn_elsewhere);
     EXPECT_EQ(other.renderer, "llvmpipe → softpipe");
     EXPECT_EQ(describe(other).substr(0, 40), "renderer differs: llvmpipe → softpipe\n");
-    EXPECT_TRUE(other.verdict.ends_with("by at most 9; the renderer differs")) << other.verdict;
+    EXPECT_TRUE(other.verdict.ends_with(
+        "by at most 9; tolerated are 1 %, by at most 2; the renderer differs"))
+        << other.verdict;
 }
 
 TEST_F(ComparisonOfFilms, SettingsAreNamed) {
@@ -235,7 +257,7 @@ TEST_F(ComparisonOfFilms, SettingsAreNamed) {
     for (const char* line :
          {"\nmethod: rk4 → rk3_kutta\n", "\nrate: 30 → 60\n", "\nfps: 10 → 20\n",
           "\ndamping: the method's own → kick\n", "\nprecision: double → float\n",
-          "\nseed: 0 → 4\n", "\nscene file changed, line 1: `` → `[scene]`\n"})
+          "\nseed: 0 → 4\n", "\nscene file changed, line 1: added `[scene]` and 1 more\n"})
         EXPECT_TRUE(holds(describe(other), line)) << line << describe(other);
 }
 
@@ -257,6 +279,23 @@ TEST_F(ComparisonOfFilms, ALineOfTheSceneIsComparedUpToItsComment) {
         if (change != nullptr) expected = {std::string("scene file changed, line 1: ") + change};
         EXPECT_EQ(other.findings, expected);
     }
+}
+
+TEST_F(ComparisonOfFilms, AddedAndRemovedLinesOfTheSceneAreNamed) {
+    const auto finding = [&](const char* before, const char* after) {
+        golden.header.scene_text = before;
+        const Comparison other = changed([after](Film& film) { film.header.scene_text = after; });
+        return other.findings.empty() ? "" : other.findings.front().substr(20);
+    };
+    EXPECT_EQ(finding("a\nb\nc\n", "a\nx\nb\nc\n"), "line 2: added `x`");
+    EXPECT_EQ(finding("a\nb\nc\n", "a\nc\n"), "line 2: removed `b`");
+    EXPECT_EQ(finding("a\n", "a\nx\ny\nz\n"), "line 2: added `x` and 2 more");
+    EXPECT_EQ(finding("a\nb\nc\nd\n", "a\nx\nd\n"), "line 2: removed `b` and 1 more, added `x`");
+    EXPECT_EQ(finding("a\nb\nc\nd\n", "x\nb\ny\nd\n"), "line 1: `a` → `x`, and 1 more");
+    EXPECT_EQ(finding("a\na\n", "a\na\na\n"), "line 3: added `a`");
+    EXPECT_EQ(finding("a\nb\n", "a\r\nb"), "");
+    EXPECT_EQ(finding("a\nb\n", "\na\n # c\n\nb\n"), "");
+    EXPECT_EQ(finding("a\nb\n", "\na\n\nc\n"), "line 4: `b` → `c`");
 }
 
 TEST_F(ComparisonOfFilms, FramesOfAnotherSizeDiffer) {
@@ -316,6 +355,9 @@ TEST_F(ComparisonOfFilms, HashesSuffice) {
     });
     EXPECT_TRUE(elsewhere.passed());
     EXPECT_EQ(elsewhere.frames[2].words, "pixels of another renderer, not compared without a PNG");
+    EXPECT_EQ(elsewhere.verdict,
+              "5 frames are equal, 1 of them but for pixels that could not be compared: another "
+              "renderer drew them, and they have no PNG");
 }
 
 TEST_F(ComparisonOfFilms, DamagedFilesAreRefused) {

@@ -167,15 +167,16 @@ TEST(DifferencesFolder, IsBesideTheFrames) {
 }
 
 TEST_F(Differences, JunitHasACaseForEachCause) {
-    const std::string xml = junit_of(compare_two_frames());
+    const std::string xml = suite_of(compare_two_frames()).xml();
     EXPECT_TRUE(holds(xml, "tests=\"4\" failures=\"1\"")) << xml;
-    EXPECT_TRUE(holds(xml,
-                      "name=\"pixels\"><failure message=\"1 of 2 frames, the first is frame 1: "
-                      "2 of 2 pixels differ, by at most 60\"/>"))
+    EXPECT_TRUE(
+        holds(xml,
+              "name=\"pixels\"><failure message=\"1 of 2 frames, the first is frame 1: "
+              "2 of 2 pixels differ (100 %), by at most 60; tolerated are 1 %, by at most 2\"/>"))
         << xml;
     for (const char* passed : {"simulation", "picture", "missing"})
         EXPECT_TRUE(holds(xml, "name=\"" + std::string(passed) + "\"><system-out>")) << xml;
-    EXPECT_TRUE(holds(junit_of(compare(film_of(2), film_of(2))), "failures=\"0\""));
+    EXPECT_TRUE(holds(suite_of(compare(film_of(2), film_of(2))).xml(), "failures=\"0\""));
 }
 
 }  // namespace

@@ -1,14 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "oiler/app/options.hpp"
+#include "oiler/app/report.hpp"
+#include "oiler/capture/capture_folder.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
 
-/// Compares the frames in `options.out` with the golden, prints the cause of a change, and writes
-/// the page of differences beside the frames. Returns Exit::comparison_failed if a frame changed.
-/// Throws Error.
-[[nodiscard]] Exit compare_with_golden(const Options& options);
+/// Compares the frames in `options.out` with the golden and says what changed. Writes the page of
+/// differences and, if it is asked for, JUnit XML with the budget, too. Throws Error.
+[[nodiscard]] Exit compare_with_golden(const Options& options,
+                                       const std::vector<BudgetEntry>& budget);
+
+/// The hidden folder beside the golden into which --update-golden captures.
+[[nodiscard]] std::filesystem::path folder_of_new_golden(const std::filesystem::path& golden);
+
+/// Replaces the golden by a new capture when that is complete, so that a run that fails leaves the
+/// old one. The golden belongs to this object meanwhile.
+class GoldenUpdate {
+public:
+    /// Throws Error{io}, see CaptureFolder.
+    GoldenUpdate(const std::filesystem::path& golden, const std::string& scene);
+    /// Removes what was captured and not committed.
+    ~GoldenUpdate();
+    GoldenUpdate(const GoldenUpdate&) = delete;
+    GoldenUpdate& operator=(const GoldenUpdate&) = delete;
+
+    /// Moves the new files into the golden, the manifest last. Throws Error{io}.
+    void commit();
+
+private:
+    CaptureFolder golden_;
+    std::filesystem::path captured_;
+};
 
 }  // namespace oiler

@@ -83,7 +83,8 @@ void film(Playback& playback, Renderer& renderer, const Manifest& header, const 
     }
     film.finish();
     if (film.frames() == header.planned_frames)
-        remark(options.quiet, "frames and manifest.json are in {}", options.out.string());
+        remark(options.quiet, "frames and manifest.json are in {}",
+               (options.update_golden ? options.golden : options.out).string());
     else
         remark(false, "interrupted: {} of {} frames are complete in {}", film.frames(),
                header.planned_frames, options.out.string());
@@ -118,7 +119,12 @@ Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
     write_file(path, encode_png(pixels.size, pixels.rgb), Links::replaced);
     remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
            static_cast<double>(frame) / header.fps, path.string());
-    if (!options.from || frame >= std::int64_t(options.from->frames.size())) return Exit::done;
+    if (!options.from) return Exit::done;
+    if (frame >= std::int64_t(options.from->frames.size())) {
+        remark(options.quiet, "the manifest has {} frames: nothing to compare with",
+               options.from->frames.size());
+        return Exit::done;
+    }
     const std::string changes =
         changes_of(options.from->frames[static_cast<std::size_t>(frame)], playback.state_hash(),
                    hash_of(picture), hash_top_down(pixels.size, pixels.rgb));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "oiler/app/golden.hpp"
 #include "oiler/app/parse.hpp"
 #include "oiler/app/parse_size.hpp"
 #include "oiler/capture/capture_folder.hpp"
@@ -150,9 +151,11 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
                                    {"--json", options.json},   {"--profile", options.profile},
                                    {"--junit", options.junit}, {"--video", options.video},
                                    {"--sheet", options.sheet}};
-    if (options.headless) outputs.push_back({"--out", options.out, is_capture_file});
+    if (options.headless)
+        outputs.push_back({options.update_golden ? "--golden" : "--out",
+                           options.update_golden ? options.golden : options.out, is_capture_file});
     std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
-    if (!options.update_golden) inputs.push_back({"--golden", options.golden});
+    if (!options.update_golden) inputs.push_back({"--golden", options.golden, is_capture_file});
     for (const std::vector<NamedPath>& paths : {outputs, inputs})
         for (const NamedPath& path : paths)
             if (path.name != "SCENE" && app.count(path.name) > 0 && path.path.empty())
@@ -199,6 +202,14 @@ void check_golden(const Options& options) {
              options.golden.string());
 }
 
+/// Jenkins sets another variable than all others.
+bool runs_in_ci() {
+    const char* const ci = std::getenv("CI");
+    const std::string_view value = ci == nullptr ? "" : ci;
+    return (!value.empty() && value != "false" && value != "0") ||
+           std::getenv("JENKINS_URL") != nullptr;
+}
+
 /// The golden is replaced on purpose only: a CI job that updates it would always pass.
 void check_update(const CLI::App& app, const Options& options, const Words& words) {
     if (words.force && !options.update_golden)
@@ -208,9 +219,10 @@ void check_update(const CLI::App& app, const Options& options, const Words& word
         if (app.count(other) > 0)
             fail(Exit::usage, "{}: --update-golden writes {} only; leave it out", other,
                  options.golden.string());
-    if (std::getenv("CI") != nullptr && !words.force)
+    if (runs_in_ci() && !words.force)
         fail(Exit::usage,
-             "--update-golden: the variable CI is set, and a job that updates its golden always "
+             "--update-golden: the variable CI or JENKINS_URL is set, and a job that updates its "
+             "golden always "
              "passes; run it on your computer, or add --force");
 }
 
@@ -265,8 +277,8 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     if (app.count("--frame") > 0) options.frame = words.frame;
     options.has_png = words.png == "all";
     if (app.count("--out") == 0)
-        options.out =
-            options.update_golden ? options.golden : std::filesystem::path("frames") / about.name;
+        options.out = options.update_golden ? folder_of_new_golden(options.golden)
+                                            : std::filesystem::path("frames") / about.name;
     check_paths(app, options, words);
     check_golden(options);
     return options;

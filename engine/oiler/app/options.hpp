@@ -28,7 +28,7 @@ struct Options {
     std::filesystem::path video;
     std::filesystem::path sheet;
     std::filesystem::path golden;  ///< a capture to compare the frames with
-    bool update_golden = false;    ///< `out` is the golden
+    bool update_golden = false;    ///< `out` is then beside the golden
     std::filesystem::path junit;
     std::optional<std::int64_t> frame;  ///< if set, only that frame is drawn
     std::optional<Manifest> from;       ///< the capture whose settings and frame are taken

@@ -111,6 +111,8 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     if (!options.profile.empty()) profile.emplace();
     Profile* const stages = profile ? &*profile : nullptr;
     Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
+    std::optional<GoldenUpdate> golden;
+    if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     Exit exit = play(playback, options, about, report, stages);
     recorder.commit();
     if (profile) write_file(options.profile, profile->to_json());
@@ -126,8 +128,10 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
         fail(Exit::no_display,
              "the display has ended; the files of the run are complete up to there");
     if (Interrupt::requested()) return Exit::interrupted;
-    if (!options.golden.empty() && !options.update_golden)
-        exit = std::max(exit, compare_with_golden(options));
+    if (golden)
+        golden->commit();
+    else if (!options.golden.empty())
+        exit = std::max(exit, compare_with_golden(options, report.budget));
     return std::max(exit, show_budget(report.budget, options.quiet));
 }
 

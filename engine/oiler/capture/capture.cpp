@@ -22,8 +22,9 @@ unsigned worker_count() { return std::clamp(std::thread::hardware_concurrency(),
 }  // namespace
 
 Capture::Capture(fs::path folder, Manifest header, Profile* profile)
-    : folder_(std::move(folder)), manifest_(std::move(header)), profile_(profile) {
+    : folder_(std::move(folder), header.scene), manifest_(std::move(header)), profile_(profile) {
     assert(manifest_.frames.empty());
+    folder_.clear();
     write_manifest();
     for (unsigned i = 0; i < worker_count(); ++i) workers_.emplace_back([this] { work(); });
 }

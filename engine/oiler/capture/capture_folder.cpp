@@ -20,6 +20,7 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/manifest.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
@@ -129,12 +130,16 @@ bool is_capture_file(std::string_view name) {
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
-CaptureFolder::CaptureFolder(fs::path path) : path_(std::move(path)) {
+CaptureFolder::CaptureFolder(fs::path path, const std::string& scene) : path_(std::move(path)) {
     do {
         made_ = make_folder(path_) || made_;
     } while (!lock());
     try {
-        remove_earlier_capture();
+        const Earlier earlier = find_earlier(path_);
+        if (earlier.manifest && decode_utf8(earlier.manifest->scene) != decode_utf8(scene))
+            fail(Exit::io, "{} has a capture of {}, not of {}; remove it or choose another folder",
+                 path_.string(), earlier.manifest->scene, scene);
+        if (earlier.manifest && earlier.manifest->is_finished()) dead_owner_.clear();
     } catch (...) {
         release();
         throw;
@@ -176,9 +181,8 @@ bool CaptureFolder::lock() {
 /// The manifest lists no frame before the first one is removed, and is removed last. If this
 /// process is killed meanwhile, the manifest is still true and the next capture continues the
 /// removal.
-void CaptureFolder::remove_earlier_capture() {
+void CaptureFolder::clear() {
     Earlier earlier = find_earlier(path_);
-    if (earlier.manifest && earlier.manifest->is_finished()) dead_owner_.clear();
     if (earlier.manifest && !earlier.manifest->frames.empty()) {
         earlier.manifest->frames.clear();
         write_file(file(manifest_name), to_json(*earlier.manifest));

@@ -21,8 +21,8 @@ inline constexpr std::string_view records_name = "frames.jsonl.gz";
 class CaptureFolder {
 public:
     /// Makes the folder if it is missing. Throws Error{io} and changes no file if another process
-    /// captures into the folder, or if it has frames that no capture of ours wrote.
-    explicit CaptureFolder(std::filesystem::path path);
+    /// captures into the folder, or if it has frames of another scene or of another program.
+    CaptureFolder(std::filesystem::path path, const std::string& scene);
     /// Removes the lock, and the folder if this object made it and it is empty.
     ~CaptureFolder();
     CaptureFolder(const CaptureFolder&) = delete;
@@ -30,13 +30,14 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
+    /// Removes the files of the earlier capture. Throws Error{io}.
+    void clear();
     /// "process 1234 of host" if that process was killed and left an unfinished capture here.
     [[nodiscard]] const std::string& dead_owner() const { return dead_owner_; }
 
 private:
     /// Returns false if the lock file was removed meanwhile.
     [[nodiscard]] bool lock();
-    void remove_earlier_capture();
     void release();
 
     std::filesystem::path path_;

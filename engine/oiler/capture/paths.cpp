@@ -57,9 +57,8 @@ private:
 };
 
 bool is_written_by(const NamedPath& folder, const NamedPath& file) {
-    return folder.writes && !folder.path.empty() && file.path != "-" &&
-           folder.writes(file.path.filename().string()) &&
-           Place(file.path).is_in(Place(folder.path));
+    return folder.uses && !folder.path.empty() && file.path != "-" &&
+           folder.uses(file.path.filename().string()) && Place(file.path).is_in(Place(folder.path));
 }
 
 bool are_one_file(const NamedPath& a, const NamedPath& b) {
@@ -73,7 +72,7 @@ bool are_one_file(const NamedPath& a, const NamedPath& b) {
 }  // namespace
 
 void require_openable(const NamedPath& output) {
-    if (output.writes || output.path.empty() || output.path == "-") return;
+    if (output.uses || output.path.empty() || output.path == "-") return;
     std::error_code none;
     const fs::file_status found = fs::status(output.path, none);
     if (fs::exists(found) && !fs::is_regular_file(found) && !fs::is_directory(found)) return;

@@ -12,9 +12,9 @@ namespace oiler {
 struct NamedPath {
     std::string name;            ///< the option or the argument, for messages
     std::filesystem::path path;  ///< empty: none; "-" of an output: the standard output
-    /// Empty for a file. For an output folder: whether the command writes a file of that name into
+    /// Empty for a file. For a folder: whether the command reads or writes a file of that name in
     /// it.
-    bool (*writes)(std::string_view name) = nullptr;
+    bool (*uses)(std::string_view name) = nullptr;
 };
 
 /// Throws Error{usage} if an output is an input, or if two outputs are one file. Compares files and

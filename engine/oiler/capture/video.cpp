@@ -38,7 +38,9 @@ const std::array<Format, 3>& formats() {
           {"-vf", "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast",
            "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"}},
          {".gif",
-          {"-filter_complex", "vflip,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none",
+          {"-filter_complex",
+           "vflip,fps=min(source_fps\\,50),split[a][b];[a]palettegen[p];[b][p]paletteuse=dither="
+           "none",
            "-f", "gif"}},
          {".apng", {"-vf", "vflip", "-plays", "0", "-f", "apng"}}}};
     return all;

@@ -69,9 +69,11 @@ std::string names_of(const std::vector<Command>& commands) {
 }  // namespace
 
 void Arguments::add_required(const std::string& name, std::filesystem::path& target,
-                             const std::string& help) {
+                             const std::string& help, bool (*reads)(std::string_view name)) {
     command_.add_option(name, target, help)->required();
-    paths_.emplace_back([name, &target](NamedPaths& all) { all.inputs.push_back({name, target}); });
+    paths_.emplace_back([name, &target, reads](NamedPaths& all) {
+        all.inputs.push_back({name, target, reads});
+    });
 }
 
 void Arguments::add_required(const std::string& name, std::vector<std::filesystem::path>& target,

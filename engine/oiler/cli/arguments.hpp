@@ -35,9 +35,9 @@ class Arguments {
 public:
     explicit Arguments(CLI::App& command) : command_(command) {}
 
-    /// An input file.
+    /// An input file, or a folder of which the command reads the files for which `reads` is true.
     void add_required(const std::string& name, std::filesystem::path& target,
-                      const std::string& help);
+                      const std::string& help, bool (*reads)(std::string_view name) = nullptr);
     /// One or more input files.
     void add_required(const std::string& name, std::vector<std::filesystem::path>& target,
                       const std::string& help);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/capture/capture_folder.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
@@ -22,8 +23,10 @@ struct CompareCommand {
     std::int64_t percent = 1;
 
     void declare(Arguments& arguments) {
-        arguments.add_required("GOLDEN", golden, "folder with the expected frames");
-        arguments.add_required("ACTUAL", actual, "folder with the frames to check");
+        arguments.add_required("GOLDEN", golden, "folder with the expected frames",
+                               is_capture_file);
+        arguments.add_required("ACTUAL", actual, "folder with the frames to check",
+                               is_capture_file);
         arguments.add_output_folder(
             "--out", out, is_differences_file,
             "folder for the page of differences, ACTUAL-differences if not given");
@@ -41,12 +44,13 @@ struct CompareCommand {
                                        static_cast<double>(percent) / 100};
         const Comparison comparison = compare_captures(golden, actual, tolerance);
         const std::filesystem::path folder = out.empty() ? differences_folder(actual) : out;
-        write_differences(comparison, folder);
-        if (!junit.empty()) write_text(junit, junit_of(comparison));
+        const bool prints = json != "-" && junit != "-";
+        if (prints) print(describe(comparison));
+        if (!junit.empty()) write_text(junit, suite_of(comparison).xml());
         if (!json.empty()) write_json(json, json_of(comparison));
-        std::string text = describe(comparison);
-        if (!comparison.passed()) text += "differences: " + (folder / "index.html").string() + "\n";
-        if (json != "-" && junit != "-") print(text);
+        write_differences(comparison, folder);
+        if (prints && !comparison.passed())
+            print("differences: " + (folder / "index.html").string() + "\n");
         return comparison.passed() ? Exit::done : Exit::comparison_failed;
     }
 };

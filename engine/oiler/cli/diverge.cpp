@@ -271,8 +271,9 @@ struct DivergeCommand {
     std::filesystem::path json;
 
     void declare(Arguments& arguments) {
-        arguments.add_required("A", a, "trace of a run, or folder of a capture");
-        arguments.add_required("B", b, "trace of another run, or folder of a capture");
+        arguments.add_required("A", a, "trace of a run, or folder of a capture", is_capture_file);
+        arguments.add_required("B", b, "trace of another run, or folder of a capture",
+                               is_capture_file);
         add_json(arguments, json);
     }
 

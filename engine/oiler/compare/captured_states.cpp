@@ -45,6 +45,25 @@ void add_tick(StateLog& log, const Manifest::Frame& frame, double time,
     }
 }
 
+/// The state hash of each frame, by tick.
+std::map<std::int64_t, std::uint64_t> state_hashes(const Captured& captured) {
+    std::map<std::int64_t, std::uint64_t> hashes;
+    for (const Manifest::Frame& frame : captured.manifest().frames)
+        hashes.emplace(frame.tick, frame.state_hash);
+    return hashes;
+}
+
+/// The first tick of both whose hashes differ.
+template <class Hash>
+std::optional<std::int64_t> first_difference(const std::map<std::int64_t, Hash>& a,
+                                             const std::map<std::int64_t, Hash>& b) {
+    for (const auto& [tick, hash] : a) {
+        const auto found = b.find(tick);
+        if (found != b.end() && found->second != hash) return tick;
+    }
+    return std::nullopt;
+}
+
 /// The log without the ticks that the other one passes over.
 StateLog without_ticks_between(const StateLog& log, const StateLog& other) {
     StateLog kept = log;
@@ -103,12 +122,10 @@ void keep_common_ticks(StateLog& a, StateLog& b) {
 }
 
 std::optional<std::int64_t> first_different_tick(const Captured& a, const Captured& b) {
-    const auto hashes_b = b.tick_hashes();
-    for (const auto& [tick, hash] : a.tick_hashes()) {
-        const auto found = hashes_b.find(tick);
-        if (found != hashes_b.end() && found->second != hash) return tick;
-    }
-    return std::nullopt;
+    const auto in_frames = first_difference(state_hashes(a), state_hashes(b));
+    const auto between = first_difference(a.tick_hashes(), b.tick_hashes());
+    if (!in_frames || !between) return in_frames ? in_frames : between;
+    return std::min(*in_frames, *between);
 }
 
 }  // namespace oiler

@@ -19,8 +19,8 @@ namespace oiler {
 /// show other ticks. Throws Error{usage} if no tick is left.
 void keep_common_ticks(StateLog& a, StateLog& b);
 
-/// The first tick whose state hashes differ; empty if they are equal as far as both captures go, or
-/// if a capture has more than 1000 bodies.
+/// The first tick whose state hashes differ; empty if they are equal as far as both captures go. In
+/// a capture of more than 1000 bodies, only frames have hashes.
 [[nodiscard]] std::optional<std::int64_t> first_different_tick(const Captured& a,
                                                                const Captured& b);
 

@@ -86,6 +86,7 @@ private:
             return result;
         }
         result.cause = cause_of(index);
+        result.other_tick = golden(index).tick != actual(index).tick;
         if (result.cause == Cause::simulation) result.words = describe_simulation(index);
         if (result.cause == Cause::picture) result.words = describe_picture(index);
         if (result.cause != Cause::none) compare_pixels(result);
@@ -94,10 +95,18 @@ private:
         return result;
     }
 
+    /// Whether the states between this frame and the one before differ, as far as both know them.
+    [[nodiscard]] static bool has_other_ticks_before(const Manifest::Frame& before,
+                                                     const Manifest::Frame& after) {
+        return before.tick_hashes.size() == after.tick_hashes.size() &&
+               before.tick_hashes != after.tick_hashes;
+    }
+
     [[nodiscard]] Cause cause_of(std::int64_t index) const {
         const Manifest::Frame& before = golden(index);
         const Manifest::Frame& after = actual(index);
-        if (before.state_hash != after.state_hash || before.tick != after.tick)
+        if (before.state_hash != after.state_hash || before.tick != after.tick ||
+            has_other_ticks_before(before, after))
             return Cause::simulation;
         if (before.picture_hash != after.picture_hash || before.alpha != after.alpha)
             return Cause::picture;
@@ -122,8 +131,8 @@ private:
     [[nodiscard]] std::string describe_tick(std::int64_t index) const {
         const std::int64_t tick = golden(index).tick;
         if (tick != actual(index).tick)
-            return fmt::format("at frame {}, which shows tick {} instead of {}", index,
-                               actual(index).tick, tick);
+            return fmt::format("frame {} shows tick {} instead of {}", index, actual(index).tick,
+                               tick);
         const std::int64_t last = index > 0 ? golden(index - 1).tick : 0;
         for (std::int64_t t = last + 1; t <= tick; ++t) {
             if (!golden_ticks_.contains(t) || !actual_ticks_.contains(t))
@@ -147,9 +156,11 @@ private:
         if (golden(index).tick != actual(index).tick) return where;
         const std::string change =
             describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
-        if (change.empty()) return where;
-        const std::string tick = fmt::format("at tick {}", golden(index).tick);
-        return fmt::format("{}: {}{}", where, change, where == tick ? "" : ", " + tick);
+        if (change.empty()) return where + "; this frame shows the same bodies";
+        if (where == fmt::format("at tick {}", golden(index).tick))
+            return fmt::format("{}: {}", where, change);
+        return fmt::format("{}; frame {} (tick {}) shows {}", where, index, golden(index).tick,
+                           change);
     }
 
     [[nodiscard]] std::string describe_picture(std::int64_t index) const {
@@ -215,8 +226,12 @@ private:
         result.share = static_cast<double>(change.differing) / size.width / size.height;
         if (!pixels_only) return;
         result.tolerated = change.largest <= tolerance_.channel && result.share <= tolerance_.share;
-        result.words = fmt::format("{} of {} pixels differ, by at most {}", change.differing,
-                                   size.width * size.height, change.largest);
+        result.words =
+            fmt::format("{} of {} pixels differ ({:.3g} %), by at most {}", change.differing,
+                        size.width * size.height, 100 * result.share, change.largest);
+        if (!result.tolerated)
+            result.words += fmt::format("; tolerated are {:g} %, by at most {}",
+                                        100 * tolerance_.share, tolerance_.channel);
     }
 
     /// Without a PNG, pixels can only be equal. Another renderer may draw other ones.

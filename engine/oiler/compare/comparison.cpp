@@ -48,7 +48,8 @@ std::string verdict_of(const Comparison& comparison) {
         return nullptr;
     };
     if (const auto* frame = first(Cause::simulation))
-        return fmt::format("simulation changed {}", frame->words);
+        return (frame->other_tick ? "frames show other ticks: " : "simulation changed ") +
+               frame->words;
     if (const auto* frame = first(Cause::picture))
         return fmt::format("picture changed at frame {}: {}", frame->index, frame->words);
     if (const auto* frame = first(Cause::pixels))
@@ -58,10 +59,22 @@ std::string verdict_of(const Comparison& comparison) {
         return fmt::format("{} missing, the first is frame {}: {}",
                            frames_are(comparison.count(Cause::missing)), frame->index,
                            frame->words);
-    const std::int64_t tolerated = comparison.count(Cause::pixels);
+    const auto is_unseen = [](const FrameComparison& frame) {
+        return frame.tolerated && !frame.has_images;
+    };
+    const auto unseen =
+        std::count_if(comparison.frames.begin(), comparison.frames.end(), is_unseen);
+    const std::int64_t tolerated = comparison.count(Cause::pixels) - unseen;
     const std::string equal = frames_are(std::ssize(comparison.frames)) + " equal";
-    if (tolerated == 0) return equal;
-    return fmt::format("{}, {} of them within the tolerance of the pixels", equal, tolerated);
+    std::string text = equal;
+    if (tolerated > 0)
+        text += fmt::format(", {} of them within the tolerance of the pixels", tolerated);
+    if (unseen > 0)
+        text += fmt::format(
+            ", {} of them but for pixels that could not be compared: another renderer drew them, "
+            "and they have no PNG",
+            unseen);
+    return text;
 }
 
 std::string describe(const Comparison& comparison) {
@@ -73,11 +86,18 @@ std::string describe(const Comparison& comparison) {
         text += fmt::format("{}: {} → {}\n", change.name, change.golden, change.actual);
     for (const std::string& finding : comparison.findings) text += finding + "\n";
     if (comparison.passed()) return text;
+    const auto count_failed = [&](Cause cause) {
+        return std::count_if(
+            comparison.frames.begin(), comparison.frames.end(),
+            [&](const FrameComparison& frame) { return frame.cause == cause && !frame.tolerated; });
+    };
+    const std::int64_t tolerated = comparison.count(Cause::pixels) - count_failed(Cause::pixels);
     text += fmt::format("{} frames:", comparison.frames.size());
     for (const Cause cause :
          {Cause::none, Cause::simulation, Cause::picture, Cause::pixels, Cause::missing})
-        if (const std::int64_t count = comparison.count(cause); count > 0)
+        if (const std::int64_t count = count_failed(cause); count > 0)
             text += fmt::format(" {} {};", count, cause == Cause::none ? "equal" : name_of(cause));
+    if (tolerated > 0) text += fmt::format(" {} tolerated;", tolerated);
     text.back() = '\n';
     return text;
 }

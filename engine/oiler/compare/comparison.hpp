@@ -35,7 +35,8 @@ struct FrameComparison {
     std::int64_t tick = 0;
     double time = 0;  ///< s
     Cause cause = Cause::none;
-    bool tolerated = false;      ///< only pixels differ, within the tolerance
+    bool other_tick = false;     ///< the frame shows another tick than that of the golden
+    bool tolerated = false;      ///< only pixels differ, within the tolerance or not compared
     std::string words{};         ///< the change
     bool has_images = false;     ///< both captures have a PNG, and the pixels were compared
     std::int64_t differing = 0;  ///< pixels

@@ -16,7 +16,6 @@
 #include "oiler/capture/png.hpp"
 #include "oiler/compare/captured.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/junit.hpp"
 #include "oiler/core/markup.hpp"
 
 extern "C" {
@@ -123,6 +122,16 @@ std::string timeline_of(const Comparison& comparison) {
     return timeline;
 }
 
+/// "; rate: 60 → 120; scene file changed, …"
+std::string circumstances_of(const Comparison& comparison) {
+    std::string text;
+    if (!comparison.renderer.empty()) text += "; renderer differs: " + comparison.renderer;
+    for (const SettingChange& change : comparison.settings)
+        text += fmt::format("; {}: {} → {}", change.name, change.golden, change.actual);
+    for (const std::string& finding : comparison.findings) text += "; " + finding;
+    return text;
+}
+
 }  // namespace
 
 void write_differences(const Comparison& comparison, const fs::path& folder) {
@@ -153,7 +162,7 @@ fs::path differences_folder(const fs::path& actual) {
     return frames.parent_path() / (frames.filename().string() + "-differences");
 }
 
-std::string junit_of(const Comparison& comparison) {
+JunitSuite suite_of(const Comparison& comparison) {
     JunitSuite suite("oiler compare");
     const std::string group = comparison.golden.string();
     for (const Cause cause : {Cause::simulation, Cause::picture, Cause::pixels, Cause::missing}) {
@@ -164,13 +173,14 @@ std::string junit_of(const Comparison& comparison) {
         const auto count =
             std::count_if(comparison.frames.begin(), comparison.frames.end(), failed);
         if (first == comparison.frames.end())
-            suite.add_passed(group, name_of(cause), "no frame");
+            suite.add_passed(group, name_of(cause), "no frame differs");
         else
             suite.add_failed(group, name_of(cause),
-                             fmt::format("{} of {} frames, the first is frame {}: {}", count,
-                                         comparison.frames.size(), first->index, first->words));
+                             fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
+                                         comparison.frames.size(), first->index, first->words,
+                                         circumstances_of(comparison)));
     }
-    return suite.xml();
+    return suite;
 }
 
 }  // namespace oiler

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "oiler/compare/comparison.hpp"
+#include "oiler/core/junit.hpp"
 
 namespace oiler {
 
@@ -23,6 +24,6 @@ void write_differences(const Comparison& comparison, const std::filesystem::path
 [[nodiscard]] std::filesystem::path differences_folder(const std::filesystem::path& actual);
 
 /// The comparison as a JUnit suite with a case for each cause.
-[[nodiscard]] std::string junit_of(const Comparison& comparison);
+[[nodiscard]] JunitSuite suite_of(const Comparison& comparison);
 
 }  // namespace oiler

@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <span>
 #include <sstream>
+#include <utility>
 
 namespace oiler {
 namespace {
@@ -24,6 +27,41 @@ std::string without_comment(const std::string& line) {
     std::string text = line.substr(0, end);
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text;
+}
+
+struct Line {
+    std::size_t number = 0;  ///< from 1
+    std::string text;
+
+    [[nodiscard]] bool operator==(const Line& other) const { return text == other.text; }
+};
+
+/// The lines without comments, without the line breaks of any system, and without empty lines.
+std::vector<Line> lines_of(const std::string& text) {
+    std::vector<Line> lines;
+    std::istringstream stream(text);
+    std::size_t number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        if (line.ends_with('\r')) line.pop_back();
+        if (std::string rest = without_comment(line); !rest.empty())
+            lines.push_back({number, std::move(rest)});
+    }
+    return lines;
+}
+
+/// "scene file changed, line 33: added `damping = 0.0`"; of several lines the first one.
+std::string describe_block(std::size_t line, std::span<const Line> removed,
+                           std::span<const Line> added) {
+    const auto words = [](std::string_view verb, std::span<const Line> lines) {
+        const std::string more =
+            lines.size() > 1 ? fmt::format(" and {} more", lines.size() - 1) : "";
+        return lines.empty() ? "" : fmt::format("{} `{}`{}", verb, lines.front().text, more);
+    };
+    const std::string gone = words("removed", removed);
+    const std::string fresh = words("added", added);
+    return fmt::format("scene file changed, line {}: {}{}{}", line, gone,
+                       gone.empty() || fresh.empty() ? "" : ", ", fresh);
 }
 
 }  // namespace
@@ -49,18 +87,28 @@ std::vector<SettingChange> setting_changes(const Manifest& golden, const Manifes
 }
 
 std::string scene_change(const std::string& golden, const std::string& actual) {
-    std::istringstream before(golden);
-    std::istringstream after(actual);
-    for (int line = 1; before || after; ++line) {
-        std::string a;
-        std::string b;
-        std::getline(before, a);
-        std::getline(after, b);
-        if (without_comment(a) != without_comment(b))
-            return fmt::format("scene file changed, line {}: `{}` → `{}`", line, without_comment(a),
-                               without_comment(b));
-    }
-    return {};
+    const std::vector<Line> before = lines_of(golden);
+    const std::vector<Line> after = lines_of(actual);
+    const std::size_t shorter = std::min(before.size(), after.size());
+    std::size_t same = 0;
+    while (same < shorter && before[same] == after[same]) ++same;
+    if (same == before.size() && same == after.size()) return {};
+    std::size_t same_at_end = 0;
+    while (same_at_end < shorter - same &&
+           before[before.size() - 1 - same_at_end] == after[after.size() - 1 - same_at_end])
+        ++same_at_end;
+    const std::size_t removed = before.size() - same - same_at_end;
+    const std::size_t added = after.size() - same - same_at_end;
+    const std::vector<Line>& with_line = added > 0 ? after : before;
+    if (removed != added)
+        return describe_block(with_line[same].number,
+                              {before.begin() + std::ptrdiff_t(same), removed},
+                              {after.begin() + std::ptrdiff_t(same), added});
+    std::size_t changed = 0;
+    for (std::size_t i = same; i < same + removed; ++i) changed += before[i] == after[i] ? 0 : 1;
+    const std::string more = changed > 1 ? fmt::format(", and {} more", changed - 1) : "";
+    return fmt::format("scene file changed, line {}: `{}` → `{}`{}", after[same].number,
+                       before[same].text, after[same].text, more);
 }
 
 }  // namespace oiler

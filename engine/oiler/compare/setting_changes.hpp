@@ -13,7 +13,7 @@ namespace oiler {
 [[nodiscard]] std::vector<SettingChange> setting_changes(const Manifest& golden,
                                                          const Manifest& actual);
 
-/// The first line in which two scene files differ besides comments; empty if there is none.
+/// The first lines in which two scene files differ besides comments; empty if there are none.
 [[nodiscard]] std::string scene_change(const std::string& golden, const std::string& actual);
 
 }  // namespace oiler
