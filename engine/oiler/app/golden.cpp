@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/golden.hpp"
 
+#include <fmt/core.h>
+
 #include <system_error>
 #include <utility>
 
@@ -52,7 +54,7 @@ Exit compare_with_golden(const Options& options, const std::vector<BudgetEntry>&
 fs::path folder_of_new_golden(const fs::path& golden) {
     fs::path folder = fs::absolute(golden).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
-    return folder.parent_path() / ("." + folder.filename().string() + ".new");
+    return folder.parent_path() / fmt::format(".{}.new", folder.filename().string());
 }
 
 GoldenUpdate::GoldenUpdate(const fs::path& golden, const std::string& scene)
