@@ -45,7 +45,9 @@ private:
     Block* add(std::size_t size) {
         std::erase_if(blocks_, [](const Block& block) { return !block.taken; });
         std::unique_ptr<unsigned char[]> bytes(new (std::nothrow) unsigned char[size]);
-        return bytes ? &blocks_.emplace_back(std::move(bytes), size) : nullptr;
+        if (!bytes) return nullptr;
+        blocks_.push_back({std::move(bytes), size});
+        return &blocks_.back();
     }
 
     std::vector<Block> blocks_;
