@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -68,6 +69,8 @@ void for_each_force(F f) {
     for_each_force_of<3>(f);
 }
 
+/// s; drives are neither at a turn nor at zero.
+constexpr double time = 0.3125;
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
 template <int Axes>
@@ -76,28 +79,28 @@ void expect_near(const Vec<Real, Axes>& a, const Vec<Real, Axes>& b, Real tolera
 }
 
 /// f' at 0 from differences over ±h and ±2h. The error is h⁴·f⁽⁵⁾/30 plus 1.5 roundings of f over
-/// h. Here |f| is at most 10. Because f is smooth within 1/4 m, m/s or s, f⁽⁵⁾ is below 5!·4⁵ times
-/// that.
+/// h. Here |f| is at most 10. Because f is smooth within 1/8 m, m/s or s, as wind of 1.5·√3 m/s
+/// against a body of that speed is, f⁽⁵⁾ is below 5!·8⁵ times that.
 template <class F>
 auto derivative(F f) {
     constexpr Real h = 1e-4L;
     return (f(h) - f(-h)) * (8 / (12 * h)) - (f(2 * h) - f(-2 * h)) * (1 / (12 * h));
 }
-constexpr Real derivative_error = 10 * (1e-16L / 30 * 120 * 1024 + 1.5L * epsilon / 1e-4L);
+constexpr Real derivative_error = 10 * (1e-16L / 30 * 120 * 32768 + 1.5L * epsilon / 1e-4L);
 
 TEST(Forces, HaveTheirJacobians) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
-        const Jacobian<Real, Axes> jacobian = force.jacobian(state);
+        const Jacobian<Real, Axes> jacobian = oiler::jacobian(force, state);
         for (int j = 0; j < Axes; ++j) {
             const auto dx = derivative([&](Real h) {
                 State<Real, Axes> at = state;
                 at.x[j] += h;
-                return force.accelerate(at, 0);
+                return accelerate(force, at, time);
             });
             const auto dv = derivative([&](Real h) {
                 State<Real, Axes> at = state;
                 at.v[j] += h;
-                return force.accelerate(at, 0);
+                return accelerate(force, at, time);
             });
             for (int i = 0; i < Axes; ++i) {
                 EXPECT_LE(std::abs(jacobian.dx(i, j) - dx[i]), derivative_error);
@@ -109,20 +112,19 @@ TEST(Forces, HaveTheirJacobians) {
 
 template <class Force, int Axes>
 Vec<Real, Axes> field_of(const Force& force, const State<Real, Axes>& state) {
-    if constexpr (requires { force.field(state.x, 0); })
-        return force.field(state.x, 0);
-    else
-        return {};
+    return field(force, state.x, time);
 }
 
+// A force that depends on time has no potential.
 TEST(Forces, HaveFieldsThatAreMinusTheGradientOfTheirPotentials) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
+        if (oiler::DependsOnTime<Force>) return;
         const Vec<Real, Axes> field = field_of(force, state);
         for (int j = 0; j < Axes; ++j) {
             const Real slope = derivative([&](Real h) {
                 State<Real, Axes> at = state;
                 at.x[j] += h;
-                return force.potential(at);
+                return potential(force, at);
             });
             EXPECT_LE(std::abs(field[j] + slope), derivative_error);
         }
@@ -132,12 +134,10 @@ TEST(Forces, HaveFieldsThatAreMinusTheGradientOfTheirPotentials) {
 /// The velocity after `tau` s of the force's damping at a fixed position.
 template <class Force, int Axes>
 Vec<Real, Axes> slowed(const Force& force, State<Real, Axes> state, Real tau) {
-    if constexpr (requires { force.damping_rate(); })
-        return state.v * std::exp(-force.damping_rate() * tau);
-    else if constexpr (requires { force.rest_length; })
-        force.damp(state, -std::expm1(-force.damping * tau));
-    else if constexpr (requires { force.damp(state, tau); })
-        force.damp(state, tau);
+    if constexpr (oiler::Linear<Force>)
+        return state.v * std::exp(-linear_form(force).damping * tau);
+    else if constexpr (oiler::Damps<Force, State<Real, Axes>, Real>)
+        force.damp(state, force.prepare_damping(tau));
     return state.v;
 }
 
@@ -145,7 +145,8 @@ Vec<Real, Axes> slowed(const Force& force, State<Real, Axes> state, Real tau) {
 TEST(Forces, AccelerateByTheirFieldsAndTheirDamping) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const auto damping = derivative([&](Real h) { return slowed(force, state, h); });
-        expect_near(force.accelerate(state, 0), field_of(force, state) + damping, derivative_error);
+        expect_near(accelerate(force, state, time), field_of(force, state) + damping,
+                    derivative_error);
     });
 }
 
@@ -157,7 +158,7 @@ TEST(Forces, HaveDampingFlowsThatIntegrateTheirAccelerations) {
         const Vec<Real, Axes> field = field_of(force, state);
         State<Real, Axes> at = state;
         const auto change = [&](const Vec<Real, Axes>& k, Real tau) {
-            return force.accelerate({state.x, at.v + k * tau}, 0) - field;
+            return accelerate(force, State<Real, Axes>{state.x, at.v + k * tau}, time) - field;
         };
         for (int i = 0; i < 1024; ++i) {
             const auto k1 = change({}, 0);
@@ -200,29 +201,52 @@ TEST(Forces, AreDividedByMass) {
         const Real mass = 2.5L;
         const Real share = pulls_all_masses_alike<Force, Axes> ? 1 : 1 / mass;
         const Force specific = force.per_unit_mass(mass);
-        expect_near(specific.accelerate(state, 0), force.accelerate(state, 0) * share,
+        expect_near(accelerate(specific, state, time), accelerate(force, state, time) * share,
                     100 * epsilon);
-        EXPECT_LE(std::abs(specific.potential(state) - force.potential(state) * share),
+        EXPECT_LE(std::abs(potential(specific, state) - potential(force, state) * share),
                   100 * epsilon);
     });
 }
+
+/// A coil spring is not linear if its direction can turn; a drive does not depend on the state.
+template <class Force, int Axes>
+constexpr bool bends = !oiler::Linear<Force> && !oiler::DependsOnTime<Force> &&
+                       (Axes > 1 || !std::is_same_v<Force, CoilSpringForce<Real, Axes>>);
 
 // A force is linear if the acceleration halfway between two states is the mean of theirs.
 TEST(Forces, AreLinearIfTheySaySo) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
         const State<Real, Axes> other{state.x * 1.5L, state.v * -2};
         const State<Real, Axes> middle{(state.x + other.x) * 0.5L, (state.v + other.v) * 0.5L};
-        const auto mean = (force.accelerate(state, 0) + force.accelerate(other, 0)) * 0.5L;
-        const Real bend = largest(force.accelerate(middle, 0) - mean);
-        if (Force::linear) {
+        const auto mean = (accelerate(force, state, time) + accelerate(force, other, time)) * 0.5L;
+        const Real bend = largest(accelerate(force, middle, time) - mean);
+        if (oiler::Linear<Force>) {
             EXPECT_LE(bend, 100 * epsilon);
-        } else if (Axes > 1 || !std::is_same_v<Force, CoilSpringForce<Real, Axes>>) {
-            EXPECT_GT(bend, 1e-5L);  // a coil spring is not linear if its direction can turn
+        }
+        if (bends<Force, Axes>) {
+            EXPECT_GT(bend, 1e-5L);
         }
     });
 }
 
-/// Forces as a test lists them.
+// F·sin(2π·f·t + φ); the C library's sine of an angle below 2π is right to an ulp.
+TEST(Drive, FollowsTheSine) {
+    const oiler::DriveForce<Real, 2> drive{{3, -2}, 1.75L, 0.5L};
+    for (const double t : {0.0, 0.125, 0.5, 1.0}) {
+        const Real sine = std::sin(2 * std::numbers::pi_v<Real> * 1.75L * Real(t) + 0.5L);
+        expect_near<2>(drive.field({}, t), Vec<Real, 2>{3, -2} * sine, 20 * epsilon);
+    }
+}
+
+// Wind of the velocity of the body has no effect; in still air it is quadratic drag.
+TEST(Wind, IsDragThroughMovingAir) {
+    const State<Real, 2> state{{}, {3, -4}};
+    EXPECT_EQ((oiler::WindForce<Real, 2>{{3, -4}, 5}.accelerate(state, 0)), (Vec<Real, 2>{}));
+    EXPECT_EQ((oiler::WindForce<Real, 2>{{}, 5}.accelerate(state, 0)),
+              (QuadraticDragForce<Real, 2>{5}.accelerate(state, 0)));
+}
+
+/// The forces that are not linear as a test lists them; the number of a damping is the duration.
 template <int Axes>
 struct Listed {
     oiler::ForceList<Real, Axes> list{};
@@ -239,6 +263,10 @@ struct Listed {
     [[nodiscard]] const Force& get(std::size_t) const {
         return std::get<at<Force>>(list);
     }
+    template <class Force>
+    [[nodiscard]] Real damping_number(std::size_t index) const {
+        return get<Force>(index).prepare_damping(0.25L);
+    }
 };
 
 // Absent forces must not be read; two forces of one kind act twice.
@@ -247,11 +275,10 @@ TEST(Forces, AddUpAllThatArePresent) {
     const State<Real, 2> state = assorted.state<2>();
     for (unsigned set = 0; set < 1U << oiler::force_count; ++set) {
         Listed<2> listed;
+        oiler::LinearForce<Real, 2> linear;
         Vec<Real, 2> acceleration{};
-        Vec<Real, 2> field{};
-        Real potential = 0;
-        Real rate = 0;
-        Jacobian<Real, 2> jacobian;
+        Vec<Real, 2> fields{};
+        Jacobian<Real, 2> jacobians;
         oiler::for_each_index<oiler::force_count>([&](auto i) {
             auto& force = std::get<i>(listed.list);
             listed.counts[i] = (set >> i & 1U) * (1 + set % 2);
@@ -259,22 +286,56 @@ TEST(Forces, AddUpAllThatArePresent) {
                 number = listed.counts[i] > 0 ? assorted.positive() : std::nanl("");
             });
             for (std::size_t index = 0; index < listed.counts[i]; ++index) {
-                acceleration = acceleration + force.accelerate(state, 0);
-                field = field + field_of(force, state);
-                potential += force.potential(state);
-                if constexpr (requires { force.damping_rate(); }) rate += force.damping_rate();
-                jacobian = {jacobian.dx + force.jacobian(state).dx,
-                            jacobian.dv + force.jacobian(state).dv};
+                if constexpr (oiler::Linear<std::decay_t<decltype(force)>>)
+                    linear = linear + linear_form(force);
+                acceleration = acceleration + accelerate(force, state, time);
+                fields = fields + field_of(force, state);
+                const Jacobian<Real, 2> one = jacobian(force, state);
+                jacobians = {jacobians.dx + one.dx, jacobians.dv + one.dv};
             }
         });
-        const Forces<Real, 2, Listed<2>> forces(listed);
-        EXPECT_EQ(forces.accelerate(state, 0), acceleration) << set;
-        EXPECT_EQ(forces.field(state.x, 0), field) << set;
-        EXPECT_EQ(forces.potential(state), potential) << set;
-        EXPECT_EQ(forces.damping_rate(), rate) << set;
-        EXPECT_EQ(forces.jacobian(state).dx.row, jacobian.dx.row) << set;
-        EXPECT_EQ(forces.jacobian(state).dv.row, jacobian.dv.row) << set;
+        const Forces<Real, 2, oiler::LinearParts, Listed<2>> forces{
+            linear, {true, true, true}, listed};
+        // Each of up to 16 terms is at most 40 m/s² and is rounded a few times.
+        constexpr Real tolerance = 16 * 40 * 4 * epsilon;
+        EXPECT_LE(largest(forces.accelerate(state, time) - acceleration), tolerance) << set;
+        EXPECT_LE(largest(forces.field(state.x, time) - fields), tolerance) << set;
+        for (int i = 0; i < 2; ++i) {
+            const auto of = forces.jacobian(state);
+            EXPECT_LE(largest(of.dx.row[std::size_t(i)] - jacobians.dx.row[std::size_t(i)]),
+                      tolerance);
+            EXPECT_LE(largest(of.dv.row[std::size_t(i)] - jacobians.dv.row[std::size_t(i)]),
+                      tolerance);
+        }
+        EXPECT_EQ(forces.depend_on_time(), listed.counts[7] > 0) << set;
     }
+}
+
+// Damping forwards, then backwards in reverse order, ends where it began: v is changed by no other
+// flow in between. Two orders of two different flows do not commute.
+TEST(Forces, DampInReverseOrderAfterTheStages) {
+    Listed<2> listed;
+    listed.counts = {0, 0, 0, 1, 1, 0, 1, 0};
+    std::get<3>(listed.list) = {0.5L};
+    std::get<4>(listed.list) = {{1, 1}, 7, 2, 4};
+    std::get<6>(listed.list) = {{2, -1}, 0.75L};
+    const Forces<Real, 2, oiler::LinearParts, Listed<2>> forces{{}, {}, listed};
+    const State<Real, 2> start{{4, 5}, {5, 2}};
+    State<Real, 2> forwards = start;
+    std::get<3>(listed.list).damp(forwards, 0.25L);
+    std::get<4>(listed.list).damp(forwards, std::get<4>(listed.list).prepare_damping(0.25L));
+    std::get<6>(listed.list).damp(forwards, 0.25L);
+    State<Real, 2> backwards = start;
+    std::get<6>(listed.list).damp(backwards, 0.25L);
+    std::get<4>(listed.list).damp(backwards, std::get<4>(listed.list).prepare_damping(0.25L));
+    std::get<3>(listed.list).damp(backwards, 0.25L);
+    State<Real, 2> one = start;
+    forces.damp(one);
+    State<Real, 2> other = start;
+    forces.damp_in_reverse(other);
+    EXPECT_EQ(one.v, forwards.v);
+    EXPECT_EQ(other.v, backwards.v);
+    EXPECT_GT(largest(one.v - other.v), 1e-3L);
 }
 
 }  // namespace

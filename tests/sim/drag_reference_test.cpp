@@ -229,7 +229,7 @@ struct FlightForces {
     QuadraticDragForce<Real, 2> drag;
 
     [[nodiscard]] Vec<Real, 2> accelerate(const State<Real, 2>& state, double t) const {
-        return gravity.accelerate(state, t) + drag.accelerate(state, t);
+        return oiler::accelerate(gravity, state, t) + drag.accelerate(state, t);
     }
 };
 

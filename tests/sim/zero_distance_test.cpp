@@ -70,10 +70,10 @@ template <class T>
 void expect_nothing(const State<T, 2>& state) {
     const auto expect_of = [&]<class Force>(const Force& force) {
         SCOPED_TRACE(std::string(Force::name));
-        EXPECT_EQ(force.accelerate(state, 0), (Vec<T, 2>{0, 0}));
-        EXPECT_EQ(force.potential(state), 0);
-        EXPECT_EQ(force.jacobian(state).dx.row, (Matrix<T, 2>{}.row));
-        EXPECT_EQ(force.jacobian(state).dv.row, (Matrix<T, 2>{}.row));
+        EXPECT_EQ(accelerate(force, state, 0), (Vec<T, 2>{0, 0}));
+        EXPECT_EQ(potential(force, state), 0);
+        EXPECT_EQ(jacobian(force, state).dx.row, (Matrix<T, 2>{}.row));
+        EXPECT_EQ(jacobian(force, state).dv.row, (Matrix<T, 2>{}.row));
         State<T, 2> damped = state;
         if constexpr (requires { force.damp(damped, T(0)); }) force.damp(damped, T(0));
         EXPECT_EQ(damped.v, state.v);

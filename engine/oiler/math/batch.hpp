@@ -85,12 +85,19 @@ public:
     }
     /// Whether the sum of the registers is finite in all lanes; then all numbers are finite.
     [[gnu::always_inline]] friend bool is_finite(const Batch& a) {
-        Pack total = a.pack_[0];
-        for_each_index<packs - 1>([&](auto i) { total = total + a.pack_[i + 1]; });
+        const Pack total = a.template sum_from<0, packs>();
         return !Pack::any(total - total != Pack(T(0)));
     }
 
 private:
+    /// The sum of `Count` registers from `First` on, in pairs: few additions wait for each other.
+    template <std::size_t First, std::size_t Count>
+    [[gnu::always_inline]] Pack sum_from() const {
+        if constexpr (Count == 1)
+            return pack_[First];
+        else
+            return sum_from<First, Count / 2>() + sum_from<First + Count / 2, Count - Count / 2>();
+    }
     [[gnu::always_inline]] static auto nonzero_below(const Pack& v, T limit) {
         return (abs(v) < Pack(limit)) & (v != Pack(T(0)));
     }

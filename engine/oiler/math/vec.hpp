@@ -83,6 +83,14 @@ struct Vec {
     [[gnu::always_inline]] friend constexpr Vec operator*(const Vec& a, const V& s) {
         return {generate<Axes>([&](auto i) { return V(a.axis[i] * s); })};
     }
+    friend constexpr Vec operator*(const V& s, const Vec& a) { return a * s; }
+    friend constexpr Vec operator/(const Vec& a, const V& s) {
+        return {generate<Axes>([&](auto i) { return V(a.axis[i] / s); })};
+    }
+    constexpr Vec& operator+=(const Vec& b) { return *this = *this + b; }
+    constexpr Vec& operator-=(const Vec& b) { return *this = *this - b; }
+    constexpr Vec& operator*=(const V& s) { return *this = *this * s; }
+    constexpr Vec& operator/=(const V& s) { return *this = *this / s; }
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
@@ -104,6 +112,19 @@ template <Number V, int Axes>
 template <Number V, int Axes>
 [[gnu::always_inline]] constexpr V squared_length(const Vec<V, Axes>& a) {
     return dot(a, a);
+}
+
+/// The Euclidean length. It is 0 or infinite where its square is.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T length(const Vec<T, Axes>& a) {
+    return std::sqrt(squared_length(a));
+}
+
+/// The vector of length 1 in the direction of `a`; 0 for a length of 0.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Vec<T, Axes> normalised(const Vec<T, Axes>& a) {
+    const T size = length(a);
+    return size == 0 ? Vec<T, Axes>{} : a / size;
 }
 
 /// to += what·s: the arithmetic of a kick or a drift.

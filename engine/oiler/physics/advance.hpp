@@ -27,7 +27,7 @@ template <SplitsSteps Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
     constexpr bool splits_damping = SplitsDamping<Physics, State>;
-    if constexpr (splits_damping) physics.damp_before(state, plan);
+    if constexpr (splits_damping) physics.damp_before(state);
     repeat(
         plan.count, [&](auto i) __attribute__((always_inline)) {
             const auto& stage = plan.stages[i];
@@ -44,7 +44,7 @@ template <SplitsSteps Plan, class State, class Physics>
                 t += static_cast<double>(stage.tau);
             }
         });
-    if constexpr (splits_damping) physics.damp_after(state, plan);
+    if constexpr (splits_damping) physics.damp_after(state);
 }
 
 /// The rates of change at a state: the article's Derivative.
@@ -78,11 +78,36 @@ template <IsTableau Plan, class State, class Physics>
         });
 }
 
+/// A physics of forces that are linear in position and velocity.
+template <class Physics>
+concept IsLinear = Physics::is_linear;
+
+/// Newton's change of the velocity w of an implicit stage, w = v + τ·a(x + τ·w, w), from `at.v` on;
+/// sets the position of the stage.
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline auto newton_change(const ImplicitPlan<T>& plan, const State& state,
+                                                 State& at, Physics& physics, double t) {
+    at.x = state.x;
+    add_scaled(at.x, at.v, plan.tau);
+    auto residual = at.v;
+    add_scaled(residual, state.v, T(-1));
+    add_scaled(residual, physics.accelerate(at, t), -plan.tau);
+    return physics.solve(at, plan.tau, residual);
+}
+
+/// Ends a step with the velocity w of its stage.
+template <std::floating_point T, class State>
+[[gnu::always_inline]] inline void end_step(const ImplicitPlan<T>& plan, State& state, State& at) {
+    add_scaled(state.x, at.v, plan.dt);
+    add_scaled(at.v, state.v, T(-1));
+    add_scaled(state.v, at.v, 1 / plan.a);
+}
+
 inline constexpr int most_iterations = 64;
 
-/// One step of an implicit method from time `t` (s): Newton's iteration for the velocity w of the
-/// stage, w = v + τ·a(x + τ·w, w). It has converged when a change is below the round-off of w, or
-/// is small and no longer halves. Returns whether it converged.
+/// One step of an implicit method from time `t` (s): Newton's iteration. It has converged when a
+/// change is below the round-off of w, or is small and no longer halves. Returns whether it
+/// converged.
 template <std::floating_point T, class State, class Physics>
 [[nodiscard]] bool advance(const ImplicitPlan<T>& plan, State& state, Physics& physics, double t) {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -90,26 +115,32 @@ template <std::floating_point T, class State, class Physics>
     State at = state;
     T before = std::numeric_limits<T>::infinity();
     for (int i = 0; i < most_iterations; ++i) {
-        at.x = state.x;
-        add_scaled(at.x, at.v, plan.tau);
-        auto residual = at.v;
-        add_scaled(residual, state.v, T(-1));
-        add_scaled(residual, physics.accelerate(at, stage_t), -plan.tau);
-        const auto change = physics.solve(at, plan.tau, residual);
+        const auto change = newton_change(plan, state, at, physics, stage_t);
         add_scaled(at.v, change, T(-1));
         const T size = largest(change);
         const T scale = largest(at.v) + largest(state.v) + std::numeric_limits<T>::min() / epsilon;
         if (!std::isfinite(size)) return false;
         const bool small = size <= std::sqrt(epsilon) * (scale + largest(at.x) / plan.tau);
         if (size <= epsilon * scale || (small && size > before / 2)) {
-            add_scaled(state.x, at.v, plan.dt);
-            add_scaled(at.v, state.v, T(-1));
-            add_scaled(state.v, at.v, 1 / plan.a);
+            end_step(plan, state, at);
             return true;
         }
         before = size;
     }
     return false;
+}
+
+/// The same for linear forces. The first iteration is exact but for round-off, which the second
+/// removes.
+template <std::floating_point T, class State, IsLinear Physics>
+[[gnu::always_inline]] inline bool advance(const ImplicitPlan<T>& plan, State& state,
+                                           Physics& physics, double t) {
+    const double stage_t = t + static_cast<double>(plan.tau);
+    State at = state;
+    for (int i = 0; i < 2; ++i)
+        add_scaled(at.v, newton_change(plan, state, at, physics, stage_t), T(-1));
+    end_step(plan, state, at);
+    return true;
 }
 
 /// One step along the exact motion under linear forces.

@@ -64,6 +64,18 @@ void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given)
     }
 }
 
+/// The kinds of force of which row `row` has any number other than 0.
+template <class T, int Axes>
+Kinds kinds_of_row(const Columns<T, Axes>& columns, std::size_t row) {
+    Kinds kinds = 0;
+    for_each_index<force_count>([&](auto i) {
+        for (const auto& numbers : std::get<i>(columns.forces))
+            for (const Parameter<T>& number : numbers)
+                if (number[row] != 0) kinds = static_cast<Kinds>(kinds | 1U << i);
+    });
+    return kinds;
+}
+
 /// Calls f(stored columns, force in the form of the columns) for every kind of force. The force is
 /// empty if none is given.
 template <class T, int Axes, class F>
@@ -96,14 +108,29 @@ void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec<V, 
     for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
 }
 
-/// Removes the links of `row`, to which row `last` has moved.
-template <class T>
-void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t last) {
-    std::erase_if(links, [&](const LinkRow<T>& link) { return link.a == row || link.b == row; });
+/// Removes the links of `row`, to which row `last` has moved. Calls f(link) for each of them first.
+template <class T, class F>
+void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t last, F f) {
+    std::erase_if(links, [&](const LinkRow<T>& link) {
+        const bool gone = link.a == row || link.b == row;
+        if (gone) f(link);
+        return gone;
+    });
+    const auto moved = static_cast<std::uint32_t>(row);
     for (LinkRow<T>& link : links) {
-        if (link.a == last) link.a = row;
-        if (link.b == last) link.b = row;
+        if (link.a == last) link.a = moved;
+        if (link.b == last) link.b = moved;
     }
+}
+
+/// Drops the columns of a kind of force that no row has any more.
+template <class Stored>
+void drop_if_unused(Stored& stored, const Parameter<Kinds>& kinds, std::size_t kind,
+                    std::size_t rows) {
+    if (stored.empty()) return;
+    for (std::size_t row = 0; row < (kinds.shared() ? 1 : rows); ++row)
+        if (kinds[row] >> kind & 1U) return;
+    stored.clear();
 }
 
 }  // namespace
@@ -121,11 +148,16 @@ Bodies::Bodies(int axes, Precision precision) : columns_(std::make_unique<AnyCol
 }
 
 Bodies::Bodies(const Bodies& other)
-    : columns_(std::make_unique<AnyColumns>(*other.columns_)), team_(other.team_) {}
+    : columns_(std::make_unique<AnyColumns>(*other.columns_)),
+      team_(other.team_),
+      link_generations_(other.link_generations_),
+      free_slots_(other.free_slots_) {}
 Bodies::Bodies(Bodies&&) noexcept = default;
 Bodies& Bodies::operator=(const Bodies& other) {
     *columns_ = *other.columns_;
     team_ = other.team_;
+    link_generations_ = other.link_generations_;
+    free_slots_ = other.free_slots_;
     return *this;
 }
 Bodies& Bodies::operator=(Bodies&&) noexcept = default;
@@ -166,6 +198,8 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
             push(columns.motion.x, body.position);
             push(columns.motion.v, body.velocity);
             columns.mass.push(body.mass);
+            columns.kinds.push(kinds_of_row(columns, row));
+            columns.applied.push_row();
             columns.forces_changed();
             return columns.size++;
         },
@@ -182,6 +216,24 @@ void Bodies::attach_given(std::size_t row, std::size_t index, const GivenForces&
                                make_room(stored, index + 1, columns.size);
                                set_force(stored[index], row, *force);
                            });
+            columns.kinds.set(row, kinds_of_row(columns, row));
+            columns.forces_changed();
+        },
+        columns_->of);
+}
+
+void Bodies::detach_kind(std::size_t row, std::size_t kind) {
+    require_row(row);
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            for_each_index<force_count>([&](auto i) {
+                if (i != kind) return;
+                auto& stored = std::get<i>(columns.forces);
+                for (auto& numbers : stored)
+                    for (Parameter<T>& number : numbers) number.set(row, 0);
+                columns.kinds.set(row, kinds_of_row(columns, row));
+                drop_if_unused(stored, columns.kinds, kind, columns.size);
+            });
             columns.forces_changed();
         },
         columns_->of);
@@ -194,18 +246,21 @@ void Bodies::remove(std::size_t row) {
             for (auto& column : columns.motion.x) column.swap_remove(row);
             for (auto& column : columns.motion.v) column.swap_remove(row);
             columns.mass.swap_remove(row);
+            columns.kinds.swap_remove(row);
             const auto remove_from = [&](auto& stored) {
                 for (auto& numbers : stored)
                     for (auto& parameter : numbers) parameter.swap_remove(row);
             };
             std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
-            remove_links(columns.links, row, --columns.size);
+            columns.applied.swap_remove(row, --columns.size);
+            remove_links(columns.links, row, columns.size,
+                         [&](const auto& link) { release_slot(link.slot); });
             columns.forces_changed();
         },
         columns_->of);
 }
 
-void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
+LinkHandle Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     require_row(a);
     require_row(b);
     require(a != b, "a link is between two bodies");
@@ -213,14 +268,48 @@ void Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     limits.check(link);
     for (const std::size_t row : {a, b})
         limits.check(1 / mass(row), "the inverse mass of a linked body");
+    const LinkHandle handle = take_slot();
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            columns.links.push_back({a, b, static_cast<T>(link.stiffness),
+            columns.links.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                     handle.slot, static_cast<T>(link.stiffness),
                                      static_cast<T>(link.damping),
                                      static_cast<T>(link.rest_length)});
             columns.forces_changed();
         },
         columns_->of);
+    return handle;
+}
+
+LinkHandle Bodies::take_slot() {
+    if (free_slots_.empty()) {
+        link_generations_.push_back(1);
+        return {static_cast<std::uint32_t>(link_generations_.size() - 1), 1};
+    }
+    const std::uint32_t slot = free_slots_.back();
+    free_slots_.pop_back();
+    return {slot, ++link_generations_[slot]};
+}
+
+void Bodies::release_slot(std::uint32_t slot) {
+    ++link_generations_[slot];
+    free_slots_.push_back(slot);
+}
+
+bool Bodies::alive(LinkHandle link) const {
+    return link.slot < link_generations_.size() && link_generations_[link.slot] == link.generation;
+}
+
+void Bodies::unlink(LinkHandle link) {
+    require(alive(link), "the link is gone");
+    std::visit(
+        [&](auto& columns) {
+            std::erase_if(columns.links,
+                          [&](const auto& stored) { return stored.slot == link.slot; });
+            columns.forces_changed();
+        },
+        columns_->of);
+    release_slot(link.slot);
 }
 
 std::size_t Bodies::link_count() const {
@@ -240,7 +329,7 @@ Link Bodies::link_at(std::size_t i) const {
 std::array<std::size_t, 2> Bodies::linked_rows(std::size_t i) const {
     return std::visit(
         [&](const auto& columns) {
-            return std::array{columns.links[i].a, columns.links[i].b};
+            return std::array<std::size_t, 2>{columns.links[i].a, columns.links[i].b};
         },
         columns_->of);
 }
@@ -311,6 +400,24 @@ void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
             columns.state_changed();
         },
         columns_->of);
+}
+
+void Bodies::apply_force(std::size_t row, const Vec3& force) {
+    const Limits limits(precision(), axes());
+    limits.check(force, "a force");
+    const Vec3 acceleration = force / mass(row);
+    limits.check(acceleration, "the acceleration by a force");
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            columns.applied.add(row, narrow<T, Axes>(acceleration), columns.size);
+            columns.state_changed();
+        },
+        columns_->of);
+}
+
+void Bodies::apply_impulse(std::size_t row, const Vec3& impulse) {
+    Limits(precision(), axes()).check(impulse, "an impulse");
+    set_velocity(row, velocity(row) + impulse / mass(row));
 }
 
 }  // namespace oiler

@@ -74,6 +74,11 @@ public:
     void attach_at(std::size_t index, std::size_t row, const Force&... force) {
         attach_given(row, index, given(force...));
     }
+    /// Removes all forces of a kind from row `row`. A kind that no row has any more is not stored.
+    template <BodyForce Force>
+    void detach(std::size_t row) {
+        detach_kind(row, index_of<std::optional<Force>>(static_cast<GivenForces*>(nullptr)));
+    }
     /// Reserves memory for `rows` rows in total, so that adding them copies none.
     void reserve(std::size_t rows);
     /// Removes `row` and its links. The last row, with its links, moves to its place.
@@ -81,7 +86,10 @@ public:
 
     /// Adds a spring between two rows. Throws Error{usage} for a number that is not finite in the
     /// columns' precision.
-    void link(std::size_t a, std::size_t b, const Link& link);
+    LinkHandle link(std::size_t a, std::size_t b, const Link& link);
+    [[nodiscard]] bool alive(LinkHandle link) const;
+    /// Removes the spring, which must be alive.
+    void unlink(LinkHandle link);
     [[nodiscard]] std::size_t link_count() const;
     [[nodiscard]] Link link_at(std::size_t i) const;
     [[nodiscard]] std::array<std::size_t, 2> linked_rows(std::size_t i) const;
@@ -97,6 +105,14 @@ public:
     void set_state(std::size_t row, const State<long double, 3>& state);
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
+
+    /// Adds a force, N, over the whole next step, at every stage of the method; then it is gone. Of
+    /// several steps in a call it acts on the first. Throws Error{usage} if the acceleration is not
+    /// finite.
+    void apply_force(std::size_t row, const Vec3& force);
+    /// Changes the velocity by impulse/mass, impulse in N·s. Throws Error{usage} if the velocity is
+    /// then not finite.
+    void apply_impulse(std::size_t row, const Vec3& impulse);
 
     /// The number of threads that step unlinked bodies if that is faster; the default is 1. Results
     /// do not depend on it. Copies share the threads.
@@ -132,7 +148,7 @@ public:
     [[nodiscard]] Energy energy() const;
 
     /// Adds count, axes, bytes per number, then the columns: positions axis by axis, velocities
-    /// axis by axis, rows in order.
+    /// axis by axis, rows in order. Forces that apply_force added for the next step come last.
     void hash_into(StateHash& hash) const;
 
 private:
@@ -152,9 +168,14 @@ private:
     void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
     void attach_given(std::size_t row, std::size_t index, const GivenForces& forces);
+    void detach_kind(std::size_t row, std::size_t kind);
+    [[nodiscard]] LinkHandle take_slot();
+    void release_slot(std::uint32_t slot);
 
     std::unique_ptr<AnyColumns> columns_;
     std::shared_ptr<Team> team_;
+    std::vector<std::uint32_t> link_generations_;  ///< odd while a link uses the slot
+    std::vector<std::uint32_t> free_slots_;
 };
 
 }  // namespace oiler

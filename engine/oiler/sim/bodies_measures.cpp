@@ -80,13 +80,13 @@ GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t index) const {
     require_row(row);
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const ForcesOfRow<double, T, Axes> forces(columns, row);
             GivenForces given;
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
                 using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
-                if (index < forces.template count<Force>())
-                    std::get<i>(given) = given_form<Given, Axes>(forces.template get<Force>(index));
+                if (index < std::get<i>(columns.forces).size())
+                    std::get<i>(given) =
+                        given_form<Given, Axes>(force_at<Force, double>(columns, index, row));
             });
             return given;
         },
@@ -106,7 +106,10 @@ double Bodies::link_potential(std::size_t i) const {
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
             const LinkRow<T>& stored = columns.links[i];
-            const LinkRow<double> link{stored.a, stored.b, static_cast<double>(stored.stiffness),
+            const LinkRow<double> link{stored.a,
+                                       stored.b,
+                                       stored.slot,
+                                       static_cast<double>(stored.stiffness),
                                        static_cast<double>(stored.damping),
                                        static_cast<double>(stored.rest_length)};
             const auto a = state_of<double>(columns, link.a);
@@ -176,7 +179,11 @@ Energy Bodies::energy() const {
                 const auto state = state_of<double>(columns, row);
                 const double mass = columns.mass[row];
                 kinetic[row % lanes] += 0.5 * mass * squared_length(state.v);
-                potential[row % lanes] += mass * forces_of<double>(columns, row).potential(state);
+                double specific = 0;
+                for_each_force<double>(columns, row, [&](const auto& force) {
+                    specific += oiler::potential(force, state);
+                });
+                potential[row % lanes] += mass * specific;
             }
         },
         columns_->of);
@@ -197,6 +204,8 @@ void Bodies::hash_into(StateHash& hash) const {
             hash.add(static_cast<std::uint64_t>(sizeof(T)));
             for (const auto* vector : {&columns.motion.x, &columns.motion.v})
                 for (const Column<T>& column : *vector) hash_column(column, hash);
+            if (columns.applied.empty()) return;
+            for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
         },
         columns_->of);
 }

@@ -31,6 +31,17 @@ const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& 
     return cache.plan;
 }
 
+template <class T, int Axes>
+std::optional<Divergence> take_steps(Columns<T, Axes>& columns, const Plan<T>& plan,
+                                     const Steps& steps, Team* team) {
+    if (columns.size == 0 || steps.count == 0) return std::nullopt;
+    const LinearColumns<T, Axes> linear = linear_columns(columns);
+    prepare_flows(columns, linear, plan);
+    const RowViews<T, Axes> views(columns, linear);
+    return columns.links.empty() ? step_rows(columns, views, plan, steps, team)
+                                 : step_linked_rows(columns, views, plan, steps);
+}
+
 }  // namespace
 
 void Bodies::set_threads(int threads) {
@@ -48,11 +59,18 @@ void Bodies::step(const Method& method, const Steps& steps) {
 std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& steps) {
     require_forces_for(method);
     return std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) -> std::optional<Divergence> {
             const Plan<T>& plan = plan_for(columns.plan_cache, method, steps);
-            prepare_flows(columns, plan);
-            return columns.links.empty() ? step_rows(columns, plan, steps, team_.get())
-                                         : step_linked_rows(columns, plan, steps);
+            Steps left = steps;
+            if (!columns.applied.empty() && steps.count > 0) {
+                left.count = 1;
+                const auto diverged = take_steps(columns, plan, left, team_.get());
+                columns.applied.clear();
+                columns.state_changed();
+                if (diverged) return diverged;
+                left = {steps.rate, steps.first + 1, steps.count - 1, steps.damping};
+            }
+            return take_steps(columns, plan, left, team_.get());
         },
         columns_->of);
 }
@@ -64,7 +82,7 @@ void Bodies::require_applicable(const Method& method, const Steps& steps) const 
             const Plan<T> plan = plan_for<T>(method, steps);
             if (!needs_flows(plan)) return;
             Columns<T, Axes> copy = columns;
-            prepare_flows(copy, plan);
+            prepare_flows(copy, linear_columns(copy), plan);
         },
         columns_->of);
 }
@@ -78,9 +96,9 @@ void Bodies::require_forces_for(const Method& method) const {
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-                if (!Force::linear && !std::get<i>(columns.forces).empty())
-                    fail(Exit::usage, "method {}: {} is not linear in position and velocity; {}",
-                         method.name, Force::name, remedy);
+                if (!Linear<Force> && !std::get<i>(columns.forces).empty())
+                    fail(Exit::usage, "method {}: {} has no exact flow; {}", method.name,
+                         Force::name, remedy);
             });
         },
         columns_->of);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <optional>
 #include <tuple>
 
@@ -26,6 +27,13 @@ struct Link {
     double rest_length = 0;  ///< L, m
 };
 
+/// A handle of a link. It knows when the link is gone, with either of its bodies or by unlink.
+struct LinkHandle {
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0;  ///< 0 for no link
+    friend bool operator==(const LinkHandle&, const LinkHandle&) = default;
+};
+
 template <class List>
 struct OptionalOf;
 template <class... Force>
@@ -35,7 +43,14 @@ struct OptionalOf<std::tuple<Force...>> {
 /// At most one force of each kind.
 using GivenForces = OptionalOf<ForceList<double, 3>>::type;
 
-/// A force of a single body: Spring, LinearDrag, QuadraticDrag, CoilSpring or Attractor.
+/// Calls f(force) for each given force.
+template <class F>
+void for_each_given(const GivenForces& forces, F f) {
+    std::apply([&](const auto&... force) { ((force ? f(*force) : void()), ...); }, forces);
+}
+
+/// A force of a single body: Spring, LinearDrag, QuadraticDrag, CoilSpring, Attractor, Wind
+/// or Drive.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);

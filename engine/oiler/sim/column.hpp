@@ -11,7 +11,7 @@ namespace oiler {
 
 /// Columns end on a multiple of this many rows, so that whole batches can be loaded for any
 /// register width. The rows after the last body are scratch.
-inline constexpr std::size_t row_padding = 64;
+inline constexpr std::size_t row_padding = 128;
 inline constexpr std::size_t column_alignment = 64;
 
 [[nodiscard]] constexpr std::size_t padded(std::size_t rows) {

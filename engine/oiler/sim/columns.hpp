@@ -10,7 +10,7 @@
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
-#include "oiler/sim/column.hpp"
+#include "oiler/sim/number_view.hpp"
 
 namespace oiler {
 
@@ -23,6 +23,20 @@ struct ForceColumnsOf;
 template <class... Force, class T>
 struct ForceColumnsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
+};
+
+/// Where the numbers of one force are, and its number of prepare_damping.
+template <class Force, class T>
+struct ForceView {
+    std::array<NumberView<T>, number_count<Force>()> numbers;
+    NumberView<T> damping_number;
+};
+
+template <class List, class T>
+struct ForceViewsOf;
+template <class... Force, class T>
+struct ForceViewsOf<std::tuple<Force...>, T> {
+    using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
 
 /// One vector per row.
@@ -45,14 +59,21 @@ struct MotionColumns {
     VecColumns<T, Axes> v{generate<Axes>([](auto i) { return Column<T>(Axes + i); })};  ///< m/s
 };
 
+template <class T, int Axes>
+void clear_padding(MotionColumns<T, Axes>& motion) {
+    for (auto* vector : {&motion.x, &motion.v})
+        for (Column<T>& column : *vector) column.clear_padding();
+}
+
 /// A spring between two rows. Its numbers are not per unit mass, because it acts on two masses.
 template <std::floating_point T>
 struct LinkRow {
-    std::size_t a;
-    std::size_t b;
-    T stiffness;    ///< N/m
-    T damping;      ///< N·s/m
-    T rest_length;  ///< m
+    std::uint32_t a;
+    std::uint32_t b;
+    std::uint32_t slot;  ///< of the link's handle
+    T stiffness;         ///< N/m
+    T damping;           ///< N·s/m
+    T rest_length;       ///< m
 };
 
 /// The Response of each row over one duration.
@@ -78,12 +99,64 @@ struct LinkRun {
 template <class T>
 struct Flows {
     bool valid = false;
-    bool damped = false;                  ///< otherwise drifts are x += τ·v
-    std::vector<T> durations;             ///< s
-    std::vector<FlowColumns<T>> of;       ///< per duration
-    T half_step = 0;                      ///< s
-    std::vector<Parameter<T>> coil_loss;  ///< per coil spring: 1 − e^(−b·τ) over a half-step
+    std::vector<T> durations;        ///< s
+    std::vector<FlowColumns<T>> of;  ///< per duration; empty without damping
+    T half_step = 0;                 ///< s
+    /// The numbers of prepare_damping over a half-step, per kind and force of that kind.
+    std::array<std::vector<Parameter<T>>, force_count> damping_numbers;
 };
+
+/// The sums of all linear forces on each row, for scenes where several forces share a number.
+template <class T, int Axes>
+struct LinearSums {
+    bool valid = false;
+    std::array<Parameter<T>, Axes> constant;
+    std::array<Parameter<T>, Axes> centre;
+    Parameter<T> stiffness;
+    Parameter<T> damping;
+};
+
+/// The forces from outside over the next step, such as a thrust.
+template <std::floating_point T, int Axes>
+struct AppliedForces {
+    VecColumns<T, Axes> acceleration;  ///< m/s²; without rows until the first force
+    std::vector<std::size_t> rows;     ///< those on which a force was applied, perhaps twice
+
+    [[nodiscard]] bool empty() const { return rows.empty(); }
+    void add(std::size_t row, const Vec<T, Axes>& change, std::size_t row_count) {
+        for (std::size_t i = 0; i < Axes; ++i) {
+            while (acceleration[i].size() < row_count) acceleration[i].push(T(0));
+            acceleration[i][row] += change.axis[i];
+        }
+        rows.push_back(row);
+    }
+    void clear() {
+        for (const std::size_t row : rows)
+            for (Column<T>& column : acceleration) column[row] = T(0);
+        rows.clear();
+    }
+    void push_row() {
+        if (acceleration[0].size() > 0)
+            for (Column<T>& column : acceleration) column.push(T(0));
+    }
+    /// Removes `row`, to whose place row `last` moves.
+    void swap_remove(std::size_t row, std::size_t last) {
+        if (acceleration[0].size() > 0)
+            for (Column<T>& column : acceleration) column.swap_remove(row);
+        std::erase(rows, row);
+        std::replace(rows.begin(), rows.end(), last, row);
+    }
+};
+
+/// A set of kinds of force: a bit for each type in ForceList.
+using Kinds = std::uint16_t;
+static_assert(force_count <= 16);
+
+template <class Force, Number V, int Axes>
+inline constexpr std::size_t kind_index =
+    index_of<Force>(static_cast<ForceList<V, Axes>*>(nullptr));
+template <class Force, Number V, int Axes>
+inline constexpr Kinds kind_bit = static_cast<Kinds>(1U << kind_index<Force, V, Axes>);
 
 template <class T>
 class LinkSolver;
@@ -121,21 +194,37 @@ struct Columns {
     Parameter<double> mass;  ///< kg
     /// The number of forces of each kind is that of the body with the most.
     typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
+    Parameter<Kinds> kinds;  ///< per row: those with any number other than 0
+    AppliedForces<T, Axes> applied;
     std::vector<LinkRow<T>> links;
     /// The number of evaluations of the forces on the first row.
     std::int64_t evaluations = 0;
     PlanCache<T> plan_cache;
     /// Caches that are valid until the forces change.
     Flows<T> flows;
+    LinearSums<T, Axes> linear_sums;
+    /// Memory of RowViews, which every call fills.
+    typename ForceViewsOf<ForceList<T, Axes>, T>::type views;
     LinkCache<T, Axes> link_cache;
 
     void forces_changed() {
         flows.valid = false;
+        linear_sums.valid = false;
         link_cache.valid = false;
         link_cache.field_valid = false;
     }
     void state_changed() { link_cache.field_valid = false; }
 };
+
+/// The kinds of force on the rows of the block of row_padding rows from `row` on.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Kinds kinds_of_block(const Columns<T, Axes>& columns, std::size_t row) {
+    if (columns.kinds.shared()) return columns.kinds[row];
+    Kinds all = 0;
+    for (std::size_t i = row; i < std::min(row + row_padding, columns.size); ++i)
+        all = static_cast<Kinds>(all | columns.kinds[i]);
+    return all;
+}
 
 /// The state of row `row` in the Number `V`.
 template <Number V, std::floating_point T, int Axes>
@@ -144,51 +233,67 @@ template <Number V, std::floating_point T, int Axes>
             {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
 }
 
-/// The number of one row, or of a batch of rows from `row` on.
 template <Number V, std::floating_point T>
-[[nodiscard]] [[gnu::always_inline]] inline V load(const Parameter<T>& parameter, std::size_t row) {
-    if constexpr (requires { V::load(parameter.data(row)); })
-        return V::load(parameter.data(row));
+[[gnu::always_inline]] inline V load(const Column<T>& column, std::size_t row) {
+    if constexpr (std::is_same_v<V, T>)
+        return column[row];
     else
-        return V(parameter[row]);
+        return V::load(column.data() + row);
+}
+template <Number V, std::floating_point T>
+[[gnu::always_inline]] inline void store(const V& value, Column<T>& column, std::size_t row) {
+    if constexpr (std::is_same_v<V, T>)
+        column[row] = value;
+    else
+        value.store(column.data() + row);
 }
 
-/// A Source of Forces: the forces per unit mass on row `row`, or on a batch of rows from `row` on.
-template <Number V, std::floating_point T, int Axes>
-class ForcesOfRow {
-public:
-    ForcesOfRow(const Columns<T, Axes>& columns, std::size_t row) : columns_(columns), row_(row) {}
+template <Number V, class T, std::size_t Axes>
+[[gnu::always_inline]] inline Vec<V, int{Axes}> load(const std::array<Column<T>, Axes>& columns,
+                                                     std::size_t row) {
+    return {generate<Axes>([&](auto i) { return load<V>(columns[i], row); })};
+}
+template <Number V, class T, std::size_t Axes, int A>
+[[gnu::always_inline]] inline void store(const Vec<V, A>& value,
+                                         std::array<Column<T>, Axes>& columns, std::size_t row) {
+    for_each_index<Axes>([&](auto i) { store(value.axis[i], columns[i], row); });
+}
+template <Number V, class T, int Axes>
+[[gnu::always_inline]] inline State<V, Axes> load(const MotionColumns<T, Axes>& motion,
+                                                  std::size_t row) {
+    return {load<V>(motion.x, row), load<V>(motion.v, row)};
+}
+template <Number V, class T, int Axes>
+[[gnu::always_inline]] inline void store(const State<V, Axes>& state,
+                                         MotionColumns<T, Axes>& motion, std::size_t row) {
+    store(state.x, motion.x, row);
+    store(state.v, motion.v, row);
+}
 
-    template <class Force>
-    [[gnu::always_inline]] std::size_t count() const {
-        return stored<Force>().size();
-    }
-    template <class Force>
-    [[gnu::always_inline]] Force get(std::size_t index) const {
-        const auto& numbers = stored<Force>()[index];
-        Force force;
-        std::size_t next = 0;
-        for_each_number(
-            force, [&](V & number)
-                       __attribute__((always_inline)) { number = load<V>(numbers[next++], row_); });
-        return force;
-    }
+/// The columns of one kind of force.
+template <class Force, Number V, int Axes, std::floating_point T>
+[[nodiscard]] const auto& stored(const Columns<T, Axes>& columns) {
+    return std::get<kind_index<Force, V, Axes>>(columns.forces);
+}
 
-private:
-    template <class Force>
-    [[gnu::always_inline]] const auto& stored() const {
-        constexpr std::size_t at = index_of<Force>(static_cast<ForceList<V, Axes>*>(nullptr));
-        return std::get<at>(columns_.forces);
-    }
+/// A force per unit mass on row `row`.
+template <class Force, Number V, std::floating_point T, int Axes>
+[[nodiscard]] Force force_at(const Columns<T, Axes>& columns, std::size_t index, std::size_t row) {
+    const auto& numbers = stored<Force, V>(columns)[index];
+    Force force;
+    std::size_t next = 0;
+    for_each_number(force, [&](V& number) { number = V(numbers[next++][row]); });
+    return force;
+}
 
-    const Columns<T, Axes>& columns_;
-    std::size_t row_;
-};
-
-/// The forces on row `row` in the Number `V`.
-template <Number V, std::floating_point T, int Axes>
-[[nodiscard]] auto forces_of(const Columns<T, Axes>& columns, std::size_t row) {
-    return Forces<V, Axes, ForcesOfRow<V, T, Axes>>(ForcesOfRow<V, T, Axes>(columns, row));
+/// Calls f(force) for each force of row `row` in the Number `V`, also for those that are zero.
+template <Number V, std::floating_point T, int Axes, class F>
+void for_each_force(const Columns<T, Axes>& columns, std::size_t row, F f) {
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<V, Axes>>;
+        for (std::size_t index = 0; index < stored<Force, V>(columns).size(); ++index)
+            f(force_at<Force, V>(columns, index, row));
+    });
 }
 
 }  // namespace oiler

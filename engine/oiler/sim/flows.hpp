@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oiler/physics/plan.hpp"
-#include "oiler/sim/columns.hpp"
+#include "oiler/sim/linear_columns.hpp"
 
 namespace oiler {
 
@@ -18,6 +18,7 @@ template <std::floating_point T>
 /// damping (and stiffness) and duration. Throws Error{usage} if one overflows, which may happen in
 /// a negative drift, because it runs damping backwards.
 template <std::floating_point T, int Axes>
-void prepare_flows(Columns<T, Axes>& columns, const Plan<T>& plan);
+void prepare_flows(Columns<T, Axes>& columns, const LinearColumns<T, Axes>& linear,
+                   const Plan<T>& plan);
 
 }  // namespace oiler

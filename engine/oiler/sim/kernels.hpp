@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "oiler/physics/plan.hpp"
 #include "oiler/sim/columns.hpp"
-#include "oiler/sim/step_rows.hpp"
+#include "oiler/sim/step_blocks.hpp"
 
 namespace oiler {
 
 /// The operations on all rows in steps of linked rows, see link_rows.hpp.
 template <std::floating_point T, int Axes>
 struct LinkedKernels {
-    void (*accelerate)(const Columns<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate, double t,
-                       VecColumns<T, Axes>& out);
+    void (*accelerate)(const Columns<T, Axes>&, const RowViews<T, Axes>&,
+                       const MotionColumns<T, Axes>&, Evaluate, double t, VecColumns<T, Axes>& out);
     void (*push_links)(const LinkCache<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate,
                        VecColumns<T, Axes>& to);
     void (*add_scaled)(VecColumns<T, Axes>& to, const VecColumns<T, Axes>& what, T s);
     bool (*may_be_infinite)(const MotionColumns<T, Axes>&);
 };
 
-/// The functions that step rows in batches. Each steps the rows from `begin`, a multiple of
-/// row_padding, to `end`. It returns `end`, or the first row of a batch that it did not store
-/// because a number in it may no longer be finite.
+/// The index of linear forces with these parts in the arrays of AxisKernels.
+[[nodiscard]] constexpr std::size_t index_of(const LinearParts& parts) {
+    return std::size_t{parts.constant} + 2 * std::size_t{parts.spring} +
+           4 * std::size_t{parts.damping};
+}
+
+/// The functions that step rows under linear forces in batches along one axis, by index_of(parts);
+/// see step_axis_batches.
+template <std::floating_point T>
+struct AxisKernels {
+    template <class Rule>
+    using Steps8 = std::array<std::size_t (*)(const AxisRows<T>&, const Rule&, const Steps&,
+                                              std::size_t begin, std::size_t end),
+                              8>;
+
+    Steps8<SplittingPlan<T>> splitting;
+    Steps8<TableauPlan<T>> tableau;
+    Steps8<ImplicitPlan<T>> implicit;
+    Steps8<ExactPlan<T>> exact;
+
+    [[nodiscard]] const auto& of(const SplittingPlan<T>&) const { return splitting; }
+    [[nodiscard]] const auto& of(const TableauPlan<T>&) const { return tableau; }
+    [[nodiscard]] const auto& of(const ImplicitPlan<T>&) const { return implicit; }
+    [[nodiscard]] const auto& of(const ExactPlan<T>&) const { return exact; }
+};
+
+/// The functions that step rows in batches. The first two step rows under any forces, see
+/// step_batches.
 template <std::floating_point T, int Axes>
 struct Kernels {
     template <class Rule>
-    using Step = std::size_t (*)(Columns<T, Axes>&, const Rule&, const Steps&, std::size_t begin,
-                                 std::size_t end);
+    using Step = std::size_t (*)(Columns<T, Axes>&, const RowViews<T, Axes>&, Kinds, const Rule&,
+                                 const Steps&, std::size_t begin, std::size_t end);
 
     Step<SplittingPlan<T>> splitting;
     Step<TableauPlan<T>> tableau;
-    Step<ExactPlan<T>> exact;
+    AxisKernels<T> axis;
     LinkedKernels<T, Axes> linked;
 };
 

@@ -3,7 +3,6 @@
 
 #include "oiler/sim/kernels.hpp"
 #include "oiler/sim/link_force.hpp"
-#include "oiler/sim/row_physics.hpp"
 
 namespace oiler {
 
@@ -32,10 +31,13 @@ template <class V, class T>
 
 /// The accelerations of each row, without its links.
 template <class V, class T, int Axes>
-void accelerate_rows(const Columns<T, Axes>& columns, const MotionColumns<T, Axes>& motion,
-                     Evaluate what, double t, VecColumns<T, Axes>& out) {
+void accelerate_rows(const Columns<T, Axes>& columns, const RowViews<T, Axes>& views,
+                     const MotionColumns<T, Axes>& motion, Evaluate what, double t,
+                     VecColumns<T, Axes>& out) {
+    Kinds kinds = 0;
     for (std::size_t row = 0; row < columns.size; row += lanes_of<V>) {
-        const auto forces = forces_of<V>(columns, row);
+        if (row % row_padding == 0) kinds = kinds_of_block(columns, row);
+        const auto forces = physics_of<V>(views, row, kinds, Damping::in_kick).forces();
         if (what == Evaluate::field)
             store(forces.field(load<V>(motion.x, row), t), out, row);
         else

@@ -6,91 +6,73 @@
 
 #include "oiler/math/batch.hpp"
 #include "oiler/physics/plan.hpp"
-#include "oiler/sim/columns.hpp"
+#include "oiler/sim/row_views.hpp"
 
 namespace oiler {
-
-template <Number V, std::floating_point T>
-[[gnu::always_inline]] inline V load(const Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        return column[row];
-    else
-        return V::load(column.data() + row);
-}
-template <Number V, std::floating_point T>
-[[gnu::always_inline]] inline void store(const V& value, Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        column[row] = value;
-    else
-        value.store(column.data() + row);
-}
-
-template <Number V, class T, std::size_t Axes>
-[[gnu::always_inline]] inline Vec<V, int{Axes}> load(const std::array<Column<T>, Axes>& columns,
-                                                     std::size_t row) {
-    return {generate<Axes>([&](auto i) { return load<V>(columns[i], row); })};
-}
-template <Number V, class T, std::size_t Axes, int A>
-[[gnu::always_inline]] inline void store(const Vec<V, A>& value,
-                                         std::array<Column<T>, Axes>& columns, std::size_t row) {
-    for_each_index<Axes>([&](auto i) { store(value.axis[i], columns[i], row); });
-}
-template <Number V, class T, int Axes>
-[[gnu::always_inline]] inline State<V, Axes> load(const MotionColumns<T, Axes>& motion,
-                                                  std::size_t row) {
-    return {load<V>(motion.x, row), load<V>(motion.v, row)};
-}
-template <Number V, class T, int Axes>
-[[gnu::always_inline]] inline void store(const State<V, Axes>& state,
-                                         MotionColumns<T, Axes>& motion, std::size_t row) {
-    store(state.x, motion.x, row);
-    store(state.v, motion.v, row);
-}
 
 /// Damped bodies are put to sleep after ticks that are multiples of this.
 inline constexpr std::int64_t sleep_interval = 64;
 
-/// The threshold of sleep for velocity (m/s), acceleration (m/s²) and distance from the anchor (m):
-/// 7.9·10⁻³¹ in float and 1.5·10⁻³⁰⁰ in double; if speeds are squared, 8.7·10⁻¹⁹ and 4.8·10⁻¹⁵³. It
-/// is far above the subnormal numbers, which cost a hundred times as much as normal numbers.
+template <std::floating_point T>
+[[nodiscard]] constexpr T power_of_two(int exponent) {
+    T power = 1;
+    for (int i = exponent; i < 0; ++i) power /= 2;
+    return power;
+}
+
+/// The threshold of sleep for velocity (m/s), acceleration (m/s²) and distance from the centre of
+/// the springs (m): 7.9·10⁻³¹ in float and 1.5·10⁻³⁰⁰ in double; if speeds are squared, 8.7·10⁻¹⁹
+/// and 4.8·10⁻¹⁵³. It is far above the subnormal numbers, which cost a hundred times as much as
+/// normal numbers.
 template <std::floating_point T>
 [[nodiscard]] constexpr T sleep_limit(bool squared) {
     constexpr int smallest = std::numeric_limits<T>::min_exponent - 1;
-    T limit = 1;
-    for (int i = squared ? smallest / 2 + 3 : smallest + 26; i < 0; ++i) limit /= 2;
-    return limit;
+    constexpr T of_squares = power_of_two<T>(smallest / 2 + 3);
+    constexpr T of_speeds = power_of_two<T>(smallest + 26);
+    return squared ? of_squares : of_speeds;
 }
 
-/// Puts bodies with linear damping to sleep, axis by axis, if velocity and acceleration are below
-/// sleep_limit: the velocity becomes 0, and a body close to its anchor moves onto it. Without
-/// sleep, their numbers would become subnormal. Returns whether any velocity was below the limit.
-/// Never inlined, because all methods share it and few steps need it.
-template <Number V, class T, int Axes>
-[[gnu::noinline]] bool put_row_to_sleep(const Columns<T, Axes>& columns, std::size_t row,
-                                        State<V, Axes>& state, double t) {
-    const auto forces = forces_of<V>(columns, row);
-    const std::size_t springs = forces.template count<SpringForce>();
-    if (springs + forces.template count<LinearDragForce>() == 0) return false;
-    const T limit = sleep_limit<T>(forces.template count<QuadraticDragForce>() > 0);
-    bool slow = false;
-    for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
-        slow = slow || any_nonzero_below(state.v.axis[i], limit);
-    });
-    if (!slow) return false;
-    const V rate = forces.damping_rate();
-    if (!any_positive(rate)) return false;
-    const Vec<V, Axes> a = forces.accelerate(state, t);
+/// m·1 − τ·(τ·∂a/∂x + ∂a/∂v), for accelerations (m = 1) or forces.
+template <Number V, int Axes>
+[[nodiscard]] Matrix<V, Axes> velocity_matrix(const Jacobian<V, Axes>& jacobian, const V& mass,
+                                              const V& tau) {
+    return Matrix<V, Axes>::scalar(mass) - (jacobian.dx * tau + jacobian.dv) * tau;
+}
+
+/// Puts bodies to sleep, axis by axis, if `rate` is positive and velocity and acceleration `a` are
+/// below `limit`: the velocity becomes 0, and a body close to the centre of its springs moves onto
+/// it.
+template <Number V, int Axes, class RowForces>
+void put_to_sleep_below(Scalar<V> limit, const V& rate, const Vec<V, Axes>& a,
+                        const RowForces& forces, State<V, Axes>& state) {
     const State<V, Axes> was = state;
     for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
         const V& v = was.v.axis[i];
-        if (springs > 0) {
-            const V anchor = forces.template get<SpringForce>(0).anchor.axis[i];
+        if (forces.parts.spring) {
+            const V& centre = forces.linear.centre.axis[i];
             const V& x = was.x.axis[i];
             state.x.axis[i] =
-                replace_where_sleeping(x, anchor, rate, limit, v, a.axis[i], V(x - anchor));
+                replace_where_sleeping(x, centre, rate, limit, v, a.axis[i], V(x - centre));
         }
-        state.v.axis[i] = replace_where_sleeping(v, V(T(0)), rate, limit, v, a.axis[i]);
+        state.v.axis[i] = replace_where_sleeping(v, V(Scalar<V>(0)), rate, limit, v, a.axis[i]);
     });
+}
+
+/// Puts bodies with linear damping to sleep, see sleep_limit. Without sleep, their numbers would
+/// become subnormal. Returns whether any velocity was below the limit. Never inlined, because few
+/// steps need it.
+template <Number V, int Axes, class RowForces>
+[[gnu::noinline]] bool put_row_to_sleep(const RowForces& forces, State<V, Axes>& state, double t) {
+    using T = Scalar<V>;
+    bool slow = false;
+    for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
+        slow = slow || any_nonzero_below(state.v.axis[i], sleep_limit<T>(true));
+    });
+    const V& rate = forces.linear.damping;
+    if (!slow || !any_positive(rate)) return false;
+    const Vec<V, Axes> a = forces.accelerate(state, t);
+    put_to_sleep_below(sleep_limit<T>(false), rate, a, forces, state);
+    put_to_sleep_below(sleep_limit<T>(true), V(rate * forces.squares_speeds()), a, forces, state);
     return true;
 }
 
@@ -103,19 +85,69 @@ template <class Plan>
         return Damping::in_kick;
 }
 
-/// The physics that a method steps: one row, or a batch of rows from `row` on.
-template <Number V, int Axes, class Source = ForcesOfRow<V, Scalar<V>, Axes>>
-class RowPhysics {
+/// The forces on a row that are not linear, or on a batch of rows from `row` on. Kinds that no row
+/// of the block has are left out.
+template <Number V, int Axes>
+class OtherForces {
 public:
     using T = Scalar<V>;
 
-    [[gnu::always_inline]] RowPhysics(const Columns<T, Axes>& columns, std::size_t row,
-                                      Damping damping)
-        : columns_(columns),
-          forces_(Source(columns, row)),
-          flows_(columns.flows),
-          row_(row),
-          damping_(damping) {}
+    OtherForces(const RowViews<T, Axes>& views, std::size_t row, Kinds kinds)
+        : views_(views), row_(row), kinds_(kinds) {}
+
+    template <class Force>
+    [[gnu::always_inline]] std::size_t count() const {
+        return kinds_ & kind_bit<Force, V, Axes> ? views<Force>().size() : 0;
+    }
+    template <class Force>
+    [[gnu::always_inline]] Force get(std::size_t index) const {
+        const auto& numbers = views<Force>()[index].numbers;
+        Force force;
+        std::size_t next = 0;
+        for_each_number(
+            force, [&](V & number) __attribute__((always_inline)) {
+                number = numbers[next++].template at<V>(row_);
+            });
+        return force;
+    }
+    template <class Force>
+    [[gnu::always_inline]] V damping_number(std::size_t index) const {
+        return views<Force>()[index].damping_number.template at<V>(row_);
+    }
+
+private:
+    template <class Force>
+    [[gnu::always_inline]] const auto& views() const {
+        return views_.template others<kind_index<Force, V, Axes>>();
+    }
+
+    const RowViews<T, Axes>& views_;
+    std::size_t row_;
+    Kinds kinds_;
+};
+
+/// All forces on a row or a batch of rows.
+template <Number V, int Axes>
+using RowForces = Forces<V, Axes, LinearParts, OtherForces<V, Axes>>;
+
+/// The forces on a row or a batch of rows along one axis, if all of them are linear.
+template <Number V, class Parts>
+using AxisForces = Forces<V, 1, Parts, NoOthers>;
+
+/// The physics that a method steps: one row or a batch of rows from `row` on, along one axis or
+/// all.
+template <Number V, int Axes, class ForcesOfRow>
+class RowPhysics {
+public:
+    using T = Scalar<V>;
+    /// Whether all forces are linear.
+    static constexpr bool is_linear = Axes == 1 && !std::is_same_v<ForcesOfRow, RowForces<V, Axes>>;
+
+    /// `load_forces` returns the forces of the row; they are large and constructed in place.
+    template <class LoadForces>
+    [[gnu::always_inline]] RowPhysics(LoadForces load_forces, const FlowView<T>* flows,
+                                      std::size_t row, Damping damping)
+        : forces_(load_forces()), flows_(flows), row_(row), damping_(damping) {}
 
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) {
         ++evaluations_;
@@ -136,84 +168,69 @@ public:
 
     [[gnu::always_inline]] void drift(State<V, Axes>& state, std::size_t flow, T tau) {
         field_valid_ = false;
-        if (damping_ == Damping::in_kick || !flows_.damped) {
+        if (damping_ == Damping::in_kick || !forces_.parts.damping) {
             add_scaled(state.x, state.v, tau);
             return;
         }
-        const FlowColumns<T>& of = flows_.of[flow];
-        state.x = state.x + state.v * load<V>(of.reach, row_);
-        state.v = state.v * load<V>(of.decay, row_);
+        state.x = state.x + state.v * flows_[flow].reach.template at<V>(row_);
+        state.v = state.v * flows_[flow].decay.template at<V>(row_);
     }
 
-    /// Half-steps of damping before the stages and, in reverse order, after them.
-    template <class Plan>
-    [[gnu::always_inline]] void damp_before(State<V, Axes>& state, const Plan& plan) {
-        if (damping_ == Damping::in_kick) return;
-        damp_quadratic(state, plan.half_step);
-        for (std::size_t index = 0; index < coils(); ++index) damp_coil(state, index);
+    /// Half-steps of the damping that is not linear, before the stages and, in reverse order, after
+    /// them.
+    [[gnu::always_inline]] void damp_before(State<V, Axes>& state) {
+        // The times of the last kick of a step and of the first of the next may differ in a bit.
+        if (forces_.depend_on_time()) field_valid_ = false;
+        if (damping_ == Damping::in_drift) forces_.damp(state);
     }
-    template <class Plan>
-    [[gnu::always_inline]] void damp_after(State<V, Axes>& state, const Plan& plan) {
-        if (damping_ == Damping::in_kick) return;
-        for (std::size_t index = coils(); index-- > 0;) damp_coil(state, index);
-        damp_quadratic(state, plan.half_step);
+    [[gnu::always_inline]] void damp_after(State<V, Axes>& state) {
+        if (damping_ == Damping::in_drift) forces_.damp_in_reverse(state);
     }
 
     /// Puts the row to sleep, see put_row_to_sleep.
     [[gnu::always_inline]] void put_to_sleep(State<V, Axes>& state, double t) {
+        if (!forces_.parts.damping) return;
         State<V, Axes> asleep = state;
-        if (!put_row_to_sleep(columns_, row_, asleep, t)) return;
+        const ForcesOfRow forces = forces_;
+        if (!put_row_to_sleep(forces, asleep, t)) return;
         state = asleep;
         field_valid_ = false;
     }
 
     /// Newton's change of w for the residual of w − v − τ·a(x + τ·w, w).
-    [[nodiscard]] Vec<V, Axes> solve(const State<V, Axes>& at, T tau,
-                                     const Vec<V, Axes>& residual) {
-        return oiler::solve(velocity_matrix(forces_.jacobian(at), V(1), tau), residual);
+    [[nodiscard]] [[gnu::always_inline]] Vec<V, Axes> solve(const State<V, Axes>& at, T tau,
+                                                            const Vec<V, Axes>& residual) {
+        if constexpr (is_linear) {
+            const LinearForce<V, Axes>& force = forces_.linear;
+            V slope = V(T(1));
+            if (forces_.parts.damping) slope = slope + force.damping * V(tau);
+            if (forces_.parts.spring) slope = slope + force.stiffness * V(tau * tau);
+            return {V(residual.axis[0] / slope)};
+        } else {
+            return oiler::solve(velocity_matrix(forces_.jacobian(at), V(1), tau), residual);
+        }
     }
 
     /// The exact motion under linear forces, see Response.
     [[gnu::always_inline]] void respond(State<V, Axes>& state, double t) {
         ++evaluations_;
         const Vec<V, Axes> a = forces_.field(state.x, t);
-        const FlowColumns<T>& of = flows_.of[0];
-        const V reach = load<V>(of.reach, row_);
-        state.x = state.x + state.v * reach + a * load<V>(of.sway, row_);
-        state.v = state.v * load<V>(of.decay, row_) + a * reach;
+        const V reach = flows_->reach.template at<V>(row_);
+        state.x = state.x + state.v * reach + a * flows_->sway.template at<V>(row_);
+        state.v = state.v * flows_->decay.template at<V>(row_) + a * reach;
     }
 
-    [[nodiscard]] const Forces<V, Axes, Source>& forces() const { return forces_; }
+    [[nodiscard]] const ForcesOfRow& forces() const { return forces_; }
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 
 private:
-    [[gnu::always_inline]] std::size_t coils() const {
-        return forces_.template count<CoilSpringForce>();
-    }
-    [[gnu::always_inline]] void damp_quadratic(State<V, Axes>& state, T half_step) {
-        for (std::size_t index = 0; index < forces_.template count<QuadraticDragForce>(); ++index)
-            forces_.template get<QuadraticDragForce>(index).damp(state, V(half_step));
-    }
-    [[gnu::always_inline]] void damp_coil(State<V, Axes>& state, std::size_t index) {
-        forces_.template get<CoilSpringForce>(index).damp(state,
-                                                          load<V>(flows_.coil_loss[index], row_));
-    }
-
-    const Columns<T, Axes>& columns_;
-    Forces<V, Axes, Source> forces_;
-    const Flows<T>& flows_;
+    ForcesOfRow forces_;
+    const FlowView<T>* flows_;
     std::size_t row_;
     Damping damping_;
-    Vec<V, Axes> field_{};
+    Vec<V, Axes> field_;
     bool field_valid_ = false;
     std::int64_t evaluations_ = 0;
 };
-
-/// m·1 − τ·(τ·∂a/∂x + ∂a/∂v), for accelerations (m = 1) or forces.
-template <Number V, int Axes>
-[[nodiscard]] Matrix<V, Axes> velocity_matrix(const Jacobian<V, Axes>& jacobian, const V& mass,
-                                              const V& tau) {
-    return Matrix<V, Axes>::scalar(mass) - (jacobian.dx * tau + jacobian.dv) * tau;
-}
 
 }  // namespace oiler

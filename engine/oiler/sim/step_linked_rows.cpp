@@ -8,7 +8,6 @@
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
-#include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
 namespace {
@@ -38,8 +37,8 @@ class LinkedRows {
 public:
     using Vectors = VecColumns<T, Axes>;
 
-    LinkedRows(Columns<T, Axes>& columns, const Plan<T>& plan)
-        : columns_(columns), cache_(columns.link_cache) {
+    LinkedRows(Columns<T, Axes>& columns, const RowViews<T, Axes>& views, const Plan<T>& plan)
+        : columns_(columns), views_(views), cache_(columns.link_cache) {
         const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
         if (splitting) damping_ = splitting->damping;
         if (damping_ == Damping::in_kick) cache_.field_valid = false;
@@ -62,27 +61,26 @@ public:
 
     void drift(MotionColumns<T, Axes>& motion, std::size_t flow, T tau) {
         cache_.field_valid = false;
-        if (damping_ == Damping::in_kick || !columns_.flows.damped)
+        if (damping_ == Damping::in_kick || columns_.flows.of.empty())
             add_scaled(motion.x, motion.v, tau);
         else
-            change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
+            change_each_row(motion, [&](auto& physics, State<T, Axes>& state) {
                 physics.drift(state, flow, tau);
             });
     }
 
-    void damp_before(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+    void damp_before(MotionColumns<T, Axes>& motion) {
+        if (depends_on_time()) cache_.field_valid = false;
         if (damping_ == Damping::in_kick) return;
-        change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
-            physics.damp_before(state, plan);
-        });
+        change_each_row(motion,
+                        [](auto& physics, State<T, Axes>& state) { physics.damp_before(state); });
         for (std::size_t i = 0; i < columns_.links.size(); ++i) damp(motion, i);
     }
-    void damp_after(MotionColumns<T, Axes>& motion, const SplittingPlan<T>& plan) {
+    void damp_after(MotionColumns<T, Axes>& motion) {
         if (damping_ == Damping::in_kick) return;
         for (std::size_t i = columns_.links.size(); i-- > 0;) damp(motion, i);
-        change_each_row(motion, [&](RowPhysics<T, Axes>& physics, State<T, Axes>& state) {
-            physics.damp_after(state, plan);
-        });
+        change_each_row(motion,
+                        [](auto& physics, State<T, Axes>& state) { physics.damp_after(state); });
     }
 
     /// Puts rows to sleep if any link is damped, see RowPhysics.
@@ -144,14 +142,16 @@ private:
 
     template <class F>
     void for_each_row(F f) {
+        Kinds kinds = 0;
         for (std::size_t row = 0; row < columns_.size; ++row) {
-            RowPhysics<T, Axes> physics(columns_, row, damping_);
+            if (row % row_padding == 0) kinds = kinds_of_block(columns_, row);
+            auto physics = physics_of<T>(views_, row, kinds, damping_);
             f(physics, row);
         }
     }
     template <class F>
     void change_each_row(MotionColumns<T, Axes>& motion, F f) {
-        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+        for_each_row([&](auto& physics, std::size_t row) {
             State<T, Axes> state = load<T>(motion, row);
             f(physics, state);
             store(state, motion, row);
@@ -175,7 +175,7 @@ private:
     }
 
     void evaluate(const MotionColumns<T, Axes>& motion, Evaluate what, double t, Vectors& out) {
-        kernels_.accelerate(columns_, motion, what, t, out);
+        kernels_.accelerate(columns_, views_, motion, what, t, out);
         kernels_.push_links(cache_, motion, what, out);
     }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
@@ -199,11 +199,20 @@ private:
                            [](const LinkRun<T>& run) { return run.of.damping > 0; });
     }
 
+    [[nodiscard]] bool depends_on_time() const {
+        bool any = false;
+        for_each_index<force_count>([&](auto i) {
+            using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
+            if constexpr (DependsOnTime<Force>) any = any || !std::get<i>(columns_.forces).empty();
+        });
+        return any;
+    }
+
     [[nodiscard]] bool linear() const {
         bool all = true;
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            all = all && (Force::linear || std::get<i>(columns_.forces).empty());
+            all = all && (Linear<Force> || std::get<i>(columns_.forces).empty());
         });
         for (const LinkRow<T>& link : columns_.links) all = all && link.rest_length == 0;
         return all;
@@ -217,7 +226,7 @@ private:
                 for (std::size_t j = 0; j < Axes; ++j)
                     entries.push_back({row * Axes + i, column * Axes + j, block.row[i].axis[j]});
         };
-        for_each_row([&](RowPhysics<T, Axes>& physics, std::size_t row) {
+        for_each_row([&](auto& physics, std::size_t row) {
             add(row, row, velocity_matrix(physics.forces().jacobian(load<T>(at, row)), T(1), tau));
         });
         for (const LinkRow<T>& link : columns_.links) {
@@ -235,6 +244,7 @@ private:
 
     const LinkedKernels<T, Axes>& kernels_ = linked_kernels_of<T, Axes>();
     Columns<T, Axes>& columns_;
+    const RowViews<T, Axes>& views_;
     LinkCache<T, Axes>& cache_;
     Damping damping_ = Damping::in_kick;
 };
@@ -254,9 +264,10 @@ std::optional<Divergence> find_divergence(const MotionColumns<T, Axes>& motion, 
 }  // namespace
 
 template <std::floating_point T, int Axes>
-std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
+std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
+                                           const RowViews<T, Axes>& views, const Plan<T>& plan,
                                            const Steps& steps) {
-    LinkedRows<T, Axes> physics(columns, plan);
+    LinkedRows<T, Axes> physics(columns, views, plan);
     return std::visit(
         [&]<class Rule>(const Rule& rule) -> std::optional<Divergence> {
             for (std::int64_t j = 0; j < steps.count; ++j) {
@@ -277,23 +288,26 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns, const Plan
         plan);
 }
 
-template std::optional<Divergence> step_linked_rows(Columns<float, 1>&, const Plan<float>&,
-                                                    const Steps&);
-template std::optional<Divergence> step_linked_rows(Columns<float, 2>&, const Plan<float>&,
-                                                    const Steps&);
-template std::optional<Divergence> step_linked_rows(Columns<float, 3>&, const Plan<float>&,
-                                                    const Steps&);
-template std::optional<Divergence> step_linked_rows(Columns<double, 1>&, const Plan<double>&,
-                                                    const Steps&);
-template std::optional<Divergence> step_linked_rows(Columns<double, 2>&, const Plan<double>&,
-                                                    const Steps&);
-template std::optional<Divergence> step_linked_rows(Columns<double, 3>&, const Plan<double>&,
-                                                    const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<float, 1>&, const RowViews<float, 1>&,
+                                                    const Plan<float>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<float, 2>&, const RowViews<float, 2>&,
+                                                    const Plan<float>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<float, 3>&, const RowViews<float, 3>&,
+                                                    const Plan<float>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 1>&, const RowViews<double, 1>&,
+                                                    const Plan<double>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 2>&, const RowViews<double, 2>&,
+                                                    const Plan<double>&, const Steps&);
+template std::optional<Divergence> step_linked_rows(Columns<double, 3>&, const RowViews<double, 3>&,
+                                                    const Plan<double>&, const Steps&);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 1>&,
+                                                    const RowViews<long double, 1>&,
                                                     const Plan<long double>&, const Steps&);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 2>&,
+                                                    const RowViews<long double, 2>&,
                                                     const Plan<long double>&, const Steps&);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 3>&,
+                                                    const RowViews<long double, 3>&,
                                                     const Plan<long double>&, const Steps&);
 
 }  // namespace oiler

@@ -3,127 +3,225 @@
 
 #include <cmath>
 #include <mutex>
-#include <utility>
+#include <tuple>
 
 #include "oiler/sim/kernels.hpp"
-#include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
 namespace {
 
-template <std::floating_point T, int Axes>
-bool all_finite(const State<T, Axes>& state) {
-    bool finite = true;
-    for (int i = 0; i < Axes; ++i)
-        finite = finite && std::isfinite(state.x[i]) && std::isfinite(state.v[i]);
-    return finite;
-}
+using Of = Divergence::Of;
 
+/// The first number of a state that is not finite; `axis` is that of its first coordinate.
 template <std::floating_point T, int Axes>
 std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size_t row,
-                                          std::int64_t tick) {
-    for (const auto of : {Divergence::Of::position, Divergence::Of::velocity})
-        for (int axis = 0; axis < Axes; ++axis)
-            if (!std::isfinite((of == Divergence::Of::velocity ? state.v : state.x)[axis]))
-                return Divergence{tick, row, axis, of};
+                                          std::int64_t tick, int axis) {
+    for (const Of of : {Of::position, Of::velocity})
+        for (int i = 0; i < Axes; ++i)
+            if (!std::isfinite((of == Of::velocity ? state.v : state.x)[i]))
+                return Divergence{tick, row, axis + i, of};
     return std::nullopt;
 }
 
+/// The divergence with the smaller tick, then row; of one row that of a position, then axis.
+void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other) {
+    if (!other) return;
+    const auto order = [](const Divergence& d) {
+        return std::tuple(d.tick, d.row, d.of == Of::velocity, d.axis);
+    };
+    if (!first || order(*other) < order(*first)) first = other;
+}
+
 /// Never inlined: it is large, and both callers instantiate it for each type and rule.
-template <std::floating_point T, int Axes, class Rule>
-[[gnu::noinline]] bool take_steps_of_row(const Columns<T, Axes>& columns, const Rule& rule,
-                                         const Steps& steps, std::size_t row, State<T, Axes>& state,
-                                         std::int64_t& evaluations) {
-    RowPhysics<T, Axes> physics(columns, row, damping_of(rule));
-    const bool found = take_steps(rule, state, physics, steps);
-    evaluations += physics.evaluations();
-    return found;
+template <class Rule, class V, int Axes, class Physics>
+[[gnu::noinline]] bool take_steps_of_row(const Rule& rule, State<V, Axes>& state, Physics& physics,
+                                         const Steps& steps) {
+    return take_steps(rule, state, physics, steps);
 }
 
 /// Repeats the steps of a diverged row one at a time to find the step of the divergence.
-template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> replay(const Columns<T, Axes>& columns, const Rule& rule, Steps steps,
-                                 std::size_t row) {
-    State<T, Axes> state = load<T>(columns.motion, row);
-    std::int64_t evaluations = 0;
+template <class Rule, class T, int Axes, class MakePhysics>
+std::optional<Divergence> replay(const Rule& rule, Steps steps, State<T, Axes> state,
+                                 std::size_t row, int axis, MakePhysics make_physics) {
     const std::int64_t end = steps.first + steps.count;
     steps.count = 1;
     for (; steps.first < end; ++steps.first) {
         const std::int64_t tick = steps.first + 1;
-        if (!take_steps_of_row(columns, rule, steps, row, state, evaluations))
-            return Divergence{tick, row, 0, Divergence::Of::solution};
-        if (const auto found = find_divergence(state, row, tick)) return found;
+        auto physics = make_physics(row);
+        if (!take_steps_of_row(rule, state, physics, steps))
+            return Divergence{tick, row, axis, Of::solution};
+        if (const auto found = find_divergence(state, row, tick, axis)) return found;
     }
     return std::nullopt;
 }
 
-template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_row(Columns<T, Axes>& columns, const Rule& rule, const Steps& steps,
-                                   std::size_t row) {
-    State<T, Axes> state = load<T>(columns.motion, row);
-    std::int64_t evaluations = 0;
-    if (!take_steps_of_row(columns, rule, steps, row, state, evaluations) || !all_finite(state))
-        return replay(columns, rule, steps, row);
-    store(state, columns.motion, row);
-    if (row == 0) columns.evaluations += evaluations;
+/// Steps a row from `state`, which it changes unless the row diverges. `make_physics(row)` returns
+/// its physics.
+template <class Rule, class T, int Axes, class MakePhysics>
+std::optional<Divergence> step_row(const Rule& rule, const Steps& steps, State<T, Axes>& state,
+                                   std::size_t row, int axis, MakePhysics make_physics,
+                                   std::int64_t* evaluations) {
+    auto physics = make_physics(row);
+    State<T, Axes> after = state;
+    if (!take_steps_of_row(rule, after, physics, steps) || find_divergence(after, row, 0, axis))
+        return replay(rule, steps, state, row, axis, make_physics);
+    state = after;
+    if (row == 0 && evaluations) *evaluations += physics.evaluations();
     return std::nullopt;
 }
 
-/// Keeps the divergence with the smaller tick, then the smaller row.
-void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other) {
-    if (!other) return;
-    if (!first || std::pair(other->tick, other->row) < std::pair(first->tick, first->row))
-        first = other;
-}
-
+/// Steps all rows of a call, in ranges of whole blocks.
 template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_one_by_one(Columns<T, Axes>& columns, const Rule& rule,
-                                          const Steps& steps, std::size_t begin, std::size_t end) {
-    std::optional<Divergence> first;
-    for (std::size_t row = begin; row < end; ++row)
-        keep_earlier(first, step_row(columns, rule, steps, row));
-    return first;
-}
+class RowStepper {
+public:
+    RowStepper(Columns<T, Axes>& columns, const RowViews<T, Axes>& views, const Rule& rule,
+               const Steps& steps)
+        : columns_(columns), views_(views), rule_(rule), steps_(steps) {}
 
-/// Rows after the last body are stepped too; their numbers must not overflow.
-template <class T, int Axes>
-void clear_padding(MotionColumns<T, Axes>& motion) {
-    for (auto* vector : {&motion.x, &motion.v})
-        for (Column<T>& column : *vector) column.clear_padding();
-}
-
-/// Steps in batches. Batches in which a number may no longer be finite are stepped row by row.
-template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_in_batches(Columns<T, Axes>& columns, const Rule& rule,
-                                          const Steps& steps, std::size_t begin, std::size_t end,
-                                          auto kernel) {
-    std::optional<Divergence> first;
-    for (std::size_t row = begin; (row = kernel(columns, rule, steps, row, end)) < end;) {
-        const std::size_t stop = std::min(row + row_padding, end);
-        keep_earlier(first, step_one_by_one(columns, rule, steps, row, stop));
-        if (stop == columns.size) clear_padding(columns.motion);
-        row = stop;
+    std::optional<Divergence> run(std::size_t begin, std::size_t end) {
+        std::optional<Divergence> first;
+        for (std::size_t row = begin; row < end;) {
+            const Kinds kinds = kinds_of_block(columns_, row);
+            const std::size_t stop = end_of_run(row, end, kinds);
+            if ((kinds & ~linear_kinds) == 0)
+                step_axes(row, stop, kinds, first);
+            else
+                step_all_axes(row, stop, kinds, first);
+            row = stop;
+        }
+        return first;
     }
-    return first;
-}
 
-template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_range(Columns<T, Axes>& columns, const Rule& rule,
-                                     const Steps& steps, std::size_t begin, std::size_t end) {
-    constexpr bool has_kernels =
-        !std::is_same_v<T, long double> && !std::is_same_v<Rule, ImplicitPlan<T>>;
-    if constexpr (has_kernels) {
-        if (const Kernels<T, Axes>* const all = kernels<T, Axes>()) {
-            const auto run = [&](auto kernel) {
-                return step_in_batches(columns, rule, steps, begin, end, kernel);
-            };
-            if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) return run(all->splitting);
-            if constexpr (std::is_same_v<Rule, TableauPlan<T>>) return run(all->tableau);
-            if constexpr (std::is_same_v<Rule, ExactPlan<T>>) return run(all->exact);
+private:
+    static constexpr Kinds linear_kinds = [] {
+        Kinds kinds = 0;
+        for_each_index<force_count>([&](auto kind) {
+            if constexpr (Linear<std::tuple_element_t<kind, ForceList<T, Axes>>>)
+                kinds = static_cast<Kinds>(kinds | 1U << kind);
+        });
+        return kinds;
+    }();
+    /// Rows whose numbers along one axis stay in the cache while the other axes are stepped.
+    static constexpr std::size_t rows_per_axis = 8 * row_padding;
+
+    /// The end of the blocks from `row` on that have these kinds of force.
+    [[nodiscard]] std::size_t end_of_run(std::size_t row, std::size_t end, Kinds kinds) const {
+        if (columns_.kinds.shared()) return end;
+        do row += row_padding;
+        while (row < end && kinds_of_block(columns_, row) == kinds);
+        return std::min(row, end);
+    }
+
+    [[nodiscard]] AxisRows<T> rows_along(std::size_t axis) {
+        return {columns_.motion.x[axis].data(), columns_.motion.v[axis].data(),
+                views_.linear().axis[axis], views_.flows(),
+                axis == 0 ? &columns_.evaluations : nullptr};
+    }
+
+    void step_axes(std::size_t begin, std::size_t end, Kinds kinds,
+                   std::optional<Divergence>& first) {
+        for (std::size_t row = begin; row < end; row += rows_per_axis)
+            for (std::size_t axis = 0; axis < Axes; ++axis)
+                step_axis(row, std::min(row + rows_per_axis, end), axis, kinds, first);
+    }
+    void step_axis(std::size_t begin, std::size_t end, std::size_t axis, Kinds kinds,
+                   std::optional<Divergence>& first) {
+        const AxisRows<T> rows = rows_along(axis);
+        const LinearParts parts = rows.forces.parts(kinds);
+        const auto one_by_one = [&](std::size_t from, std::size_t to) {
+            for (std::size_t row = from; row < to; ++row)
+                keep_earlier(first, step_axis_row(rows, parts, row, static_cast<int>(axis)));
+        };
+        const auto* const all = kernels_or_null();
+        if (!all) return one_by_one(begin, end);
+        const auto kernel = [&](std::size_t from) {
+            if constexpr (has_kernels)
+                return all->axis.of(rule_)[index_of(parts)](rows, rule_, steps_, from, end);
+            else
+                return end;
+        };
+        in_batches(begin, end, kernel, one_by_one);
+    }
+    std::optional<Divergence> step_axis_row(const AxisRows<T>& rows, const LinearParts& parts,
+                                            std::size_t row, int axis) {
+        State<T, 1> state{{rows.x[row]}, {rows.v[row]}};
+        const auto diverged = step_row(
+            rule_, steps_, state, row, axis,
+            [&](std::size_t at) { return physics_of<T>(rows, at, parts, damping_of(rule_)); },
+            rows.evaluations);
+        rows.x[row] = state.x[0];
+        rows.v[row] = state.v[0];
+        return diverged;
+    }
+
+    std::optional<Divergence> step_row_axis_by_axis(std::size_t row) {
+        std::optional<Divergence> first;
+        for (std::size_t axis = 0; axis < Axes; ++axis) {
+            const AxisRows<T> rows = rows_along(axis);
+            const LinearParts parts = rows.forces.parts(columns_.kinds[row]);
+            keep_earlier(first, step_axis_row(rows, parts, row, static_cast<int>(axis)));
+        }
+        return first;
+    }
+
+    void step_all_axes(std::size_t begin, std::size_t end, Kinds kinds,
+                       std::optional<Divergence>& first) {
+        const auto one_by_one = [&](std::size_t from, std::size_t to) {
+            for (std::size_t row = from; row < to; ++row)
+                keep_earlier(first, step_whole_row(row, kinds));
+        };
+        constexpr bool in_kernels = has_kernels && (std::is_same_v<Rule, SplittingPlan<T>> ||
+                                                    std::is_same_v<Rule, TableauPlan<T>>);
+        const auto* const all = kernels_or_null();
+        if (!in_kernels || !all) return one_by_one(begin, end);
+        const auto kernel = [&](std::size_t from) {
+            if constexpr (has_kernels && std::is_same_v<Rule, SplittingPlan<T>>)
+                return all->splitting(columns_, views_, kinds, rule_, steps_, from, end);
+            else if constexpr (has_kernels && std::is_same_v<Rule, TableauPlan<T>>)
+                return all->tableau(columns_, views_, kinds, rule_, steps_, from, end);
+            else
+                return end;
+        };
+        in_batches(begin, end, kernel, one_by_one);
+    }
+    std::optional<Divergence> step_whole_row(std::size_t row, Kinds kinds) {
+        // Newton's iteration differs for linear forces, and no body may depend on its neighbours.
+        if (std::is_same_v<Rule, ImplicitPlan<T>> && (columns_.kinds[row] & ~linear_kinds) == 0)
+            return step_row_axis_by_axis(row);
+        State<T, Axes> state = load<T>(columns_.motion, row);
+        const auto diverged = step_row(
+            rule_, steps_, state, row, 0,
+            [&](std::size_t at) { return physics_of<T>(views_, at, kinds, damping_of(rule_)); },
+            &columns_.evaluations);
+        store(state, columns_.motion, row);
+        return diverged;
+    }
+
+    /// Batches in which a number may no longer be finite are stepped row by row.
+    template <class Kernel, class OneByOne>
+    void in_batches(std::size_t begin, std::size_t end, Kernel kernel, OneByOne one_by_one) {
+        for (std::size_t row = begin; (row = kernel(row)) < end;) {
+            const std::size_t stop = std::min(row + row_padding, end);
+            one_by_one(row, stop);
+            // Rows after the last body are stepped too; their numbers must not overflow.
+            if (stop == columns_.size) clear_padding(columns_.motion);
+            row = stop;
         }
     }
-    return step_one_by_one(columns, rule, steps, begin, end);
-}
+
+    static constexpr bool has_kernels = !std::is_same_v<T, long double>;
+    static auto kernels_or_null() {
+        if constexpr (has_kernels)
+            return kernels<T, Axes>();
+        else
+            return static_cast<const Kernels<double, Axes>*>(nullptr);
+    }
+
+    Columns<T, Axes>& columns_;
+    const RowViews<T, Axes>& views_;
+    const Rule& rule_;
+    const Steps& steps_;
+};
 
 /// With fewer row-steps, calling a team takes longer than stepping on one thread.
 constexpr std::size_t team_threshold = 16384;
@@ -134,24 +232,24 @@ bool pays_for_team(std::size_t rows, const Steps& steps) {
                team_threshold / static_cast<std::size_t>(std::max<std::int64_t>(1, steps.count));
 }
 
-/// The first row of part `part` of `parts`; it begins a batch.
+/// The first row of part `part` of `parts`; it begins a block.
 std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
     return std::min(rows, padded(rows) / row_padding * part / parts * row_padding);
 }
 
 template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns, const Rule& rule,
+std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns,
+                                           const RowViews<T, Axes>& views, const Rule& rule,
                                            const Steps& steps, Team* team) {
     // Choose the kernels on this thread: an error in a thread of the team would end the program.
     if constexpr (!std::is_same_v<T, long double>) static_cast<void>(kernels<T, Axes>());
-    if (!team || !pays_for_team(columns.size, steps))
-        return step_range(columns, rule, steps, 0, columns.size);
+    RowStepper<T, Axes, Rule> stepper(columns, views, rule, steps);
+    if (!team || !pays_for_team(columns.size, steps)) return stepper.run(0, columns.size);
     std::mutex first_mutex;
     std::optional<Divergence> first;
     team->run([&](std::size_t part) {
-        const auto found =
-            step_range(columns, rule, steps, begin_of(part, team->size(), columns.size),
-                       begin_of(part + 1, team->size(), columns.size));
+        const auto found = stepper.run(begin_of(part, team->size(), columns.size),
+                                       begin_of(part + 1, team->size(), columns.size));
         if (!found) return;
         const std::lock_guard lock(first_mutex);
         keep_earlier(first, found);
@@ -162,29 +260,33 @@ std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns, const Rule
 }  // namespace
 
 template <std::floating_point T, int Axes>
-std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const Plan<T>& plan,
-                                    const Steps& steps, Team* team) {
+std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const RowViews<T, Axes>& views,
+                                    const Plan<T>& plan, const Steps& steps, Team* team) {
     return std::visit(
-        [&](const auto& rule) { return step_in_parallel(columns, rule, steps, team); }, plan);
+        [&](const auto& rule) { return step_in_parallel(columns, views, rule, steps, team); },
+        plan);
 }
 
-template std::optional<Divergence> step_rows(Columns<float, 1>&, const Plan<float>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<float, 2>&, const Plan<float>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<float, 3>&, const Plan<float>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<double, 1>&, const Plan<double>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<double, 2>&, const Plan<double>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<double, 3>&, const Plan<double>&, const Steps&,
-                                             Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 1>&, const Plan<long double>&,
-                                             const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 2>&, const Plan<long double>&,
-                                             const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 3>&, const Plan<long double>&,
-                                             const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<float, 1>&, const RowViews<float, 1>&,
+                                             const Plan<float>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<float, 2>&, const RowViews<float, 2>&,
+                                             const Plan<float>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<float, 3>&, const RowViews<float, 3>&,
+                                             const Plan<float>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<double, 1>&, const RowViews<double, 1>&,
+                                             const Plan<double>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<double, 2>&, const RowViews<double, 2>&,
+                                             const Plan<double>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<double, 3>&, const RowViews<double, 3>&,
+                                             const Plan<double>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<long double, 1>&,
+                                             const RowViews<long double, 1>&,
+                                             const Plan<long double>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<long double, 2>&,
+                                             const RowViews<long double, 2>&,
+                                             const Plan<long double>&, const Steps&, Team*);
+template std::optional<Divergence> step_rows(Columns<long double, 3>&,
+                                             const RowViews<long double, 3>&,
+                                             const Plan<long double>&, const Steps&, Team*);
 
 }  // namespace oiler

@@ -5,7 +5,7 @@
 
 #include "oiler/physics/advance.hpp"
 #include "oiler/sim/row_physics.hpp"
-#include "oiler/sim/step_rows.hpp"
+#include "oiler/sim/steps.hpp"
 
 namespace oiler {
 
@@ -14,7 +14,7 @@ namespace oiler {
 template <class Rule, class V, int Axes, class Physics>
 [[gnu::always_inline]] inline bool step_once(const Rule& rule, State<V, Axes>& state,
                                              Physics& physics, double t) {
-    if constexpr (std::is_same_v<Rule, ImplicitPlan<Scalar<V>>>) {
+    if constexpr (std::is_same_v<decltype(advance(rule, state, physics, t)), bool>) {
         return advance(rule, state, physics, t);
     } else {
         advance(rule, state, physics, t);
@@ -25,6 +25,16 @@ template <class Rule, class V, int Axes, class Physics>
 /// Whether bodies are put to sleep after tick `tick`. It depends on the tick alone, so that results
 /// do not depend on the number of steps per call.
 [[nodiscard]] constexpr bool is_sleep_tick(std::int64_t tick) { return tick % sleep_interval == 0; }
+
+/// One step and the sleep after it. Returns false if an implicit method found no solution.
+template <class Rule, class V, int Axes, class Physics>
+[[gnu::always_inline]] inline bool take_one_step(const Rule& rule, State<V, Axes>& state,
+                                                 Physics& physics, const Steps& steps) {
+    if (!step_once(rule, state, physics, steps.rate.time(steps.first))) return false;
+    if (is_sleep_tick(steps.first + 1))
+        physics.put_to_sleep(state, steps.rate.time(steps.first + 1));
+    return true;
+}
 
 /// All steps of a row or a batch. Returns false if an implicit method found no solution.
 template <class Rule, class V, int Axes, class Physics>

@@ -15,15 +15,12 @@ struct Attraction {
 Attraction attraction_of(const Bodies& bodies, std::size_t row) {
     Attraction of;
     for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
-        const auto [gravity, spring, linear, quadratic, coil, attractor] =
-            bodies.forces_per_mass(row, i);
-        if (attractor && attractor->gm != 0) of.attractors.push_back(*attractor);
-        const bool others = (spring && (spring->stiffness != 0 || spring->damping != 0)) ||
-                            (linear && linear->coefficient != 0) ||
-                            (quadratic && quadratic->coefficient != 0) ||
-                            (coil && (coil->stiffness != 0 || coil->damping != 0)) ||
-                            (gravity && squared_length(gravity->acceleration) != 0);
-        of.is_alone = of.is_alone && !others;
+        for_each_given(bodies.forces_per_mass(row, i), [&]<class Force>(const Force& force) {
+            if constexpr (!std::is_same_v<Force, Attractor>)
+                of.is_alone = of.is_alone && !acts(force);
+            else if (force.gm != 0)
+                of.attractors.push_back(force);
+        });
     }
     of.is_alone = of.is_alone && of.attractors.size() == 1;
     return of;

@@ -29,12 +29,12 @@ void add_body(const Bodies& bodies, std::size_t row, Component& to) {
     double drag = 0;
     for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
         const GivenForces forces = bodies.forces_per_mass(row, i);
-        if (const auto& spring = std::get<std::optional<Spring>>(forces)) {
-            stiffness += spring->stiffness * mass;
-            drag += spring->damping;
-        }
-        if (const auto& linear = std::get<std::optional<LinearDrag>>(forces))
-            drag += linear->coefficient;
+        for_each_given(forces, [&]<class Force>(const Force& force) {
+            if constexpr (Linear<Force>) {
+                stiffness += linear_form(force).stiffness * mass;
+                drag += linear_form(force).damping;
+            }
+        });
         const auto& coil = std::get<std::optional<CoilSpring>>(forces);
         if (!coil || (coil->stiffness == 0 && coil->damping == 0)) continue;
         const Vec3 d = bodies.position(row) - coil->anchor;

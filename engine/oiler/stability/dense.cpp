@@ -105,12 +105,10 @@ public:
             state.v.of.row(i) *= response.decay;
         }
     }
-    template <class Plan>
-    void damp_before(UnitStates& state, const Plan&) const {
+    void damp_before(UnitStates& state) const {
         for (const Damp& damp : damps_) state.v.of -= (damp.loss * state.v.of).eval();
     }
-    template <class Plan>
-    void damp_after(UnitStates& state, const Plan&) const {
+    void damp_after(UnitStates& state) const {
         for (std::size_t i = damps_.size(); i-- > 0;)
             state.v.of -= (damps_[i].loss * state.v.of).eval();
     }

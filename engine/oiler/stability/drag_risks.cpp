@@ -24,17 +24,31 @@ struct Dragged {
     }
 };
 
+template <class Force>
+void include(const Force& force, const Vec3& velocity, Dragged& of) {
+    if constexpr (Linear<Force>) {
+        const LinearForce<double, 3> linear = linear_form(force);
+        of.gravity = std::max(of.gravity, length(linear.constant));
+        of.linear += linear.damping;
+        of.has_springs = of.has_springs || linear.stiffness != 0;
+    } else if constexpr (std::is_same_v<Force, QuadraticDrag>) {
+        of.quadratic += force.coefficient;
+    } else if constexpr (std::is_same_v<Force, Wind>) {
+        of.quadratic += force.coefficient;
+        of.speed = std::max(of.speed, length(velocity - force.velocity));
+    } else if constexpr (std::is_same_v<Force, CoilSpring>) {
+        of.has_springs = of.has_springs || force.stiffness != 0;
+    } else {
+        // Its speeds are not bounded by springs or gravity.
+        of.has_attractors = of.has_attractors || acts(force);
+    }
+}
+
 Dragged drag_of(const Bodies& bodies, std::size_t row) {
     Dragged of{.speed = std::sqrt(squared_length(bodies.velocity(row)))};
     for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
-        const auto [gravity, spring, linear, quadratic, coil, attractor] =
-            bodies.forces_per_mass(row, i);
-        if (gravity) of.gravity = std::sqrt(squared_length(gravity->acceleration));
-        if (linear) of.linear += linear->coefficient;
-        if (quadratic) of.quadratic += quadratic->coefficient;
-        of.has_springs =
-            of.has_springs || (spring && spring->stiffness != 0) || (coil && coil->stiffness != 0);
-        of.has_attractors = of.has_attractors || (attractor && attractor->gm != 0);
+        for_each_given(bodies.forces_per_mass(row, i),
+                       [&](const auto& force) { include(force, bodies.velocity(row), of); });
     }
     return of;
 }
@@ -86,9 +100,10 @@ std::vector<bool> speed_up(const Method& method, Damping damping, std::vector<do
     return faster;
 }
 
-bool has_quadratic_drag(const Bodies& bodies) {
+bool any_has_quadratic_drag(const Bodies& bodies) {
     for (const Stored& stored : bodies.stored())
-        if (stored.of == QuadraticDrag::name && stored.rows > 0) return true;
+        if ((stored.of == QuadraticDrag::name || stored.of == Wind::name) && stored.rows > 0)
+            return true;
     return false;
 }
 
@@ -169,7 +184,7 @@ private:
 void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
                     std::vector<Risk>& risks) {
     if (is_implicit(region.method()) || splits_dampers(region.method(), region.damping())) return;
-    if (!has_quadratic_drag(bodies)) return;
+    if (!any_has_quadratic_drag(bodies)) return;
     std::vector<bool> linked(bodies.size());
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;

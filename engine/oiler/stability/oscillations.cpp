@@ -11,12 +11,14 @@ std::vector<Oscillation> own_oscillations(const Bodies& bodies, bool coils_split
         for (std::size_t row = 0; row < own.size(); ++row) {
             const GivenForces forces = bodies.forces_per_mass(row, index);
             Oscillation& of = own[row];
-            if (const auto& spring = std::get<std::optional<Spring>>(forces))
-                of = {of.k + spring->stiffness, of.c + spring->damping};
+            for_each_given(forces, [&]<class Force>(const Force& force) {
+                if constexpr (Linear<Force>) {
+                    const auto linear = linear_form(force);
+                    of = {of.k + linear.stiffness, of.c + linear.damping};
+                }
+            });
             if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
                 of = {of.k + coil->stiffness, of.c + (coils_split ? 0 : coil->damping)};
-            if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
-                of.c += drag->coefficient;
         }
     return own;
 }

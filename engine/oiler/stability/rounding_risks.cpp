@@ -15,7 +15,7 @@ Vec3 acceleration(const Bodies& bodies, std::size_t row) {
     for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i)
         std::apply(
             [&](const auto&... force) {
-                ((total = force ? total + force->accelerate(state, 0) : total), ...);
+                ((total = force ? total + accelerate(*force, state, 0) : total), ...);
             },
             bodies.forces_per_mass(row, i));
     return total;

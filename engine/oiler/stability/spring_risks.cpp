@@ -24,12 +24,12 @@ std::vector<OwnMotion> own_motions(const Bodies& bodies) {
         for (std::size_t row = 0; row < own.size(); ++row) {
             const GivenForces forces = bodies.forces_per_mass(row, index);
             OwnMotion& of = own[row];
-            if (const auto& spring = std::get<std::optional<Spring>>(forces)) {
-                of.k += spring->stiffness;
-                of.c += spring->damping;
-            }
-            if (const auto& drag = std::get<std::optional<LinearDrag>>(forces))
-                of.c += drag->coefficient;
+            for_each_given(forces, [&]<class Force>(const Force& force) {
+                if constexpr (Linear<Force>) {
+                    of.k += linear_form(force).stiffness;
+                    of.c += linear_form(force).damping;
+                }
+            });
             if (const auto& coil = std::get<std::optional<CoilSpring>>(forces))
                 of.has_coils = of.has_coils || coil->stiffness != 0 || coil->damping != 0;
         }

@@ -26,28 +26,27 @@ struct Influence {
     bool other = false;  ///< a force without a closed form acts
 };
 
+/// Whether a force may accelerate the body; a drag without a coefficient does not.
 template <class Force>
-const Force* get(const GivenForces& forces) {
-    const auto& given = std::get<std::optional<Force>>(forces);
-    return given ? &*given : nullptr;
+bool may_act(const Force& force) {
+    if constexpr (requires { force.coefficient; }) return force.coefficient != 0;
+    return acts(force);
 }
 
 void add(Influence& influence, const GivenForces& forces) {
-    if (const auto* gravity = get<GravityForce<double, 3>>(forces))
-        influence.acceleration = influence.acceleration + to_real(gravity->acceleration);
-    if (const auto* spring = get<Spring>(forces)) {
-        influence.acceleration =
-            influence.acceleration + to_real(spring->anchor) * Real(spring->stiffness);
-        influence.stiffness += spring->stiffness;
-        influence.damping += spring->damping;
-    }
-    if (const auto* drag = get<LinearDrag>(forces)) influence.damping += drag->coefficient;
-    if (const auto* drag = get<QuadraticDrag>(forces))
-        influence.other = influence.other || drag->coefficient != 0;
-    if (const auto* coil = get<CoilSpring>(forces))
-        influence.other = influence.other || coil->stiffness != 0 || coil->damping != 0;
-    if (const auto* attractor = get<Attractor>(forces))
-        if (attractor->gm != 0) influence.attractors.push_back(*attractor);
+    for_each_given(forces, [&]<class Force>(const Force& force) {
+        if constexpr (Linear<Force>) {
+            const LinearForce<double, 3> linear = linear_form(force);
+            influence.acceleration = influence.acceleration + to_real(linear.constant) +
+                                     to_real(linear.centre) * Real(linear.stiffness);
+            influence.stiffness += linear.stiffness;
+            influence.damping += linear.damping;
+        } else if constexpr (std::is_same_v<Force, Attractor>) {
+            if (force.gm != 0) influence.attractors.push_back(force);
+        } else {
+            influence.other = influence.other || may_act(force);
+        }
+    });
 }
 
 State3 state_at(const LinearMotion& motion, Real t) {

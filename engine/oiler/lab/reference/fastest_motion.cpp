@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "oiler/stability/oscillations.hpp"
 
 namespace oiler::lab {
 namespace {
-
-double length(const Vec3& a) { return std::sqrt(squared_length(a)); }
 
 /// The angular speed of a circular orbit at the distance of closest approach. A body that falls
 /// straight in passes the attractor arbitrarily fast; its orbit is bounded at 10⁻³ of the distance.
@@ -39,6 +38,12 @@ double fastest_of(const GivenForces& forces, const Vec3& position, const Vec3& v
     const double g = gravity ? length(gravity->acceleration) : 0;
     if (const auto& drag = std::get<std::optional<QuadraticDrag>>(forces))
         fastest = std::max(fastest, dragged(drag->coefficient, g, length(velocity)));
+    if (const auto& wind = std::get<std::optional<Wind>>(forces))
+        fastest =
+            std::max(fastest, dragged(wind->coefficient, g, length(velocity - wind->velocity)));
+    if (const auto& drive = std::get<std::optional<Drive>>(forces))
+        if (squared_length(drive->amplitude) > 0)
+            fastest = std::max(fastest, 2 * std::numbers::pi * std::abs(drive->frequency));
     return fastest;
 }
 

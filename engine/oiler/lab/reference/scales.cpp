@@ -9,11 +9,13 @@
 namespace oiler::lab {
 namespace {
 
-/// The share of a force in the damping of a body.
+/// Whether a force takes energy from a body or, if it depends on time, gives it energy.
 struct Damped {
     template <class Force>
     bool operator()(const Force& force) const {
-        if constexpr (requires { force.damping; })
+        if constexpr (DependsOnTime<Force>)
+            return acts(force);
+        else if constexpr (requires { force.damping; })
             return force.damping != 0;
         else if constexpr (requires { force.coefficient; })
             return force.coefficient != 0;

@@ -20,7 +20,6 @@ struct AttractorForce {
 
     static constexpr std::string_view name = "attractor";
     static constexpr bool everywhere = false;
-    static constexpr bool linear = false;
     static constexpr auto fields() {
         return std::tuple(&AttractorForce::centre, &AttractorForce::gm);
     }

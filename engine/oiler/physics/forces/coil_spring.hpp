@@ -6,6 +6,7 @@
 
 #include "oiler/physics/forces/direction.hpp"
 #include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/response.hpp"
 #include "oiler/physics/state.hpp"
 
 namespace oiler {
@@ -22,7 +23,6 @@ struct CoilSpringForce {
 
     static constexpr std::string_view name = "coil_spring";
     static constexpr bool everywhere = false;
-    static constexpr bool linear = false;
     static constexpr auto fields() {
         return std::tuple(&CoilSpringForce::anchor, &CoilSpringForce::stiffness,
                           &CoilSpringForce::damping, &CoilSpringForce::rest_length);
@@ -40,7 +40,11 @@ struct CoilSpringForce {
         const Direction<V, Axes> d(state.x - anchor);
         return d.unit * (stiffness * (rest_length - d.length) - damping * dot(state.v, d.unit));
     }
-    /// The exact flow of the damper for τ s on a fixed position; `loss` is 1 − e^(−b·τ).
+    /// 1 − e^(−b·τ) for τ s.
+    V prepare_damping(const V& tau) const {
+        return damping * oscillator_response(V(0), damping, tau).reach;
+    }
+    /// The exact flow of the damper on a fixed position, for the `loss` of prepare_damping.
     [[gnu::always_inline]] constexpr void damp(State<V, Axes>& state, const V& loss) const {
         const Direction<V, Axes> d(state.x - anchor);
         state.v = state.v - d.unit * (dot(state.v, d.unit) * loss);

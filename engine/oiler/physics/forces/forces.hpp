@@ -8,31 +8,34 @@
 
 #include "oiler/physics/forces/attractor.hpp"
 #include "oiler/physics/forces/coil_spring.hpp"
+#include "oiler/physics/forces/drive.hpp"
 #include "oiler/physics/forces/gravity.hpp"
 #include "oiler/physics/forces/linear_drag.hpp"
 #include "oiler/physics/forces/quadratic_drag.hpp"
 #include "oiler/physics/forces/spring.hpp"
+#include "oiler/physics/forces/wind.hpp"
 
 namespace oiler {
 
-// A force is one type: its numbers, its acceleration, its potential and its Jacobian. A user gives
-// the numbers in the units of the fields. The columns hold the force per unit mass, so that a step
-// loads no mass.
+// A force is one type: its numbers and its physics. A user gives the numbers in the units of the
+// fields. The columns hold the force per unit mass, so that a step loads no mass.
 //
-// Every force has: `name`; `everywhere`, whether all bodies share one; `linear`, whether it is
-// linear in position and velocity; `fields()`, its numbers in the order of the columns;
-// `per_unit_mass(m)`; `accelerate(state, t)` in m/s²; `jacobian(state)`; `potential(state)` in
-// J/kg. `t` is in seconds.
+// Every force has: `name`; `everywhere`, whether all bodies share one; `fields()`, its numbers in
+// the order of the columns; `per_unit_mass(m)`.
 //
-// Some forces also have: `field(x, t)`, the part of the acceleration that depends on position
-// alone; and for the part that depends on velocity either `damping_rate()`, the c of −c·v in 1/s,
-// or `damp(state, …)`, its exact flow on velocity at a fixed position.
+// A force that is linear in position and velocity has `linear_fields()`, and needs nothing else.
+// Every other force has `accelerate(state, t)` in m/s²; `jacobian(state)`; `potential(state)` in
+// J/kg; and one or both of
+// - `field(x, t)`, the part of the acceleration that depends on position and time alone;
+// - `damp(state, number)`, the exact flow of the part that depends on velocity, at a fixed
+//   position. `prepare_damping(tau)` returns its number for tau s.
+// `depends_on_time` marks a field that depends on t, in s.
 
-/// All forces. Accelerations are summed in this order.
+/// All forces. Accelerations are summed in this order, after that of the linear forces.
 template <Number V, int Axes>
-using ForceList =
-    std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
-               QuadraticDragForce<V, Axes>, CoilSpringForce<V, Axes>, AttractorForce<V, Axes>>;
+using ForceList = std::tuple<GravityForce<V, Axes>, SpringForce<V, Axes>, LinearDragForce<V, Axes>,
+                             QuadraticDragForce<V, Axes>, CoilSpringForce<V, Axes>,
+                             AttractorForce<V, Axes>, WindForce<V, Axes>, DriveForce<V, Axes>>;
 
 /// The index of a type in a list of types.
 template <class Type, class... All>
@@ -44,11 +47,14 @@ constexpr std::size_t index_of(const std::tuple<All...>*) {
 inline constexpr std::size_t force_count = std::tuple_size_v<ForceList<double, 1>>;
 
 /// The forces of the public API. Axes that the world lacks are zero.
+using Gravity = GravityForce<double, 3>;
 using Spring = SpringForce<double, 3>;
 using LinearDrag = LinearDragForce<double, 3>;
 using QuadraticDrag = QuadraticDragForce<double, 3>;
 using CoilSpring = CoilSpringForce<double, 3>;
 using Attractor = AttractorForce<double, 3>;
+using Wind = WindForce<double, 3>;
+using Drive = DriveForce<double, 3>;
 
 /// Calls `f` with each number of a force in the order of its fields; vectors axis by axis.
 template <class Force, class F>
@@ -71,83 +77,173 @@ constexpr std::size_t number_count() {
     return count;
 }
 
-/// The forces on one body or a batch of bodies. The cost is that of the forces in use. `Source` has
-/// `count<Force>()`, the number of forces of a kind, and `get<Force>(index)`.
-template <Number V, int Axes, class Source>
-class Forces {
-public:
-    [[gnu::always_inline]] explicit Forces(const Source& source) : source_(source) {}
+template <class Force>
+concept DependsOnTime = Force::depends_on_time;
 
-    /// The sum over the forces, in the order of the list, m/s².
+/// A force whose damping has a flow of its own.
+template <class Force, class State, class V>
+concept Damps = requires(const Force& force, State& state, const V& number) {
+    force.damp(state, number);
+};
+
+/// Whether a force has any number other than 0.
+template <class Force>
+[[nodiscard]] constexpr bool acts(Force force) {
+    bool any = false;
+    for_each_number(force, [&](const auto& number) { any = any || number != 0; });
+    return any;
+}
+
+/// The acceleration by one force, m/s².
+template <class Force, Number V, int Axes>
+[[nodiscard]] constexpr Vec<V, Axes> accelerate(const Force& force, const State<V, Axes>& state,
+                                                double t) {
+    if constexpr (Linear<Force>)
+        return linear_form(force).accelerate(state,
+                                             typename decltype(Force::linear_fields())::Parts{});
+    else
+        return force.accelerate(state, t);
+}
+
+/// The part of the acceleration by one force that depends on position and time alone, m/s².
+template <class Force, Number V, int Axes>
+[[nodiscard]] constexpr Vec<V, Axes> field(const Force& force, const Vec<V, Axes>& x, double t) {
+    if constexpr (Linear<Force>)
+        return linear_form(force).field(x, typename decltype(Force::linear_fields())::Parts{});
+    else if constexpr (requires { force.field(x, t); })
+        return force.field(x, t);
+    else
+        return {};
+}
+
+/// The derivatives of the acceleration by one force.
+template <class Force, Number V, int Axes>
+[[nodiscard]] constexpr Jacobian<V, Axes> jacobian(const Force& force,
+                                                   const State<V, Axes>& state) {
+    if constexpr (Linear<Force>)
+        return linear_form(force).jacobian();
+    else
+        return force.jacobian(state);
+}
+
+/// The potential energy per unit mass in one force, J/kg.
+template <class Force, Number V, int Axes>
+[[nodiscard]] constexpr V potential(const Force& force, const State<V, Axes>& state) {
+    if constexpr (Linear<Force>)
+        return linear_form(force).potential(state.x);
+    else
+        return force.potential(state);
+}
+
+/// The Others of a body with linear forces only.
+struct NoOthers {
+    template <class Force>
+    static std::size_t count();
+    template <class Force>
+    static Force get(std::size_t index);
+    template <class Force>
+    static auto damping_number(std::size_t index);
+};
+
+/// The forces on one body or a batch of bodies: the sum of the linear ones, and the others.
+/// `Others` has `count<Force>()`, the number of forces of a kind; `get<Force>(index)`; and
+/// `damping_number<Force>(index)`, what prepare_damping returned for a half-step.
+template <Number V, int Axes, class Parts, class Others>
+struct Forces {
+    LinearForce<V, Axes> linear;
+    [[no_unique_address]] Parts parts;
+    [[no_unique_address]] Others others;
+
+    /// The sum over the forces, m/s².
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) const {
-        return sum([&](const auto& force)
-                       __attribute__((always_inline)) { return force.accelerate(state, t); });
+        return plus_others(
+            linear.accelerate(state, parts), [&](const auto& force) __attribute__((always_inline)) {
+                return force.accelerate(state, t);
+            });
     }
-    /// The part of the acceleration that depends on position alone, m/s².
+    /// The part of the acceleration that depends on position and time alone, m/s².
     [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& x, double t) const {
-        return sum([&](const auto& force) __attribute__((always_inline)) {
-            if constexpr (requires { force.field(x, t); }) return force.field(x, t);
+        return plus_others(
+            linear.field(x, parts), [&](const auto& force) __attribute__((always_inline)) {
+                if constexpr (requires { force.field(x, t); }) return force.field(x, t);
+            });
+    }
+    /// Half-steps of damping at a fixed position, one force after the other.
+    [[gnu::always_inline]] void damp(State<V, Axes>& state) const {
+        for_each_kind([&](auto kind) __attribute__((always_inline)) {
+            for (std::size_t i = 0; i < count<kind>(); ++i) damp_by<kind>(state, i);
+        });
+    }
+    /// Half-steps of damping in the reverse order.
+    [[gnu::always_inline]] void damp_in_reverse(State<V, Axes>& state) const {
+        for_each_kind<true>([&](auto kind) __attribute__((always_inline)) {
+            for (std::size_t i = count<kind>(); i-- > 0;) damp_by<kind>(state, i);
         });
     }
     [[nodiscard]] Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
-        Jacobian<V, Axes> total;
-        for_each([&](const auto& force) {
+        Jacobian<V, Axes> total = linear.jacobian();
+        for_each_other([&](const auto& force) {
             const Jacobian<V, Axes> one = force.jacobian(state);
             total = {total.dx + one.dx, total.dv + one.dv};
         });
         return total;
     }
-    /// The c of the linear damping −c·v, 1/s.
-    [[nodiscard]] [[gnu::always_inline]] V damping_rate() const {
-        V total = V(0);
-        for_each([&](const auto& force) __attribute__((always_inline)) {
-            if constexpr (requires { force.damping_rate(); }) total = total + force.damping_rate();
+    /// Positive for bodies with damping that is not linear, whose formulas have squares of speeds;
+    /// 0 for others.
+    [[nodiscard]] V squares_speeds() const {
+        V total = V(Scalar<V>(0));
+        for_each_other([&]<class One>(const One& force) {
+            if constexpr (Damps<One, State<V, Axes>, V>)
+                for_each_number(force, [&](const V& number) { total = total + number * number; });
         });
         return total;
     }
-    /// Potential energy per unit mass, J/kg.
-    [[nodiscard]] V potential(const State<V, Axes>& state) const {
-        V total = V(0);
-        for_each([&](const auto& force) { total = total + force.potential(state); });
-        return total;
-    }
-
-    template <template <class, int> class Force>
-    [[nodiscard]] [[gnu::always_inline]] std::size_t count() const {
-        return source_.template count<Force<V, Axes>>();
-    }
-    template <template <class, int> class Force>
-    [[nodiscard]] [[gnu::always_inline]] Force<V, Axes> get(std::size_t index) const {
-        return source_.template get<Force<V, Axes>>(index);
+    /// Whether the field depends on time.
+    [[nodiscard]] [[gnu::always_inline]] bool depend_on_time() const {
+        bool any = false;
+        for_each_kind([&](auto kind) __attribute__((always_inline)) {
+            if constexpr (DependsOnTime<Force<kind>>) any = any || count<kind>() > 0;
+        });
+        return any;
     }
 
 private:
+    template <std::size_t kind>
+    using Force = std::tuple_element_t<kind, ForceList<V, Axes>>;
+
+    /// Calls f(kind) for each kind of force that is not linear, from the first or from the last.
+    template <bool Reverse = false, class F>
+    [[gnu::always_inline]] void for_each_kind(F f) const {
+        if constexpr (!std::is_same_v<Others, NoOthers>)
+            for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
+                constexpr std::size_t kind = Reverse ? force_count - 1 - i : i;
+                if constexpr (!Linear<Force<kind>>) f(std::integral_constant<std::size_t, kind>{});
+            });
+    }
+    template <std::size_t kind>
+    [[gnu::always_inline]] std::size_t count() const {
+        return others.template count<Force<kind>>();
+    }
+    template <std::size_t kind>
+    [[gnu::always_inline]] void damp_by(State<V, Axes>& state, std::size_t i) const {
+        if constexpr (Damps<Force<kind>, State<V, Axes>, V>)
+            others.template get<Force<kind>>(i).damp(
+                state, others.template damping_number<Force<kind>>(i));
+    }
     template <class F>
-    [[gnu::always_inline]] void for_each(F f) const {
-        for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
-            using Force = std::tuple_element_t<i, ForceList<V, Axes>>;
-            for (std::size_t index = 0; index < source_.template count<Force>(); ++index)
-                f(source_.template get<Force>(index));
+    [[gnu::always_inline]] void for_each_other(F f) const {
+        for_each_kind([&](auto kind) __attribute__((always_inline)) {
+            for (std::size_t i = 0; i < count<kind>(); ++i) f(others.template get<Force<kind>>(i));
         });
     }
-    /// Sums the results of `f` for each force; void counts as zero.
+    /// Adds the results of `f` for each force that is not linear; void counts as zero.
     template <class F>
-    [[gnu::always_inline]] Vec<V, Axes> sum(F f) const {
-        Vec<V, Axes> total{generate<Axes>([](auto) { return V(0); })};
-        bool started = false;
-        for_each([&](const auto& force) __attribute__((always_inline)) {
-            if constexpr (!std::is_void_v<decltype(f(force))>) {
-                const Vec<V, Axes> a = f(force);
-                for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
-                    total.axis[axis] = started ? V(total.axis[axis] + a.axis[axis]) : a.axis[axis];
-                });
-                started = true;
-            }
+    [[gnu::always_inline]] Vec<V, Axes> plus_others(Vec<V, Axes> total, F f) const {
+        for_each_other([&](const auto& force) __attribute__((always_inline)) {
+            if constexpr (!std::is_void_v<decltype(f(force))>) total = total + f(force);
         });
         return total;
     }
-
-    Source source_;
 };
 
 }  // namespace oiler

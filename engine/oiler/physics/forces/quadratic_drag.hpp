@@ -17,7 +17,6 @@ struct QuadraticDragForce {
 
     static constexpr std::string_view name = "quadratic_drag";
     static constexpr bool everywhere = false;
-    static constexpr bool linear = false;
     static constexpr auto fields() { return std::tuple(&QuadraticDragForce::coefficient); }
     constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
 
@@ -26,6 +25,7 @@ struct QuadraticDragForce {
         using std::sqrt;
         return state.v * (-coefficient * sqrt(squared_length(state.v)));
     }
+    constexpr V prepare_damping(const V& tau) const { return tau; }
     /// The exact flow of v' = −c·|v|·v for `tau` s: v/(1 + c·|v|·τ).
     [[gnu::always_inline]] constexpr void damp(State<V, Axes>& state, const V& tau) const {
         using std::sqrt;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+#include "oiler/math/vec.hpp"
+
+namespace oiler {
+
+// The sine for forces that depend on time. The C library's last bit may differ between machines;
+// these functions use + − × only.
+
+/// The nearest whole number, for |a| < 2^(digits − 2). Larger numbers give a whole number, too.
+template <Number V>
+[[gnu::always_inline]] constexpr V nearest_whole(const V& a) {
+    using T = Scalar<V>;
+    constexpr T shift = T(3) * static_cast<T>(1ULL << (std::numeric_limits<T>::digits - 2));
+    const V shifted = a + V(shift);
+    return shifted - V(shift);
+}
+
+/// The upper half of the digits of `a` (Dekker, A floating-point technique for extending the
+/// available precision, 1971).
+template <Number V>
+[[gnu::always_inline]] constexpr V upper_half(const V& a) {
+    using T = Scalar<V>;
+    constexpr int half = (std::numeric_limits<T>::digits + 1) / 2;
+    const V scaled = a * V(static_cast<T>((1ULL << half) + 1));
+    return scaled - (scaled - a);
+}
+
+/// The fraction of f·t, from −1/2 to 1/2, with an absolute error of a few units of round-off,
+/// however large f·t is. Products of halves are exact, and so are their fractions.
+template <Number V>
+[[gnu::always_inline]] constexpr V turns(const V& frequency, double t) {
+    using T = Scalar<V>;
+    const V high = upper_half(frequency);
+    const V low = frequency - high;
+    V sum = V(T(0));
+    for (double rest = t; rest != 0;) {
+        const T part = upper_half(static_cast<T>(rest));
+        rest -= static_cast<double>(part);
+        for (const V& product : {high * V(part), low * V(part)})
+            sum = sum + (product - nearest_whole(product));
+    }
+    return sum - nearest_whole(sum);
+}
+
+/// sin(2π·turns), with an absolute error of a few units of round-off. It is the Taylor series over
+/// a quarter of the angle and two doublings; the first term left out is below 2⁻⁷².
+template <Number V>
+[[gnu::always_inline]] constexpr V sine_of_turns(const V& turns) {
+    using T = Scalar<V>;
+    constexpr long double half_pi = 1.57079632679489661923132169163975144L;
+    const V angle = (turns - nearest_whole(turns)) * V(T(half_pi));
+    const V square = angle * angle;
+    V sine = V(T(1));
+    V cosine = V(T(1));
+    for (int n = 20; n > 0; n -= 2) {
+        cosine = V(T(1)) - cosine * square * V(T(1) / T(n * (n - 1)));
+        sine = V(T(1)) - sine * square * V(T(1) / T(n * (n + 1)));
+    }
+    sine = sine * angle;
+    for (int doubling = 0; doubling < 2; ++doubling) {
+        const V twice = sine * cosine * V(T(2));
+        cosine = V(T(1)) - sine * sine * V(T(2));
+        sine = twice;
+    }
+    return sine;
+}
+
+}  // namespace oiler

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "oiler/math/sine.hpp"
+#include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/state.hpp"
+
+namespace oiler {
+
+/// A force that oscillates: F·sin(2π·f·t + φ), t in s since the start of the simulation.
+template <Number V, int Axes>
+struct DriveForce {
+    Vec<V, Axes> amplitude{};  ///< F, N
+    V frequency{};             ///< f, Hz
+    V phase{};                 ///< φ, rad
+
+    static constexpr std::string_view name = "drive";
+    static constexpr bool everywhere = false;
+    static constexpr bool depends_on_time = true;
+    static constexpr auto fields() {
+        return std::tuple(&DriveForce::amplitude, &DriveForce::frequency, &DriveForce::phase);
+    }
+    constexpr DriveForce per_unit_mass(V mass) const {
+        return {amplitude * (V(1) / mass), frequency, phase};
+    }
+
+    [[gnu::always_inline]] constexpr Vec<V, Axes> field(const Vec<V, Axes>&, double t) const {
+        return amplitude * sine_of_turns(turns(frequency, t) + phase * V(Scalar<V>(per_radian)));
+    }
+    [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
+                                                             double t) const {
+        return field(state.x, t);
+    }
+    constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>&) const { return {}; }
+    /// 0: a force that depends on time has no potential.
+    constexpr V potential(const State<V, Axes>&) const { return V(0); }
+    friend constexpr bool operator==(const DriveForce&, const DriveForce&) = default;
+
+private:
+    static constexpr long double per_radian = 0.159154943091895335768883763372514362L;
+};
+
+}  // namespace oiler
