@@ -92,8 +92,12 @@ Entity World::entity_of_row(std::size_t row) const {
     return {rows_[row], generations_[rows_[row]]};
 }
 
+void World::refuse(const char* call, Entity entity, const Error& error) const {
+    fail(Exit::diverged, "{} of entity {} at tick {}: {}", call, entity.index, tick_, error.what());
+}
+
 void World::teleport(Entity entity, const Vec3& position) {
-    bodies_.set_position(row(entity), position);
+    change("teleport", entity, [&](std::size_t row) { bodies_.set_position(row, position); });
     if (!find<Jumps>(entity)) add(entity, Jumps{});
     ++get<Jumps>(entity).count;
 }
@@ -130,7 +134,9 @@ std::vector<std::string> World::preflight(std::size_t most) const {
     return lines;
 }
 
-void World::link(Entity a, Entity b, const Link& link) { bodies_.link(row(a), row(b), link); }
+LinkHandle World::link(Entity a, Entity b, const Link& link) {
+    return bodies_.link(row(a), row(b), link);
+}
 
 Steps World::next_steps(std::int64_t count) const {
     return {settings_.stepping.rate, tick_, count, settings_.stepping.damping};

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -126,17 +127,26 @@ public:
     /// Adds a force to the body, or replaces the numbers of the one that it has.
     template <BodyForce... Force>
     void attach(Entity entity, const Force&... force) {
-        bodies_.attach(row(entity), force...);
+        change("attach", entity, [&](std::size_t row) { bodies_.attach(row, force...); });
     }
     /// Adds or replaces the force of that index among several of one kind, counted from 0.
     template <BodyForce... Force>
     void attach_at(std::size_t index, Entity entity, const Force&... force) {
-        bodies_.attach_at(index, row(entity), force...);
+        change("attach_at", entity,
+               [&](std::size_t row) { bodies_.attach_at(index, row, force...); });
+    }
+    /// Removes all forces of a kind from the body.
+    template <BodyForce Force>
+    void detach(Entity entity) {
+        bodies_.detach<Force>(row(entity));
     }
     /// Reserves memory for `bodies` bodies in total, so that spawning them copies none.
     void reserve(std::size_t bodies);
     /// Adds a spring between the bodies of two entities; it is removed with either body.
-    void link(Entity a, Entity b, const Link& link);
+    LinkHandle link(Entity a, Entity b, const Link& link);
+    [[nodiscard]] bool alive(LinkHandle link) const { return bodies_.alive(link); }
+    /// Removes a spring that is alive.
+    void unlink(LinkHandle link) { bodies_.unlink(link); }
     void remove_body(Entity entity);
     [[nodiscard]] bool has_body(Entity entity) const;
     /// The row of the entity's body. Rows are in the order of adding; the last row moves to the
@@ -146,8 +156,29 @@ public:
 
     [[nodiscard]] Vec3 position(Entity entity) const { return bodies_.position(row(entity)); }
     [[nodiscard]] Vec3 velocity(Entity entity) const { return bodies_.velocity(row(entity)); }
+    [[nodiscard]] double mass(Entity entity) const { return bodies_.mass(row(entity)); }  ///< kg
+
+    // Each of these throws Error{diverged} for a number that is not finite in the world's
+    // precision; the line names call, tick, entity and value, and the body is unchanged.
+
     void set_velocity(Entity entity, const Vec3& velocity) {
-        bodies_.set_velocity(row(entity), velocity);
+        change("set_velocity", entity,
+               [&](std::size_t row) { bodies_.set_velocity(row, velocity); });
+    }
+    /// Moves the body to a position, m; pictures show a motion. See also teleport.
+    void set_position(Entity entity, const Vec3& position) {
+        change("set_position", entity,
+               [&](std::size_t row) { bodies_.set_position(row, position); });
+    }
+    /// Pushes the body with a force, N, over the whole next step; then it is gone. Forces of
+    /// several calls add up. Of several steps in a call of `step`, it acts on the first.
+    void apply_force(Entity entity, const Vec3& force) {
+        change("apply_force", entity, [&](std::size_t row) { bodies_.apply_force(row, force); });
+    }
+    /// Changes the velocity at once by impulse/mass, impulse in N·s.
+    void apply_impulse(Entity entity, const Vec3& impulse) {
+        change("apply_impulse", entity,
+               [&](std::size_t row) { bodies_.apply_impulse(row, impulse); });
     }
     /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
@@ -201,6 +232,18 @@ private:
         pools_.push_back({&tag<T>, std::make_unique<Pool<T>>()});
         return *find_pool<T>();
     }
+
+    /// Calls f(row) and adds call, tick and entity to its errors.
+    template <class F>
+    void change(const char* call, Entity entity, F f) {
+        const std::size_t place = row(entity);
+        try {
+            f(place);
+        } catch (const Error& error) {
+            refuse(call, entity, error);
+        }
+    }
+    [[noreturn]] void refuse(const char* call, Entity entity, const Error& error) const;
 
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;

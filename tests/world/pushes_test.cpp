@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "oiler/world/world.hpp"
+
+namespace {
+
+using oiler::Entity;
+using oiler::Error;
+using oiler::Exit;
+using oiler::Method;
+using oiler::Precision;
+using oiler::Vec3;
+using oiler::World;
+
+const Method& method(const char* name) { return oiler::find_method(name); }
+
+/// The position after 1 s of a rocket of mass 2 kg with thrust 6 N and drag 0.8 N·s/m, from
+/// x = v = 0: with c = b/m and w = F/b, x = w·(t − (1 − e^(−c·t))/c).
+const double rocket_position = 6 / 0.8 * (1 - (1 - std::exp(-0.4)) / 0.4);
+
+double rocket_error(const Method& by, int rate) {
+    World world(1, {.method = &by, .rate = {rate}});
+    const Entity rocket = world.spawn({.mass = 2}, oiler::LinearDrag{0.8});
+    for (int i = 0; i < rate; ++i) {
+        world.apply_force(rocket, {2});
+        world.apply_force(rocket, {4});
+        world.step();
+    }
+    return std::abs(world.position(rocket)[0] - rocket_position);
+}
+
+// A constant thrust is part of the smooth motion, so that half the step divides the error by 2^p.
+// The next order changes that by a few percent at dt = 1/20 s.
+TEST(Pushes, OfARocketKeepTheOrderOfTheMethod) {
+    for (const auto& [name, order] : {std::pair{"semi_implicit_euler", 1},
+                                      {"velocity_verlet", 2},
+                                      {"rk2_midpoint", 2},
+                                      {"rk4", 4},
+                                      {"implicit_midpoint", 2}}) {
+        const double coarse = rocket_error(method(name), 20);
+        const double fine = rocket_error(method(name), 40);
+        EXPECT_GT(fine, 1e-12) << name;
+        EXPECT_NEAR(std::log2(coarse / fine), order, 0.1) << name;
+    }
+    EXPECT_LE(rocket_error(method("exact"), 20), 1e-14);
+}
+
+TEST(Pushes, AreGoneAfterTheNextStep) {
+    World world(2, {.rate = {10}});
+    const Entity body = world.spawn({.mass = 4});
+    world.apply_force(body, {8, -4});
+    world.step(3);
+    EXPECT_EQ(world.velocity(body), (Vec3{0.2, -0.1}));
+    world.step();
+    EXPECT_EQ(world.velocity(body), (Vec3{0.2, -0.1}));
+}
+
+TEST(Pushes, DoNotDependOnTheStepsPerCall) {
+    World one(2, {.method = &method("rk4"), .rate = {50}});
+    const Entity body = one.spawn({.mass = 3, .velocity = {1}}, oiler::QuadraticDrag{0.5});
+    World three = one;
+    one.apply_force(body, {1, 2});
+    three.apply_force(body, {1, 2});
+    for (int i = 0; i < 3; ++i) one.step();
+    three.step(3);
+    EXPECT_EQ(one.state_hash(), three.state_hash());
+}
+
+// The force acts on every link of a net alike: the centre of mass of two linked bodies moves as one
+// body of their mass.
+TEST(Pushes, MoveLinkedBodies) {
+    for (const char* name :
+         {"semi_implicit_euler", "velocity_verlet", "rk4", "implicit_midpoint"}) {
+        World world(1, {.method = &method(name), .rate = {100}});
+        const Entity a = world.spawn({.mass = 1});
+        const Entity b = world.spawn({.mass = 3, .position = {2}});
+        world.link(a, b, {.stiffness = 50, .damping = 0.5, .rest_length = 2});
+        for (int i = 0; i < 100; ++i) {
+            world.apply_force(a, {8});
+            world.step();
+        }
+        const double momentum = world.velocity(a)[0] + 3 * world.velocity(b)[0];
+        EXPECT_NEAR(momentum, 8, 1e-12) << name;
+    }
+}
+
+TEST(Pushes, FollowABodyWhoseRowMoves) {
+    World world(1, {.rate = {1}});
+    const Entity first = world.spawn({});
+    const Entity second = world.spawn({});
+    const Entity third = world.spawn({});
+    world.apply_force(first, {5});
+    world.apply_force(third, {7});
+    world.destroy(first);
+    const Entity fourth = world.spawn({});
+    world.step();
+    EXPECT_EQ(world.velocity(second)[0], 0);
+    EXPECT_EQ(world.velocity(third)[0], 7);
+    EXPECT_EQ(world.velocity(fourth)[0], 0);
+}
+
+TEST(Pushes, ArePartOfTheStateUntilTheyActed) {
+    World world(1);
+    const Entity body = world.spawn({});
+    const World before = world;
+    world.apply_force(body, {1e-3});
+    EXPECT_NE(world.state_hash(), before.state_hash());
+    World copy = world;
+    world.step();
+    copy.step();
+    EXPECT_EQ(world.state_hash(), copy.state_hash());
+    EXPECT_EQ(copy.velocity(body)[0], 1e-3 / 100);
+}
+
+TEST(Pushes, WakeASleepingBody) {
+    World world(1, {.rate = {64}});
+    const Entity body = world.spawn({.velocity = {1e-300}}, oiler::LinearDrag{50});
+    world.step(128);
+    ASSERT_EQ(world.velocity(body)[0], 0);
+    world.apply_force(body, {64});
+    world.step();
+    EXPECT_EQ(world.velocity(body)[0], 1);
+}
+
+TEST(Pushes, ImpulsesChangeVelocityAtOnce) {
+    World world(2);
+    const Entity body = world.spawn({.mass = 4, .velocity = {1, 1}});
+    world.apply_impulse(body, {2, -8});
+    EXPECT_EQ(world.velocity(body), (Vec3{1.5, -1}));
+    EXPECT_EQ(world.mass(body), 4);
+}
+
+TEST(Pushes, OfPositionsAreDrawnAsMotion) {
+    World world(2);
+    const Entity body = world.spawn({});
+    world.set_position(body, {3, 4});
+    EXPECT_EQ(world.position(body), (Vec3{3, 4}));
+    EXPECT_EQ(world.jumps(body), 0U);
+}
+
+/// The line of the error of `f`, after which the world must be unchanged.
+template <class F>
+std::string refusal(World& world, F f) {
+    const std::uint64_t hash = world.state_hash();
+    try {
+        f();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::diverged);
+        EXPECT_EQ(world.state_hash(), hash);
+        return error.what();
+    }
+    ADD_FAILURE() << "accepted";
+    return {};
+}
+
+TEST(Pushes, RefuseNumbersThatAreNotFinite) {
+    World world(2, {.precision = Precision::single});
+    world.spawn({});
+    const Entity body = world.spawn({.mass = 1e-10});
+    world.step(7);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refusal(world,
+                      [&] {
+                          world.apply_force(body, {0, nan});
+                      }),
+              "apply_force of entity 1 at tick 7: a force of nan: give a number that is finite and "
+              "at most 3.40282e+38");
+    EXPECT_EQ(refusal(world, [&] { world.apply_force(body, {1e30}); }),
+              "apply_force of entity 1 at tick 7: the acceleration by a force of 1e+40: give a "
+              "number that is finite and at most 3.40282e+38");
+    EXPECT_NE(refusal(world, [&] { world.apply_impulse(body, {1e30}); }).find("1e+40"),
+              std::string::npos);
+    EXPECT_NE(refusal(world,
+                      [&] {
+                          world.apply_force(body, {0, 0, 1});
+                      })
+                  .find("z = 1"),
+              std::string::npos);
+    for (const auto& set : {&World::set_velocity, &World::set_position, &World::teleport})
+        EXPECT_NE(refusal(world, [&] { (world.*set)(body, {nan}); }).find("entity 1 at tick 7"),
+                  std::string::npos);
+    EXPECT_EQ(world.jumps(body), 0U);
+}
+
+TEST(Detach, TakesAForceOffABody) {
+    World world(1, {.rate = {1}});
+    const Entity one = world.spawn({.velocity = {4}}, oiler::LinearDrag{0.5});
+    const Entity other = world.spawn({.velocity = {4}}, oiler::LinearDrag{0.5});
+    world.detach<oiler::LinearDrag>(one);
+    world.step();
+    EXPECT_EQ(world.velocity(one)[0], 4);
+    EXPECT_EQ(world.velocity(other)[0], 2);
+    world.detach<oiler::LinearDrag>(other);
+    for (const oiler::Stored& stored : world.bodies().stored())
+        EXPECT_NE(stored.of, oiler::LinearDrag::name);
+    world.attach(one, oiler::LinearDrag{0.25});
+    world.step();
+    EXPECT_EQ(world.velocity(one)[0], 3);
+    EXPECT_EQ(world.velocity(other)[0], 2);
+}
+
+TEST(Links, HaveHandlesThatKnowWhenTheyAreGone) {
+    World world(1);
+    const Entity a = world.spawn({});
+    const Entity b = world.spawn({.position = {1}});
+    const Entity c = world.spawn({.position = {2}});
+    const oiler::LinkHandle ab = world.link(a, b, {.stiffness = 1});
+    const oiler::LinkHandle bc = world.link(b, c, {.stiffness = 2});
+    EXPECT_FALSE(world.alive(oiler::LinkHandle{}));
+    world.unlink(ab);
+    EXPECT_FALSE(world.alive(ab));
+    EXPECT_TRUE(world.alive(bc));
+    ASSERT_EQ(world.bodies().link_count(), 1U);
+    EXPECT_EQ(world.bodies().link_at(0).stiffness, 2);
+    const oiler::LinkHandle again = world.link(a, c, {.stiffness = 3});
+    EXPECT_EQ(again.slot, ab.slot);
+    EXPECT_FALSE(world.alive(ab));
+    const World copy = world;
+    world.destroy(c);
+    EXPECT_FALSE(world.alive(bc));
+    EXPECT_FALSE(world.alive(again));
+    EXPECT_TRUE(copy.alive(again));
+    EXPECT_DEATH(world.unlink(bc), "the link is gone");
+}
+
+}  // namespace
