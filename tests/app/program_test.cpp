@@ -82,7 +82,7 @@ TEST(Program, RefusesAMethodThatCannotStepItsForcesBeforeItWrites) {
         shell("projectile --method exact" + small + "--out " + quoted(folder / "o"));
     EXPECT_EQ(run.exit, 2);
     EXPECT_TRUE(is_one_line(run.err)) << run.err;
-    EXPECT_NE(run.err.find("quadratic_drag is not linear"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("quadratic_drag has no exact flow"), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 

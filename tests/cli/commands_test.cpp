@@ -194,8 +194,8 @@ TEST(Oiler, LedgerWritesJson) {
     EXPECT_EQ(ledger.at("method"), "semi_implicit_euler");
     EXPECT_EQ(ledger.at("precision"), "float");
     EXPECT_EQ(ledger.at("bodies"), 100000);
-    EXPECT_EQ(ledger.at("absent"),
-              Json({"springs", "quadratic drag", "coil springs", "attractors", "links"}));
+    EXPECT_EQ(ledger.at("absent"), Json({"springs", "quadratic drag", "coil springs", "attractors",
+                                         "wind", "drives", "links"}));
     const Json& gravity = ledger.at("passes").at(0);
     EXPECT_EQ(gravity.at("name"), "gravity");
     EXPECT_GE(gravity.at("ns_per_body_step").get<double>(), 0);
@@ -216,7 +216,7 @@ TEST(Oiler, LedgerPrintsATable) {
         << run.out;
     EXPECT_TRUE(holds(run.out,
                       "\nNot stored, not evaluated: springs, coil springs, attractors, "
-                      "links\n"));
+                      "wind, drives, links\n"));
     EXPECT_TRUE(holds(run.out, "\n  total               60\n")) << run.out;
     EXPECT_TRUE(holds(run.out, "4 of 12 bodies have it"));
     EXPECT_FALSE(holds(run.out, "12 of 12"));

@@ -96,7 +96,7 @@ TEST(Play, FilmWithoutDurationNeedsFrames) {
 TEST(Play, RefusesAMethodOfTheCommandLineThatCannotStepTheScene) {
     const Outcome run = play(scene("orbit") + " --method exact --steps 1");
     EXPECT_EQ(run.exit, 2);
-    EXPECT_TRUE(holds(run.err, "attractor is not linear")) << run.err;
+    EXPECT_TRUE(holds(run.err, "attractor has no exact flow")) << run.err;
 }
 
 TEST(Play, EscapesNamesThatAreNotUtf8) {

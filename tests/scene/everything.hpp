@@ -52,6 +52,17 @@ body = "a"
 to = "b"
 stiffness = 15.0
 
+[[wind]]
+body = "b"
+velocity = [4.0, -1.0]
+drag = 0.3
+
+[[drive]]
+body = "c"
+amplitude = [6.0, 0.5]
+frequency = 2.5
+phase = 0.5
+
 [[attractor]]
 position = [5.0, 5.0]
 gm = 2.0

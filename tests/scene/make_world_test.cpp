@@ -67,6 +67,9 @@ TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
         EXPECT_EQ(force_on<Attractor>(world, row)->centre, (Vec3{5, 5}));
     }
     EXPECT_EQ(force_on<LinearDrag>(world, 1)->coefficient, 0);
+    EXPECT_EQ(force_on<oiler::Wind>(world, 1), (oiler::Wind{{4, -1}, 0.3}));
+    EXPECT_EQ(force_on<oiler::Wind>(world, 2)->coefficient, 0);
+    EXPECT_EQ(force_on<oiler::Drive>(world, 2), (oiler::Drive{{6, 0.5}, 2.5, 0.5}));
     for (const std::size_t hung : {6, 8}) {
         EXPECT_EQ(force_on<Spring>(world, hung)->anchor, world.bodies().position(hung));
         EXPECT_EQ(force_on<Spring>(world, hung)->stiffness, 200);
@@ -92,12 +95,16 @@ TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
         "[[spring]]\nbody = 'b'\nanchor = [2]\nstiffness = 3\n"
         "[[spring]]\nbody = 'a'\nanchor = [3]\nstiffness = 4\n"
         "[[spring]]\nbody = 'a'\nanchor = [4]\nstiffness = 5\nrest_length = 1\n"
+        "[[wind]]\nbody = 'b'\nvelocity = [1]\ndrag = 8\n"
+        "[[wind]]\nbody = 'b'\nvelocity = [2]\ndrag = 9\n"
         "[[attractor]]\nposition = [-5]\ngm = 6\n[[attractor]]\nposition = [20]\ngm = 7\n");
     EXPECT_EQ(force_on<Spring>(world, 0, 0)->stiffness, 2);
     EXPECT_EQ(force_on<Spring>(world, 0, 1)->stiffness, 4);
     EXPECT_EQ(force_on<Spring>(world, 0, 1)->anchor, (Vec3{3}));
     EXPECT_EQ(force_on<CoilSpring>(world, 0, 0)->stiffness, 5);
     EXPECT_EQ(force_on<Spring>(world, 1, 0)->stiffness, 3);
+    EXPECT_EQ(force_on<oiler::Wind>(world, 1, 0)->coefficient, 8);
+    EXPECT_EQ(force_on<oiler::Wind>(world, 1, 1), (oiler::Wind{{2}, 9}));
     for (const std::size_t row : {0, 1}) {
         EXPECT_EQ(force_on<Attractor>(world, row, 0)->gm, 6);
         EXPECT_EQ(force_on<Attractor>(world, row, 1)->gm, 7);

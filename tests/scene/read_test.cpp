@@ -32,7 +32,8 @@ bool is(const SceneKey& key, std::string_view table, std::string_view name) {
 
 /// A valid value that differs from the one in `everything`.
 std::string other_value(const SceneKey& key) {
-    if (is(key, "spring", "body")) return "\"c\"";
+    if (is(key, "spring", "body") || is(key, "wind", "body")) return "\"c\"";
+    if (is(key, "drive", "body")) return "\"a\"";
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
     if (is(key, "scene", "precision")) return "\"float\"";
@@ -139,7 +140,7 @@ TEST(Read, EveryRequiredKeyIsReportedAsMissing) {
         EXPECT_TRUE(holds(line, name_of(key) + ": missing")) << line;
         ++count;
     }
-    EXPECT_EQ(count, 11);
+    EXPECT_EQ(count, 17);
 }
 
 TEST(Read, EveryRangeIsThatOfTheList) {
@@ -189,6 +190,9 @@ TEST(Read, ReadsEveryValueOfAFile) {
                                              .rest_length = 0.4,
                                              .colour = palette::green}));
     EXPECT_EQ(scene.springs[1].to, 1U);
+    EXPECT_EQ(scene.forces,
+              (std::vector<SceneForce>{{1, Wind{.velocity = {4, -1}, .coefficient = 0.3}},
+                                       {2, Drive{{6, 0.5}, 2.5, 0.5}}}));
     EXPECT_EQ(
         scene.attractors[0],
         (SceneAttractor{.position = {5, 5}, .gm = 2, .colour = palette::black, .radius = 0.2}));

@@ -81,6 +81,22 @@ void check_spring(const Scene& scene, const Section& section, const SceneSpring&
              Link{spring.stiffness, spring.damping, spring.rest_length});
 }
 
+void check_force(const Scene& scene, const Section& section, const SceneForce& force,
+                 const std::vector<std::string_view>& keys) {
+    const double mass = scene.bodies[force.body].matter.mass;
+    std::visit(
+        [&]<class Force>(const Force& all) {
+            std::size_t next = 0;
+            const auto check = [&](auto field) {
+                Force one{};
+                one.*field = all.*field;
+                check_at(scene, section, keys.at(next++), given(one), mass);
+            };
+            std::apply([&](auto... field) { (check(field), ...); }, Force::fields());
+        },
+        force.force);
+}
+
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid) {
     check_size(scene, section);
     if (scene.axes == 1 && grid.count[1] > 1)
@@ -110,10 +126,11 @@ void check_forces(const Scene& scene, const Place& place) {
     std::vector<std::int64_t> springs(scene.bodies.size() + 1);
     for (const SceneSpring& spring : scene.springs)
         if (!spring.to) ++springs[spring.body];
+    for (const SceneForce& force : scene.forces) ++springs[force.body];
     const std::int64_t forces = std::ranges::max(springs) + std::ssize(scene.attractors);
     if (forces * scene.body_count() > most_forces)
         refuse(place,
-               "expected at most {} forces, got {} anchored springs of one body and attractors for "
+               "expected at most {} forces, got {} forces of one body and attractors for "
                "each of {} bodies; give fewer",
                most_forces, forces, scene.body_count());
 }

@@ -112,8 +112,8 @@ bool is_text(std::string_view text, std::size_t at) {
 std::string read_scene_text(const std::string& path) {
     const Descriptor file(path);
     if (file.number() < 0)
-        fail(exit_of_open(errno), "{}: {}; give a scene file such as assets/scenes/cloth.toml", path,
-             system_reason(errno));
+        fail(exit_of_open(errno), "{}: {}; give a scene file such as assets/scenes/cloth.toml",
+             path, system_reason(errno));
     require_file(file.number(), path);
     std::string text(most_scene_bytes + 1, '\0');
     std::size_t size = 0;

@@ -79,6 +79,15 @@ constexpr std::array keys{
              "in all directions; with a rest length only along the spring"},
     SceneKey{"spring", "rest_length", number, "m", not_negative, "0.0", "", ""},
     SceneKey{"spring", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+    SceneKey{"wind", "body", text, "", any, "\"mass\"", required, "name of the body in the wind"},
+    SceneKey{"wind", "velocity", vector, "m/s", any, "[3.0, 0.0]", required, "w of the air"},
+    SceneKey{"wind", "drag", number, "N·s²/m²", not_negative, "0.01", required,
+             "c of the force −c·|v − w|·(v − w)"},
+    SceneKey{"drive", "body", text, "", any, "\"mass\"", required, "name of the driven body"},
+    SceneKey{"drive", "amplitude", vector, "N", any, "[5.0, 0.0]", required,
+             "F of the force F·sin(2π·f·t + φ)"},
+    SceneKey{"drive", "frequency", number, "Hz", not_negative, "2.0", required, "f"},
+    SceneKey{"drive", "phase", number, "rad", any, "0.0", "", "φ"},
     SceneKey{"attractor", "position", vector, "m", any, "[0.0, 0.0]", "", ""},
     SceneKey{"attractor", "gm", number, "m³/s²", positive, "1.0", required,
              "attracts every body by gm/d²"},
@@ -180,8 +189,8 @@ std::vector<std::string_view> scene_tables() {
 }
 
 bool is_repeated(std::string_view table) {
-    constexpr std::array<std::string_view, 5> repeated{"body", "spring", "attractor", "grid",
-                                                       "scatter"};
+    constexpr std::array<std::string_view, 7> repeated{"body",      "spring", "wind",   "drive",
+                                                       "attractor", "grid",   "scatter"};
     return std::ranges::find(repeated, table) != repeated.end();
 }
 

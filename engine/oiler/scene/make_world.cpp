@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/make_world.hpp"
 
+#include <map>
+
 #include "oiler/scene/grid.hpp"
 #include "oiler/scene/random.hpp"
 
@@ -68,6 +70,14 @@ private:
                 world_.attach_at(springs[spring.body]++, entity,
                                  Spring{spring.anchor, spring.stiffness, spring.damping});
         }
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> forces;
+        for (const SceneForce& force : scene_.forces)
+            std::visit(
+                [&](const auto& one) {
+                    const std::size_t index = forces[{force.body, force.force.index()}]++;
+                    world_.attach_at(index, entities[force.body], one);
+                },
+                force.force);
     }
 
     void add_grid(const SceneGrid& grid) {

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/nearest.hpp"
 #include "oiler/scene/check.hpp"
 #include "oiler/scene/guard.hpp"
-#include "oiler/core/nearest.hpp"
 #include "oiler/scene/section.hpp"
 
 namespace oiler {
@@ -42,6 +42,8 @@ public:
         each("body", [&](const Section& section) { read_body(section); });
         each("spring", [&](const Section& section) { read_spring(section); });
         each("attractor", [&](const Section& section) { read_attractor(section); });
+        each("wind", [&](const Section& section) { read_force<Wind>(section); });
+        each("drive", [&](const Section& section) { read_force<Drive>(section); });
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
         each("camera", [&](const Section& section) { read_camera(section); });
@@ -142,7 +144,7 @@ private:
         std::vector<std::string_view> names;
         for (const auto& [known, index] : names_) names.push_back(known);
         const std::string near = did_you_mean(name, names);
-        refuse(section.place(key), "spring.{}: no [[body]] has the name \"{}\"{}", key,
+        refuse(section.place(key), "{}.{}: no [[body]] has the name \"{}\"{}", section.name(), key,
                printable(name),
                near.empty() ? fmt::format("; give one name = \"{}\"", printable(name)) : near);
     }
@@ -167,6 +169,22 @@ private:
         section.read("rest_length", spring.rest_length);
         section.read("colour", spring.colour);
         check_spring(scene_, section, spring);
+    }
+
+    template <class Force>
+    void read_force(const Section& section) {
+        Force force;
+        SceneForce& read = scene_.forces.emplace_back();
+        read.body = find_body(section, "body");
+        force_place_ = section.place();
+        std::vector<std::string_view> keys;
+        for (const SceneKey& key : scene_keys())
+            if (key.table == Force::name && key.name != "body") keys.push_back(key.name);
+        std::size_t next = 0;
+        std::apply([&](auto... field) { (section.read(keys.at(next++), force.*field), ...); },
+                   Force::fields());
+        read.force = force;
+        check_force(scene_, section, read, keys);
     }
 
     void read_attractor(const Section& section) {

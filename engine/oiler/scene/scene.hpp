@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "oiler/physics/stepping.hpp"
@@ -47,6 +48,14 @@ struct SceneSpring {
     double rest_length = 0;           ///< m
     Colour colour = palette::grey;
     friend bool operator==(const SceneSpring&, const SceneSpring&) = default;
+};
+
+/// A force on one body that a scene gives in a table with the name of the force: `body`, then its
+/// numbers in the order of its fields, see scene_keys().
+struct SceneForce {
+    std::size_t body = 0;  ///< index in Scene::bodies
+    std::variant<Wind, Drive> force{};
+    friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
 
 /// A point that attracts every body of the scene.
@@ -117,6 +126,7 @@ struct Scene {
     std::optional<Vec3> gravity{};  ///< m/s²
     std::vector<SceneBody> bodies{};
     std::vector<SceneSpring> springs{};
+    std::vector<SceneForce> forces{};
     std::vector<SceneAttractor> attractors{};
     std::vector<SceneGrid> grids{};
     std::vector<SceneScatter> scatters{};

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/core/nearest.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/scene/colours.hpp"
-#include "oiler/core/nearest.hpp"
 
 namespace oiler {
 

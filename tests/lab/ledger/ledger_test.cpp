@@ -56,7 +56,7 @@ TEST(Ledger, OfASpringCountsItsBytes) {
     EXPECT_EQ(bytes_of(ledger, "spring"), 0U);
     EXPECT_EQ(bytes_of(ledger, "handle"), 12U);
     EXPECT_EQ(ledger.absent, (Strings{"gravity", "linear drag", "quadratic drag", "coil springs",
-                                      "attractors", "links"}));
+                                      "attractors", "wind", "drives", "links"}));
     EXPECT_EQ(names_of_passes(ledger), (Strings{"spring", "moving"}));
     EXPECT_EQ(ledger.flags, Strings{});
 }
@@ -91,12 +91,12 @@ TEST(Ledger, OfProjectilesCountsTheirBytes) {
     EXPECT_EQ(ledger.bytes_per_body(), 16 + 12);
     EXPECT_EQ(bytes_of(ledger, "position"), 8U);
     EXPECT_EQ(ledger.bodies, 50);
-    EXPECT_EQ(ledger.absent,
-              (Strings{"springs", "quadratic drag", "coil springs", "attractors", "links"}));
+    EXPECT_EQ(ledger.absent, (Strings{"springs", "quadratic drag", "coil springs", "attractors",
+                                      "wind", "drives", "links"}));
     EXPECT_EQ(names_of_passes(ledger), (Strings{"gravity", "linear_drag", "moving"}));
 }
 
-// A 3 × 2 net has 7 springs; each has two rows of 8 bytes and three numbers of 8.
+// A 3 × 2 net has 7 springs; each has two rows and a handle of 4 bytes, and three numbers of 8.
 TEST(Ledger, CountsLinksAndAnchoredNodes) {
     const Ledger ledger =
         ledger_of(two_axes +
@@ -149,7 +149,7 @@ TEST(Ledger, TimesAreFinite) {
     const Ledger ledger = ledger_of(everything);
     EXPECT_EQ(names_of_passes(ledger),
               (Strings{"gravity", "spring", "linear_drag", "quadratic_drag", "coil_spring",
-                       "attractor", "links", "moving"}));
+                       "attractor", "wind", "drive", "links", "moving"}));
     EXPECT_EQ(ledger.absent, Strings{});
     EXPECT_GT(ledger.ns, 0);
     EXPECT_GE(ledger.spread_ns, 0);

@@ -32,6 +32,13 @@ void remove_springs(Scene& scene, std::string_view kind) {
                   [&](const SceneSpring& spring) { return kind_of(spring) == kind; });
 }
 
+template <class Force>
+void remove_forces(Scene& scene) {
+    std::erase_if(scene.forces, [](const SceneForce& force) {
+        return std::holds_alternative<Force>(force.force);
+    });
+}
+
 /// Turns the nodes of a grid into bodies, and its hanging springs into springs; drops the springs
 /// between nodes. Bodies come before grids, so rows do not change if all grids are taken apart.
 void take_apart(Scene& scene, const SceneGrid& grid) {
@@ -167,6 +174,8 @@ const std::vector<ForceDescription>& force_descriptions() {
          {"position", "gm"},
          "[[attractor]]",
          [](Scene& scene) { scene.attractors.clear(); }},
+        {"wind", "wind", {"velocity", "drag"}, "[[wind]]", remove_forces<Wind>},
+        {"drive", "drives", {"amplitude", "frequency", "phase"}, "[[drive]]", remove_forces<Drive>},
     };
     return all;
 }
