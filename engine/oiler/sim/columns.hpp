@@ -92,7 +92,13 @@ enum class Evaluate { field, all };
 template <std::floating_point T>
 struct LinkRun {
     LinkRow<T> of;
+    std::size_t first;  ///< its index among the links
     std::size_t count;
+
+    /// Whether no row belongs to two of the links.
+    [[nodiscard]] bool is_disjoint() const {
+        return std::max(of.a, of.b) - std::min(of.a, of.b) >= count;
+    }
 };
 
 /// The exact flows of a plan, computed once for all its steps.

@@ -17,6 +17,12 @@ struct LinkedKernels {
                        const MotionColumns<T, Axes>&, Evaluate, double t, VecColumns<T, Axes>& out);
     void (*push_links)(const LinkCache<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate,
                        VecColumns<T, Axes>& to);
+    /// Half-steps of the dampers at fixed positions, one link after the other; `reverse` begins
+    /// with the last.
+    void (*damp_links)(const LinkCache<T, Axes>&, MotionColumns<T, Axes>&, bool reverse);
+    /// A drift with linear damping, see RowPhysics::drift.
+    void (*drift)(const RowViews<T, Axes>&, std::size_t rows, std::size_t flow,
+                  MotionColumns<T, Axes>&);
     void (*add_scaled)(VecColumns<T, Axes>& to, const VecColumns<T, Axes>& what, T s);
     bool (*may_be_infinite)(const MotionColumns<T, Axes>&);
 };

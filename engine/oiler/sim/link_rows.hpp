@@ -150,6 +150,64 @@ void push_links(const LinkCache<T, Axes>& cache, const MotionColumns<T, Axes>& m
             push_run<V, T, Axes>(run, motion, what, cache.inverse_mass, to);
 }
 
+/// The dampers of the links from `i` on of a run, for as many links as N has lanes.
+template <class N, class T, int Axes>
+[[gnu::always_inline]] inline void damp_lanes(const LinkRun<T>& run, std::size_t i,
+                                              const LinkCache<T, Axes>& cache,
+                                              MotionColumns<T, Axes>& motion) {
+    const std::size_t a = run.of.a + i;
+    const std::size_t b = run.of.b + i;
+    const auto load_rows =
+        [](const VecColumns<T, Axes>& columns, std::size_t row) __attribute__((always_inline)) {
+        return Vec<N, Axes>{
+            generate<Axes>([&](auto axis) { return load_from<N>(columns[axis].data() + row); })};
+    };
+    const Vec<N, Axes> va = load_rows(motion.v, a);
+    const Vec<N, Axes> vb = load_rows(motion.v, b);
+    const State<N, Axes> between{load_rows(motion.x, a) - load_rows(motion.x, b), va - vb};
+    const N loss = load_from<N>(cache.loss.data() + run.first + i);
+    const N of_a = load_from<N>(cache.inverse_mass.data(a));
+    const N of_b = load_from<N>(cache.inverse_mass.data(b));
+    const Vec<N, Axes> force =
+        -LinkForce<N, Axes>(run.of).velocity_loss(between, loss) * N(N(T(1)) / N(of_a + of_b));
+    for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
+        store_to<N>(N(va.axis[axis] + force.axis[axis] * of_a), motion.v[axis].data() + a);
+        store_to<N>(N(vb.axis[axis] - force.axis[axis] * of_b), motion.v[axis].data() + b);
+    });
+}
+
+template <class V, class T, int Axes>
+[[gnu::always_inline]] inline void damp_run(const LinkRun<T>& run, const LinkCache<T, Axes>& cache,
+                                            MotionColumns<T, Axes>& motion, bool reverse) {
+    if (run.of.damping == 0) return;
+    if (run.is_disjoint()) {
+        for_lanes<V, T>(
+            run.count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
+                damp_lanes<N>(run, i, cache, motion);
+            });
+        return;
+    }
+    for (std::size_t i = 0; i < run.count; ++i)
+        damp_lanes<T>(run, reverse ? run.count - 1 - i : i, cache, motion);
+}
+
+template <class V, class T, int Axes>
+void damp_links(const LinkCache<T, Axes>& cache, MotionColumns<T, Axes>& motion, bool reverse) {
+    const std::size_t count = cache.runs.size();
+    for (std::size_t i = 0; i < count; ++i)
+        damp_run<V, T, Axes>(cache.runs[reverse ? count - 1 - i : i], cache, motion, reverse);
+}
+
+template <class V, class T, int Axes>
+void drift_rows(const RowViews<T, Axes>& views, std::size_t rows, std::size_t flow,
+                MotionColumns<T, Axes>& motion) {
+    for (std::size_t row = 0; row < rows; row += lanes_of<V>) {
+        State<V, Axes> state = load<V>(motion, row);
+        drift(state, views.flows()[flow], row);
+        store(state, motion, row);
+    }
+}
+
 template <class V, class T, std::size_t Axes>
 void add_scaled_rows(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what,
                      T s) {
@@ -170,8 +228,12 @@ bool motion_may_be_infinite(const MotionColumns<T, Axes>& motion) {
 
 template <class V, class T, int Axes>
 constexpr LinkedKernels<T, Axes> linked_kernels() {
-    return {accelerate_rows<V, T, Axes>, push_links<V, T, Axes>,
-            add_scaled_rows<V, T, std::size_t{Axes}>, motion_may_be_infinite<V, T, Axes>};
+    return {accelerate_rows<V, T, Axes>,
+            push_links<V, T, Axes>,
+            damp_links<V, T, Axes>,
+            drift_rows<V, T, Axes>,
+            add_scaled_rows<V, T, std::size_t{Axes}>,
+            motion_may_be_infinite<V, T, Axes>};
 }
 
 }  // namespace oiler

@@ -85,6 +85,14 @@ template <class Plan>
         return Damping::in_kick;
 }
 
+/// A drift of row `row`, or of a batch, with linear damping.
+template <Number V, int Axes>
+[[gnu::always_inline]] inline void drift(State<V, Axes>& state, const FlowView<Scalar<V>>& flow,
+                                         std::size_t row) {
+    state.x = state.x + state.v * flow.reach.template at<V>(row);
+    state.v = state.v * flow.decay.template at<V>(row);
+}
+
 /// The forces on a row that are not linear, or on a batch of rows from `row` on. Kinds that no row
 /// of the block has are left out.
 template <Number V, int Axes>
@@ -172,8 +180,7 @@ public:
             add_scaled(state.x, state.v, tau);
             return;
         }
-        state.x = state.x + state.v * flows_[flow].reach.template at<V>(row_);
-        state.v = state.v * flows_[flow].decay.template at<V>(row_);
+        oiler::drift(state, flows_[flow], row_);
     }
 
     /// Half-steps of the damping that is not linear, before the stages and, in reverse order, after

@@ -64,23 +64,24 @@ public:
         if (damping_ == Damping::in_kick || columns_.flows.of.empty())
             add_scaled(motion.x, motion.v, tau);
         else
-            change_each_row(motion, [&](auto& physics, State<T, Axes>& state) {
-                physics.drift(state, flow, tau);
-            });
+            kernels_.drift(views_, columns_.size, flow, motion);
     }
 
     void damp_before(MotionColumns<T, Axes>& motion) {
-        if (depends_on_time()) cache_.field_valid = false;
+        if (any_force([]<class Force>() { return DependsOnTime<Force>; }))
+            cache_.field_valid = false;
         if (damping_ == Damping::in_kick) return;
-        change_each_row(motion,
-                        [](auto& physics, State<T, Axes>& state) { physics.damp_before(state); });
-        for (std::size_t i = 0; i < columns_.links.size(); ++i) damp(motion, i);
+        if (any_damper_of_rows())
+            change_each_row(
+                motion, [](auto& physics, State<T, Axes>& state) { physics.damp_before(state); });
+        kernels_.damp_links(cache_, motion, false);
     }
     void damp_after(MotionColumns<T, Axes>& motion) {
         if (damping_ == Damping::in_kick) return;
-        for (std::size_t i = columns_.links.size(); i-- > 0;) damp(motion, i);
-        change_each_row(motion,
-                        [](auto& physics, State<T, Axes>& state) { physics.damp_after(state); });
+        kernels_.damp_links(cache_, motion, true);
+        if (any_damper_of_rows())
+            change_each_row(
+                motion, [](auto& physics, State<T, Axes>& state) { physics.damp_after(state); });
     }
 
     /// Puts rows to sleep if any link is damped, see RowPhysics.
@@ -128,7 +129,7 @@ private:
             if (rate != rate_before) reach = oscillator_response(T(0), rate, half_step).reach;
             cache_.loss.push_back(rate * reach);
             if (cache_.runs.empty() || !continues(cache_.runs.back(), link))
-                cache_.runs.push_back({link, 0});
+                cache_.runs.push_back({link, cache_.loss.size() - 1, 0});
             ++cache_.runs.back().count;
         }
         cache_.acceleration = cache_.field = columns_.motion.v;
@@ -165,15 +166,6 @@ private:
         return {between(motion.x, link), between(motion.v, link)};
     }
 
-    /// Adds to `to` the accelerations by a force on the link's first body and its opposite on the
-    /// second.
-    void push(const LinkRow<T>& link, const Vec<T, Axes>& force, Vectors& to) {
-        for (std::size_t i = 0; i < Axes; ++i) {
-            to[i][link.a] += force.axis[i] * cache_.inverse_mass[link.a];
-            to[i][link.b] -= force.axis[i] * cache_.inverse_mass[link.b];
-        }
-    }
-
     void evaluate(const MotionColumns<T, Axes>& motion, Evaluate what, double t, Vectors& out) {
         kernels_.accelerate(columns_, views_, motion, what, t, out);
         kernels_.push_links(cache_, motion, what, out);
@@ -184,36 +176,28 @@ private:
         cache_.field_valid = true;
     }
 
-    /// A half-step of the damper of link `i` at fixed positions: exact for one link alone.
-    void damp(MotionColumns<T, Axes>& motion, std::size_t i) {
-        const LinkRow<T>& link = columns_.links[i];
-        if (link.damping == 0) return;
-        const auto lost =
-            LinkForce<T, Axes>(link).velocity_loss(between(motion, link), cache_.loss[i]);
-        const T both = cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b];
-        push(link, -lost * (1 / both), motion.v);
-    }
-
     [[nodiscard]] bool any_link_damped() const {
         return std::any_of(cache_.runs.begin(), cache_.runs.end(),
                            [](const LinkRun<T>& run) { return run.of.damping > 0; });
     }
 
-    [[nodiscard]] bool depends_on_time() const {
+    /// Whether rows have a kind of force for which `holds` is true.
+    template <class Holds>
+    [[nodiscard]] bool any_force(Holds holds) const {
         bool any = false;
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            if constexpr (DependsOnTime<Force>) any = any || !std::get<i>(columns_.forces).empty();
+            if (holds.template operator()<Force>())
+                any = any || !std::get<i>(columns_.forces).empty();
         });
         return any;
     }
+    [[nodiscard]] bool any_damper_of_rows() const {
+        return any_force([]<class Force>() { return Damps<Force, State<T, Axes>, T>; });
+    }
 
     [[nodiscard]] bool linear() const {
-        bool all = true;
-        for_each_index<force_count>([&](auto i) {
-            using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            all = all && (Linear<Force> || std::get<i>(columns_.forces).empty());
-        });
+        bool all = !any_force([]<class Force>() { return !Linear<Force>; });
         for (const LinkRow<T>& link : columns_.links) all = all && link.rest_length == 0;
         return all;
     }
