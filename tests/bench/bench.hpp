@@ -33,6 +33,7 @@ void bench_limits(Bench& bench);
 void bench_agreement(Bench& bench);
 void bench_steps(Bench& bench);
 void bench_methods(Bench& bench);
+void bench_prices(Bench& bench);
 void bench_threads(Bench& bench);
 void bench_settled(Bench& bench);
 void bench_nets(Bench& bench);

@@ -69,6 +69,7 @@ void measure(Bench& bench) {
     bench_limits(bench);
     bench_steps(bench);
     bench_methods(bench);
+    bench_prices(bench);
     bench_threads(bench);
     bench_settled(bench);
     bench_peers(bench);

@@ -96,7 +96,7 @@ struct LinkRun {
     std::size_t count;
 
     /// Whether no row belongs to two of the links.
-    [[nodiscard]] bool is_disjoint() const {
+    [[nodiscard]] [[gnu::always_inline]] bool is_disjoint() const {
         return std::max(of.a, of.b) - std::min(of.a, of.b) >= count;
     }
 };
@@ -224,7 +224,8 @@ struct Columns {
 
 /// The kinds of force on the rows of the block of row_padding rows from `row` on.
 template <std::floating_point T, int Axes>
-[[nodiscard]] Kinds kinds_of_block(const Columns<T, Axes>& columns, std::size_t row) {
+[[nodiscard]] [[gnu::always_inline]] inline Kinds kinds_of_block(const Columns<T, Axes>& columns,
+                                                                 std::size_t row) {
     if (columns.kinds.shared()) return columns.kinds[row];
     Kinds all = 0;
     for (std::size_t i = row; i < std::min(row + row_padding, columns.size); ++i)

@@ -18,7 +18,7 @@ struct LinearAxis {
     Kinds damping_kinds = 0;
 
     /// The parts that act on rows with these kinds of force.
-    [[nodiscard]] LinearParts parts(Kinds kinds) const {
+    [[nodiscard]] [[gnu::always_inline]] LinearParts parts(Kinds kinds) const {
         return {constant || applied, stiffness && (kinds & spring_kinds) != 0,
                 damping && (kinds & damping_kinds) != 0};
     }
@@ -46,7 +46,7 @@ struct LinearColumns {
     std::array<LinearAxis<T>, Axes> axis;
 
     /// The parts that act along any axis.
-    [[nodiscard]] LinearParts parts(Kinds kinds) const {
+    [[nodiscard]] [[gnu::always_inline]] LinearParts parts(Kinds kinds) const {
         LinearParts any;
         for (const LinearAxis<T>& one : axis) {
             const LinearParts parts = one.parts(kinds);

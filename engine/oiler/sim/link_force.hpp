@@ -34,7 +34,8 @@ struct LinkForce {
                    : coil.jacobian(between);
     }
     /// The relative velocity that the damper removes; `loss` is its fraction along the damper.
-    [[nodiscard]] Vec<V, Axes> velocity_loss(State<V, Axes> between, V loss) const {
+    [[nodiscard]] [[gnu::always_inline]] Vec<V, Axes> velocity_loss(State<V, Axes> between,
+                                                                    V loss) const {
         if (without_length) return between.v * loss;
         const Vec<V, Axes> before = between.v;
         coil.damp(between, loss);

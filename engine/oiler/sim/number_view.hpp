@@ -17,7 +17,7 @@ public:
         : from_(number.data(0)), stride_(number.shared() ? 0 : 1) {}
     explicit NumberView(const Column<T>& column) : from_(column.data()), stride_(1) {}
 
-    [[nodiscard]] explicit operator bool() const { return from_; }
+    [[nodiscard]] [[gnu::always_inline]] explicit operator bool() const { return from_; }
     /// Whether all rows have the same number.
     [[nodiscard]] bool is_shared() const { return stride_ == 0; }
     /// The number of one row, or of a batch of rows from `row` on.
