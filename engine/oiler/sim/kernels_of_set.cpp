@@ -19,10 +19,11 @@ constexpr std::size_t register_bytes = 16;
 template <class T>
 using Register = Pack<T, register_bytes>;
 
-/// Registers per batch along one axis: enough to hide the latency of dependent operations. Some are
-/// spilled.
-template <class T>
-using AxisBatch = Batch<Register<T>, 8>;
+/// Registers per batch along one axis: enough to hide the latency of dependent operations. Springs
+/// and dampers have long chains of them, for which spilling some registers of a small set pays.
+template <class T, class Parts>
+using AxisBatch =
+    Batch<Register<T>, register_bytes == 64 || Parts::spring || Parts::damping ? 8 : 4>;
 /// One step per call is bound by loads and stores, so that spilling costs more than latency.
 template <class T>
 using AxisBatchOfOneStep = Batch<Register<T>, 4>;
@@ -43,34 +44,34 @@ using Wide = Batch<Register<T>, most_packs<T, Axes>()>;
 template <class T, int Axes>
 using Narrow = Batch<Register<T>, (most_packs<T, Axes>() + 1) / 2>;
 
-template <class V, class Parts, class Fixed, class T, class Rule>
+template <class Parts, class Fixed, class T, class Rule>
 [[gnu::flatten]] std::size_t step_axis(const AxisRows<T>& rows, const Rule& rule,
                                        const Steps& steps, std::size_t begin, std::size_t end) {
     const Fixed fixed(rule);
     if (steps.count == 1)
         return step_axis_batches<AxisBatchOfOneStep<T>, Parts, true>(rows, fixed, steps, begin,
                                                                      end);
-    return step_axis_batches<V, Parts, false>(rows, fixed, steps, begin, end);
+    return step_axis_batches<AxisBatch<T, Parts>, Parts, false>(rows, fixed, steps, begin, end);
 }
 
-template <class V, class Parts, class T>
+template <class Parts, class T>
 std::size_t step_axis_splitting(const AxisRows<T>& rows, const SplittingPlan<T>& rule,
                                 const Steps& steps, std::size_t begin, std::size_t end) {
     if (KickDriftPlan<T>::fits(rule))
-        return step_axis<V, Parts, KickDriftPlan<T>>(rows, rule, steps, begin, end);
+        return step_axis<Parts, KickDriftPlan<T>>(rows, rule, steps, begin, end);
     if (KickDriftKickPlan<T>::fits(rule))
-        return step_axis<V, Parts, KickDriftKickPlan<T>>(rows, rule, steps, begin, end);
-    return step_axis<V, Parts, SplittingPlan<T>>(rows, rule, steps, begin, end);
+        return step_axis<Parts, KickDriftKickPlan<T>>(rows, rule, steps, begin, end);
+    return step_axis<Parts, SplittingPlan<T>>(rows, rule, steps, begin, end);
 }
 
-template <class V, class Parts, class T>
+template <class Parts, class T>
 std::size_t step_axis_tableau(const AxisRows<T>& rows, const TableauPlan<T>& rule,
                               const Steps& steps, std::size_t begin, std::size_t end) {
     if (ChainTableauPlan<T, 4>::fits(rule))
-        return step_axis<V, Parts, ChainTableauPlan<T, 4>>(rows, rule, steps, begin, end);
+        return step_axis<Parts, ChainTableauPlan<T, 4>>(rows, rule, steps, begin, end);
     if (ChainTableauPlan<T, 2>::fits(rule))
-        return step_axis<V, Parts, ChainTableauPlan<T, 2>>(rows, rule, steps, begin, end);
-    return step_axis<V, Parts, TableauPlan<T>>(rows, rule, steps, begin, end);
+        return step_axis<Parts, ChainTableauPlan<T, 2>>(rows, rule, steps, begin, end);
+    return step_axis<Parts, TableauPlan<T>>(rows, rule, steps, begin, end);
 }
 
 /// The parts of linear forces with index I, see index_of. Without any part, the steps for a
@@ -80,11 +81,10 @@ using PartsOf = FixedLinearParts<I == 0 || (I & 1U) != 0, (I & 2U) != 0, (I & 4U
 
 template <class T, std::size_t... I>
 constexpr AxisKernels<T> axis_kernels(std::index_sequence<I...>) {
-    using V = AxisBatch<T>;
-    return {{step_axis_splitting<V, PartsOf<I>, T>...},
-            {step_axis_tableau<V, PartsOf<I>, T>...},
-            {step_axis<V, PartsOf<I>, ImplicitPlan<T>, T, ImplicitPlan<T>>...},
-            {step_axis<V, PartsOf<I>, ExactPlan<T>, T, ExactPlan<T>>...}};
+    return {{step_axis_splitting<PartsOf<I>, T>...},
+            {step_axis_tableau<PartsOf<I>, T>...},
+            {step_axis<PartsOf<I>, ImplicitPlan<T>, T, ImplicitPlan<T>>...},
+            {step_axis<PartsOf<I>, ExactPlan<T>, T, ExactPlan<T>>...}};
 }
 
 template <class V, class T, int Axes, class Rule>
