@@ -10,6 +10,7 @@
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
+#include "oiler/sim/applied_forces.hpp"
 #include "oiler/sim/number_view.hpp"
 
 namespace oiler {
@@ -38,19 +39,6 @@ template <class... Force, class T>
 struct ForceViewsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
-
-/// One vector per row.
-template <class T, int Axes>
-using VecColumns = std::array<Column<T>, Axes>;
-
-template <class T, std::size_t Axes>
-[[nodiscard]] T largest(const std::array<Column<T>, Axes>& columns) {
-    T size = 0;
-    for (const Column<T>& column : columns)
-        for (std::size_t row = 0; row < column.size(); ++row)
-            size = larger(size, std::abs(column[row]));
-    return size;
-}
 
 /// The states of all rows: the numbers that a step changes.
 template <std::floating_point T, int Axes>
@@ -120,38 +108,6 @@ struct LinearSums {
     std::array<Parameter<T>, Axes> centre;
     Parameter<T> stiffness;
     Parameter<T> damping;
-};
-
-/// The forces from outside over the next step, such as a thrust.
-template <std::floating_point T, int Axes>
-struct AppliedForces {
-    VecColumns<T, Axes> acceleration;  ///< m/s²; without rows until the first force
-    std::vector<std::size_t> rows;     ///< those on which a force was applied, perhaps twice
-
-    [[nodiscard]] bool empty() const { return rows.empty(); }
-    void add(std::size_t row, const Vec<T, Axes>& change, std::size_t row_count) {
-        for (std::size_t i = 0; i < Axes; ++i) {
-            while (acceleration[i].size() < row_count) acceleration[i].push(T(0));
-            acceleration[i][row] += change.axis[i];
-        }
-        rows.push_back(row);
-    }
-    void clear() {
-        for (const std::size_t row : rows)
-            for (Column<T>& column : acceleration) column[row] = T(0);
-        rows.clear();
-    }
-    void push_row() {
-        if (acceleration[0].size() > 0)
-            for (Column<T>& column : acceleration) column.push(T(0));
-    }
-    /// Removes `row`, to whose place row `last` moves.
-    void swap_remove(std::size_t row, std::size_t last) {
-        if (acceleration[0].size() > 0)
-            for (Column<T>& column : acceleration) column.swap_remove(row);
-        std::erase(rows, row);
-        std::replace(rows.begin(), rows.end(), last, row);
-    }
 };
 
 /// A set of kinds of force: a bit for each type in ForceList.
