@@ -64,14 +64,16 @@ void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given)
     }
 }
 
-/// The kinds of force of which row `row` has any number other than 0.
+/// The kinds of force of which row `row` has any number other than 0, but for those that all rows
+/// share.
 template <class T, int Axes>
 Kinds kinds_of_row(const Columns<T, Axes>& columns, std::size_t row) {
     Kinds kinds = 0;
     for_each_index<force_count>([&](auto i) {
-        for (const auto& numbers : std::get<i>(columns.forces))
-            for (const Parameter<T>& number : numbers)
-                if (number[row] != 0) kinds = static_cast<Kinds>(kinds | 1U << i);
+        if constexpr (!std::tuple_element_t<i, ForceList<T, Axes>>::everywhere)
+            for (const auto& numbers : std::get<i>(columns.forces))
+                for (const Parameter<T>& number : numbers)
+                    if (number[row] != 0) kinds = static_cast<Kinds>(kinds | 1U << i);
     });
     return kinds;
 }
