@@ -12,14 +12,15 @@ namespace oiler::bench {
 namespace {
 
 /// The subject of each group of targets.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> groups{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> groups{
     {{"T1", "one step per call: the in-place sweep over the same bytes, or the hand-written loop"},
      {"T2", "256 steps per call: the hand-written loop in registers"},
      {"T3", "methods from memory, relative to semi_implicit_euler; threads"},
      {"T4", "peers on the same work, relative to Oiler"},
      {"T5", "nets of springs, ns per spring and step"},
      {"T6", "entities, ns each; bytes for a body and its handle"},
-     {"T7", "sleeping springs, relative to moving ones"}}};
+     {"T7", "sleeping springs, relative to moving ones"},
+     {"T8", "prices: a force left out makes no step dearer; implicit steps of springs"}}};
 
 std::size_t width(std::string_view words) {
     return static_cast<std::size_t>(
