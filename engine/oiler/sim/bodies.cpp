@@ -151,12 +151,14 @@ Bodies::Bodies(int axes, Precision precision) : columns_(std::make_unique<AnyCol
 
 Bodies::Bodies(const Bodies& other)
     : columns_(std::make_unique<AnyColumns>(*other.columns_)),
+      planes_(other.planes_),
       team_(other.team_),
       link_generations_(other.link_generations_),
       free_slots_(other.free_slots_) {}
 Bodies::Bodies(Bodies&&) noexcept = default;
 Bodies& Bodies::operator=(const Bodies& other) {
     *columns_ = *other.columns_;
+    planes_ = other.planes_;
     team_ = other.team_;
     link_generations_ = other.link_generations_;
     free_slots_ = other.free_slots_;
@@ -202,6 +204,7 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
             columns.mass.push(body.mass);
             columns.kinds.push(kinds_of_row(columns, row));
             columns.applied.push_row();
+            columns.contacts.push_row(columns.contacts.radius_of(body.contact));
             columns.forces_changed();
             return columns.size++;
         },
@@ -219,7 +222,7 @@ void Bodies::attach_given(std::size_t row, std::size_t index, const GivenForces&
                                set_force(stored[index], row, *force);
                            });
             columns.kinds.set(row, kinds_of_row(columns, row));
-            columns.forces_changed();
+            columns.forces_changed(row);
         },
         columns_->of);
 }
@@ -236,7 +239,7 @@ void Bodies::detach_kind(std::size_t row, std::size_t kind) {
                 columns.kinds.set(row, kinds_of_row(columns, row));
                 drop_if_unused(stored, columns.kinds, kind, columns.size);
             });
-            columns.forces_changed();
+            columns.forces_changed(row);
         },
         columns_->of);
 }
@@ -255,6 +258,7 @@ void Bodies::remove(std::size_t row) {
             };
             std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
             columns.applied.swap_remove(row, --columns.size);
+            columns.contacts.swap_remove(row, columns.size);
             remove_links(columns.links, row, columns.size,
                          [&](const auto& link) { release_slot(link.slot); });
             columns.forces_changed();
@@ -272,6 +276,7 @@ void Bodies::set_gravity(const Vec3& acceleration) {
             make_room(stored, 1, columns.size);
             const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
             for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
+            columns.contacts.wake_all();
             columns.forces_changed();
         },
         columns_->of);
@@ -303,7 +308,7 @@ void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {
         [&](auto& columns) {
             assign(columns.motion.x, row, state.x);
             assign(columns.motion.v, row, state.v);
-            columns.state_changed();
+            columns.state_changed(row);
         },
         columns_->of);
 }
@@ -314,7 +319,7 @@ void Bodies::set_position(std::size_t row, const Vec3& position) {
     std::visit(
         [&](auto& columns) {
             assign(columns.motion.x, row, position);
-            columns.state_changed();
+            columns.state_changed(row);
         },
         columns_->of);
 }
@@ -325,7 +330,7 @@ void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
     std::visit(
         [&](auto& columns) {
             assign(columns.motion.v, row, velocity);
-            columns.state_changed();
+            columns.state_changed(row);
         },
         columns_->of);
 }
@@ -338,7 +343,7 @@ void Bodies::apply_force(std::size_t row, const Vec3& force) {
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             columns.applied.add(row, narrow<T, Axes>(acceleration), columns.size);
-            columns.state_changed();
+            columns.state_changed(row);
         },
         columns_->of);
 }

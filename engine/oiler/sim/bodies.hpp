@@ -94,6 +94,20 @@ public:
     [[nodiscard]] Link link_at(std::size_t i) const;
     [[nodiscard]] std::array<std::size_t, 2> linked_rows(std::size_t i) const;
 
+    /// Adds a plane that bodies with a contact meet, and returns its index. Throws Error{usage} for
+    /// a normal of 0, a restitution outside 0 to 1, a negative friction and numbers that are not
+    /// finite.
+    std::size_t add_plane(const Plane& plane);
+    void clear_planes();
+    [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
+    /// Lets the body meet planes, or pass through them. Throws Error{usage} for a negative radius.
+    void set_contact(std::size_t row, const std::optional<Contact>& contact);
+    [[nodiscard]] std::optional<Contact> contact(std::size_t row) const;
+    /// The meetings with planes in the last call of step, in the order of time, then row; until
+    /// bodies or planes change.
+    [[nodiscard]] std::size_t impact_count() const;
+    [[nodiscard]] BodyImpact impact_at(std::size_t i, const Rate& rate) const;
+
     /// Gravity of all bodies, m/s²; without this call no gravity is evaluated.
     void set_gravity(const Vec3& acceleration);
 
@@ -173,6 +187,7 @@ private:
     void release_slot(std::uint32_t slot);
 
     std::unique_ptr<AnyColumns> columns_;
+    std::vector<Plane> planes_;
     std::shared_ptr<Team> team_;
     std::vector<std::uint32_t> link_generations_;  ///< odd while a link uses the slot
     std::vector<std::uint32_t> free_slots_;

@@ -6,6 +6,8 @@
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
 #include "oiler/sim/flows.hpp"
+#include "oiler/sim/instructions.hpp"
+#include "oiler/sim/row_parts.hpp"
 #include "oiler/sim/step_rows.hpp"
 
 namespace oiler {
@@ -31,15 +33,39 @@ const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& 
     return cache.plan;
 }
 
+/// Steps rows of which some meet planes, and gathers their impacts.
 template <class T, int Axes>
-std::optional<Divergence> take_steps(Columns<T, Axes>& columns, const Plan<T>& plan,
-                                     const Steps& steps, Team* team) {
+std::optional<Divergence> take_landing_steps(Columns<T, Axes>& columns,
+                                             const RowViews<T, Axes>& views, const Method& method,
+                                             const Plan<T>& plan, const Steps& steps, Team* team) {
+    auto& contacts = columns.contacts;
+    contacts.settled.resize(columns.size);
+    contacts.impacts_of_parts.resize(team ? team->size() : 1);
+    const auto diverged = in_parts(
+        columns.size, steps, team, [&](std::size_t begin, std::size_t end, std::size_t part) {
+            return step_landing_rows(columns, views, method, plan, steps, begin, end,
+                                     contacts.impacts_of_parts[part]);
+        });
+    contacts.gather_impacts();
+    return diverged;
+}
+
+template <class T, int Axes>
+std::optional<Divergence> take_steps(Columns<T, Axes>& columns, const Method& method,
+                                     const Plan<T>& plan, const Steps& steps, Team* team) {
     if (columns.size == 0 || steps.count == 0) return std::nullopt;
     const LinearColumns<T, Axes> linear = linear_columns(columns);
     prepare_flows(columns, linear, plan);
     const RowViews<T, Axes> views(columns, linear);
-    return columns.links.empty() ? step_rows(columns, views, plan, steps, team)
-                                 : step_linked_rows(columns, views, plan, steps);
+    if (!columns.links.empty()) return step_linked_rows(columns, views, plan, steps);
+    // An error in a thread of the team would end the program.
+    require_instructions();
+    if (columns.contacts.possible())
+        return take_landing_steps(columns, views, method, plan, steps, team);
+    return in_parts(columns.size, steps, team,
+                    [&](std::size_t begin, std::size_t end, std::size_t) {
+                        return step_row_range(columns, views, plan, steps, begin, end);
+                    });
 }
 
 }  // namespace
@@ -61,16 +87,17 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
     return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) -> std::optional<Divergence> {
             const Plan<T>& plan = plan_for(columns.plan_cache, method, steps);
+            columns.contacts.impacts.clear();
             Steps left = steps;
             if (!columns.applied.empty() && steps.count > 0) {
                 left.count = 1;
-                const auto diverged = take_steps(columns, plan, left, team_.get());
+                const auto diverged = take_steps(columns, method, plan, left, team_.get());
                 columns.applied.clear();
                 columns.state_changed();
                 if (diverged) return diverged;
                 left = {steps.rate, steps.first + 1, steps.count - 1, steps.damping};
             }
-            return take_steps(columns, plan, left, team_.get());
+            return take_steps(columns, method, plan, left, team_.get());
         },
         columns_->of);
 }

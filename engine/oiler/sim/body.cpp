@@ -34,6 +34,7 @@ void Limits::check(const Body& body) const {
              body.mass);
     check(body.position, "a position");
     check(body.velocity, "a velocity");
+    if (body.contact) check(*body.contact);
 }
 
 void Limits::check(const GivenForces& forces, double mass) const {
@@ -52,6 +53,26 @@ void Limits::check(const Link& link) const {
     check(link.rest_length, "a link's rest length");
     if (link.rest_length < 0)
         fail(Exit::usage, "a link's rest length of {} m: give 0 or more", link.rest_length);
+}
+
+void Limits::check(const Plane& plane) const {
+    check(plane.normal, "a plane's normal");
+    check(plane.offset, "a plane's offset");
+    const double size = length(plane.normal);
+    if (!(size > 0)) fail(Exit::usage, "a plane's normal is 0: give the direction away from it");
+    check(plane.offset / size, "a plane's offset, by the length of its normal,");
+    if (!(plane.restitution >= 0 && plane.restitution <= 1))
+        fail(Exit::usage, "a plane's restitution of {}: give 0 (no bounce) to 1 (no loss)",
+             plane.restitution);
+    check(plane.friction, "a plane's friction");
+    if (plane.friction < 0)
+        fail(Exit::usage, "a plane's friction of {}: give 0 or more", plane.friction);
+}
+
+void Limits::check(const Contact& contact) const {
+    check(contact.radius, "a contact's radius");
+    if (contact.radius < 0)
+        fail(Exit::usage, "a contact's radius of {} m: give 0 or more", contact.radius);
 }
 
 }  // namespace oiler

@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include "oiler/physics/contacts/impact.hpp"
+#include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/precision.hpp"
 
@@ -16,6 +18,19 @@ struct Body {
     double mass = 1;  ///< kg, positive
     Vec3 position{};  ///< m
     Vec3 velocity{};  ///< m/s
+    /// Absent: it passes through planes.
+    std::optional<Contact> contact{};
+};
+
+/// A meeting of the body in a row with a plane.
+struct BodyImpact {
+    Meeting kind;
+    std::size_t row;
+    std::size_t plane;  ///< in the order of adding
+    double time;        ///< s
+    Vec3 point;         ///< m, where the body touches the plane
+    Vec3 before;        ///< m/s
+    Vec3 after;         ///< m/s
 };
 
 /// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and
@@ -69,6 +84,8 @@ public:
     /// Checks the forces per unit mass, as they are stored.
     void check(const GivenForces& forces, double mass) const;
     void check(const Link& link) const;
+    void check(const Plane& plane) const;
+    void check(const Contact& contact) const;
 
     void check(double number, std::string_view what) const;
 

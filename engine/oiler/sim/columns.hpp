@@ -11,6 +11,7 @@
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
 #include "oiler/sim/applied_forces.hpp"
+#include "oiler/sim/contacts.hpp"
 #include "oiler/sim/number_view.hpp"
 
 namespace oiler {
@@ -133,6 +134,7 @@ struct LinkCache {
     std::vector<T> loss;  ///< per link: 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
+    VecColumns<T, Axes> velocity_before;          ///< m/s, at the start of a step that may land
     bool field_valid = false;                     ///< also false after a change of positions
     std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
     T solver_tau = 0;                             ///< s
@@ -158,6 +160,7 @@ struct Columns {
     typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
     Parameter<Kinds> kinds;  ///< per row: those with any number other than 0
     AppliedForces<T, Axes> applied;
+    Contacts<T, Axes> contacts;
     std::vector<LinkRow<T>> links;
     /// The number of evaluations of the forces on the first row.
     std::int64_t evaluations = 0;
@@ -176,6 +179,14 @@ struct Columns {
         link_cache.field_valid = false;
     }
     void state_changed() { link_cache.field_valid = false; }
+    void forces_changed(std::size_t row) {
+        contacts.wake(row);
+        forces_changed();
+    }
+    void state_changed(std::size_t row) {
+        contacts.wake(row);
+        state_changed();
+    }
 };
 
 /// The kinds of force on the rows of the block of row_padding rows from `row` on.

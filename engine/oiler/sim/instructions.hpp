@@ -10,4 +10,7 @@ namespace oiler {
 /// steps take several times as long. Empty if the machine has one.
 [[nodiscard]] std::optional<std::string> missing_instructions();
 
+/// Throws Error{usage} if OILER_INSTRUCTIONS names a set that this build or machine lacks.
+void require_instructions();
+
 }  // namespace oiler

@@ -114,6 +114,11 @@ std::optional<std::string> missing_instructions() {
         names);
 }
 
+void require_instructions() {
+    static const std::string_view chosen = chosen_set();
+    static_cast<void>(chosen);
+}
+
 template <std::floating_point T, int Axes>
 const Kernels<T, Axes>* kernels() {
     static const Kernels<T, Axes>* const chosen = kernels_of<T, Axes>(chosen_set());

@@ -15,6 +15,8 @@ public:
     NumberView() = default;
     explicit NumberView(const Parameter<T>& number)
         : from_(number.data(0)), stride_(number.shared() ? 0 : 1) {}
+    /// A number that is the same for all rows.
+    explicit NumberView(const T& shared) : from_(&shared) {}
     explicit NumberView(const Column<T>& column) : from_(column.data()), stride_(1) {}
 
     [[nodiscard]] [[gnu::always_inline]] explicit operator bool() const { return from_; }

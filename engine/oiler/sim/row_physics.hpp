@@ -149,7 +149,8 @@ class RowPhysics {
 public:
     using T = Scalar<V>;
     /// Whether all forces are linear.
-    static constexpr bool is_linear = Axes == 1 && !std::is_same_v<ForcesOfRow, RowForces<V, Axes>>;
+    static constexpr bool is_linear =
+        Axes == 1 && std::is_same_v<decltype(ForcesOfRow::others), NoOthers>;
 
     /// `load_forces` returns the forces of the row; they are large and constructed in place.
     template <class LoadForces>
@@ -167,8 +168,7 @@ public:
     [[gnu::always_inline]] Vec<V, Axes> kick(const State<V, Axes>& state, double t) {
         if (damping_ == Damping::in_kick) return accelerate(state, t);
         if (!field_valid_) {
-            ++evaluations_;
-            field_ = forces_.field(state.x, t);
+            field_ = field(state.x, t);
             field_valid_ = true;
         }
         return field_;
@@ -218,10 +218,18 @@ public:
         }
     }
 
+    /// The part of the acceleration that depends on position and time alone, m/s².
+    [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& x, double t) {
+        ++evaluations_;
+        return forces_.field(x, t);
+    }
+
     /// The exact motion under linear forces, see Response.
     [[gnu::always_inline]] void respond(State<V, Axes>& state, double t) {
-        ++evaluations_;
-        const Vec<V, Axes> a = forces_.field(state.x, t);
+        respond_to(state, field(state.x, t));
+    }
+    /// The same with another acceleration `a` at the start, m/s².
+    [[gnu::always_inline]] void respond_to(State<V, Axes>& state, const Vec<V, Axes>& a) const {
         const V reach = flows_->reach.template at<V>(row_);
         state.x = state.x + state.v * reach + a * flows_->sway.template at<V>(row_);
         state.v = state.v * flows_->decay.template at<V>(row_) + a * reach;

@@ -8,6 +8,7 @@
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
+#include "oiler/sim/linked_landing.hpp"
 
 namespace oiler {
 namespace {
@@ -82,6 +83,11 @@ public:
         if (any_damper_of_rows())
             change_each_row(
                 motion, [](auto& physics, State<T, Axes>& state) { physics.damp_after(state); });
+    }
+
+    void land(std::int64_t tick, T dt) {
+        if (land_linked_rows<T, Axes>(columns_, cache_.velocity_before, tick, dt))
+            cache_.field_valid = false;
     }
 
     /// Puts rows to sleep if any link is damped, see RowPhysics.
@@ -252,17 +258,20 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
                                            const RowViews<T, Axes>& views, const Plan<T>& plan,
                                            const Steps& steps) {
     LinkedRows<T, Axes> physics(columns, views, plan);
+    const bool lands = columns.contacts.possible();
     return std::visit(
         [&]<class Rule>(const Rule& rule) -> std::optional<Divergence> {
             for (std::int64_t j = 0; j < steps.count; ++j) {
                 const std::int64_t tick = steps.first + j + 1;
                 const double t = steps.rate.time(tick - 1);
+                if (lands) columns.link_cache.velocity_before = columns.motion.v;
                 if constexpr (std::is_same_v<Rule, ImplicitPlan<T>>) {
                     if (!advance(rule, columns.motion, physics, t))
                         return Divergence{tick, 0, 0, Divergence::Of::solution};
                 } else if constexpr (!std::is_same_v<Rule, ExactPlan<T>>) {
                     advance(rule, columns.motion, physics, t);
                 }
+                if (lands) physics.land(tick - 1, steps.rate.template dt<T>());
                 if (is_sleep_tick(tick))
                     physics.put_to_sleep(columns.motion, steps.rate.time(tick));
                 if (const auto found = find_divergence(columns.motion, tick)) return found;

@@ -2,8 +2,6 @@
 #include "oiler/sim/step_rows.hpp"
 
 #include <cmath>
-#include <mutex>
-#include <tuple>
 
 #include "oiler/sim/kernels.hpp"
 
@@ -21,15 +19,6 @@ std::optional<Divergence> find_divergence(const State<T, Axes>& state, std::size
             if (!std::isfinite((of == Of::velocity ? state.v : state.x)[i]))
                 return Divergence{tick, row, axis + i, of};
     return std::nullopt;
-}
-
-/// The divergence with the smaller tick, then row; of one row that of a position, then axis.
-void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other) {
-    if (!other) return;
-    const auto order = [](const Divergence& d) {
-        return std::tuple(d.tick, d.row, d.of == Of::velocity, d.axis);
-    };
-    if (!first || order(*other) < order(*first)) first = other;
 }
 
 /// Never inlined: it is large, and both callers instantiate it for each type and rule.
@@ -223,70 +212,48 @@ private:
     const Steps& steps_;
 };
 
-/// With fewer row-steps, calling a team takes longer than stepping on one thread.
-constexpr std::size_t team_threshold = 16384;
-
-bool pays_for_team(std::size_t rows, const Steps& steps) {
-    return rows > row_padding &&
-           rows >=
-               team_threshold / static_cast<std::size_t>(std::max<std::int64_t>(1, steps.count));
-}
-
-/// The first row of part `part` of `parts`; it begins a block.
-std::size_t begin_of(std::size_t part, std::size_t parts, std::size_t rows) {
-    return std::min(rows, padded(rows) / row_padding * part / parts * row_padding);
-}
-
-template <std::floating_point T, int Axes, class Rule>
-std::optional<Divergence> step_in_parallel(Columns<T, Axes>& columns,
-                                           const RowViews<T, Axes>& views, const Rule& rule,
-                                           const Steps& steps, Team* team) {
-    // Choose the kernels on this thread: an error in a thread of the team would end the program.
-    if constexpr (!std::is_same_v<T, long double>) static_cast<void>(kernels<T, Axes>());
-    RowStepper<T, Axes, Rule> stepper(columns, views, rule, steps);
-    if (!team || !pays_for_team(columns.size, steps)) return stepper.run(0, columns.size);
-    std::mutex first_mutex;
-    std::optional<Divergence> first;
-    team->run([&](std::size_t part) {
-        const auto found = stepper.run(begin_of(part, team->size(), columns.size),
-                                       begin_of(part + 1, team->size(), columns.size));
-        if (!found) return;
-        const std::lock_guard lock(first_mutex);
-        keep_earlier(first, found);
-    });
-    return first;
-}
-
 }  // namespace
 
 template <std::floating_point T, int Axes>
-std::optional<Divergence> step_rows(Columns<T, Axes>& columns, const RowViews<T, Axes>& views,
-                                    const Plan<T>& plan, const Steps& steps, Team* team) {
+std::optional<Divergence> step_row_range(Columns<T, Axes>& columns, const RowViews<T, Axes>& views,
+                                         const Plan<T>& plan, const Steps& steps, std::size_t begin,
+                                         std::size_t end) {
     return std::visit(
-        [&](const auto& rule) { return step_in_parallel(columns, views, rule, steps, team); },
+        [&]<class Rule>(const Rule& rule) {
+            return RowStepper<T, Axes, Rule>(columns, views, rule, steps).run(begin, end);
+        },
         plan);
 }
 
-template std::optional<Divergence> step_rows(Columns<float, 1>&, const RowViews<float, 1>&,
-                                             const Plan<float>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<float, 2>&, const RowViews<float, 2>&,
-                                             const Plan<float>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<float, 3>&, const RowViews<float, 3>&,
-                                             const Plan<float>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<double, 1>&, const RowViews<double, 1>&,
-                                             const Plan<double>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<double, 2>&, const RowViews<double, 2>&,
-                                             const Plan<double>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<double, 3>&, const RowViews<double, 3>&,
-                                             const Plan<double>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 1>&,
-                                             const RowViews<long double, 1>&,
-                                             const Plan<long double>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 2>&,
-                                             const RowViews<long double, 2>&,
-                                             const Plan<long double>&, const Steps&, Team*);
-template std::optional<Divergence> step_rows(Columns<long double, 3>&,
-                                             const RowViews<long double, 3>&,
-                                             const Plan<long double>&, const Steps&, Team*);
+template std::optional<Divergence> step_row_range(Columns<float, 1>&, const RowViews<float, 1>&,
+                                                  const Plan<float>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<float, 2>&, const RowViews<float, 2>&,
+                                                  const Plan<float>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<float, 3>&, const RowViews<float, 3>&,
+                                                  const Plan<float>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<double, 1>&, const RowViews<double, 1>&,
+                                                  const Plan<double>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<double, 2>&, const RowViews<double, 2>&,
+                                                  const Plan<double>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<double, 3>&, const RowViews<double, 3>&,
+                                                  const Plan<double>&, const Steps&, std::size_t,
+                                                  std::size_t);
+template std::optional<Divergence> step_row_range(Columns<long double, 1>&,
+                                                  const RowViews<long double, 1>&,
+                                                  const Plan<long double>&, const Steps&,
+                                                  std::size_t, std::size_t);
+template std::optional<Divergence> step_row_range(Columns<long double, 2>&,
+                                                  const RowViews<long double, 2>&,
+                                                  const Plan<long double>&, const Steps&,
+                                                  std::size_t, std::size_t);
+template std::optional<Divergence> step_row_range(Columns<long double, 3>&,
+                                                  const RowViews<long double, 3>&,
+                                                  const Plan<long double>&, const Steps&,
+                                                  std::size_t, std::size_t);
 
 }  // namespace oiler

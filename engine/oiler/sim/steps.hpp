@@ -23,13 +23,21 @@ struct Steps {
 
 /// The place where a run was no longer finite, or an implicit step found no solution.
 struct Divergence {
-    enum class Of { position, velocity, solution };
+    enum class Of {
+        position,
+        velocity,
+        solution,  ///< of an implicit method
+        impacts    ///< more in a step than can be followed
+    };
 
     std::int64_t tick;  ///< the first tick whose state is not finite
     std::size_t row;
     int axis;
     Of of;
 };
+
+/// Keeps the divergence with the smaller tick, then row; of one row that of a position, then axis.
+void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other);
 
 /// Returns the number by which messages name the body in a row.
 using NameOfRow = std::function<std::size_t(std::size_t)>;

@@ -27,7 +27,8 @@ World::World(const World& other)
       generations_(other.generations_),
       free_(other.free_),
       bodies_(other.bodies_),
-      rows_(other.rows_) {
+      rows_(other.rows_),
+      impacts_(other.impacts_) {
     for (const TaggedPool& entry : other.pools_) pools_.push_back({entry.tag, entry.pool->clone()});
 }
 
@@ -116,6 +117,7 @@ void World::step(std::int64_t count) {
 std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
     const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
+    list_impacts();
     if (!divergence) tick_ += count;
     return divergence;
 }
@@ -136,6 +138,15 @@ std::vector<std::string> World::preflight(std::size_t most) const {
 
 LinkHandle World::link(Entity a, Entity b, const Link& link) {
     return bodies_.link(row(a), row(b), link);
+}
+
+void World::list_impacts() {
+    impacts_.clear();
+    for (std::size_t i = 0; i < bodies_.impact_count(); ++i) {
+        const BodyImpact one = bodies_.impact_at(i, settings_.stepping.rate);
+        impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
+                            one.before, one.after});
+    }
 }
 
 Steps World::next_steps(std::int64_t count) const {

@@ -15,6 +15,7 @@
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 #include "oiler/world/entity.hpp"
+#include "oiler/world/impact.hpp"
 #include "oiler/world/pool.hpp"
 
 namespace oiler {
@@ -180,10 +181,21 @@ public:
         change("apply_impulse", entity,
                [&](std::size_t row) { bodies_.apply_impulse(row, impulse); });
     }
+    /// Lets the body meet planes, or pass through them.
+    void set_contact(Entity entity, const std::optional<Contact>& contact) {
+        change("set_contact", entity, [&](std::size_t row) { bodies_.set_contact(row, contact); });
+    }
     /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
     /// The number of teleports of the body: the `jump` of a picture's element.
     [[nodiscard]] std::uint32_t jumps(Entity entity) const;
+
+    /// Adds a plane, such as a floor, that bodies with a contact meet, and returns its index. See
+    /// Bodies::add_plane.
+    std::size_t add_plane(const Plane& plane) { return bodies_.add_plane(plane); }
+    void clear_planes() { bodies_.clear_planes(); }
+    /// The meetings of bodies with planes in the last call of step, in the order of time.
+    [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
     void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
@@ -245,6 +257,7 @@ private:
     }
     [[noreturn]] void refuse(const char* call, Entity entity, const Error& error) const;
 
+    void list_impacts();
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
 
@@ -257,6 +270,7 @@ private:
     std::vector<TaggedPool> pools_;
     Bodies bodies_;
     SlotSet rows_;
+    std::vector<Impact> impacts_;
 };
 
 }  // namespace oiler

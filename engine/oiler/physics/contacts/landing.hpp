@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "oiler/physics/contacts/impact.hpp"
+#include "oiler/physics/contacts/root.hpp"
+#include "oiler/physics/contacts/support.hpp"
+
+namespace oiler {
+
+/// How a step of a body that meets planes ended.
+enum class Landed {
+    moving,
+    settled,    ///< the body stays where it is while the forces stay as they are
+    unresolved  ///< too many impacts
+};
+
+/// The distance from a plane that round-off hides in a step of `duration` s, m.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T hidden_distance(const PlaneOf<T, Axes>& plane, const State<T, Axes>& state,
+                                T radius, T duration) {
+    return 8 * std::numeric_limits<T>::epsilon() *
+           (largest(state.x) + largest(state.v) * duration + std::abs(plane.offset) + radius);
+}
+/// The speed towards a plane that round-off hides, m/s.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T hidden_speed(const Vec<T, Axes>& v) {
+    return 8 * std::numeric_limits<T>::epsilon() * largest(v);
+}
+
+/// Whether a body that is above a plane at the start and at the end of `duration` s may have been
+/// below it between, where it turned: a tangent to its path cuts the plane. h are gaps, m, and u
+/// speeds away from the plane, m/s.
+template <std::floating_point T>
+[[nodiscard]] bool may_dip(T h_start, T u_start, T h_end, T u_end, T duration) {
+    return u_start < 0 && u_end > 0 &&
+           (h_start + u_start * duration < 0 || h_end - u_end * duration < 0);
+}
+
+/// One step of one body that meets planes. Impacts, the end of sliding and the leaving of a plane
+/// are located within the step, with shorter steps of the same method, so that a bounce keeps the
+/// method's order. `Body` has
+/// - `fly(state, start, tau)` and `slide(state, start, tau, support, friction)`: the state after
+/// one
+///   step of `tau` s that begins `start` s after the start of the whole step;
+/// - `accelerate(state, start)`, m/s²; `forces_change()`: whether forces depend on time.
+/// `report(impact)` is called for each impact, in order.
+template <std::floating_point T, int Axes, class Body, class Report>
+class Landing {
+public:
+    using Surface = PlaneOf<T, Axes>;
+    using Vector = Vec<T, Axes>;
+    using Motion = State<T, Axes>;
+    using Bearing = Support<T, Axes>;
+
+    Landing(std::span<const Surface> planes, T radius, Body& body, Report report)
+        : planes_(planes), radius_(radius), body_(body), report_(report) {}
+
+    /// Steps the state by `duration` s.
+    [[nodiscard]] Landed step(Motion& state, T duration) {
+        duration_ = left_ = duration;
+        lift(state);
+        for (int events = 0; left_ > 0; ++events) {
+            if (events == most_events) return Landed::unresolved;
+            if (bounce(state)) continue;
+            const Vector a = body_.accelerate(state, start_);
+            const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
+            if (support.empty()) {
+                fly(state);
+            } else {
+                glide(state, support);
+                if (settled_) return Landed::settled;
+            }
+        }
+        return Landed::moving;
+    }
+
+private:
+    static constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    static constexpr int most_events = 4096;
+    /// After this many impacts at one instant, a body between planes loses all speed into them.
+    static constexpr int most_bounces_at_once = 16;
+    /// Flights shorter than this part of what is left of a step are not followed one by one.
+    static constexpr T shortest_flight = T(1) / 64;
+
+    [[nodiscard]] T gap_noise(const Surface& plane, const Motion& state) const {
+        return hidden_distance(plane, state, radius_, duration_);
+    }
+    [[nodiscard]] T gap_of(const Surface& plane, const Vector& x) const {
+        return gap(plane, x, radius_);
+    }
+    [[nodiscard]] bool touches(const Surface& plane, const Motion& state) const {
+        return gap_of(plane, state.x) <= gap_noise(plane, state);
+    }
+    [[nodiscard]] std::size_t index_of(const Surface& plane) const {
+        return static_cast<std::size_t>(&plane - planes_.data());
+    }
+    void report(Meeting kind, const Surface& plane, T after_start, const Motion& state,
+                const Vector& before) {
+        report_(ImpactOf<T, Axes>{kind, index_of(plane), after_start, state.x, before, state.v});
+    }
+
+    /// Moves a body that is below a plane onto it.
+    void lift(Motion& state) {
+        for (const Surface& plane : planes_) {
+            const T below = -gap_of(plane, state.x);
+            if (below <= 0) continue;
+            const bool visible = below > gap_noise(plane, state);
+            state.x += plane.normal * below;
+            if (visible) report(Meeting::lifted, plane, start_, state, state.v);
+        }
+    }
+
+    void advance(Motion& state, const Motion& to, T tau) {
+        state = to;
+        start_ += tau;
+        left_ = tau < left_ ? left_ - tau : T(0);
+        if (tau > 0) bounces_at_once_ = 0;
+        lift(state);
+    }
+
+    /// The planes that may bear the body: those that it touches without leaving them, or leaves for
+    /// flights lower than round-off shows.
+    [[nodiscard]] PlaneSet bearing_planes(const Motion& state, const Vector& a) const {
+        PlaneSet set = 0;
+        for (const Surface& plane : planes_) {
+            const T u = leaving_speed(plane, state.v);
+            const T pull = -dot(plane.normal, a);
+            const bool hidden = pull > 0 && u * u <= 2 * pull * gap_noise(plane, state);
+            if (touches(plane, state) && (u <= hidden_speed(state.v) || hidden))
+                set |= PlaneSet{1} << index_of(plane);
+        }
+        return set;
+    }
+
+    /// Resolves the first impact on a plane that the body touches. Returns false if there is none.
+    bool bounce(Motion& state) {
+        for (const Surface& plane : planes_) {
+            const T speed = -leaving_speed(plane, state.v);
+            if (!(speed > hidden_speed(state.v)) || !touches(plane, state)) continue;
+            const Vector before = state.v;
+            state.x -= plane.normal * gap_of(plane, state.x);
+            if (++bounces_at_once_ > most_bounces_at_once) {
+                state.v =
+                    Bearing::against(before, planes_, touched_planes(state)).without_push(before);
+            } else {
+                state.v = bounced(plane, before, speed, plane.restitution * speed);
+            }
+            report(Meeting::bounce, plane, start_, state, before);
+            follow_bounce(plane, state, plane.restitution * speed);
+            return true;
+        }
+        return false;
+    }
+    [[nodiscard]] PlaneSet touched_planes(const Motion& state) const {
+        PlaneSet set = 0;
+        for (const Surface& plane : planes_)
+            if (touches(plane, state)) set |= PlaneSet{1} << index_of(plane);
+        return set;
+    }
+    /// Ends bounces whose flights are all over within the step: with acceleration a towards the
+    /// plane, all flights after a bounce to speed u last 2u/(a·(1 − e)). Passes over flights that
+    /// are much shorter than the step.
+    void follow_bounce(const Surface& plane, Motion& state, T speed) {
+        const Vector a = body_.accelerate(state, start_);
+        const PlaneSet others = bearing_planes(state, a) & ~(PlaneSet{1} << index_of(plane));
+        const T pull = -dot(plane.normal, Bearing::against(a, planes_, others).without_push(a));
+        if (!(pull > 0)) return;
+        const T flight = 2 * speed / pull;
+        const T lost = 1 - plane.restitution;
+        if (flight <= lost * left_) {
+            state.v -= plane.normal * leaving_speed(plane, state.v);
+            report(Meeting::rest, plane, start_ + (lost > 0 ? flight / lost : T(0)), state,
+                   state.v);
+        } else if (flight < shortest_flight * left_) {
+            const T tau =
+                glide(state, Bearing::against(a, planes_, others | PlaneSet{1} << index_of(plane)));
+            state.v += plane.normal * (speed * (1 - tau * lost / flight));
+            settled_ = false;
+        }
+    }
+
+    /// The first part of what is left of the step.
+    struct Leg {
+        Motion end;
+        T tau;
+    };
+
+    void fly(Motion& state) {
+        const auto move = [&](T tau) { return body_.fly(state, start_, tau); };
+        Leg leg{move(left_), left_};
+        for (const Surface& plane : planes_) end_at_impact(plane, state, leg, move);
+        advance(state, leg.end, leg.tau);
+    }
+
+    /// Steps a body on the planes that bear it, and returns the time until that ends, s.
+    T glide(Motion& state, const Bearing& support) {
+        rest_on(support, state);
+        const Vector a = body_.accelerate(state, start_);
+        return sticks(support, state, a) ? stick(state, support) : slide(state, support, a);
+    }
+    void rest_on(const Bearing& support, Motion& state) const {
+        const T noise = hidden_speed(state.v);
+        state.v = support.without_push(state.v);
+        if (largest(state.v) <= noise) state.v = {};
+        for (std::size_t i = 0; i < support.size(); ++i)
+            state.x -= support[i].normal * gap_of(support[i], state.x);
+    }
+    /// How much more than the pull along the planes friction could hold, m/s²; negative if it does
+    /// not hold.
+    [[nodiscard]] static T surplus_of_grip(const Bearing& support, const Vector& a) {
+        return support.grip(a) + 4 * epsilon * largest(a) - length(support.without_push(a));
+    }
+    [[nodiscard]] static bool sticks(const Bearing& support, const Motion& state, const Vector& a) {
+        return state.v == Vector{} && surplus_of_grip(support, a) >= 0;
+    }
+    /// Holds a body at rest until the forces let it slide or take it off.
+    T stick(Motion& state, const Bearing& support) {
+        const T whole = left_;
+        if (!body_.forces_change()) {
+            settled_ = true;
+            advance(state, state, whole);
+            return whole;
+        }
+        const auto held = [&](T tau) {
+            const Vector a = body_.accelerate(state, start_ + tau);
+            return std::min(surplus_of_grip(support, a), least_reaction(support, a));
+        };
+        const T at_end = held(whole);
+        const T tau =
+            at_end >= 0
+                ? whole
+                : narrow_bracket<T>(held, {0, whole}, std::max(held(0), T(0)), at_end, -1).after;
+        advance(state, state, tau);
+        return tau;
+    }
+    [[nodiscard]] static T least_reaction(const Bearing& support, const Vector& a) {
+        const Vector reaction = support.reactions(a);
+        return *std::min_element(reaction.axis.begin(),
+                                 reaction.axis.begin() + static_cast<int>(support.size()));
+    }
+
+    T slide(Motion& state, const Bearing& support, const Vector& a) {
+        const Vector direction =
+            normalised(state.v == Vector{} ? support.without_push(a) : state.v);
+        const T grip = support.grip(a);
+        const Friction<T, Axes> friction{direction, length(state.v) > 4 * grip * duration_};
+        const auto move = [&](T tau) { return body_.slide(state, start_, tau, support, friction); };
+        Leg leg{move(left_), left_};
+        for (const Surface& plane : planes_)
+            if (!support.has(plane)) end_at_impact(plane, state, leg, move);
+        const auto borne = [&](T tau) {
+            return least_reaction(support, body_.accelerate(move(tau), start_ + tau));
+        };
+        end_where_negative(borne, least_reaction(support, a), leg, move);
+        const auto speed = [&](T tau) { return dot(move(tau).v, direction); };
+        if (grip > 0 && state.v != Vector{} &&
+            end_where_negative(speed, dot(state.v, direction), leg, move)) {
+            leg.end.v -= direction * dot(leg.end.v, direction);
+            if (largest(leg.end.v) <= 64 * epsilon * largest(state.v)) leg.end.v = {};
+        }
+        const T tau = leg.tau;
+        advance(state, leg.end, tau);
+        return tau;
+    }
+    /// Ends the leg where a function of the time is first negative, if it is at the end.
+    template <class F, class Move>
+    static bool end_where_negative(F f, T at_start, Leg& leg, Move move) {
+        const T at_end = f(leg.tau);
+        if (!(at_end < 0) || at_start < 0) return false;
+        leg.tau = narrow_bracket<T>(f, {0, leg.tau}, at_start, at_end, -1).after;
+        leg.end = move(leg.tau);
+        return true;
+    }
+
+    template <class Move>
+    void end_at_impact(const Surface& plane, const Motion& state, Leg& leg, Move move) {
+        const auto bracket = impact(plane, state, leg, move);
+        if (!bracket) return;
+        leg = {move(bracket->before), bracket->before};
+    }
+    /// The time of the first impact on a plane within a leg, if there is one. A body that is above
+    /// the plane at both ends may have been below it between them, where it turned.
+    template <class Move>
+    [[nodiscard]] std::optional<Bracket<T>> impact(const Surface& plane, const Motion& state,
+                                                   const Leg& leg, Move move) const {
+        const T noise = gap_noise(plane, state);
+        const auto height = [&](T tau) { return gap_of(plane, move(tau).x); };
+        const T start = gap_of(plane, state.x);
+        const T end = gap_of(plane, leg.end.x);
+        const T u_start = leaving_speed(plane, state.v);
+        const T u_end = leaving_speed(plane, leg.end.v);
+        const auto turning_time = [&](T sign) {
+            const auto speed = [&](T tau) { return sign * leaving_speed(plane, move(tau).v); };
+            return narrow_bracket<T>(speed, {0, leg.tau}, sign * u_start, sign * u_end, -1).before;
+        };
+        const auto between = [&](T before, T h_before, T after, T h_after) {
+            return narrow_bracket<T>(height, {before, after}, h_before, h_after, noise / 16);
+        };
+        if (end < 0) {
+            if (start > noise) return between(0, start, leg.tau, end);
+            if (u_start <= hidden_speed(state.v)) return std::nullopt;  // it glides along the plane
+            T top = u_end < 0 ? turning_time(1) : leg.tau / 2;
+            T h_top = height(top);
+            while (h_top <= 0 && top > epsilon * leg.tau) h_top = height(top /= 2);
+            if (h_top <= 0) return std::nullopt;
+            return between(top, h_top, leg.tau, end);
+        }
+        if (start <= noise || !may_dip(start, u_start, end, u_end, leg.tau)) return std::nullopt;
+        const T lowest = turning_time(-1);
+        const T h_lowest = height(lowest);
+        if (h_lowest >= 0) return std::nullopt;
+        return between(0, start, lowest, h_lowest);
+    }
+
+    std::span<const Surface> planes_;
+    T radius_;
+    Body& body_;
+    Report report_;
+    T duration_ = 0;  ///< s, of the step
+    T start_ = 0;     ///< s, from the start of the step
+    T left_ = 0;      ///< s
+    int bounces_at_once_ = 0;
+    bool settled_ = false;
+};
+
+/// Whether a step of `duration` s that ignored a plane brought the body below it, may have done so
+/// where the body turned, or began on or below it without leaving it.
+template <std::floating_point T, int Axes>
+[[nodiscard]] bool may_meet(const PlaneOf<T, Axes>& plane, T radius, const State<T, Axes>& start,
+                            const State<T, Axes>& end, T duration) {
+    const T noise = hidden_distance(plane, start, radius, duration);
+    const T h = gap(plane, start.x, radius);
+    const T u = leaving_speed(plane, start.v);
+    const T h_end = gap(plane, end.x, radius);
+    const T u_end = leaving_speed(plane, end.v);
+    const bool began_on = h <= noise && (u <= hidden_speed(start.v) || h < -noise);
+    return h_end < 0 || began_on || may_dip(h, u, h_end, u_end, duration);
+}
+
+}  // namespace oiler

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "oiler/math/matrix.hpp"
+#include "oiler/physics/contacts/plane.hpp"
+
+namespace oiler {
+
+/// The planes that bear a body: they take away what pushes into them.
+template <std::floating_point T, int Axes>
+class Support {
+public:
+    using Vector = Vec<T, Axes>;
+    using Surface = PlaneOf<T, Axes>;
+
+    /// Those of the touched planes into which `push` (an acceleration or a velocity) presses, also
+    /// after the others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
+    [[nodiscard]] static Support against(const Vector& push, std::span<const Surface> planes,
+                                         PlaneSet touched) {
+        Support support;
+        const T noise = 8 * std::numeric_limits<T>::epsilon() * largest(push);
+        for (std::size_t i = 0; i < 8 * Axes; ++i) {
+            if (support.drop_pulled(push)) continue;
+            const Surface* const pressed =
+                support.count_ < Axes
+                    ? most_pressed(support.without_push(push), planes, touched, noise)
+                    : nullptr;
+            if (!pressed) break;
+            support.planes_[support.count_++] = pressed;
+        }
+        return support;
+    }
+
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const Surface& operator[](std::size_t i) const { return *planes_[i]; }
+    [[nodiscard]] bool has(const Surface& plane) const {
+        const auto* const end = planes_.data() + count_;
+        return std::find(planes_.data(), end, &plane) != end;
+    }
+
+    /// The reactions N of the planes against a push, in its unit; 0 for the others.
+    [[nodiscard]] Vector reactions(const Vector& push) const {
+        auto gram = Matrix<T, Axes>::scalar(T(1));
+        Vector pressure{};
+        for (std::size_t i = 0; i < count_; ++i) {
+            pressure.axis[i] = -dot(planes_[i]->normal, push);
+            for (std::size_t j = 0; j < count_; ++j)
+                gram.row[i].axis[j] = dot(planes_[i]->normal, planes_[j]->normal);
+        }
+        return solve(gram, pressure);
+    }
+    /// The part of a push along all planes.
+    [[nodiscard]] Vector without_push(const Vector& push) const {
+        const Vector reaction = reactions(push);
+        Vector rest = push;
+        for (std::size_t i = 0; i < count_; ++i) rest += planes_[i]->normal * reaction.axis[i];
+        return rest;
+    }
+    /// The most that friction can hold, in the unit of the push.
+    [[nodiscard]] T grip(const Vector& push) const {
+        const Vector reaction = reactions(push);
+        T sum = 0;
+        for (std::size_t i = 0; i < count_; ++i)
+            sum += planes_[i]->friction * std::max(reaction.axis[i], T(0));
+        return sum;
+    }
+
+private:
+    /// Removes the plane with the smallest reaction if it is not positive.
+    bool drop_pulled(const Vector& push) {
+        if (count_ == 0) return false;
+        const Vector reaction = reactions(push);
+        const T* const first = reaction.axis.data();
+        const T* const least = std::min_element(first, first + count_);
+        if (*least > 0) return false;
+        std::swap(planes_[static_cast<std::size_t>(least - first)], planes_[--count_]);
+        return true;
+    }
+    static const Surface* most_pressed(const Vector& push, std::span<const Surface> planes,
+                                       PlaneSet touched, T noise) {
+        const Surface* most = nullptr;
+        T least = -noise;
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            const T one = dot(planes[i].normal, push);
+            if ((touched >> i & 1U) == 0 || one >= least) continue;
+            most = &planes[i];
+            least = one;
+        }
+        return most;
+    }
+
+    std::array<const Surface*, Axes> planes_{};
+    std::size_t count_ = 0;
+};
+
+/// The direction of a slide, against which friction acts.
+template <std::floating_point T, int Axes>
+struct Friction {
+    Vec<T, Axes> direction;  ///< at the start of a step, of length 1
+    /// Whether friction turns with the velocity. Near the end of a slide it does not, because the
+    /// direction of a vanishing velocity changes faster than any step follows.
+    bool turns;
+
+    [[nodiscard]] Vec<T, Axes> against(const Vec<T, Axes>& v) const {
+        return turns && dot(v, direction) > 0 ? -normalised(v) : -direction;
+    }
+};
+
+}  // namespace oiler

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/physics/contacts/landing.hpp"
+#include "oiler/sim/columns.hpp"
+
+namespace oiler {
+
+/// Lets linked rows land at the end of a step from tick `tick`, because their motions depend on
+/// each other: a row below a plane is moved onto it, and bounces with the normal speed that it had
+/// at the start of the step. This has order 1 with every method. `velocity_before` is that at the
+/// start of the step. Returns whether any state changed.
+template <std::floating_point T, int Axes>
+bool land_linked_rows(Columns<T, Axes>& columns, const VecColumns<T, Axes>& velocity_before,
+                      std::int64_t tick, T dt) {
+    auto& contacts = columns.contacts;
+    bool any = false;
+    for (std::size_t row = 0; row < columns.size; ++row) {
+        std::size_t index = 0;
+        const T radius = contacts.radius[row];
+        for (std::size_t i = 0; i < contacts.planes.size(); ++i) {
+            const PlaneOf<T, Axes>& plane = contacts.planes[i];
+            State<T, Axes> state = load<T>(columns.motion, row);
+            const T below = -gap(plane, state.x, radius);
+            if (!(below > 0)) continue;
+            any = true;
+            state.x += plane.normal * below;
+            const Vec<T, Axes> v = state.v;
+            const T speed = -leaving_speed(plane, v);
+            const T fallen = -leaving_speed(plane, load<T>(velocity_before, row));
+            if (speed > 0) {
+                const T kept = plane.restitution * std::max(fallen, T(0));
+                // Whether all later flights would end within a step.
+                const bool rests = 2 * kept <= (1 - plane.restitution) * (speed - fallen);
+                state.v = bounced(plane, v, speed, rests ? T(0) : kept);
+                if (fallen > hidden_speed(v))
+                    contacts.impacts.push_back(
+                        {tick, row, index++, {Meeting::bounce, i, dt, state.x, v, state.v}});
+            }
+            store(state, columns.motion, row);
+        }
+    }
+    return any;
+}
+
+}  // namespace oiler

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/physics/advance.hpp"
+#include "oiler/physics/response.hpp"
+#include "oiler/sim/sliding_physics.hpp"
+#include "oiler/sim/step_blocks.hpp"
+
+namespace oiler {
+
+/// The forces on one row that are not linear, with damping over half of a shorter step.
+template <std::floating_point T, int Axes>
+class ShortStepOthers : public OtherForces<T, Axes> {
+public:
+    ShortStepOthers(const OtherForces<T, Axes>& others, T half_step)
+        : OtherForces<T, Axes>(others), half_step_(half_step) {}
+
+    template <class Force>
+    [[nodiscard]] T damping_number(std::size_t index) const {
+        return this->template get<Force>(index).prepare_damping(half_step_);
+    }
+
+private:
+    T half_step_;
+};
+
+/// Steps of one row that are shorter than dt, within the step that begins at `t` s.
+template <std::floating_point T, int Axes>
+class ShortSteps {
+public:
+    using Vector = Vec<T, Axes>;
+    using Motion = State<T, Axes>;
+
+    ShortSteps(const Columns<T, Axes>& columns, const RowViews<T, Axes>& views, std::size_t row,
+               const Method& method, Damping damping, double t)
+        : others_(views, row, columns.kinds[row]),
+          parts_(views.linear().parts(columns.kinds[row])),
+          linear_(views.linear().template load_at<T>(row, parts_)),
+          method_(method),
+          damping_(damping),
+          t_(t) {}
+
+    [[nodiscard]] Motion fly(const Motion& from, T start, T tau) {
+        return step(from, start, tau, [](auto& physics, auto take) { take(physics); });
+    }
+    [[nodiscard]] Motion slide(const Motion& from, T start, T tau, const Support<T, Axes>& support,
+                               const Friction<T, Axes>& friction) {
+        return step(from, start, tau, [&]<class Physics>(Physics& physics, auto take) {
+            SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction);
+            take(sliding);
+        });
+    }
+    [[nodiscard]] Vector accelerate(const Motion& at, T start) {
+        ++evaluations_;
+        return forces(T(0)).accelerate(at, t_ + static_cast<double>(start));
+    }
+    [[nodiscard]] bool forces_change() const { return forces(T(0)).depend_on_time(); }
+
+    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+    /// Whether an implicit method found the solution of every step.
+    [[nodiscard]] bool solved() const { return solved_; }
+
+private:
+    using ForcesOfRow = Forces<T, Axes, LinearParts, ShortStepOthers<T, Axes>>;
+
+    [[nodiscard]] ForcesOfRow forces(T half_step) const {
+        return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
+    }
+
+    /// One step of `tau` s; `with(physics, take)` calls take with the physics to step.
+    template <class With>
+    Motion step(const Motion& from, T start, T tau, With with) {
+        const Plan<T> plan = make_plan<T>(method_, tau, damping_);
+        Motion state = from;
+        std::visit([&](const auto& rule) { step_by(rule, state, start, tau, with); }, plan);
+        return state;
+    }
+    template <class Rule, class With>
+    void step_by(const Rule& rule, Motion& state, T start, T tau, With with) {
+        prepare_flows(rule);
+        RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows_.data(), 0,
+                                                 damping_of(rule));
+        with(physics, [&](auto& stepped) {
+            solved_ &= step_once(rule, state, stepped, t_ + static_cast<double>(start));
+        });
+        evaluations_ += physics.evaluations();
+    }
+
+    template <class Rule>
+    void prepare_flows(const Rule& rule) {
+        if constexpr (std::is_same_v<Rule, ExactPlan<T>>) {
+            set_flow(0, oscillator_response(linear_.stiffness, linear_.damping, rule.dt));
+        } else if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) {
+            if (rule.damping == Damping::in_kick || !parts_.damping) return;
+            for (std::size_t i = 0; i < rule.drift_count; ++i)
+                set_flow(i, oscillator_response(T(0), linear_.damping, rule.drifts[i]));
+        }
+    }
+    void set_flow(std::size_t i, const Response<T>& response) {
+        responses_[i] = response;
+        flows_[i] = {NumberView<T>(responses_[i].reach), NumberView<T>(responses_[i].sway),
+                     NumberView<T>(responses_[i].decay)};
+    }
+
+    OtherForces<T, Axes> others_;
+    LinearParts parts_;
+    LinearForce<T, Axes> linear_;
+    const Method& method_;
+    Damping damping_;
+    double t_;
+    std::array<Response<T>, Splitting::most_stages> responses_;
+    std::array<FlowView<T>, Splitting::most_stages> flows_;
+    std::int64_t evaluations_ = 0;
+    bool solved_ = true;
+};
+
+}  // namespace oiler

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Bodies that come to rest on planes, and slide along them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "oiler/world/world.hpp"
+
+namespace {
+
+using oiler::Contact;
+using oiler::Entity;
+using oiler::Impact;
+using oiler::Meeting;
+using oiler::Vec3;
+using oiler::World;
+
+constexpr double g = 9.81;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+const char* const methods[] = {"semi_implicit_euler", "velocity_verlet", "rk4",
+                               "implicit_midpoint",   "implicit_euler",  "exact"};
+
+World world_of(const char* method, int rate, int axes = 2) {
+    return World(axes, {.method = &oiler::find_method(method), .rate = {rate}});
+}
+
+// A ball thrown up at u lands at u again; n bounces later it leaves at u·eⁿ, and the flights of
+// 2·u·eⁿ/g add up to 2u/(g(1 − e)).
+TEST(Resting, BeginsWhenAllBouncesAreOver) {
+    for (const double e : {0.0, 0.5, 0.9, 0.99})
+        for (const int rate : {20, 60, 240}) {
+            World world = world_of("velocity_verlet", rate, 1);
+            world.set_gravity({-g});
+            world.add_plane({.normal = {1}, .restitution = e});
+            const Entity ball = world.spawn({.velocity = {3}, .contact = Contact{}});
+            double rest = 0;
+            while (rest == 0 && world.time() < 100) {
+                world.step();
+                for (const Impact& impact : world.impacts())
+                    if (impact.kind == Meeting::rest) rest = impact.time;
+            }
+            const double expected = 2 * 3 / (g * (1 - e));
+            // Each flight adds the round-off of a time to it.
+            EXPECT_NEAR(rest, expected, 1e-11 * expected) << e << " " << rate;
+            world.step(rate);
+            EXPECT_EQ(world.position(ball)[0], 0);
+            EXPECT_EQ(world.velocity(ball)[0], 0);
+            EXPECT_TRUE(world.impacts().empty());
+        }
+}
+
+TEST(Resting, OnAFloorChangesNoBit) {
+    for (const char* method : methods) {
+        World world = world_of(method, 60);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .offset = 0.3, .restitution = 0.5, .friction = 0.5});
+        const Entity box = world.spawn({.position = {0.7, 0.3 + 0.1}, .contact = Contact{0.1}});
+        world.step(10);
+        const Vec3 at = world.position(box);
+        EXPECT_NEAR(at[1], 0.4, epsilon) << method;
+        world.step(1000);
+        EXPECT_EQ(world.position(box), at) << method;
+        EXPECT_EQ(world.velocity(box), Vec3{}) << method;
+    }
+}
+
+// Coulomb: a box at rest on a slope of angle w begins to slide if tan w > μ.
+TEST(Resting, OnASlopeEndsAtTheFrictionAngle) {
+    const double angle = 0.5;
+    const Vec3 normal{-std::sin(angle), std::cos(angle)};
+    for (const char* method : methods)
+        for (const double surplus : {-1e-6, 1e-6}) {
+            World world = world_of(method, 60);
+            world.set_gravity({0, -g});
+            world.add_plane({.normal = normal, .friction = std::tan(angle) + surplus});
+            const Entity box = world.spawn({.contact = Contact{}});
+            world.step(60);
+            const double speed = length(world.velocity(box));
+            if (surplus > 0) {
+                EXPECT_EQ(speed, 0) << method;
+                EXPECT_LE(length(world.position(box)), 8 * epsilon) << method;
+            } else {
+                // g·(sin w − μ·cos w) over 1 s; the difference has six digits less.
+                EXPECT_NEAR(speed, g * std::cos(angle) * 1e-6, 1e-13) << method;
+            }
+        }
+}
+
+// A box pushed at 2 m/s over a floor with μ = 0.4 stops after u/(μg), at u²/(2μg).
+TEST(Sliding, StopsWhereCoulombSays) {
+    const double mu = 0.4;
+    for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"}) {
+        World world = world_of(method, 7);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .friction = mu});
+        const Entity box = world.spawn({.velocity = {2, 0}, .contact = Contact{}});
+        world.step(7);
+        EXPECT_NEAR(world.position(box)[0], 4 / (2 * mu * g), 1e-14) << method;
+        EXPECT_EQ(world.position(box)[1], 0) << method;
+        EXPECT_EQ(world.velocity(box), Vec3{}) << method;
+    }
+}
+
+// Down a slope with friction: a = g·(sin w − μ·cos w), from rest.
+TEST(Sliding, AcceleratesDownASlope) {
+    const double angle = 0.6;
+    const double mu = 0.25;
+    for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"}) {
+        World world = world_of(method, 50);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu});
+        const Entity box = world.spawn({.contact = Contact{}});
+        world.step(50);
+        const double a = g * (std::sin(angle) - mu * std::cos(angle));
+        EXPECT_NEAR(world.position(box)[0], -a / 2 * std::cos(angle), 1e-13) << method;
+        EXPECT_NEAR(world.position(box)[1], -a / 2 * std::sin(angle), 1e-13) << method;
+    }
+}
+
+// A block on a spring with dry friction: each half-swing of amplitude A about ±μg/ω² loses
+// 2μg/ω², until the spring is too weak: with ω = 2 /s, μg/ω² = 0.1 m and A = 0.95 m it stops at
+// the fifth turn, at 0.95 − 5·0.2 = −0.05 m after five half-periods. The turns are within steps.
+TEST(Sliding, OnASpringLosesTheSameAtEachTurn) {
+    const double omega = 2;
+    const double mu = 0.1 * omega * omega / g;
+    World world = world_of("exact", 20);
+    world.set_gravity({0, -g});
+    world.add_plane({.normal = {0, 1}, .friction = mu});
+    const Entity block = world.spawn({.position = {0.95, 0}, .contact = Contact{}},
+                                     oiler::Spring{.anchor = {0, 0}, .stiffness = omega * omega});
+    const double half_period = std::acos(-1.0) / omega;
+    for (int half = 1; half <= 5; ++half) {
+        while (world.time() + 1.0 / 20 <= half * half_period) world.step();
+        // The position between turns, from the closed form.
+        const double from = std::abs(0.95 - 0.2 * (half - 1)) * (half % 2 == 1 ? 1 : -1);
+        const double centre = half % 2 == 1 ? 0.1 : -0.1;
+        const double t = world.time() - (half - 1) * half_period;
+        EXPECT_NEAR(world.position(block)[0], centre + (from - centre) * std::cos(omega * t), 1e-13)
+            << half;
+    }
+    world.step(100);
+    EXPECT_NEAR(std::abs(world.position(block)[0]), 0.05, 1e-13);
+    EXPECT_EQ(world.velocity(block), Vec3{});
+}
+
+// Between a floor and a slope of 45°, gravity presses into both; no friction, no motion.
+TEST(Resting, InACorner) {
+    for (const char* method : methods) {
+        World world = world_of(method, 30);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {1, 1}, .restitution = 0.3});
+        world.add_plane({.normal = {-1, 1}, .restitution = 0.3});
+        const Entity ball =
+            world.spawn({.position = {0.1, 0.5}, .velocity = {0.3, -0.2}, .contact = Contact{}});
+        world.step(30 * 20);
+        EXPECT_NEAR(world.position(ball)[0], 0, 1e-12) << method;
+        EXPECT_NEAR(world.position(ball)[1], 0, 1e-12) << method;
+        const Vec3 at = world.position(ball);
+        world.step(100);
+        EXPECT_EQ(world.position(ball), at) << method;
+    }
+}
+
+TEST(Resting, AlongAnEdgeSlides) {
+    // A gutter along z that descends: without friction a ball slides along its edge.
+    World world = world_of("velocity_verlet", 100, 3);
+    world.set_gravity({0, -g, 3});
+    world.add_plane({.normal = {1, 1, 0}});
+    world.add_plane({.normal = {-1, 1, 0}});
+    const Entity ball = world.spawn({.contact = Contact{}});
+    world.step(200);
+    EXPECT_NEAR(world.position(ball)[0], 0, 1e-14);
+    EXPECT_NEAR(world.position(ball)[1], 0, 1e-14);
+    EXPECT_NEAR(world.position(ball)[2], 6, 1e-13);
+}
+
+// A lift: the force takes the ball off the floor once it exceeds the weight. The drive of 1 Hz and
+// amplitude 2 g does so at sin(2πt) = 1/2, t = 1/12 s; from there on u = ∫(2g·sin 2πt − g)dt.
+TEST(Resting, EndsWhenAForceLifts) {
+    const double omega = 2 * std::acos(-1.0);
+    const auto height_after = [&](int rate) {
+        World world = world_of("rk4", rate, 1);
+        world.set_gravity({-g});
+        world.add_plane({.normal = {1}});
+        const Entity ball =
+            world.spawn({.contact = Contact{}}, oiler::Drive{.amplitude = {2 * g}, .frequency = 1});
+        world.step(rate / 4);
+        return world.position(ball)[0];
+    };
+    const double t0 = 1.0 / 12;
+    const double s = 0.25 - t0;
+    const double expected = 2 * g * std::cos(omega * t0) / omega * s -
+                            2 * g * (1 - std::sin(omega * t0)) / (omega * omega) - g * s * s / 2;
+    EXPECT_NEAR(height_after(20), expected, 2e-5);
+    EXPECT_NEAR(height_after(200), expected, 2e-9);
+}
+
+TEST(Resting, EndsWithAPushOrANewForce) {
+    World world = world_of("velocity_verlet", 60);
+    world.set_gravity({0, -g});
+    world.add_plane({.normal = {0, 1}, .friction = 1});
+    const Entity box = world.spawn({.mass = 2, .contact = Contact{}});
+    const auto rest = [&] {
+        world.teleport(box, {0, 0});
+        world.set_velocity(box, {0, 0});
+        world.step(3);
+        ASSERT_EQ(world.velocity(box), Vec3{});
+    };
+    rest();
+    world.apply_force(box, {0, 60});
+    world.step();
+    EXPECT_NEAR(world.velocity(box)[1], (30 - g) / 60, 1e-15);
+    rest();
+    world.apply_impulse(box, {0, 4});
+    world.step();
+    EXPECT_NEAR(world.velocity(box)[1], 2 - g / 60, 1e-15);
+    rest();
+    world.set_gravity({0, g});
+    world.step();
+    EXPECT_NEAR(world.velocity(box)[1], g / 60, 1e-15);
+    world.set_gravity({0, -g});
+    rest();
+    world.attach(box, oiler::Spring{.anchor = {0, 10}, .stiffness = 40});
+    world.step();
+    EXPECT_GT(world.velocity(box)[1], 0);
+    world.detach<oiler::Spring>(box);
+    rest();
+    world.clear_planes();
+    world.step();
+    EXPECT_LT(world.velocity(box)[1], 0);
+}
+
+// The row that moves to the place of a removed one brings its own state of rest.
+TEST(Resting, IsThatOfTheBody) {
+    World world = world_of("velocity_verlet", 60);
+    world.set_gravity({0, -g});
+    world.add_plane({.normal = {0, 1}});
+    const Entity resting = world.spawn({.contact = Contact{}});
+    const Entity falling = world.spawn({.position = {0, 5}, .contact = Contact{}});
+    world.step(3);
+    const double y = world.position(falling)[1];
+    world.destroy(resting);
+    world.step();
+    EXPECT_LT(world.position(falling)[1], y);
+}
+
+// Linked bodies rest without jitter, too. The damper of the link acts on the speed that the body
+// below gains in each step, 2·g·dt at most, and shifts the one above by b·2·g·dt/k at most.
+TEST(Resting, OfALinkedBody) {
+    for (const double e : {0.0, 0.5, 0.9}) {
+        World world = world_of("velocity_verlet", 600);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .restitution = e, .friction = 0.5});
+        const Entity below = world.spawn({.position = {0, 0.5}, .contact = Contact{0.1}});
+        const Entity above = world.spawn({.position = {0, 1}, .contact = Contact{0.1}});
+        world.link(below, above, {.stiffness = 500, .damping = 5, .rest_length = 0.5});
+        world.step(600 * 60);
+        const Vec3 at = world.position(above);
+        world.step();
+        EXPECT_EQ(world.position(above), at) << e;
+        EXPECT_NEAR(at[1], 0.6 - g / 500, 5 * 2 * g / 600 / 500) << e;
+        EXPECT_NEAR(world.position(below)[1], 0.1, epsilon) << e;
+        EXPECT_EQ(world.velocity(below), Vec3{}) << e;
+        EXPECT_TRUE(world.impacts().empty()) << e;
+    }
+}
+
+}  // namespace
