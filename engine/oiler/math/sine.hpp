@@ -10,7 +10,8 @@ namespace oiler {
 // The sine for forces that depend on time. The C library's last bit may differ between machines;
 // these functions use + − × only.
 
-/// The nearest whole number, for |a| < 2^(digits − 2). Larger numbers give a whole number, too.
+/// The nearest whole number, for |a| < 2^(digits − 2). Of a larger a that is whole, it gives some
+/// whole number.
 template <Number V>
 [[gnu::always_inline]] constexpr V nearest_whole(const V& a) {
     using T = Scalar<V>;
@@ -20,17 +21,19 @@ template <Number V>
 }
 
 /// The upper half of the digits of `a` (Dekker, A floating-point technique for extending the
-/// available precision, 1971).
+/// available precision, 1971). The product of a lower half with an upper half, or of two upper
+/// halves, has at most digits − 1 digits.
 template <Number V>
 [[gnu::always_inline]] constexpr V upper_half(const V& a) {
     using T = Scalar<V>;
-    constexpr int half = (std::numeric_limits<T>::digits + 1) / 2;
+    constexpr int half = std::numeric_limits<T>::digits / 2 + 1;
     const V scaled = a * V(static_cast<T>((1ULL << half) + 1));
     return scaled - (scaled - a);
 }
 
-/// The fraction of f·t, from −1/2 to 1/2, with an absolute error of a few units of round-off,
-/// however large f·t is. Products of halves are exact, and so are their fractions.
+/// The fraction of f·t, from −1/2 to 1/2, with an absolute error below 6 units of round-off,
+/// however large f·t is. Products of halves are exact, and so are their fractions: a product above
+/// the range of nearest_whole is whole, because it has so few digits.
 template <Number V>
 [[gnu::always_inline]] constexpr V turns(const V& frequency, double t) {
     using T = Scalar<V>;
@@ -46,7 +49,7 @@ template <Number V>
     return sum - nearest_whole(sum);
 }
 
-/// sin(2π·turns), with an absolute error of a few units of round-off. It is the Taylor series over
+/// sin(2π·turns), with an absolute error below 10 units of round-off. It is the Taylor series over
 /// a quarter of the angle and two doublings; the first term left out is below 2⁻⁷².
 template <Number V>
 [[gnu::always_inline]] constexpr V sine_of_turns(const V& turns) {
