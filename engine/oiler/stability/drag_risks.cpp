@@ -15,7 +15,7 @@ struct Dragged {
     double gravity = 0;    ///< m/s²
     double speed = 0;      ///< m/s
     bool has_springs = false;
-    bool has_attractors = false;
+    bool has_other_forces = false;
 
     /// The speed at which drag balances gravity: b·v + c·v² = g.
     [[nodiscard]] double terminal_speed() const {
@@ -40,7 +40,7 @@ void include(const Force& force, const Vec3& velocity, Dragged& of) {
         of.has_springs = of.has_springs || force.stiffness != 0;
     } else {
         // Its speeds are not bounded by springs or gravity.
-        of.has_attractors = of.has_attractors || acts(force);
+        of.has_other_forces = of.has_other_forces || acts(force);
     }
 }
 
@@ -138,11 +138,11 @@ public:
     void add_risks(std::size_t row, bool linked, std::vector<Risk>& risks) {
         const Dragged of = drag_of(bodies_, row);
         if (!(of.quadratic > 0)) return;
-        if (linked || of.has_attractors || !std::isfinite(of.speed))
+        if (linked || of.has_other_forces || !std::isfinite(of.speed))
             add_by_speed(row, of, risks);
         else
             add_by_trial(row, of, risks);
-        if (linked || of.has_attractors || of.has_springs || of.gravity == 0) return;
+        if (linked || of.has_other_forces || of.has_springs || of.gravity == 0) return;
         Risk risk{.row = row, .of = Risk::Of::terminal_speed, .at = of.terminal_speed()};
         risk.damping_dt = (of.linear + 2 * of.quadratic * risk.at) * steps_.rate.dt();
         if (!region_.contains({0, risk.damping_dt})) risks.push_back(risk);
