@@ -89,6 +89,25 @@ TEST(Pushes, MoveLinkedBodies) {
     }
 }
 
+// A step may reuse the accelerations from the end of the step before, but not across the begin or
+// the end of a push. The momentum of both bodies is force times dt.
+TEST(Pushes, ActOnLinkedBodiesForOneStep) {
+    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "blanes_moan_srkn6b", "rk4",
+                             "implicit_midpoint"}) {
+        World world(1, {.method = &method(name), .rate = {64}});
+        const Entity a = world.spawn({});
+        const Entity b = world.spawn({.position = {2}});
+        world.link(a, b, {.stiffness = 50, .rest_length = 2});
+        const auto momentum = [&] { return world.velocity(a)[0] + world.velocity(b)[0]; };
+        world.step();
+        world.apply_force(a, {8});
+        world.step();
+        EXPECT_NEAR(momentum(), 8.0 / 64, 1e-15) << name;
+        world.step();
+        EXPECT_NEAR(momentum(), 8.0 / 64, 1e-15) << name;
+    }
+}
+
 TEST(Pushes, FollowABodyWhoseRowMoves) {
     World world(1, {.rate = {1}});
     const Entity first = world.spawn({});
@@ -102,6 +121,40 @@ TEST(Pushes, FollowABodyWhoseRowMoves) {
     EXPECT_EQ(world.velocity(second)[0], 0);
     EXPECT_EQ(world.velocity(third)[0], 7);
     EXPECT_EQ(world.velocity(fourth)[0], 0);
+    world.apply_force(fourth, {3});
+    world.step();
+    EXPECT_EQ(world.velocity(third)[0], 7);
+    EXPECT_EQ(world.velocity(fourth)[0], 3);
+}
+
+TEST(Pushes, StayWithTheirBodyWhenOthersComeAndGo) {
+    World world(1, {.rate = {1}});
+    const Entity first = world.spawn({});
+    const Entity pushed = world.spawn({});
+    world.apply_force(pushed, {5});
+    const Entity late = world.spawn({});
+    world.destroy(first);
+    ASSERT_EQ(world.row(late), 0U);
+    world.step();
+    EXPECT_EQ(world.velocity(late)[0], 0);
+    EXPECT_EQ(world.velocity(pushed)[0], 5);
+}
+
+TEST(Pushes, LeaveNothingBehindInTheState) {
+    World world(1, {.rate = {1}});
+    const Entity body = world.spawn({});
+    const Entity gone = world.spawn({});
+    World other = world;
+    world.apply_force(gone, {2});
+    world.destroy(gone);
+    other.destroy(gone);
+    EXPECT_EQ(world.state_hash(), other.state_hash());
+    world.apply_force(body, {4});
+    world.step();
+    other.step();
+    other.set_position(body, world.position(body));
+    other.set_velocity(body, {4});
+    EXPECT_EQ(world.state_hash(), other.state_hash());
 }
 
 TEST(Pushes, ArePartOfTheStateUntilTheyActed) {
