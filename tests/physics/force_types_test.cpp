@@ -338,4 +338,43 @@ TEST(Forces, DampInReverseOrderAfterTheStages) {
     EXPECT_GT(largest(one.v - other.v), 1e-3L);
 }
 
+struct TwoCoils {
+    using Coil = CoilSpringForce<Real, 2>;
+    std::array<Coil, 2> coils{Coil{{1, 1}, 7, 2, 4}, Coil{{-3, 2}, 5, 3, 1}};
+
+    template <class Force>
+    [[nodiscard]] std::size_t count() const {
+        return std::is_same_v<Force, Coil> ? coils.size() : 0;
+    }
+    template <class Force>
+    [[nodiscard]] Force get(std::size_t index) const {
+        if constexpr (std::is_same_v<Force, Coil>) return coils[index];
+        return {};
+    }
+    template <class Force>
+    [[nodiscard]] Real damping_number(std::size_t index) const {
+        return get<Force>(index).prepare_damping(0.25L);
+    }
+};
+
+// Dampers along different lines do not commute either.
+TEST(Forces, DampInReverseOrderAmongThoseOfOneKind) {
+    const TwoCoils two;
+    const Forces<Real, 2, oiler::LinearParts, TwoCoils> forces{{}, {}, two};
+    const State<Real, 2> start{{4, 5}, {5, 2}};
+    const auto damped = [&](std::size_t first, std::size_t second) {
+        State<Real, 2> state = start;
+        for (const std::size_t index : {first, second})
+            two.coils[index].damp(state, two.coils[index].prepare_damping(0.25L));
+        return state.v;
+    };
+    State<Real, 2> one = start;
+    forces.damp(one);
+    State<Real, 2> other = start;
+    forces.damp_in_reverse(other);
+    EXPECT_EQ(one.v, damped(0, 1));
+    EXPECT_EQ(other.v, damped(1, 0));
+    EXPECT_GT(largest(one.v - other.v), 1e-3L);
+}
+
 }  // namespace

@@ -95,6 +95,7 @@ TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
         "[[spring]]\nbody = 'b'\nanchor = [2]\nstiffness = 3\n"
         "[[spring]]\nbody = 'a'\nanchor = [3]\nstiffness = 4\n"
         "[[spring]]\nbody = 'a'\nanchor = [4]\nstiffness = 5\nrest_length = 1\n"
+        "[[spring]]\nbody = 'a'\nanchor = [5]\nstiffness = 6\nrest_length = 2\n"
         "[[wind]]\nbody = 'b'\nvelocity = [1]\ndrag = 8\n"
         "[[wind]]\nbody = 'b'\nvelocity = [2]\ndrag = 9\n"
         "[[attractor]]\nposition = [-5]\ngm = 6\n[[attractor]]\nposition = [20]\ngm = 7\n");
@@ -102,6 +103,7 @@ TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
     EXPECT_EQ(force_on<Spring>(world, 0, 1)->stiffness, 4);
     EXPECT_EQ(force_on<Spring>(world, 0, 1)->anchor, (Vec3{3}));
     EXPECT_EQ(force_on<CoilSpring>(world, 0, 0)->stiffness, 5);
+    EXPECT_EQ(force_on<CoilSpring>(world, 0, 1)->stiffness, 6);
     EXPECT_EQ(force_on<Spring>(world, 1, 0)->stiffness, 3);
     EXPECT_EQ(force_on<oiler::Wind>(world, 1, 0)->coefficient, 8);
     EXPECT_EQ(force_on<oiler::Wind>(world, 1, 1), (oiler::Wind{{2}, 9}));
