@@ -37,17 +37,18 @@ TEST(DrawScene, ShowsBodiesAttractorsAndAnchors) {
     EXPECT_EQ(picture.labels.at(1).text, "velocity_verlet at 100 Hz, double   t = 0.00 s");
 }
 
-// Two springs. A grid of 3 × 2 bodies has threads for two rows, three columns and four diagonals.
+// A plane and two springs. A grid of 3 × 2 bodies has threads for two rows, three columns and four
+// diagonals.
 TEST(DrawScene, ShowsSpringsFromEndToEnd) {
     const Picture picture = drawn(parsed(everything));
-    ASSERT_EQ(picture.polylines.size(), 2U + 2 + 3 + 2 + 2);
-    EXPECT_EQ(picture.polylines[0].points.front(), (Point{0, 1}));
-    EXPECT_EQ(picture.polylines[0].points.back(), (Point{0.5F, 0.25F}));
-    EXPECT_EQ(picture.polylines[1].points.front(), (Point{2, 0}));
-    EXPECT_EQ(picture.polylines[2].points, (std::vector<Point>{{6, 0}, {7, 0}, {8, 0}}));
-    EXPECT_EQ(picture.polylines[4].points, (std::vector<Point>{{6, 0}, {6, 1}}));
-    EXPECT_EQ(picture.polylines[7].points, (std::vector<Point>{{6, 0}, {7, 1}}));
-    EXPECT_EQ(picture.polylines[9].points, (std::vector<Point>{{7, 0}, {6, 1}}));
+    ASSERT_EQ(picture.polylines.size(), 1U + 2 + 2 + 3 + 2 + 2);
+    EXPECT_EQ(picture.polylines[1].points.front(), (Point{0, 1}));
+    EXPECT_EQ(picture.polylines[1].points.back(), (Point{0.5F, 0.25F}));
+    EXPECT_EQ(picture.polylines[2].points.front(), (Point{2, 0}));
+    EXPECT_EQ(picture.polylines[3].points, (std::vector<Point>{{6, 0}, {7, 0}, {8, 0}}));
+    EXPECT_EQ(picture.polylines[5].points, (std::vector<Point>{{6, 0}, {6, 1}}));
+    EXPECT_EQ(picture.polylines[8].points, (std::vector<Point>{{6, 0}, {7, 1}}));
+    EXPECT_EQ(picture.polylines[10].points, (std::vector<Point>{{7, 0}, {6, 1}}));
 }
 
 template <class Element>
@@ -79,7 +80,7 @@ TEST(DrawScene, InterpolatesBetweenTwoSteps) {
     for (std::size_t i = 0; i < half.discs.size(); ++i)
         EXPECT_FLOAT_EQ(half.discs[i].centre.x,
                         before.discs[i].centre.x / 2 + after.discs[i].centre.x / 2);
-    EXPECT_NE(half.polylines[0].points.back(), before.polylines[0].points.back());
+    EXPECT_NE(half.polylines[1].points.back(), before.polylines[1].points.back());
 }
 
 TEST(Camera, FitsTheStartOfTheScene) {

@@ -28,6 +28,7 @@ position = [0.5, 0.25]
 velocity = [1.0, 2.0]
 linear_drag = 0.1
 quadratic_drag = 0.2
+contact = 0.25
 radius = 0.3
 colour = "orange"
 
@@ -69,6 +70,13 @@ gm = 2.0
 radius = 0.2
 colour = "black"
 
+[[plane]]
+normal = [-1.0, 0.25]
+offset = -0.5
+restitution = 0.5
+friction = 0.3
+colour = "green"
+
 [[grid]]
 count = [3, 2]
 origin = [6.0, 0.0]
@@ -77,6 +85,7 @@ velocity = [0.0, 1.0]
 mass = 0.5
 linear_drag = 0.1
 quadratic_drag = 0.2
+contact = 0.1
 stiffness = 100.0
 damping = 0.3
 rest_length = 0.8
@@ -95,6 +104,7 @@ velocity_to = [3.0, 4.0]
 mass = 0.5
 linear_drag = 0.1
 quadratic_drag = 0.2
+contact = 0.1
 radius = 0.05
 colour = "vermilion"
 

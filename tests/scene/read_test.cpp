@@ -140,7 +140,7 @@ TEST(Read, EveryRequiredKeyIsReportedAsMissing) {
         EXPECT_TRUE(holds(line, name_of(key) + ": missing")) << line;
         ++count;
     }
-    EXPECT_EQ(count, 17);
+    EXPECT_EQ(count, 18);
 }
 
 TEST(Read, EveryRangeIsThatOfTheList) {
@@ -179,6 +179,11 @@ TEST(Read, ReadsEveryValueOfAFile) {
     EXPECT_EQ(scene.bodies[0].matter.mass, 1.5);
     EXPECT_EQ(scene.bodies[0].matter.linear_drag, 0.1);
     EXPECT_EQ(scene.bodies[0].matter.quadratic_drag, 0.2);
+    EXPECT_EQ(scene.bodies[0].matter.contact, 0.25);
+    EXPECT_EQ(scene.bodies[1].matter.contact, std::nullopt);
+    ASSERT_EQ(scene.planes.size(), 1U);
+    EXPECT_EQ(scene.planes[0].plane, (Plane{{-1, 0.25}, -0.5, 0.5, 0.3}));
+    EXPECT_EQ(scene.planes[0].colour, palette::green);
     EXPECT_EQ(scene.bodies[0].matter.radius, 0.3);
     EXPECT_EQ(scene.bodies[0].matter.colour, palette::orange);
     EXPECT_EQ(scene.bodies[0].position, (Vec3{0.5, 0.25}));

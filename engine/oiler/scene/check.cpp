@@ -70,6 +70,7 @@ void check_matter(const Scene& scene, const Section& section, const SceneMatter&
     check_at(scene, section, "linear_drag", given(LinearDrag{matter.linear_drag}), matter.mass);
     check_at(scene, section, "quadratic_drag", given(QuadraticDrag{matter.quadratic_drag}),
              matter.mass);
+    if (matter.contact) check_at(scene, section, "contact", Contact{*matter.contact});
 }
 
 void check_spring(const Scene& scene, const Section& section, const SceneSpring& spring) {
@@ -95,6 +96,14 @@ void check_force(const Scene& scene, const Section& section, const SceneForce& f
             std::apply([&](auto... field) { (check(field), ...); }, Force::fields());
         },
         force.force);
+}
+
+void check_plane(const Scene& scene, const Section& section, const Plane& plane) {
+    if (scene.planes.size() > most_planes)
+        refuse(section.place(), "plane: expected at most {} planes; leave some out", most_planes);
+    check_at(scene, section, "normal", Plane{.normal = plane.normal});
+    check_at(scene, section, "offset", Plane{.normal = plane.normal, .offset = plane.offset});
+    check_at(scene, section, "friction", plane);
 }
 
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid) {

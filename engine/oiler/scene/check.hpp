@@ -17,6 +17,7 @@ void check_spring(const Scene& scene, const Section& section, const SceneSpring&
 /// `keys` are those of the force's fields.
 void check_force(const Scene& scene, const Section& section, const SceneForce& force,
                  const std::vector<std::string_view>& keys);
+void check_plane(const Scene& scene, const Section& section, const Plane& plane);
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid);
 void check_scatter(const Scene& scene, const Section& section, const SceneScatter& scatter);
 

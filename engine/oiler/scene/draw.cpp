@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
@@ -55,6 +56,7 @@ public:
     }
 
     Picture run() {
+        draw_planes();
         draw_attractors();
         draw_springs();
         for (const SceneBody& body : scene_.bodies) draw_discs(1, body.matter, large_radius);
@@ -73,6 +75,28 @@ private:
         return given ? static_cast<float>(*given) : part * picture_.camera.height;
     }
 
+    /// Draws planes as lines across the picture.
+    void draw_planes() {
+        const Camera& camera = picture_.camera;
+        const float reach = camera.height * (canvas_width / canvas_height + 1);
+        for (const ScenePlane& one : scene_.planes) {
+            const Plane& plane = one.plane;
+            const Point n = to_point(plane.normal);
+            const float size2 = n.x * n.x + n.y * n.y;
+            if (size2 == 0) continue;
+            const float beyond =
+                static_cast<float>(plane.offset) - n.x * camera.centre.x - n.y * camera.centre.y;
+            const Point at{camera.centre.x + n.x * beyond / size2,
+                           camera.centre.y + n.y * beyond / size2};
+            const float size = std::sqrt(size2);
+            const Point along{-n.y / size * reach, n.x / size * reach};
+            picture_.polylines.push_back(
+                {.points = {{at.x - along.x, at.y - along.y}, {at.x + along.x, at.y + along.y}},
+                 .width = 2,
+                 .colour = one.colour});
+        }
+    }
+
     void draw_attractors() {
         for (const SceneAttractor& attractor : scene_.attractors)
             picture_.discs.push_back({.centre = to_point(attractor.position),
@@ -81,7 +105,8 @@ private:
     }
 
     void draw_discs(std::int64_t count, const SceneMatter& matter, float part) {
-        const float size = radius(matter.radius, part);
+        const bool as_contact = !matter.radius && matter.contact && *matter.contact > 0;
+        const float size = radius(as_contact ? matter.contact : matter.radius, part);
         for (; count > 0; --count, ++row_)
             picture_.discs.push_back({.key = key_of(world_, row_),
                                       .centre = position_of(world_, row_),

@@ -66,7 +66,10 @@ constexpr std::array keys{
              "b of the force −b·v"},
     SceneKey{"body", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "",
              "c of the force −c·|v|·v"},
-    SceneKey{"body", "radius", number, "m", positive, "0.5", "1/40 of the camera's height", ""},
+    SceneKey{"body", "contact", number, "m", not_negative, "0.5", "passes through planes",
+             "radius of its contact with planes; 0 for a point"},
+    SceneKey{"body", "radius", number, "m", positive, "0.5",
+             "`contact` above 0, else 1/40 of the camera's height", "of the disc in the picture"},
     SceneKey{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_names},
     SceneKey{"spring", "body", text, "", any, "\"mass\"", required,
              "name of the body that the spring pulls"},
@@ -94,6 +97,14 @@ constexpr std::array keys{
     SceneKey{"attractor", "radius", number, "m", positive, "0.5", "1/40 of the camera's height",
              ""},
     SceneKey{"attractor", "colour", colour, "", any, "\"orange\"", "", "", colour_names},
+    SceneKey{"plane", "normal", vector, "", any, "[0.0, 1.0]", required,
+             "n, of any length; bodies stay on the side to which it points"},
+    SceneKey{"plane", "offset", number, "m", any, "0.0", "", "the plane is where n·x = offset"},
+    SceneKey{"plane", "restitution", number, "", from_to(0, 1), "0.0", "",
+             "part of the speed into the plane that a bounce gives back"},
+    SceneKey{"plane", "friction", number, "", not_negative, "0.0", "",
+             "Coulomb's coefficient, in bounces and slides"},
+    SceneKey{"plane", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
     SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
              "bodies in a row, number of rows"},
     SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "",
@@ -113,7 +124,10 @@ constexpr std::array keys{
     SceneKey{"grid", "hang", word, "", any, "\"none\"", "",
              "anchored springs: none, at both ends of the top row, at the whole top row",
              hang_words},
-    SceneKey{"grid", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
+    SceneKey{"grid", "contact", number, "m", not_negative, "0.5", "passes through planes",
+             "per body; linked bodies bounce at the end of a step, with order 1"},
+    SceneKey{"grid", "radius", number, "m", positive, "0.1",
+             "`contact` above 0, else 1/200 of the camera's height", ""},
     SceneKey{"grid", "colour", colour, "", any, "\"blue\"", "", "", colour_names},
     SceneKey{"scatter", "count", whole, "", from_to(1, most), "3", required, "number of bodies"},
     SceneKey{"scatter", "seed", whole, "", from_to(0, largest_whole), "0", "",
@@ -125,7 +139,10 @@ constexpr std::array keys{
     SceneKey{"scatter", "mass", number, "kg", positive, "1.0", "", "per body"},
     SceneKey{"scatter", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "per body"},
     SceneKey{"scatter", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "per body"},
-    SceneKey{"scatter", "radius", number, "m", positive, "0.1", "1/200 of the camera's height", ""},
+    SceneKey{"scatter", "contact", number, "m", not_negative, "0.5", "passes through planes",
+             "per body"},
+    SceneKey{"scatter", "radius", number, "m", positive, "0.1",
+             "`contact` above 0, else 1/200 of the camera's height", ""},
     SceneKey{"scatter", "colour", colour, "", any, "\"sky_blue\"", "", "", colour_names},
     SceneKey{"camera", "centre", vector, "m", any, "[0.0, 0.0]", fits, "middle of the picture"},
     SceneKey{"camera", "height", number, "m", from_to(1e-30, 1e30), "10.0", fits,
@@ -189,8 +206,8 @@ std::vector<std::string_view> scene_tables() {
 }
 
 bool is_repeated(std::string_view table) {
-    constexpr std::array<std::string_view, 7> repeated{"body",      "spring", "wind",   "drive",
-                                                       "attractor", "grid",   "scatter"};
+    constexpr std::array<std::string_view, 8> repeated{"body",      "spring", "wind", "drive",
+                                                       "attractor", "plane",  "grid", "scatter"};
     return std::ranges::find(repeated, table) != repeated.end();
 }
 

@@ -18,6 +18,12 @@ Attractor to_force(const SceneAttractor& attractor) {
     return {.centre = attractor.position, .gm = attractor.gm};
 }
 
+Body body_of(const SceneMatter& matter, const Vec3& position, const Vec3& velocity) {
+    Body body{.mass = matter.mass, .position = position, .velocity = velocity};
+    if (matter.contact) body.contact = Contact{*matter.contact};
+    return body;
+}
+
 /// Spawns a scene's bodies. Forces are passed with a body where possible, because bodies with equal
 /// forces then share them in memory.
 class WorldBuilder {
@@ -28,6 +34,7 @@ public:
     World run() {
         world_.reserve(static_cast<std::size_t>(scene_.body_count()));
         if (scene_.gravity) world_.set_gravity(*scene_.gravity);
+        for (const ScenePlane& plane : scene_.planes) world_.add_plane(plane.plane);
         add_bodies();
         for (const SceneGrid& grid : scene_.grids) add_grid(grid);
         for (const SceneScatter& scatter : scene_.scatters) add_scatter(scatter);
@@ -52,9 +59,8 @@ private:
     void add_bodies() {
         std::vector<Entity> entities;
         for (const SceneBody& body : scene_.bodies)
-            entities.push_back(spawn(
-                {.mass = body.matter.mass, .position = body.position, .velocity = body.velocity},
-                forces_of(body.matter)));
+            entities.push_back(
+                spawn(body_of(body.matter, body.position, body.velocity), forces_of(body.matter)));
         std::vector<std::size_t> springs(entities.size());
         std::vector<std::size_t> coils(entities.size());
         for (const SceneSpring& spring : scene_.springs) {
@@ -86,10 +92,8 @@ private:
         nodes.reserve(static_cast<std::size_t>(grid.size()));
         for (std::int64_t row = 0; row < grid.count[1]; ++row)
             for (std::int64_t column = 0; column < grid.count[0]; ++column)
-                nodes.push_back(spawn({.mass = grid.matter.mass,
-                                       .position = node_position(grid, column, row),
-                                       .velocity = grid.velocity},
-                                      forces));
+                nodes.push_back(spawn(
+                    body_of(grid.matter, node_position(grid, column, row), grid.velocity), forces));
         for (const GridLink& link : links_of(grid)) add_links(grid, link, nodes);
         for (const std::size_t node : anchored_nodes(grid))
             world_.attach(nodes[node], Spring{.anchor = world_.position(nodes[node]),
@@ -115,10 +119,9 @@ private:
             return drawn;
         };
         for (std::int64_t i = 0; i < scatter.count; ++i) {
-            Body body{.mass = scatter.matter.mass};
-            body.position = draw(scatter.position_from, scatter.position_to);
-            body.velocity = draw(scatter.velocity_from, scatter.velocity_to);
-            spawn(body, forces);
+            const Vec3 position = draw(scatter.position_from, scatter.position_to);
+            const Vec3 velocity = draw(scatter.velocity_from, scatter.velocity_to);
+            spawn(body_of(scatter.matter, position, velocity), forces);
         }
     }
 

@@ -20,6 +20,7 @@ void read_matter(const Section& section, SceneMatter& matter) {
     section.read("linear_drag", matter.linear_drag);
     section.read("quadratic_drag", matter.quadratic_drag);
     section.read("colour", matter.colour);
+    section.read("contact", matter.contact);
     section.read("radius", matter.radius);
 }
 
@@ -44,6 +45,7 @@ public:
         each("attractor", [&](const Section& section) { read_attractor(section); });
         each("wind", [&](const Section& section) { read_force<Wind>(section); });
         each("drive", [&](const Section& section) { read_force<Drive>(section); });
+        each("plane", [&](const Section& section) { read_plane(section); });
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
         each("camera", [&](const Section& section) { read_camera(section); });
@@ -196,6 +198,16 @@ private:
         section.read("radius", attractor.radius);
         check_numbers(scene_, section, "position", attractor.position);
         check_number(scene_, section, "gm", attractor.gm);
+    }
+
+    void read_plane(const Section& section) {
+        ScenePlane& read = scene_.planes.emplace_back();
+        section.read("normal", read.plane.normal);
+        section.read("offset", read.plane.offset);
+        section.read("restitution", read.plane.restitution);
+        section.read("friction", read.plane.friction);
+        section.read("colour", read.colour);
+        check_plane(scene_, section, read.plane);
     }
 
     void read_grid(const Section& section) {

@@ -26,7 +26,8 @@ struct SceneMatter {
     double linear_drag = 0;     ///< N·s/m
     double quadratic_drag = 0;  ///< N·s²/m²
     Colour colour = palette::blue;
-    std::optional<double> radius{};  ///< m; if absent, the picture chooses it
+    std::optional<double> contact{};  ///< m; if absent, it passes through planes
+    std::optional<double> radius{};   ///< m; if absent, the picture chooses it
     friend bool operator==(const SceneMatter&, const SceneMatter&) = default;
 };
 
@@ -65,6 +66,13 @@ struct SceneAttractor {
     Colour colour = palette::orange;
     std::optional<double> radius{};  ///< m
     friend bool operator==(const SceneAttractor&, const SceneAttractor&) = default;
+};
+
+/// A plane that bodies with a contact meet.
+struct ScenePlane {
+    Plane plane{};
+    Colour colour = palette::grey;
+    friend bool operator==(const ScenePlane&, const ScenePlane&) = default;
 };
 
 /// The bodies of a grid that have an anchored spring at their initial position.
@@ -128,6 +136,7 @@ struct Scene {
     std::vector<SceneSpring> springs{};
     std::vector<SceneForce> forces{};
     std::vector<SceneAttractor> attractors{};
+    std::vector<ScenePlane> planes{};
     std::vector<SceneGrid> grids{};
     std::vector<SceneScatter> scatters{};
     SceneCamera camera{};

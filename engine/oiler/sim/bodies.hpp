@@ -26,7 +26,7 @@ struct Energy {
 
 /// The storage of one quantity for all rows.
 struct Stored {
-    std::string_view of;         ///< "position", "velocity", "mass" or the force's name
+    std::string_view of;         ///< "position", "velocity", "mass", "contact" or the force's name
     std::size_t index = 0;       ///< among several forces of one kind
     std::vector<bool> shared{};  ///< each number, in order: true if stored once for all rows
     std::size_t bytes = 0;       ///< per row, in columns
@@ -152,7 +152,7 @@ public:
     /// The largest number of forces of one kind on a body. Bodies with fewer store zeros.
     [[nodiscard]] std::size_t most_forces_of_a_kind() const;
 
-    /// The storage of motion, mass, then each force, without links and caches.
+    /// The storage of motion, mass, contact, then each force, without links and caches.
     [[nodiscard]] std::vector<Stored> stored() const;
     [[nodiscard]] std::size_t bytes_per_link() const;
     /// Compares with bodies of the same precision, axes and number; 0 only if all positions agree.

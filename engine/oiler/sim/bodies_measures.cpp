@@ -127,6 +127,11 @@ std::vector<Stored> Bodies::stored() const {
             for (const std::string_view name : {"position", "velocity"})
                 all.push_back({name, 0, not_shared, Axes * sizeof(T), columns.size});
             all.push_back(storage_of("mass", 0, std::array{columns.mass}, columns.size));
+            if (columns.contacts.rows > 0) {
+                all.push_back(
+                    storage_of("contact", 0, std::array{columns.contacts.radius}, columns.size));
+                all.back().rows = columns.contacts.rows;
+            }
             for_each_index<force_count>([&](auto i) {
                 using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
                 const auto& forces = std::get<i>(columns.forces);

@@ -149,7 +149,7 @@ TEST(Ledger, TimesAreFinite) {
     const Ledger ledger = ledger_of(everything);
     EXPECT_EQ(names_of_passes(ledger),
               (Strings{"gravity", "spring", "linear_drag", "quadratic_drag", "coil_spring",
-                       "attractor", "wind", "drive", "links", "moving"}));
+                       "attractor", "wind", "drive", "links", "planes", "moving"}));
     EXPECT_EQ(ledger.absent, Strings{});
     EXPECT_GT(ledger.ns, 0);
     EXPECT_GE(ledger.spread_ns, 0);

@@ -115,7 +115,7 @@ constexpr Real reach = 32;
 
 void expect_tied(double mass, double drag, Real unit) {
     SCOPED_TRACE(testing::Message() << mass << " kg, drag " << drag);
-    const auto motions = exact_motions(tied(mass, drag));
+    const auto motions = exact_motions(tied(mass, drag), 1);
     ASSERT_TRUE(motions);
     ASSERT_EQ(motions->size(), 1U);
     for (const Real t : {0.0L, 0.125L, 1.0L, 3.3L, 20.0L}) {
@@ -153,7 +153,7 @@ TEST(ExactMotion, CriticallyDampedMeetsItsDoubleRoot) {
         bodies.add({.mass = mass, .position = {3}, .velocity = {40}},
                    Spring{.anchor = {2}, .stiffness = k, .damping = b});
         const Linear linear{-9.75L + k / mass * 2, k / mass, b / mass, 3, 40};
-        const auto motions = exact_motions(bodies);
+        const auto motions = exact_motions(bodies, 1);
         ASSERT_TRUE(motions);
         for (const Real t : {0.0L, 0.01L, 0.5L, 4.0L}) {
             const Real rate = b / mass;
@@ -167,7 +167,7 @@ TEST(ExactMotion, OfGravityAloneIsAParabola) {
     Bodies bodies = in_space();
     bodies.set_gravity(gravity);
     bodies.add({.mass = 0.7, .position = from, .velocity = with});
-    const auto motions = exact_motions(bodies);
+    const auto motions = exact_motions(bodies, 1);
     ASSERT_TRUE(motions);
     for (const Real t : {0.0L, 0.5L, 3.0L, 100.0L})
         for (int axis = 0; axis < 3; ++axis)
@@ -183,7 +183,7 @@ TEST(ExactMotion, OfDragTendsToItsTerminalSpeed) {
         Bodies bodies = in_space();
         if (falls) bodies.set_gravity(gravity);
         bodies.add({.mass = 4, .position = from, .velocity = with}, LinearDrag{2});
-        const auto motions = exact_motions(bodies);
+        const auto motions = exact_motions(bodies, 1);
         ASSERT_TRUE(motions);
         const Real c = 0.5;
         for (const Real t : {0.0L, 0.25L, 3.0L, 60.0L})
@@ -209,7 +209,7 @@ TEST(ExactMotion, OfLinearDragMeetsTheReference) {
         bodies.set_gravity({0, -number(run.at("g")), 0});
         bodies.add({.velocity = {speed * std::cos(angle), speed * std::sin(angle)}},
                    LinearDrag{number(run.at("beta"))});
-        const auto motions = exact_motions(bodies);
+        const auto motions = exact_motions(bodies, 1);
         ASSERT_TRUE(motions);
         ASSERT_EQ(run.at("states").size(), 4U);
         for (const auto& state : run.at("states")) {
@@ -232,7 +232,7 @@ TEST(ExactMotion, OfTheArticlesSpringMeetsTheReference) {
         bodies.add(
             {.position = {1000}},
             Spring{.stiffness = 15, .damping = which == std::string("exact_damped") ? 0.1 : 0});
-        const auto motions = exact_motions(bodies);
+        const auto motions = exact_motions(bodies, 1);
         ASSERT_TRUE(motions);
         const auto table = reference("article").at(which).at("table");
         ASSERT_EQ(table.size(), 9U);
@@ -249,7 +249,7 @@ TEST(ExactMotion, OfEachBodyIsItsOwn) {
     bodies.add({.position = from, .velocity = with});
     bodies.add({.position = from, .velocity = with}, first);
     bodies.add({.position = from, .velocity = with}, LinearDrag{0.5});
-    const auto motions = exact_motions(bodies);
+    const auto motions = exact_motions(bodies, 1);
     ASSERT_TRUE(motions);
     ASSERT_EQ(motions->size(), 3U);
     constexpr Real t = 2;
@@ -267,7 +267,7 @@ TEST(ExactMotion, OfEachBodyIsItsOwn) {
 TEST(ExactMotion, WithZeroStiffnessIsFree) {
     Bodies bodies = in_space();
     bodies.add({.position = from, .velocity = with}, Spring{.anchor = {9, 9, 9}});
-    const auto motions = exact_motions(bodies);
+    const auto motions = exact_motions(bodies, 1);
     ASSERT_TRUE(motions);
     for (int axis = 0; axis < 3; ++axis)
         expect_axis((*motions)[0](4), axis, {from[axis] + 4 * with[axis], with[axis]}, {32, 8}, 0,
@@ -301,7 +301,7 @@ TEST(ExactMotion, AroundAnAttractorMeetsKeplersEquation) {
     constexpr Real e = 0.5625;
     constexpr Real a = 0.5L / (1 - e);
     const Real n = std::sqrt(2 / a) / a;
-    const auto motions = exact_motions(planet(2.5));
+    const auto motions = exact_motions(planet(2.5), 1);
     ASSERT_TRUE(motions);
     for (const Real t : {0.0L, 0.25L, 1.0L, 5.0L, 17.0L}) {
         const Real anomaly_now = anomaly(e, n * t);
@@ -317,12 +317,12 @@ TEST(ExactMotion, AroundAnAttractorMeetsKeplersEquation) {
     }
 }
 
-void expect_none(const Bodies& bodies) { EXPECT_FALSE(exact_motions(bodies)); }
+void expect_none(const Bodies& bodies) { EXPECT_FALSE(exact_motions(bodies, 1)); }
 
 TEST(NoExactMotion, OfLinkedBodies) {
     Bodies bodies = tied(1, 0);
     bodies.add({.position = {1, 1, 1}});
-    EXPECT_TRUE(exact_motions(bodies));
+    EXPECT_TRUE(exact_motions(bodies, 1));
     bodies.link(0, 1, {.stiffness = 1});
     expect_none(bodies);
 }
@@ -364,7 +364,7 @@ TEST(NoExactMotion, OfOneAmongOthers) {
 }
 
 TEST(NoExactMotion, AroundAnAttractorThatIsNotAlone) {
-    EXPECT_TRUE(exact_motions(planet(2.5)));
+    EXPECT_TRUE(exact_motions(planet(2.5), 1));
     Bodies two = planet(2.5);
     two.attach_at(1, 0, Attractor{.centre = {9, 9, 9}, .gm = 0.01});
     expect_none(two);
@@ -396,7 +396,7 @@ TEST(ExactMotions, WalkAsTheyAreAtEachTime) {
                Spring{.anchor = {0.5, 0, 0}, .stiffness = 12, .damping = 0.5});
     bodies.add({.position = {1, 0, 2}, .velocity = {0, 0.4, 0}},
                Attractor{.centre = {0, 0, 2}, .gm = 1});
-    auto closed_forms = exact_motions(bodies);
+    auto closed_forms = exact_motions(bodies, 1);
     ASSERT_TRUE(closed_forms);
     const oiler::lab::ExactMotions motions(std::move(*closed_forms));
     const auto walk = motions.walk(rate);

@@ -35,9 +35,9 @@ using oiler::test::State3;
 constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
 
 ClosedForm claimed(const Motions& motions) {
-    return [motions](const Bodies&) { return std::optional(motions); };
+    return [motions](const Bodies&, double) { return std::optional(motions); };
 }
-std::optional<Motions> none(const Bodies&) { return std::nullopt; }
+std::optional<Motions> none(const Bodies&, double) { return std::nullopt; }
 
 /// Enough work for all scenes here; it takes about 1 s.
 ReferenceEffort effort() {

@@ -84,12 +84,18 @@ public:
             add(links_text, "", "links", leave_out_links);
             leave_out_links(bare);
         }
+        if (!scene_.planes.empty()) {
+            add("planes", "", "planes", leave_out_planes);
+            leave_out_planes(bare);
+        }
         all_.push_back({"", "", "moving", std::move(bare)});
         add_parts();
         return std::move(all_);
     }
 
 private:
+    static void leave_out_planes(Scene& scene) { scene.planes.clear(); }
+
     static constexpr std::string_view links_text = "springs between bodies";
 
     template <class Change>

@@ -12,12 +12,14 @@ namespace {
 std::vector<std::string> number_names(const Stored& stored) {
     static const std::vector<std::string_view> vector{""};
     static const std::vector<std::string_view> mass{"mass"};
+    static const std::vector<std::string_view> contact{"radius"};
     const auto& forces = force_descriptions();
     const auto force = std::find_if(forces.begin(), forces.end(),
                                     [&](const auto& words) { return words.name == stored.of; });
-    const auto& fields = force != forces.end() ? force->numbers
-                         : stored.of == "mass" ? mass
-                                               : vector;
+    const auto& fields = force != forces.end()    ? force->numbers
+                         : stored.of == "mass"    ? mass
+                         : stored.of == "contact" ? contact
+                                                  : vector;
     const std::size_t axes = stored.shared.size() - fields.size() + 1;
     std::vector<std::string> names;
     for (std::size_t axis = 0; axis < axes; ++axis) {

@@ -15,7 +15,7 @@ namespace oiler::lab {
 
 /// A number that bodies have: stored in a column, or once if all bodies agree.
 struct LedgerColumn {
-    std::string of;           ///< "position", "velocity", "mass", a force's name or "handle"
+    std::string of;  ///< "position", "velocity", "mass", "contact", a force's name or "handle"
     std::size_t index = 0;    ///< index among forces of one kind
     std::string number;       ///< "x", "stiffness", "anchor.y"
     bool shared = false;      ///< stored once

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -58,6 +59,8 @@ State3 state_at(const OrbitMotion& motion, Real t) {
     return {state.x + motion.centre, state.v};
 }
 
+State3 state_at(const LandingMotion& motion, Real t) { return motion.at(t); }
+
 State3 state_at(const GivenMotion& motion, Real t) { return motion(t); }
 
 double length(const Real3& a) { return static_cast<double>(std::sqrt(squared_length(a))); }
@@ -98,10 +101,26 @@ double snap_of(const OrbitMotion& motion, const State3& first, const State3& las
 
 double snap_of(const GivenMotion&, const State3&, const State3&, Real) { return 0; }
 
+/// The remainder of Hermite's cubic over h s: h⁴/384 times the fourth derivative.
+template <class Any>
+double bend_of(const Any& motion, const State3& first, const State3& last, Real from, Real to) {
+    const auto h = static_cast<double>(to - from);
+    return h * h * h * h / 384 * snap_of(motion, first, last, to - from);
+}
+
+/// Across an impact: the body and the cubic each stay within that distance of the first state.
+double bend_of(const LandingMotion& motion, const State3& first, const State3& last, Real from,
+               Real to) {
+    if (const LinearMotion* const piece = motion.piece(from, to))
+        return bend_of(*piece, first, last, from, to);
+    return 3 * motion.fastest() * static_cast<double>(to - from);
+}
+
 double steady_snap(const LinearMotion& motion) {
     return snap_of(motion, motion.start, motion.start, 0);
 }
 double steady_snap(const OrbitMotion& motion) { return orbital_snap(motion, motion.nearest); }
+double steady_snap(const LandingMotion&) { return std::numeric_limits<double>::infinity(); }
 double steady_snap(const GivenMotion&) { return 0; }
 
 /// Returns none for a body that escapes, falls straight in, or feels any other force.
@@ -121,15 +140,21 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
     return OrbitMotion{gm, centre, Ellipse<Real>(gm, from), area2 / gm / (1 + e)};
 }
 
-std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row) {
+std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, Real until) {
     Influence influence;
     for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
         add(influence, bodies.forces_per_mass(row, index));
     if (influence.other) return std::nullopt;
     const State3 start = bodies.state(row);
-    if (!influence.attractors.empty()) return orbit_motion(influence, start);
+    const std::optional<Contact> contact = bodies.contact(row);
+    const bool lands = contact && !bodies.planes().empty();
+    if (!influence.attractors.empty()) return lands ? std::nullopt : orbit_motion(influence, start);
     if (influence.stiffness < 0 || influence.damping < 0) return std::nullopt;
-    return LinearMotion{influence.acceleration, influence.stiffness, influence.damping, start};
+    const LinearMotion free{influence.acceleration, influence.stiffness, influence.damping, start};
+    if (!lands) return free;
+    auto landing = landing_motion(free, bodies.planes(), contact->radius, until);
+    if (!landing) return std::nullopt;
+    return std::move(*landing);
 }
 
 }  // namespace
@@ -138,12 +163,9 @@ State3 ExactMotion::operator()(Real t) const {
     return std::visit([&](const auto& motion) { return state_at(motion, t); }, motion_);
 }
 
-// The remainder of Hermite's cubic: h⁴/384 times the fourth derivative.
 double ExactMotion::bend(const State3& first, const State3& last, Real from, Real to) const {
-    const double snap = std::visit(
-        [&](const auto& motion) { return snap_of(motion, first, last, to - from); }, motion_);
-    const auto h = static_cast<double>(to - from);
-    return h * h * h * h / 384 * snap;
+    return std::visit([&](const auto& motion) { return bend_of(motion, first, last, from, to); },
+                      motion_);
 }
 
 double ExactMotion::steady_bend() const {
@@ -157,11 +179,11 @@ Ball ExactMotion::enclosure(const State3& state) const {
                                      length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
 }
 
-std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies) {
+std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies, double until) {
     if (bodies.link_count() > 0) return std::nullopt;
     std::vector<ExactMotion> motions;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
-        std::optional<ExactMotion> motion = motion_of(bodies, row);
+        std::optional<ExactMotion> motion = motion_of(bodies, row, until);
         if (!motion) return std::nullopt;
         motions.push_back(std::move(*motion));
     }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "oiler/lab/reference/landing_motion.hpp"
 #include "oiler/lab/reference/linear_motion.hpp"
 #include "oiler/lab/reference/motion.hpp"
 #include "oiler/physics/closed_forms.hpp"
@@ -29,6 +30,7 @@ class ExactMotion {
 public:
     ExactMotion(const LinearMotion& motion) : motion_(motion) {}
     ExactMotion(const OrbitMotion& motion) : motion_(motion) {}
+    ExactMotion(LandingMotion motion) : motion_(std::move(motion)) {}
     template <class F>
     requires std::invocable<const F&, long double> ExactMotion(F motion)
         : motion_(GivenMotion(std::move(motion))) {}
@@ -46,12 +48,14 @@ public:
     [[nodiscard]] Ball enclosure(const State<long double, 3>& state) const;
 
 private:
-    std::variant<LinearMotion, OrbitMotion, GivenMotion> motion_;
+    std::variant<LinearMotion, OrbitMotion, LandingMotion, GivenMotion> motion_;
 };
 
-/// The closed form of each body's motion from its present state. It shares no code with the
-/// methods. Returns none if any body has none: with links, springs with rest lengths, quadratic
-/// drag, an attractor beside other forces, or an orbit that is not closed.
-[[nodiscard]] std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies);
+/// The closed form of each body's motion from its present state up to `until` s. It shares no code
+/// with the methods. Returns none if any body has none: with links, springs with rest lengths,
+/// quadratic drag, an attractor beside other forces or planes, an orbit that is not closed, or a
+/// landing that landing_motion does not know.
+[[nodiscard]] std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies,
+                                                                    double until);
 
 }  // namespace oiler::lab

@@ -101,7 +101,7 @@ public:
     }
 
     Reference run(const ClosedForm& closed_form) {
-        auto motions = closed_form(start_);
+        auto motions = closed_form(start_, scene_.duration);
         if (motions)
             take(std::make_shared<ExactMotions>(std::move(*motions)));
         else

@@ -72,7 +72,8 @@ struct ReferenceEffort {
 };
 
 /// Returns the closed form of all bodies' motion, if there is one. Tests pass wrong ones.
-using ClosedForm = std::function<std::optional<std::vector<ExactMotion>>(const Bodies& bodies)>;
+using ClosedForm =
+    std::function<std::optional<std::vector<ExactMotion>>(const Bodies& bodies, double until)>;
 
 /// Makes the reference of a scene. A closed form is compared with fine steps; if they disagree, it
 /// is rejected, and `words` says so. The result of a stopped call is incomplete. Throws

@@ -79,6 +79,11 @@ bool is_conservative(const Bodies& bodies) {
             if (is_damped(bodies.forces_per_mass(row, index))) return false;
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         if (bodies.link_at(i).damping != 0) return false;
+    const auto lossless = [](const Plane& plane) {
+        return plane.restitution == 1 && plane.friction == 0;
+    };
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (bodies.contact(row)) return std::ranges::all_of(bodies.planes(), lossless);
     return true;
 }
 

@@ -104,14 +104,21 @@ private:
         report_(ImpactOf<T, Axes>{kind, index_of(plane), after_start, state.x, before, state.v});
     }
 
-    /// Moves a body that is below a plane onto it.
+    /// Moves a body that is below planes onto them: onto one after the other, which in a wedge
+    /// takes several rounds.
     void lift(Motion& state) {
-        for (const Surface& plane : planes_) {
-            const T below = -gap_of(plane, state.x);
-            if (below <= 0) continue;
-            const bool visible = below > gap_noise(plane, state);
-            state.x += plane.normal * below;
-            if (visible) report(Meeting::lifted, plane, start_, state, state.v);
+        constexpr int most_rounds = 64;
+        bool lifted = true;
+        for (int round = 0; lifted && round < most_rounds; ++round) {
+            lifted = false;
+            for (const Surface& plane : planes_) {
+                const T below = -gap_of(plane, state.x);
+                if (below <= 0) continue;
+                const bool visible = below > gap_noise(plane, state);
+                lifted = lifted || visible;
+                state.x += plane.normal * below;
+                if (visible && round == 0) report(Meeting::lifted, plane, start_, state, state.v);
+            }
         }
     }
 

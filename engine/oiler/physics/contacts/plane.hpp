@@ -14,6 +14,8 @@ struct PlaneOf {
     V offset{};             ///< m; the plane is where n·x = offset
     V restitution{};        ///< from 0 to 1: the part of the normal speed that a bounce keeps
     V friction{};           ///< Coulomb's coefficient, 0 or more
+
+    friend bool operator==(const PlaneOf&, const PlaneOf&) = default;
 };
 
 /// A plane of the public API. A normal of another length than 1 means the same plane: offset and
