@@ -180,6 +180,52 @@ TEST(RatesOfAJump, ThatEndsOnTheWayUpHaveNoApex) {
     EXPECT_TRUE(rates_of(brief, usual, {"velocity_verlet"}).quantities.empty());
 }
 
+// ---- bounces
+
+constexpr double dropped = 2;
+constexpr double kept = 0.8;
+
+/// The height of bounce n of a ball that falls 2 m.
+double bounce(int n) { return dropped * std::pow(kept, 2 * n); }
+
+const std::string ball =
+    "[scene]\naxes = 2\nrate = 60\nduration = 6.0\n[gravity]\nacceleration = [0.0, -20.0]\n"
+    "[[plane]]\nnormal = [3.0, 0.0]\noffset = -30.0\n"
+    "[[plane]]\nnormal = [0.0, 2.0]\noffset = 1.0\nrestitution = 0.8\n"
+    "[[body]]\nposition = [0.0, 2.75]\nvelocity = [0.5, 0.0]\ncontact = 0.25\n"
+    "[[body]]\nposition = [0.0, 2.75]\n";
+
+// As drawn, an apex is at most g·h²/8 lower than the curve. The last bounce above 1 % is n = 10;
+// the ball is below from then on, at the height 0.02 m of its fall.
+TEST(RatesOfABounce, AreThoseOfTheClosedForm) {
+    const Rates rates = rates_of(ball, {30, 60, 240}, {"velocity_verlet", "exact"});
+    for (const int n : {1, 3, 10}) {
+        const std::string name = "height of bounce " + std::to_string(n);
+        EXPECT_NEAR(quantity_of(rates, name).truth, bounce(n), 1e-12) << n;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (const std::size_t method : {0, 1}) {
+                const double h = 1.0 / static_cast<double>(rates.rates[i]);
+                const double shown = value_of(rates, name, method, i);
+                EXPECT_LE(shown, bounce(n) + 1e-12) << n;
+                EXPECT_GE(shown, bounce(n) - g * h * h / 8 - 1e-12) << n;
+            }
+    }
+    const int last = 10;
+    ASSERT_GT(bounce(last), 0.01 * dropped);
+    ASSERT_LT(bounce(last + 1), 0.01 * dropped);
+    double t = std::sqrt(2 * dropped / g);
+    for (int n = 1; n < last; ++n) t += 2 * std::sqrt(2 * bounce(n) / g);
+    t += std::sqrt(2 * bounce(last) / g) + std::sqrt(2 * (bounce(last) - 0.01 * dropped) / g);
+    EXPECT_NEAR(quantity_of(rates, "time at which bounces").truth, t, 1e-9);
+    EXPECT_NEAR(value_of(rates, "time at which bounces", 0, 2), t, 1 / 240.0);
+}
+
+TEST(RatesOfABounce, NeedAContact) {
+    const Rates rates = rates_of(ball, {60}, {"exact"}, 1);
+    EXPECT_EQ(find(rates, "height of bounce"), nullptr);
+    EXPECT_EQ(find(rates, "time at which bounces"), nullptr);
+}
+
 // A stopped call has quantities without values.
 TEST(Rates, CanBeStopped) {
     const MeasuredScene measured(article_spring);

@@ -424,4 +424,58 @@ TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
     EXPECT_LE(poor.floor().position, 1e-3 * poor.extent);
 }
 
+// A ball with quadratic drag falls from rest and bounces once. With w² = g/c it falls
+// w²/g·ln cosh(g·t/w), and after leaving at speed u = w·tan φ it is at
+// w²/g·ln(cos(φ − g·t/w)/cos φ).
+TEST(ReferenceByFineSteps, FollowsABounceAtAllTimes) {
+    const Real g = 9.81L;
+    const Real e = 0.75L;
+    const Real w = std::sqrt(g / 0.125L);
+    const Real height = 2;
+    const Scene scene = oiler::parse_scene(
+        "[scene]\naxes = 1\nduration = 1.2\n[gravity]\nacceleration = [-9.81]\n"
+        "[[plane]]\nnormal = [1.0]\nrestitution = 0.75\n"
+        "[[body]]\nposition = [2.25]\nquadratic_drag = 0.125\ncontact = 0.25\n",
+        "test");
+    const Reference reference = make_reference(scene, effort());
+    EXPECT_FALSE(reference.closed_form);
+    EXPECT_EQ(reference.meaningful_until, 1.2);
+    const Real impact = w / g * std::acosh(std::exp(g * height / (w * w)));
+    const Real phi = std::atan(e * std::tanh(g * impact / w));
+    const Real top = impact + phi * w / g;
+    const auto log_ratio = [&](Real a, Real b) { return w * w / g * std::log(a / b); };
+    const auto fallen = [&](Real t) { return log_ratio(std::cosh(g * t / w), 1); };
+    const Real highest = log_ratio(1, std::cos(phi));
+    const double own = reference.uncertainties.back().position;
+    EXPECT_LE(own, 1e-8);
+    for (Real t = 0.0003L; t < 1.2L; t += 0.0017L) {
+        const Real risen = log_ratio(std::cos(phi - g * (t - impact) / w), std::cos(phi));
+        const Real x = t < impact ? height - fallen(t)
+                       : t < top  ? risen
+                                  : highest - fallen(t - top);
+        EXPECT_NEAR(static_cast<double>(reference.motion->at(0, t).x[0] - 0.25L - x), 0,
+                    2 * own + 2e-16)
+            << static_cast<double>(t);
+    }
+}
+
+// The reference of bodies that land with order 1 is told apart from chaos, before all work is done.
+TEST(ReferenceByFineSteps, SaysThatLinkedBodiesLandWithOrderOne) {
+    const Scene scene = oiler::parse_scene(
+        "[scene]\naxes = 1\nduration = 2.0\n[gravity]\nacceleration = [-9.81]\n"
+        "[[plane]]\nnormal = [1.0]\nrestitution = 0.5\n"
+        "[[body]]\nname = \"a\"\nposition = [1.0]\ncontact = 0.0\n"
+        "[[body]]\nname = \"b\"\nposition = [2.0]\n"
+        "[[spring]]\nbody = \"a\"\nto = \"b\"\nstiffness = 200.0\nrest_length = 1.0\n",
+        "test");
+    double done = 0;
+    ReferenceEffort limited = effort();
+    limited.progress = [&](double part) { done = std::max(done, part); };
+    const Reference reference = make_reference(scene, limited);
+    EXPECT_LT(reference.meaningful_until, 2);
+    EXPECT_GT(reference.meaningful_until, std::sqrt(2 / 9.81) - 0.01);
+    EXPECT_TRUE(holds(reference.why_no_longer, "linked bodies land with order 1"));
+    EXPECT_LE(done, 1 / 256.0);
+}
+
 }  // namespace

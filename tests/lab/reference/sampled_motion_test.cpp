@@ -26,6 +26,12 @@ Trajectory sampled(Real omega, int seconds) {
     return trajectory;
 }
 
+std::vector<State3> one_row(const Trajectory& trajectory, std::size_t row) {
+    std::vector<State3> states;
+    for (std::int64_t i = 0; i < trajectory.samples(); ++i) states.push_back(trajectory.at(i, row));
+    return states;
+}
+
 // A polynomial of degree 7 through positions and velocities at 4 nodes is exact for t⁷, also
 // between the first and between the last two.
 TEST(SampledMotion, IsExactForDegreeSeven) {
@@ -39,6 +45,41 @@ TEST(SampledMotion, IsExactForDegreeSeven) {
         EXPECT_NEAR(static_cast<double>(motion.at(0, t).x[0] - std::pow(t, 7)), 0, 1e-14);
         EXPECT_NEAR(static_cast<double>(motion.at(0, t).v[0] - 7 * std::pow(t, 6)), 0, 1e-12);
     }
+}
+
+// Two polynomials of degree 3 meet at a kink between samples: two nodes on each side hold them.
+TEST(SampledMotion, KeepsApartWhatAKinkParts) {
+    const Real kink = 0.94L;
+    const auto state = [&](Real t) -> State3 {
+        if (t < kink) return {{t * t * t, 0, 0}, {3 * t * t, 0, 0}};
+        const Real s = t - kink;
+        return {{kink * kink * kink - 2 * s + s * s * s, 0, 0}, {-2 + 3 * s * s, 0, 0}};
+    };
+    Trajectory trajectory{.bodies = 2};
+    for (std::int64_t i = 0; i <= 20; ++i)
+        for (int row = 0; row < 2; ++row)
+            trajectory.states.push_back(state(static_cast<Real>(i) / per_second));
+    const Real cube = kink * kink * kink;
+    trajectory.kinks = {
+        {}, {{kink, {{cube, 0, 0}, {3 * kink * kink, 0, 0}}, {{cube, 0, 0}, {-2, 0, 0}}}}};
+    const SampledMotion motion(trajectory, per_second, 0);
+    std::vector<State3> all(2);
+    for (Real t = 0.6L; t < 1.3L; t += 0.0037L) {
+        EXPECT_NEAR(static_cast<double>(motion.at(1, t).x[0] - state(t).x[0]), 0, 1e-16);
+        EXPECT_NEAR(static_cast<double>(motion.at(1, t).v[0] - state(t).v[0]), 0, 1e-14);
+        motion.all_at(t, all);
+        EXPECT_EQ(all[1].x, motion.at(1, t).x);
+        EXPECT_EQ(all[0].x, motion.at(0, t).x);
+    }
+    EXPECT_GT(std::abs(static_cast<double>(motion.at(0, kink).x[0] - cube)), 1e-3);
+    // Only the body with the kink bends there, by no more than three times its way.
+    EXPECT_EQ(motion.bend(0, {}, {}, 0.9L, 1), 0);
+    EXPECT_GE(motion.bend(1, {}, {}, 0.9L, 1), 0.3 * 3 * 0.94 * 0.94);
+    EXPECT_EQ(motion.bend(1, {}, {}, 0.8L, 0.9L), 0);
+    // Leaving a sample out shows no kink.
+    EXPECT_LE(
+        interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second).back(),
+        1e-15);
 }
 
 // The remainder is x⁽⁸⁾/8! times the squares of the distances from the nodes: in the middle

@@ -16,8 +16,6 @@ using Real = long double;
 using Real3 = Vec<Real, 3>;
 using State3 = State<Real, 3>;
 
-Real3 to_real(const Vec3& v) { return {v[0], v[1], v[2]}; }
-
 /// The sum of the forces on a body, for those that have closed forms.
 struct Influence {
     Real3 acceleration{};  ///< m/s², at the origin

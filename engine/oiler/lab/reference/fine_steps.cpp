@@ -17,6 +17,8 @@ constexpr std::size_t fewest_runs = 3;
 constexpr std::size_t most_columns = 4;
 /// Halvings in a row without improvement, after which only round-off or chaos remains.
 constexpr int most_vain_runs = 2;
+/// The error of linked bodies that land only halves with the step: less work is spent on it.
+constexpr double vain_share = 256;
 constexpr double least_wanted = 1e-12;  ///< of the extent
 
 bool is_damped_along_lines(const Scene& scene) {
@@ -99,6 +101,27 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
     }
 }
 
+/// Adds the impacts of the last steps.
+void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
+    for (std::size_t i = 0; i < bodies.impact_count(); ++i) {
+        const BodyImpact impact = bodies.impact_at(i, rate);
+        const Vec3& normal = bodies.planes()[impact.plane].normal;
+        const double radius = bodies.contact(impact.row)->radius;
+        const Vec<Real, 3> x = to_real(impact.point + normal * (radius / length(normal)));
+        trajectory.kinks.resize(trajectory.bodies);
+        trajectory.kinks[impact.row].push_back(
+            {impact.time, {x, to_real(impact.before)}, {x, to_real(impact.after)}});
+    }
+}
+
+bool any_linked_kink(const Trajectory& trajectory, const Bodies& bodies) {
+    if (trajectory.kinks.empty()) return false;
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        for (const std::size_t row : bodies.linked_rows(i))
+            if (!trajectory.kinks[row].empty()) return true;
+    return false;
+}
+
 /// Romberg's table of runs, each of half the step of the one before.
 class Table {
 public:
@@ -118,17 +141,19 @@ public:
             row_.clear();
             return false;
         }
-        if (!row_.empty()) before_ = row_.back();
+        comparable_ = !row_.empty();
+        if (comparable_) before_ = row_.back();
         std::vector<Trajectory> row{std::move(*run)};
-        for (std::size_t k = 0; k < std::min(row_.size(), most_columns - 1); ++k)
+        // The phase of an impact within its step makes errors uneven, so that extrapolation does
+        // not gain.
+        const std::size_t columns = row.front().kinks.empty() ? most_columns : 1;
+        for (std::size_t k = 0; k < std::min(row_.size(), columns - 1); ++k)
             row.push_back(extrapolated(row[k], std::move(row_[k]), std::exp2(Real(power(k))) - 1));
         row_ = std::move(row);
         ++runs_;
         return true;
     }
-    [[nodiscard]] bool has_uncertainties() const {
-        return row_.size() >= 2 && runs_ >= fewest_runs;
-    }
+    [[nodiscard]] bool has_uncertainties() const { return comparable_ && runs_ >= fewest_runs; }
     [[nodiscard]] const Trajectory& best() const { return row_.back(); }
     [[nodiscard]] const Trajectory& finest_run() const { return row_.front(); }
     [[nodiscard]] std::vector<Uncertainty> uncertainties() const {
@@ -144,23 +169,27 @@ public:
         return uncertainties;
     }
     [[nodiscard]] const Method& method() const { return method_; }
+    /// Whether any run had order 1.
+    [[nodiscard]] bool linked_bodies_land() const { return linked_bodies_land_; }
 
 private:
     /// The power of dt in the error of column k.
     [[nodiscard]] int power(std::size_t k) const {
         return method_.order + static_cast<int>(k) * (method_.symmetric ? 2 : 1);
     }
-    [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) const {
+    [[nodiscard]] std::optional<Trajectory> run(std::int64_t rate) {
         Follower follower(scene_, Settings{{&method_, {rate}, precision_}}, start_,
                           samples_.per_second);
         Trajectory trajectory{.bodies = follower.bodies().size()};
         trajectory.states.reserve(trajectory.bodies * static_cast<std::size_t>(samples_.count));
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
             if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
+            add_kinks(trajectory, follower.bodies(), {rate});
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
                 trajectory.states.push_back(follower.bodies().state(row));
             if (!std::isfinite(follower.bodies().energy().total())) return std::nullopt;
         }
+        linked_bodies_land_ = linked_bodies_land_ || any_linked_kink(trajectory, follower.bodies());
         return trajectory;
     }
 
@@ -173,6 +202,8 @@ private:
     std::vector<Trajectory> row_;
     Trajectory before_{};  ///< the best at twice the step
     std::size_t runs_ = 0;
+    bool comparable_ = false;
+    bool linked_bodies_land_ = false;
 };
 
 std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double most) {
@@ -198,7 +229,9 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
     for (std::int64_t rate = samples.per_second; vain < most_vain_runs; rate *= 2) {
         const double work =
             work_per_step * static_cast<double>(rate) * samples.time(samples.count - 1);
-        if (work > effort.most_work || effort.stopped()) break;
+        const double most_work =
+            table.linked_bodies_land() ? effort.most_work / vain_share : effort.most_work;
+        if (work > most_work || effort.stopped()) break;
         affordable = true;
         if (!table.add_run(rate) || !table.has_uncertainties()) continue;
         effort.progress(work / effort.most_work);
@@ -216,13 +249,17 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
             .trajectory = table.best(),
             .uncertainties = std::move(uncertainties),
             .words = fmt::format(
-                "fine steps in {} by {} at {} Hz, extrapolated from runs at that rate, its half "
-                "and so on; the last halving changes the end by {:.2g} m",
+                "fine steps in {} by {} at {} Hz{}; the last halving changes the end by {:.2g} m",
                 precision == Precision::extended ? "long double" : "double", table.method().name,
-                rate, uncertainty),
+                rate,
+                table.finest_run().kinks.empty()
+                    ? ", extrapolated from runs at that rate, its half and so on"
+                    : "",
+                uncertainty),
             .finest_run = table.finest_run(),
             .stepping = {&table.method(), {rate}, precision},
-            .sufficient = uncertainty <= sufficient_error(effort, extent)};
+            .sufficient = uncertainty <= sufficient_error(effort, extent),
+            .linked_bodies_land = table.linked_bodies_land()};
         if (finest.sufficient) break;
     }
     finest.affordable = affordable;

@@ -13,7 +13,9 @@ using Real3 = Vec<Real, 3>;
 using State3 = State<Real, 3>;
 
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-constexpr std::size_t most_pieces = 200'000;
+constexpr std::size_t most_pieces = 20'000;
+/// So many short flights in a row do not end, as in a corner.
+constexpr int most_short_flights = 64;
 /// Bounces with shorter flights, s, are at an end: they are less than 10⁻¹⁸ m high.
 constexpr Real shortest_flight = 1e-9L;
 
@@ -74,8 +76,10 @@ public:
         for (const Surface& surface : surfaces_)
             if (surface.gap(state_) < -noise(surface)) return std::nullopt;
         while (pieces_.size() < most_pieces) {
+            const Real before = t_;
             const bool going = bounce() || move();
-            if (!known_) return std::nullopt;
+            short_flights_ = t_ - before < shortest_flight ? short_flights_ + 1 : 0;
+            if (!known_ || short_flights_ > most_short_flights) return std::nullopt;
             if (!going) return LandingMotion(std::move(pieces_));
         }
         return std::nullopt;
@@ -199,6 +203,7 @@ private:
     State3 state_;
     Real t_ = 0;
     Real still_ = 0;  ///< m/s, the round-off of the speed after a stop
+    int short_flights_ = 0;
     bool known_ = true;
     std::vector<LandingMotion::Piece> pieces_;
 };

@@ -10,6 +10,8 @@
 
 namespace oiler::lab {
 
+[[nodiscard]] inline Vec<long double, 3> to_real(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
 /// A ball that a body does not leave.
 struct Ball {
     Vec<long double, 3> centre{};                             ///< m

@@ -78,7 +78,7 @@ double unevenness(const std::vector<double>& crossings) {
     return longest > 0 ? longest / shortest : 1;
 }
 
-Path path_of(const Reference& reference, std::size_t row, int axis) {
+Path path_of(const Reference& reference, std::size_t row, int axis, std::int64_t times) {
     Path path;
     const auto add = [&](double t) {
         const State<long double, 3> state = reference.motion->at(row, t);
@@ -86,10 +86,9 @@ Path path_of(const Reference& reference, std::size_t row, int axis) {
         path.x.push_back(static_cast<double>(state.x[axis]));
         path.v.push_back(static_cast<double>(state.v[axis]));
     };
-    for (std::int64_t sample = 0; sample < reference.samples.count &&
-                                  reference.samples.time(sample) < reference.meaningful_until;
-         ++sample)
-        add(reference.samples.time(sample));
+    const SampleTimes points{reference.samples.per_second * times, reference.samples.count * times};
+    for (std::int64_t i = 0; i < points.count && points.time(i) < reference.meaningful_until; ++i)
+        add(points.time(i));
     add(reference.meaningful_until);
     return path;
 }

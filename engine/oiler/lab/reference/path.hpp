@@ -45,7 +45,9 @@ struct Peak {
 /// two such times.
 [[nodiscard]] double unevenness(const std::vector<double>& crossings);
 
-/// One coordinate of a body's true motion, at the samples of the meaningful time.
-[[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis);
+/// One coordinate of a body's true motion over the meaningful time, at `times` as many points as
+/// the reference has samples.
+[[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis,
+                           std::int64_t times = 1);
 
 }  // namespace oiler::lab

@@ -149,6 +149,7 @@ private:
             }
         }
         if (effort_.stopped()) return;
+        linked_bodies_land_ = fine.linked_bodies_land;
         follow(fine);
         reference_.uncertainties = std::move(fine.uncertainties);
         for (std::size_t sample = 0; sample < between.size(); ++sample) {
@@ -267,7 +268,12 @@ private:
             reference_.why_no_longer = explain(most, followed < usable);
         }
     }
-    [[nodiscard]] static std::string explain(double most, bool by_round_off) {
+    [[nodiscard]] std::string explain(double most, bool by_round_off) const {
+        if (linked_bodies_land_)
+            return fmt::format(
+                "the reference's own error then exceeds {:.2g} m: linked bodies land with order 1 "
+                "by every method, which takes too fine steps",
+                most / margin);
         return by_round_off
                    ? fmt::format(
                          "round-off of double alone then moves bodies by more than {:.2g} m: the "
@@ -305,6 +311,7 @@ private:
     const ReferenceEffort& effort_;
     Bodies start_;
     Reference reference_;
+    bool linked_bodies_land_ = false;
     std::vector<double> round_off_;  ///< m, of a run of the fine steps in double, up to each sample
 };
 

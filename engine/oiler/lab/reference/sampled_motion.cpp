@@ -12,24 +12,28 @@ namespace {
 using Real = long double;
 using State3 = State<Real, 3>;
 
-constexpr std::int64_t most_nodes = 4;
+constexpr std::size_t most_nodes = 4;
 
-/// Hermite's interpolation of degree 2n − 1 at nodes of equal spacing: the weights of the nodes'
-/// positions and velocities in a position and in a velocity (Stoer and Bulirsch, Introduction to
-/// Numerical Analysis, 2.1.5).
+/// The places of nodes, in spacings of samples.
+using Places = std::span<const Real>;
+
+constexpr std::array<Real, most_nodes> equally_spaced{0, 1, 2, 3};
+
+/// Hermite's interpolation of degree 2n − 1: the weights of the nodes' positions and velocities in
+/// a position and in a velocity (Stoer and Bulirsch, Introduction to Numerical Analysis, 2.1.5).
 class Hermite {
 public:
-    /// `u` is the place, in spacings from the first node; `spacing` in s.
-    Hermite(std::int64_t nodes, Real u, Real spacing) : nodes_(nodes) {
-        for (std::int64_t i = 0; i < nodes; ++i) weigh(i, u, spacing);
+    /// `u` is the place; `spacing` in s.
+    Hermite(Places nodes, Real u, Real spacing) : nodes_(nodes.size()) {
+        for (std::size_t i = 0; i < nodes_; ++i) weigh(nodes, i, u, spacing);
     }
 
     /// `node(i)` is the state of node i.
     template <class Node>
     [[nodiscard]] State3 operator()(Node node) const {
         State3 sum{};
-        for (std::int64_t i = 0; i < nodes_; ++i) {
-            const Weights& w = weights_[static_cast<std::size_t>(i)];
+        for (std::size_t i = 0; i < nodes_; ++i) {
+            const Weights& w = weights_[i];
             const State3& state = node(i);
             sum.x = sum.x + state.x * w.x_in_x + state.v * w.v_in_x;
             sum.v = sum.v + state.x * w.x_in_v + state.v * w.v_in_v;
@@ -42,55 +46,128 @@ private:
         Real x_in_x, v_in_x, x_in_v, v_in_v;
     };
 
-    void weigh(std::int64_t i, Real u, Real spacing) {
+    void weigh(Places nodes, std::size_t i, Real u, Real spacing) {
         Real l = 1;        // Lagrange's polynomial of node i at u
         Real l_slope = 0;  // its derivative
         Real at_node = 0;  // its derivative at the node
-        for (std::int64_t j = 0; j < nodes_; ++j) {
+        for (std::size_t j = 0; j < nodes_; ++j) {
             if (j == i) continue;
-            const Real gap = static_cast<Real>(i - j);
-            const Real factor = (u - static_cast<Real>(j)) / gap;
+            const Real gap = nodes[i] - nodes[j];
+            const Real factor = (u - nodes[j]) / gap;
             l_slope = l_slope * factor + l / gap;
             l *= factor;
             at_node += 1 / gap;
         }
-        const Real off = u - static_cast<Real>(i);
+        const Real off = u - nodes[i];
         const Real square = l * l;
         const Real square_slope = 2 * l * l_slope;
         const Real tilt = 1 - 2 * off * at_node;
-        weights_[static_cast<std::size_t>(i)] = {
-            tilt * square, off * square * spacing,
-            (tilt * square_slope - 2 * at_node * square) / spacing, square + off * square_slope};
+        weights_[i] = {tilt * square, off * square * spacing,
+                       (tilt * square_slope - 2 * at_node * square) / spacing,
+                       square + off * square_slope};
     }
 
-    std::int64_t nodes_;
+    std::size_t nodes_;
     std::array<Weights, most_nodes> weights_{};
 };
 
 /// The four samples around a time, or those nearest to it at either end.
 struct Window {
     Window(Real t, std::int64_t per_second, std::int64_t samples)
-        : nodes(std::min(most_nodes, samples)) {
+        : spacing(1 / static_cast<Real>(per_second)),
+          nodes(Places(equally_spaced)
+                    .first(static_cast<std::size_t>(std::min<std::int64_t>(most_nodes, samples)))) {
         const Real at = t * static_cast<Real>(per_second);
         const auto before = static_cast<std::int64_t>(std::floor(at));
-        first = std::clamp<std::int64_t>(before - 1, 0, samples - nodes);
+        const std::int64_t last = samples - static_cast<std::int64_t>(nodes.size());
+        first = std::clamp<std::int64_t>(before - 1, 0, last);
         place = at - static_cast<Real>(first);
     }
-    std::int64_t nodes;
+    /// The time of a place, s.
+    [[nodiscard]] Real time(Real of) const { return (static_cast<Real>(first) + of) * spacing; }
+    [[nodiscard]] Real place_of(const Kink& kink) const {
+        return kink.time / spacing - static_cast<Real>(first);
+    }
+    Real spacing;  ///< s
+    Places nodes;
     std::int64_t first = 0;
     Real place = 0;  ///< in samples from the first
 };
 
+/// The nodes of a body around a time, on one side of each kink.
+class SmoothNodes {
+public:
+    SmoothNodes(const Trajectory& trajectory, std::size_t row, const Window& window,
+                std::span<const Kink> kinks) {
+        // A node so close to a kink would be multiplied by large weights.
+        constexpr Real close = 1e-3L;
+        const auto later = std::find_if(kinks.begin(), kinks.end(), [&](const Kink& kink) {
+            return window.place_of(kink) > window.place;
+        });
+        Real from = -1;
+        Real to = static_cast<Real>(most_nodes);
+        if (later != kinks.begin()) {
+            from = window.place_of(*(later - 1)) + close;
+            add(from - close, (later - 1)->after);
+        }
+        if (later != kinks.end()) to = window.place_of(*later) - close;
+        for (std::size_t i = 0; i < window.nodes.size(); ++i)
+            if (const Real place = window.nodes[i]; place > from && place < to)
+                add(place, trajectory.at(window.first + static_cast<std::int64_t>(i), row));
+        if (later != kinks.end()) add(to + close, later->before);
+        leave_out_far(window.place);
+    }
+    [[nodiscard]] Places places() const { return Places(places_).subspan(first_, size_ - first_); }
+    [[nodiscard]] const State3& operator()(std::size_t i) const { return *states_[first_ + i]; }
+
+private:
+    void add(Real place, const State3& state) {
+        places_[size_] = place;
+        states_[size_++] = &state;
+    }
+    void leave_out_far(Real place) {
+        while (size_ - first_ > most_nodes) {
+            if (place - places_[first_] > places_[size_ - 1] - place)
+                ++first_;
+            else
+                --size_;
+        }
+    }
+
+    std::array<Real, most_nodes + 2> places_{};
+    std::array<const State3*, most_nodes + 2> states_{};
+    std::size_t first_ = 0;
+    std::size_t size_ = 0;
+};
+
+/// The state of a body; `smooth` interpolates between the nodes of the window.
+State3 state_in(const Window& window, const Hermite& smooth, const Trajectory& trajectory,
+                std::size_t row) {
+    const auto kinks =
+        trajectory.kinks_between(row, window.time(0), window.time(window.nodes.back()));
+    if (kinks.empty())
+        return smooth([&](std::size_t i) -> const State3& {
+            return trajectory.at(window.first + static_cast<std::int64_t>(i), row);
+        });
+    const SmoothNodes nodes(trajectory, row, window, kinks);
+    return Hermite(nodes.places(), window.place, window.spacing)(nodes);
+}
+
 /// The largest distance of a sample from the interpolation through the samples 1 and 3 `spacing`s
-/// before and after it; 0 near the ends.
-double left_out(const Trajectory& trajectory, const Hermite& middle, std::int64_t sample,
-                std::int64_t spacing) {
+/// before and after it; 0 near the ends and kinks.
+double left_out(const Trajectory& trajectory, std::int64_t per_second, const Hermite& middle,
+                std::int64_t sample, std::int64_t spacing) {
     const std::int64_t first = sample - 3 * spacing;
-    if (first < 0 || sample + 3 * spacing >= trajectory.samples()) return 0;
+    const std::int64_t last = sample + 3 * spacing;
+    if (first < 0 || last >= trajectory.samples()) return 0;
+    const auto time = [&](std::int64_t of) {
+        return static_cast<Real>(of) / static_cast<Real>(per_second);
+    };
     double most = 0;
     for (std::size_t row = 0; row < trajectory.bodies; ++row) {
-        const State3 between = middle([&](std::int64_t i) -> const State3& {
-            return trajectory.at(first + 2 * spacing * i, row);
+        if (!trajectory.kinks_between(row, time(first), time(last)).empty()) continue;
+        const State3 between = middle([&](std::size_t i) -> const State3& {
+            return trajectory.at(first + 2 * spacing * static_cast<std::int64_t>(i), row);
         });
         const auto& exact = trajectory.at(sample, row);
         most = std::max(most, static_cast<double>(std::sqrt(squared_length(between.x - exact.x))));
@@ -100,14 +177,34 @@ double left_out(const Trajectory& trajectory, const Hermite& middle, std::int64_
 
 /// The factor of the error from the wide to the narrow spacing at the first sample that has both; 1
 /// if none has.
-double first_convergence(const Trajectory& trajectory, const Hermite& narrow, const Hermite& wide) {
+double first_convergence(const Trajectory& trajectory, std::int64_t per_second,
+                         const Hermite& narrow, const Hermite& wide) {
     for (std::int64_t sample = 6; sample + 6 < trajectory.samples(); ++sample)
-        if (const double far = left_out(trajectory, wide, sample, 2); far > 0)
-            return std::min(1.0, left_out(trajectory, narrow, sample, 1) / far);
+        if (const double far = left_out(trajectory, per_second, wide, sample, 2); far > 0)
+            return std::min(1.0, left_out(trajectory, per_second, narrow, sample, 1) / far);
     return 1;
 }
 
+double fastest_of(const Trajectory& trajectory) {
+    Real most = 0;
+    for (const State3& state : trajectory.states) most = std::max(most, squared_length(state.v));
+    for (const auto& of_row : trajectory.kinks)
+        for (const Kink& kink : of_row)
+            most = std::max({most, squared_length(kink.before.v), squared_length(kink.after.v)});
+    return static_cast<double>(std::sqrt(most));
+}
+
 }  // namespace
+
+std::span<const Kink> Trajectory::kinks_between(std::size_t row, Real from, Real to) const {
+    if (kinks.empty()) return {};
+    const std::vector<Kink>& all = kinks[row];
+    const auto first = std::upper_bound(
+        all.begin(), all.end(), from, [](Real time, const Kink& kink) { return time < kink.time; });
+    const auto last = std::lower_bound(
+        first, all.end(), to, [](const Kink& kink, Real time) { return kink.time < time; });
+    return {first, last};
+}
 
 SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second, double fastest)
     : trajectory_(std::move(trajectory)), per_second_(per_second) {
@@ -116,6 +213,9 @@ SampledMotion::SampledMotion(Trajectory trajectory, std::int64_t per_second, dou
     const Real between = 1 / static_cast<Real>(per_second);
     longest_cubic_ =
         (1 + rounding) * (fastest > 0 ? std::max(between, eighth / Real(fastest)) : between);
+    if (trajectory_.kinks.empty()) return;
+    longest_cubic_ = (1 + rounding) * between;
+    fastest_ = fastest_of(trajectory_);
 }
 
 std::optional<std::int64_t> SampledMotion::sample_at(Real t) const {
@@ -129,20 +229,21 @@ std::optional<std::int64_t> SampledMotion::sample_at(Real t) const {
 State3 SampledMotion::at(std::size_t row, Real t) const {
     if (const auto sample = sample_at(t)) return trajectory_.at(*sample, row);
     const Window window(t, per_second_, trajectory_.samples());
-    const Hermite interpolate(window.nodes, window.place, 1 / static_cast<Real>(per_second_));
-    return interpolate(
-        [&](std::int64_t i) -> const State3& { return trajectory_.at(window.first + i, row); });
+    return state_in(window, Hermite(window.nodes, window.place, window.spacing), trajectory_, row);
 }
 
 void SampledMotion::all_at(Real t, std::span<State3> states) const {
     const Window window(t, per_second_, trajectory_.samples());
-    const Hermite interpolate(window.nodes, window.place, 1 / static_cast<Real>(per_second_));
+    const Hermite smooth(window.nodes, window.place, window.spacing);
     for (std::size_t row = 0; row < states.size(); ++row)
-        states[row] = interpolate(
-            [&](std::int64_t i) -> const State3& { return trajectory_.at(window.first + i, row); });
+        states[row] = state_in(window, smooth, trajectory_, row);
 }
 
-double SampledMotion::bend(std::size_t, const State3&, const State3&, Real from, Real to) const {
+double SampledMotion::bend(std::size_t row, const State3&, const State3&, Real from,
+                           Real to) const {
+    // The body and the cubic each stay within that distance of the first state.
+    if (!trajectory_.kinks_between(row, from, to).empty())
+        return 3 * fastest_ * static_cast<double>(to - from);
     return to - from <= longest_cubic_ ? 0 : std::numeric_limits<double>::infinity();
 }
 
@@ -150,17 +251,17 @@ std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int6
     // The first and the last interval have all nodes on one side.
     constexpr double at_ends = 3;
     const auto middle_of = [&](Real spacing) {
-        return Hermite(most_nodes, 1.5L, 2 * spacing / static_cast<Real>(per_second));
+        return Hermite(equally_spaced, 1.5L, 2 * spacing / static_cast<Real>(per_second));
     };
     const Hermite narrow = middle_of(1);
     const Hermite wide = middle_of(2);
     std::vector<double> errors;
     double most = 0;
     // Near the ends, where the wider interpolation has no samples, that of the nearest holds.
-    double falls = first_convergence(trajectory, narrow, wide);
+    double falls = first_convergence(trajectory, per_second, narrow, wide);
     for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample) {
-        const double at_twice = left_out(trajectory, narrow, sample, 1);
-        const double at_four_times = left_out(trajectory, wide, sample, 2);
+        const double at_twice = left_out(trajectory, per_second, narrow, sample, 1);
+        const double at_four_times = left_out(trajectory, per_second, wide, sample, 2);
         if (at_four_times > 0) falls = std::min(1.0, at_twice / at_four_times);
         most = std::max(most, at_ends * at_twice * falls);
         errors.push_back(most);

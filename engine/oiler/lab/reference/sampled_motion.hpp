@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "oiler/lab/reference/motion.hpp"
@@ -10,22 +11,34 @@
 
 namespace oiler::lab {
 
+/// A sudden change of a body's velocity, by an impact.
+struct Kink {
+    long double time;  ///< s
+    State<long double, 3> before;
+    State<long double, 3> after;
+};
+
 /// Positions and velocities of all bodies at every sample.
 struct Trajectory {
     std::size_t bodies = 0;
     /// Of all bodies at the first sample, then at the next.
     std::vector<State<long double, 3>> states{};
+    /// Per body, in the order of time; empty if no body has any.
+    std::vector<std::vector<Kink>> kinks{};
 
     [[nodiscard]] const State<long double, 3>& at(std::int64_t sample, std::size_t row) const {
         return states[static_cast<std::size_t>(sample) * bodies + row];
     }
+    /// The kinks of a body after `from` and before `to`, s.
+    [[nodiscard]] std::span<const Kink> kinks_between(std::size_t row, long double from,
+                                                      long double to) const;
     [[nodiscard]] std::int64_t samples() const {
         return bodies == 0 ? 0 : static_cast<std::int64_t>(states.size() / bodies);
     }
 };
 
 /// A motion between samples: the polynomial of degree 7 through the positions and velocities of the
-/// four nearest samples.
+/// four nearest samples; beside a kink, of the kink and of samples on the same side.
 class SampledMotion : public Motion {
 public:
     /// `fastest` is an upper bound of the motion's angular frequencies, 1/s.
@@ -34,8 +47,9 @@ public:
     [[nodiscard]] std::size_t bodies() const override { return trajectory_.bodies; }
     [[nodiscard]] State<long double, 3> at(std::size_t row, long double t) const override;
     void all_at(long double t, std::span<State<long double, 3>> states) const override;
-    /// A cubic over 1/8 of the shortest period, or between two samples, follows the motion.
-    [[nodiscard]] double bend(std::size_t, const State<long double, 3>&,
+    /// A cubic over 1/8 of the shortest period, or between two samples, follows a motion without
+    /// kinks.
+    [[nodiscard]] double bend(std::size_t row, const State<long double, 3>&,
                               const State<long double, 3>&, long double from,
                               long double to) const override;
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
@@ -47,11 +61,12 @@ private:
     Trajectory trajectory_;
     std::int64_t per_second_;
     long double longest_cubic_;  ///< s
+    double fastest_ = 0;         ///< m/s, if there are kinks
 };
 
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It
 /// compares samples with interpolations that leave them out, at two spacings, and continues the
-/// convergence to the spacing of all samples.
+/// convergence to the spacing of all samples. It leaves out what is near kinks.
 [[nodiscard]] std::vector<double> interpolation_errors(const Trajectory& trajectory,
                                                        std::int64_t per_second);
 
