@@ -52,13 +52,22 @@ oiler::Entity spawn_assorted(World& world, int i, bool linear) {
 /// The forces of a scene: linear ones, all, or all with links between neighbours.
 enum class Scene { linear, forces, links };
 
+void add_planes(World& world, int axes) {
+    world.add_plane({.normal = {axes == 1 ? 1.0 : 0.25, axes == 1 ? 0.0 : 1.0},
+                     .offset = -3,
+                     .restitution = 0.75});
+    world.add_plane({.normal = {-1}, .offset = -9, .restitution = 0.5, .friction = 0.25});
+}
+
 std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision precision, int axes,
-                             Scene scene) {
+                             Scene scene, bool planes) {
     World world(axes, {.method = &method, .rate = {256}, .precision = precision});
     world.set_gravity(assorted(5, axes));
+    if (planes) add_planes(world, axes);
     oiler::Entity last;
     for (int i = 0; i < bodies; ++i) {
         const oiler::Entity entity = spawn_assorted(world, i, scene == Scene::linear);
+        if (planes && i % 4 != 1) world.set_contact(entity, oiler::Contact{i % 3 / 4.0});
         if (scene == Scene::links && i % 3 != 0)
             world.link(
                 last, entity,
@@ -73,12 +82,13 @@ bool takes(const oiler::Method& method, Scene scene) {
     return method.order != oiler::exact_order || scene == Scene::linear;
 }
 
-void print(const oiler::Method& method, Scene scene) {
+void print(const oiler::Method& method, Scene scene, bool planes) {
     for (const auto precision : {oiler::Precision::single, oiler::Precision::double_})
         for (int axes = 1; axes <= 3; ++axes)
-            std::printf("%s %d %s %d %s\n", std::string(method.name).c_str(),
-                        static_cast<int>(scene), std::string(name_of(precision)).c_str(), axes,
-                        oiler::hash_text(hash_after_run(method, precision, axes, scene)).c_str());
+            std::printf(
+                "%s %d %d %s %d %s\n", std::string(method.name).c_str(), static_cast<int>(scene),
+                planes, std::string(name_of(precision)).c_str(), axes,
+                oiler::hash_text(hash_after_run(method, precision, axes, scene, planes)).c_str());
 }
 
 }  // namespace
@@ -86,5 +96,6 @@ void print(const oiler::Method& method, Scene scene) {
 int main() {
     for (const oiler::Method& method : oiler::methods())
         for (const Scene scene : {Scene::linear, Scene::forces, Scene::links})
-            if (takes(method, scene)) print(method, scene);
+            for (const bool planes : {false, true})
+                if (takes(method, scene)) print(method, scene, planes);
 }

@@ -59,6 +59,29 @@ TEST(Allocations, PushesAndLinksMakeNone) {
     EXPECT_EQ(allocations, before);
 }
 
+TEST(Allocations, ImpactsMakeNone) {
+    for (const int threads : {1, 2}) {
+        World world(2,
+                    oiler::Settings{.stepping = {.method = &oiler::find_method("velocity_verlet")},
+                                    .threads = threads});
+        world.set_gravity({0, -9.81});
+        world.add_plane({.normal = {0, 1}, .restitution = 1});
+        for (int i = 0; i < 2000; ++i)
+            world.spawn({.position = {0, 0.01 * (i % 7)}, .contact = oiler::Contact{}});
+        const oiler::Entity a = world.spawn({.position = {0, 1}, .contact = oiler::Contact{}});
+        world.link(a, world.spawn({.position = {0, 2}}), {.stiffness = 9, .rest_length = 1});
+        for (int i = 0; i < 1000; ++i) world.step();
+        const long before = allocations;
+        std::size_t met = 0;
+        for (int i = 0; i < 1000; ++i) {
+            world.step();
+            met += world.impacts().size();
+        }
+        EXPECT_EQ(allocations, before) << threads;
+        EXPECT_GT(met, 50000U);
+    }
+}
+
 TEST(Allocations, ReadingAWorldMakesNone) {
     const World world = busy_world(oiler::methods().front(), Precision::single);
     const long before = allocations;

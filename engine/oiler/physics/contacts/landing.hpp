@@ -7,6 +7,7 @@
 #include <span>
 
 #include "oiler/physics/contacts/impact.hpp"
+#include "oiler/physics/contacts/lift.hpp"
 #include "oiler/physics/contacts/root.hpp"
 #include "oiler/physics/contacts/support.hpp"
 
@@ -104,22 +105,33 @@ private:
         report_(ImpactOf<T, Axes>{kind, index_of(plane), after_start, state.x, before, state.v});
     }
 
-    /// Moves a body that is below planes onto them: onto one after the other, which in a wedge
-    /// takes several rounds.
+    /// Moves a body that is below planes onto them.
     void lift(Motion& state) {
-        constexpr int most_rounds = 64;
-        bool lifted = true;
-        for (int round = 0; lifted && round < most_rounds; ++round) {
-            lifted = false;
-            for (const Surface& plane : planes_) {
-                const T below = -gap_of(plane, state.x);
-                if (below <= 0) continue;
-                const bool visible = below > gap_noise(plane, state);
-                lifted = lifted || visible;
-                state.x += plane.normal * below;
-                if (visible && round == 0) report(Meeting::lifted, plane, start_, state, state.v);
-            }
+        constexpr int most_moves = 64;
+        Lift<T, Axes> lift;
+        PlaneSet reported = 0;
+        for (int move = 0; move < most_moves; ++move) {
+            const Surface* const plane = lowest(state);
+            if (!plane) break;
+            state.x += lift.onto(*plane, [&](const Surface& one) { return gap_of(one, state.x); });
+            const PlaneSet bit = PlaneSet{1} << index_of(*plane);
+            if ((reported & bit) == 0) report(Meeting::lifted, *plane, start_, state, state.v);
+            reported |= bit;
         }
+        for (const Surface& plane : planes_)
+            if (const T below = -gap_of(plane, state.x); below > 0) state.x += plane.normal * below;
+    }
+    /// The plane that a body is farthest below, by more than round-off.
+    [[nodiscard]] const Surface* lowest(const Motion& state) const {
+        const Surface* lowest = nullptr;
+        T least = 0;
+        for (const Surface& plane : planes_) {
+            const T one = gap_of(plane, state.x);
+            if (one >= least || one >= -gap_noise(plane, state)) continue;
+            lowest = &plane;
+            least = one;
+        }
+        return lowest;
     }
 
     void advance(Motion& state, const Motion& to, T tau) {
