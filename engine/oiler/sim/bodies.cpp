@@ -153,15 +153,13 @@ Bodies::Bodies(const Bodies& other)
     : columns_(std::make_unique<AnyColumns>(*other.columns_)),
       planes_(other.planes_),
       team_(other.team_),
-      link_generations_(other.link_generations_),
-      free_slots_(other.free_slots_) {}
+      link_slots_(other.link_slots_) {}
 Bodies::Bodies(Bodies&&) noexcept = default;
 Bodies& Bodies::operator=(const Bodies& other) {
     *columns_ = *other.columns_;
     planes_ = other.planes_;
     team_ = other.team_;
-    link_generations_ = other.link_generations_;
-    free_slots_ = other.free_slots_;
+    link_slots_ = other.link_slots_;
     return *this;
 }
 Bodies& Bodies::operator=(Bodies&&) noexcept = default;
@@ -260,7 +258,7 @@ void Bodies::remove(std::size_t row) {
             columns.applied.swap_remove(row, --columns.size);
             columns.contacts.swap_remove(row, columns.size);
             remove_links(columns.links, row, columns.size,
-                         [&](const auto& link) { release_slot(link.slot); });
+                         [&](const auto& link) { link_slots_.release(link.slot); });
             columns.forces_changed();
         },
         columns_->of);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/core/handle_slots.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
 #include "oiler/sim/body.hpp"
@@ -183,14 +184,11 @@ private:
     [[nodiscard]] double link_potential(std::size_t i) const;
     void attach_given(std::size_t row, std::size_t index, const GivenForces& forces);
     void detach_kind(std::size_t row, std::size_t kind);
-    [[nodiscard]] LinkHandle take_slot();
-    void release_slot(std::uint32_t slot);
 
     std::unique_ptr<AnyColumns> columns_;
     std::vector<Plane> planes_;
     std::shared_ptr<Team> team_;
-    std::vector<std::uint32_t> link_generations_;  ///< odd while a link uses the slot
-    std::vector<std::uint32_t> free_slots_;
+    HandleSlots link_slots_;
 };
 
 }  // namespace oiler

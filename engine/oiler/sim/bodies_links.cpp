@@ -12,7 +12,7 @@ LinkHandle Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     limits.check(link);
     for (const std::size_t row : {a, b})
         limits.check(1 / mass(row), "the inverse mass of a linked body");
-    const LinkHandle handle = take_slot();
+    const LinkHandle handle = link_slots_.take<LinkHandle>();
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             columns.links.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
@@ -25,24 +25,7 @@ LinkHandle Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     return handle;
 }
 
-LinkHandle Bodies::take_slot() {
-    if (free_slots_.empty()) {
-        link_generations_.push_back(1);
-        return {static_cast<std::uint32_t>(link_generations_.size() - 1), 1};
-    }
-    const std::uint32_t slot = free_slots_.back();
-    free_slots_.pop_back();
-    return {slot, ++link_generations_[slot]};
-}
-
-void Bodies::release_slot(std::uint32_t slot) {
-    ++link_generations_[slot];
-    free_slots_.push_back(slot);
-}
-
-bool Bodies::alive(LinkHandle link) const {
-    return link.slot < link_generations_.size() && link_generations_[link.slot] == link.generation;
-}
+bool Bodies::alive(LinkHandle link) const { return link_slots_.holds(link.slot, link.generation); }
 
 void Bodies::unlink(LinkHandle link) {
     require(alive(link), "the link is gone");
@@ -53,7 +36,7 @@ void Bodies::unlink(LinkHandle link) {
             columns.forces_changed();
         },
         columns_->of);
-    release_slot(link.slot);
+    link_slots_.release(link.slot);
 }
 
 std::size_t Bodies::link_count() const {

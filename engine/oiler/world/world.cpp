@@ -24,8 +24,7 @@ World::World(int axes, const Settings& settings)
 World::World(const World& other)
     : settings_(other.settings_),
       tick_(other.tick_),
-      generations_(other.generations_),
-      free_(other.free_),
+      slots_(other.slots_),
       bodies_(other.bodies_),
       rows_(other.rows_),
       impacts_(other.impacts_) {
@@ -37,32 +36,21 @@ World& World::operator=(const World& other) {
     return *this;
 }
 
-Entity World::create() {
-    if (free_.empty()) {
-        generations_.push_back(1);
-        return {static_cast<std::uint32_t>(generations_.size() - 1), 1};
-    }
-    const std::uint32_t slot = free_.back();
-    free_.pop_back();
-    return {slot, ++generations_[slot]};
-}
+Entity World::create() { return slots_.take<Entity>(); }
 
 void World::destroy(Entity entity) {
     require(alive(entity), gone);
     for (const TaggedPool& entry : pools_) entry.pool->erase(entity.index);
     if (has_body(entity)) remove_body(entity);
-    ++generations_[entity.index];
-    free_.push_back(entity.index);
+    slots_.release(entity.index);
 }
 
-bool World::alive(Entity entity) const {
-    return entity.index < generations_.size() && generations_[entity.index] == entity.generation;
-}
+bool World::alive(Entity entity) const { return slots_.holds(entity.index, entity.generation); }
 
-std::size_t World::entity_count() const { return generations_.size() - free_.size(); }
+std::size_t World::entity_count() const { return slots_.used(); }
 
 Entity World::spawn(const Body& body, const GivenForces& forces) {
-    bodies_.add(body, forces);
+    placed("spawn", [&] { bodies_.add(body, forces); });
     const Entity entity = create();
     rows_.add(entity.index);
     return entity;
@@ -71,7 +59,7 @@ Entity World::spawn(const Body& body, const GivenForces& forces) {
 void World::reserve(std::size_t bodies) {
     bodies_.reserve(bodies);
     rows_.reserve(bodies);
-    generations_.reserve(bodies);
+    slots_.reserve(bodies);
 }
 
 void World::remove_body(Entity entity) {
@@ -90,7 +78,11 @@ std::size_t World::row(Entity entity) const {
 
 Entity World::entity_of_row(std::size_t row) const {
     require(row < rows_.size(), "there is no body in this row");
-    return {rows_[row], generations_[rows_[row]]};
+    return {rows_[row], slots_.generation(rows_[row])};
+}
+
+void World::refuse(const char* call, const Error& error) const {
+    fail(error.exit(), "{} at tick {}: {}", call, tick_, error.what());
 }
 
 void World::refuse(const char* call, Entity entity, const Error& error) const {
@@ -137,7 +129,9 @@ std::vector<std::string> World::preflight(std::size_t most) const {
 }
 
 LinkHandle World::link(Entity a, Entity b, const Link& link) {
-    return bodies_.link(row(a), row(b), link);
+    LinkHandle handle;
+    change("link", a, [&](std::size_t row_a) { handle = bodies_.link(row_a, row(b), link); });
+    return handle;
 }
 
 void World::list_impacts() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/handle_slots.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -97,7 +98,8 @@ public:
             const std::uint32_t slot = slots[place];
             const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
             if ((std::get<Rest*>(others) && ...))
-                f(Entity{slot, generations_[slot]}, (*first)[place], *std::get<Rest*>(others)...);
+                f(Entity{slot, slots_.generation(slot)}, (*first)[place],
+                  *std::get<Rest*>(others)...);
         }
     }
     template <class First, class... Rest, class F>
@@ -113,13 +115,13 @@ public:
     void add_body(Entity entity, const Body& body, const Force&... force) {
         require(alive(entity), gone);
         require(!has_body(entity), "the entity has a body already");
-        bodies_.add(body, force...);
+        placed("add_body", [&] { bodies_.add(body, force...); });
         rows_.add(entity.index);
     }
-    /// Creates an entity with a moving body.
+    /// Creates an entity with a moving body. The line of an error names call and tick.
     template <BodyForce... Force>
     Entity spawn(const Body& body, const Force&... force) {
-        bodies_.add(body, force...);
+        placed("spawn", [&] { bodies_.add(body, force...); });
         const Entity entity = create();
         rows_.add(entity.index);
         return entity;
@@ -192,13 +194,18 @@ public:
 
     /// Adds a plane, such as a floor, that bodies with a contact meet, and returns its index. See
     /// Bodies::add_plane.
-    std::size_t add_plane(const Plane& plane) { return bodies_.add_plane(plane); }
+    std::size_t add_plane(const Plane& plane) {
+        placed("add_plane", [&] { bodies_.add_plane(plane); });
+        return bodies_.planes().size() - 1;
+    }
     void clear_planes() { bodies_.clear_planes(); }
     /// The meetings of bodies with planes in the last call of step, in the order of time.
     [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
-    void set_gravity(const Vec3& acceleration) { bodies_.set_gravity(acceleration); }
+    void set_gravity(const Vec3& acceleration) {
+        placed("set_gravity", [&] { bodies_.set_gravity(acceleration); });
+    }
 
     /// Throws Error{usage} if the method cannot step these bodies; it steps nothing.
     void require_applicable() const;
@@ -245,6 +252,16 @@ private:
         return *find_pool<T>();
     }
 
+    /// Calls f() and adds call and tick to its errors.
+    template <class F>
+    void placed(const char* call, F f) {
+        try {
+            f();
+        } catch (const Error& error) {
+            refuse(call, error);
+        }
+    }
+    [[noreturn]] void refuse(const char* call, const Error& error) const;
     /// Calls f(row) and adds call, tick and entity to its errors.
     template <class F>
     void change(const char* call, Entity entity, F f) {
@@ -263,10 +280,7 @@ private:
 
     Settings settings_;
     std::int64_t tick_ = 0;
-    /// Odd while an entity uses the slot, even while it is free. No handle matches a free slot, not
-    /// even one from another copy of the world.
-    std::vector<std::uint32_t> generations_;
-    std::vector<std::uint32_t> free_;
+    HandleSlots slots_;
     std::vector<TaggedPool> pools_;
     Bodies bodies_;
     SlotSet rows_;
