@@ -84,9 +84,9 @@ struct LinkRun {
     std::size_t first;  ///< its index among the links
     std::size_t count;
 
-    /// Whether no row belongs to two of the links.
-    [[nodiscard]] [[gnu::always_inline]] bool is_disjoint() const {
-        return std::max(of.a, of.b) - std::min(of.a, of.b) >= count;
+    /// The distance of the two rows of a link.
+    [[nodiscard]] [[gnu::always_inline]] std::size_t shift() const {
+        return std::max(of.a, of.b) - std::min(of.a, of.b);
     }
 };
 

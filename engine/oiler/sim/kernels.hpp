@@ -38,14 +38,14 @@ struct LinkedKernels {
 template <std::floating_point T>
 struct AxisKernels {
     template <class Rule>
-    using Steps8 = std::array<std::size_t (*)(const AxisRows<T>&, const Rule&, const Steps&,
-                                              std::size_t begin, std::size_t end),
-                              8>;
+    using StepsByParts = std::array<std::size_t (*)(const AxisRows<T>&, const Rule&, const Steps&,
+                                                    std::size_t begin, std::size_t end),
+                                    8>;
 
-    Steps8<SplittingPlan<T>> splitting;
-    Steps8<TableauPlan<T>> tableau;
-    Steps8<ImplicitPlan<T>> implicit;
-    Steps8<ExactPlan<T>> exact;
+    StepsByParts<SplittingPlan<T>> splitting;
+    StepsByParts<TableauPlan<T>> tableau;
+    StepsByParts<ImplicitPlan<T>> implicit;
+    StepsByParts<ExactPlan<T>> exact;
 
     [[nodiscard]] const auto& of(const SplittingPlan<T>&) const { return splitting; }
     [[nodiscard]] const auto& of(const TableauPlan<T>&) const { return tableau; }

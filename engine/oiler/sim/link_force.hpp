@@ -13,10 +13,13 @@ struct LinkForce {
     CoilSpringForce<V, Axes> coil;
     bool without_length;
 
+    [[gnu::always_inline]] LinkForce(V stiffness, V damping, V rest_length, bool has_no_length)
+        : coil{Vec<V, Axes>{generate<Axes>([](auto) { return V(0); })}, stiffness, damping,
+               rest_length},
+          without_length(has_no_length) {}
     [[gnu::always_inline]] explicit LinkForce(const LinkRow<Scalar<V>>& link)
-        : coil{Vec<V, Axes>{generate<Axes>([](auto) { return V(0); })}, V(link.stiffness),
-               V(link.damping), V(link.rest_length)},
-          without_length(link.rest_length == 0) {}
+        : LinkForce(V(link.stiffness), V(link.damping), V(link.rest_length),
+                    link.rest_length == 0) {}
 
     /// `between` is the state of the first body relative to the second.
     [[nodiscard]] [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& between) const {

@@ -117,37 +117,95 @@ template <class V, class T, int Axes>
     push_rows<V>(from, run.count, inverse_mass, true, to, run.of.b);
 }
 
-/// Applies one link, without storing its force; the sum is that of push_run.
-template <class T, int Axes>
-[[gnu::always_inline]] inline void push_link(const LinkRow<T>& link,
-                                             const MotionColumns<T, Axes>& motion, Evaluate what,
-                                             const Parameter<T>& inverse_mass,
-                                             VecColumns<T, Axes>& to) {
-    const LinkForce<T, Axes> force(link);
-    const Vec<T, Axes> d = load<T>(motion.x, link.a) - load<T>(motion.x, link.b);
-    const Vec<T, Axes> f =
-        what == Evaluate::field
-            ? force.field(d)
-            : force.accelerate({d, load<T>(motion.v, link.a) - load<T>(motion.v, link.b)});
-    const T a = inverse_mass[link.a];
-    const T b = inverse_mass[link.b];
-    for_each_index<Axes>([&](auto axis) __attribute__((always_inline)) {
-        T* const at = to[axis].data();
-        at[link.a] = at[link.a] + f.axis[axis] * a;
-        at[link.b] = at[link.b] - f.axis[axis] * b;
-    });
+/// The most links between any two rows that are gathered together.
+inline constexpr std::size_t most_links_per_gather = 64;
+
+/// The first `count` runs, of one link each, between any two rows.
+template <std::floating_point T, int Axes>
+class GatheredLinks {
+public:
+    using Motion = MotionColumns<T, Axes>;
+
+    [[gnu::always_inline]] GatheredLinks(const LinkRun<T>* runs, std::size_t count,
+                                         const Motion& motion)
+        : runs_(runs), count_(count), without_length_(runs->of.rest_length == 0) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const LinkRow<T>& link = runs_[i].of;
+            stiffness_[i] = link.stiffness;
+            damping_[i] = link.damping;
+            rest_length_[i] = link.rest_length;
+            for (std::size_t axis = 0; axis < Axes; ++axis) {
+                x_[axis][i] = motion.x[axis][link.a] - motion.x[axis][link.b];
+                v_[axis][i] = motion.v[axis][link.a] - motion.v[axis][link.b];
+            }
+        }
+    }
+    /// Adds the accelerations, link by link.
+    template <class V>
+    void push(Evaluate what, const Parameter<T>& inverse_mass, VecColumns<T, Axes>& to) {
+        for_overlapping_lanes<V, T>(
+            count_, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
+                const LinkForce<N, Axes> link(load_from<N>(&stiffness_[i]),
+                                              load_from<N>(&damping_[i]),
+                                              load_from<N>(&rest_length_[i]), without_length_);
+                const State<N, Axes> between{load_rows<N>(x_, i), load_rows<N>(v_, i)};
+                const Vec<N, Axes> f =
+                    what == Evaluate::field ? link.field(between.x) : link.accelerate(between);
+                for (std::size_t axis = 0; axis < Axes; ++axis)
+                    store_to<N>(f.axis[axis], &force_[axis][i]);
+            });
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto [a, b] = std::pair{runs_[i].of.a, runs_[i].of.b};
+            for (std::size_t axis = 0; axis < Axes; ++axis) {
+                T* const at = to[axis].data();
+                at[a] = at[a] + force_[axis][i] * inverse_mass[a];
+                at[b] = at[b] - force_[axis][i] * inverse_mass[b];
+            }
+        }
+    }
+
+private:
+    using Numbers = std::array<T, most_links_per_gather>;
+
+    template <class N>
+    [[gnu::always_inline]] static Vec<N, Axes> load_rows(const std::array<Numbers, Axes>& numbers,
+                                                         std::size_t i) {
+        return {generate<Axes>([&](auto axis) { return load_from<N>(&numbers[axis][i]); })};
+    }
+
+    const LinkRun<T>* runs_;
+    std::size_t count_;
+    bool without_length_;
+    Numbers stiffness_, damping_, rest_length_;
+    std::array<Numbers, Axes> x_, v_, force_;
+};
+
+/// How many runs from `first` on are of one link, with the same law of force.
+template <class T>
+[[gnu::always_inline]] inline std::size_t count_single_links(const std::vector<LinkRun<T>>& runs,
+                                                             std::size_t first) {
+    const auto has_length = [&](std::size_t i) { return runs[i].of.rest_length != 0; };
+    const std::size_t end = std::min(runs.size(), first + most_links_per_gather);
+    std::size_t i = first;
+    while (i < end && runs[i].count == 1 && has_length(i) == has_length(first)) ++i;
+    return i - first;
 }
 
 template <class V, class T, int Axes>
 void push_links(const LinkCache<T, Axes>& cache, const MotionColumns<T, Axes>& motion,
                 Evaluate what, VecColumns<T, Axes>& to) {
-    for (const LinkRun<T>& run : cache.runs)
-        if (run.count == 1)
-            push_link<T, Axes>(run.of, motion, what, cache.inverse_mass, to);
+    for (std::size_t i = 0; i < cache.runs.size();) {
+        const LinkRun<T>& run = cache.runs[i];
+        const std::size_t single = count_single_links(cache.runs, i);
+        if (single > 0)
+            GatheredLinks<T, Axes>(&run, single, motion)
+                .template push<V>(what, cache.inverse_mass, to);
         else if (run.count < lanes_of<V>)
             push_run<T, T, Axes>(run, motion, what, cache.inverse_mass, to);
         else
             push_run<V, T, Axes>(run, motion, what, cache.inverse_mass, to);
+        i += std::max<std::size_t>(1, single);
+    }
 }
 
 /// The dampers of the links from `i` on of a run, for as many links as N has lanes.
@@ -176,19 +234,44 @@ template <class N, class T, int Axes>
     });
 }
 
+/// The dampers of a run, one after the other. With lanes up to the distance of the two rows of a
+/// link, no row belongs to two lanes.
 template <class V, class T, int Axes>
-[[gnu::always_inline]] inline void damp_run(const LinkRun<T>& run, const LinkCache<T, Axes>& cache,
-                                            MotionColumns<T, Axes>& motion, bool reverse) {
-    if (run.of.damping == 0) return;
-    if (run.is_disjoint()) {
+[[gnu::always_inline]] inline void damp_in_order(const LinkRun<T>& run,
+                                                 const LinkCache<T, Axes>& cache,
+                                                 MotionColumns<T, Axes>& motion, bool reverse) {
+    if (!reverse) {
         for_lanes<V, T>(
             run.count, [&]<class N>(N, std::size_t i) __attribute__((always_inline)) {
                 damp_lanes<N>(run, i, cache, motion);
             });
         return;
     }
-    for (std::size_t i = 0; i < run.count; ++i)
-        damp_lanes<T>(run, reverse ? run.count - 1 - i : i, cache, motion);
+    std::size_t left = run.count;
+    for (; left >= lanes_of<V>; left -= lanes_of<V>)
+        damp_lanes<V>(run, left - lanes_of<V>, cache, motion);
+    while (left > 0) damp_lanes<T>(run, --left, cache, motion);
+}
+
+/// The dampers of a chain: every other link, so that no link waits for the one before it.
+template <class T, int Axes>
+[[gnu::always_inline]] inline void damp_chain(const LinkRun<T>& run,
+                                              const LinkCache<T, Axes>& cache,
+                                              MotionColumns<T, Axes>& motion, bool reverse) {
+    for (const std::size_t first : {reverse ? 1U : 0U, reverse ? 0U : 1U})
+        for (std::size_t i = first; i < run.count; i += 2) damp_lanes<T>(run, i, cache, motion);
+}
+
+template <class V, class T, int Axes>
+[[gnu::always_inline]] inline void damp_run(const LinkRun<T>& run, const LinkCache<T, Axes>& cache,
+                                            MotionColumns<T, Axes>& motion, bool reverse) {
+    if (run.of.damping == 0) return;
+    if (run.shift() == 1)
+        damp_chain(run, cache, motion, reverse);
+    else if (run.shift() >= lanes_of<V>)
+        damp_in_order<V>(run, cache, motion, reverse);
+    else
+        damp_in_order<T>(run, cache, motion, reverse);
 }
 
 template <class V, class T, int Axes>
