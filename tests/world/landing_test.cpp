@@ -491,6 +491,8 @@ TEST(Landing, RefusesWrongNumbers) {
     };
     refused({.normal = {0, 0}});
     refused({.normal = {0, 0, 1}});
+    refused({.normal = {1e200, 0}, .offset = 1e200});
+    refused({.normal = {1e-200, 0}});
     refused({.normal = {0, 1}, .restitution = -0.1});
     refused({.normal = {0, 1}, .restitution = 1.01});
     refused({.normal = {0, 1}, .restitution = std::nan("")});

@@ -266,4 +266,119 @@ TEST(Resting, OfALinkedBody) {
     }
 }
 
+// A ball falls from rest over h and slides on: with u = √(2gh), each impact takes μ(1 + e)·u·eᵏ of
+// the speed along the floor, and the flights last 2u·eᵏ⁺¹/g. When the bounces are over, it slides
+// w²/(2μg). Friction during the bounces that a step passes over must count once.
+TEST(Sliding, AfterBouncesEndsWhereTheClosedFormDoes) {
+    constexpr double h = 1;
+    constexpr double e = 0.6;
+    constexpr double mu = 0.2;
+    const double u = std::sqrt(2 * g * h);
+    double x = 8 * u / g;
+    double along = 8;
+    for (double speed = u; speed > 1e-12; speed *= e) {
+        along -= mu * (1 + e) * speed;
+        x += along * 2 * e * speed / g;
+    }
+    x += along * along / (2 * mu * g);
+    const double tail_ends = u / g + 2 * u * e / (g * (1 - e));
+    const double rests_at = x - along * along / (2 * mu * g);
+    for (const char* method : {"velocity_verlet", "rk4", "exact", "implicit_midpoint"})
+        for (const int rate : {3, 20, 60, 240}) {
+            World world = world_of(method, rate, 2);
+            world.set_gravity({0, -g});
+            world.add_plane({.normal = {0, 1}, .restitution = e, .friction = mu});
+            const Entity ball =
+                world.spawn({.position = {0, h}, .velocity = {8}, .contact = Contact{}});
+            int rests = 0;
+            while (world.time() < 6) {
+                world.step();
+                for (const oiler::Impact& impact : world.impacts()) {
+                    if (impact.kind != oiler::Meeting::rest) continue;
+                    ++rests;
+                    EXPECT_NEAR(impact.time, tail_ends, 1e-12) << method << rate;
+                    EXPECT_NEAR(impact.point[0], rests_at, 1e-10) << method << rate;
+                }
+            }
+            EXPECT_EQ(rests, 1) << method << rate;
+            EXPECT_NEAR(world.position(ball)[0], x, 1e-10) << method << rate;
+            EXPECT_EQ(world.velocity(ball)[0], 0) << method << rate;
+        }
+}
+
+/// Where a puck stops that is thrown across a slope, from many small steps of its law in the plane:
+/// pull p downhill, friction g against the velocity.
+std::array<double, 2> stop_of_puck(double vx, double vy, double pull, double grip) {
+    double x = 0;
+    double y = 0;
+    constexpr double dt = 1e-6;
+    while (std::hypot(vx, vy) > 2 * grip * dt) {
+        const double speed = std::hypot(vx, vy);
+        const double ax = -grip * vx / speed;
+        const double ay = pull - grip * vy / speed;
+        x += vx * dt + ax * dt * dt / 2;
+        y += vy * dt + ay * dt * dt / 2;
+        vx += ax * dt;
+        vy += ay * dt;
+    }
+    return {x, y};
+}
+
+// A slope of tan w = 0.1 with μ = 0.4; the slide has order 2, and stops at every rate.
+TEST(Sliding, AcrossASlopeStops) {
+    const double w = std::atan(0.1);
+    const double pull = g * std::sin(w);
+    const double grip = 0.4 * g * std::cos(w);
+    // Across at 3 m/s, and uphill at 1 m/s. Downhill is (−cos w, −sin w, 0).
+    const auto [across, down] = stop_of_puck(3, -1, pull, grip);
+    const auto error = [&](const char* method, int rate) {
+        World world = world_of(method, rate, 3);
+        world.set_gravity({0, -g, 0});
+        world.add_plane({.normal = {-0.1, 1, 0}, .friction = 0.4});
+        const Entity puck = world.spawn(
+            {.velocity = {std::cos(w), std::sin(w), 3}, .contact = Contact{}});
+        world.step(2 * rate);
+        EXPECT_EQ(length(world.velocity(puck)), 0) << method << rate;
+        const oiler::Vec3 end = world.position(puck);
+        return std::hypot(end[0] + down * std::cos(w), end[1] + down * std::sin(w),
+                          end[2] - across);
+    };
+    for (const char* method :
+         {"semi_implicit_euler", "velocity_verlet", "rk4", "exact", "implicit_midpoint", "pefrl"})
+        for (const int rate : {30, 50, 60, 100, 240}) (void)error(method, rate);
+    // The errors at a stop depend on its place in a step: their bound falls by 4.
+    for (const char* method : {"velocity_verlet", "exact", "rk4"}) {
+        EXPECT_LT(error(method, 60), 1e-3) << method;
+        EXPECT_LT(error(method, 480), 1e-3 / 64 + 3e-6) << method;
+    }
+}
+
+// At the apex of a wedge at the origin, no distance and no speed is left to compare round-off with.
+TEST(Resting, AtTheApexOfAWedge) {
+    for (const double steep : {0.5, 0.2, 0.05, 0.01})
+        for (const double e : {0.0, 0.5})
+            for (const double from : {0.0, 0.1}) {
+                World world = world_of("velocity_verlet", 60, 2);
+                world.set_gravity({0, -g});
+                world.add_plane({.normal = {1, steep}, .restitution = e});
+                world.add_plane({.normal = {-1, steep}, .restitution = e});
+                const Entity ball = world.spawn({.position = {from, 20}, .contact = Contact{}});
+                world.step(1200);
+                EXPECT_NEAR(length(world.position(ball)), 0, 1e-12) << steep << e << from;
+            }
+}
+
+// Planes that leave no room for a body leave its numbers finite.
+TEST(Resting, WhereThereIsNoRoom) {
+    World world = world_of("velocity_verlet", 60, 2);
+    world.set_gravity({0, -g});
+    for (const oiler::Vec3 normal :
+         {oiler::Vec3{0.9, 1.96}, {0.63, -0.64}, {-0.8, -0.63}, {0.21, 0.72}})
+        world.add_plane({.normal = normal});
+    const Entity ball = world.spawn(
+        {.position = {-0.33, -0.17}, .velocity = {1.98, 0.65}, .contact = Contact{0.1}});
+    world.step(600);
+    EXPECT_LT(length(world.position(ball)), 1);
+}
+
 }  // namespace

@@ -7,6 +7,15 @@
 #include "oiler/core/error.hpp"
 
 namespace oiler {
+namespace {
+
+/// Apart from the checks, so that they are inlined.
+[[noreturn, gnu::cold]] void refuse(double number, std::string_view what, double largest) {
+    fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
+         largest);
+}
+
+}  // namespace
 
 Limits::Limits(Precision precision, int axes)
     : largest_(precision == Precision::single
@@ -15,9 +24,7 @@ Limits::Limits(Precision precision, int axes)
       axes_(axes) {}
 
 void Limits::check(double number, std::string_view what) const {
-    if (!(std::abs(number) <= largest_))
-        fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
-             largest_);
+    if (!(std::abs(number) <= largest_)) refuse(number, what, largest_);
 }
 
 void Limits::check(const Vec3& vector, std::string_view what) const {
@@ -60,6 +67,8 @@ void Limits::check(const Plane& plane) const {
     check(plane.offset, "a plane's offset");
     const double size = length(plane.normal);
     if (!(size > 0)) fail(Exit::usage, "a plane's normal is 0: give the direction away from it");
+    if (!(size > 1e-30 && size < 1e30))
+        fail(Exit::usage, "a plane's normal of length {:g}: give one of length 1", size);
     check(plane.offset / size, "a plane's offset, by the length of its normal,");
     if (!(plane.restitution >= 0 && plane.restitution <= 1))
         fail(Exit::usage, "a plane's restitution of {}: give 0 (no bounce) to 1 (no loss)",

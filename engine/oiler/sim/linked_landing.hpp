@@ -32,7 +32,7 @@ bool land_linked_rows(Columns<T, Axes>& columns, const VecColumns<T, Axes>& velo
                 const T kept = plane.restitution * std::max(fallen, T(0));
                 // Whether all later flights would end within a step.
                 const bool rests = 2 * kept <= (1 - plane.restitution) * (speed - fallen);
-                state.v = bounced(plane, v, speed, rests ? T(0) : kept);
+                state.v = pushed_off(plane, landed(plane, v, speed), rests ? T(0) : kept);
                 if (fallen > hidden_speed(v))
                     contacts.impacts.push_back(
                         {tick, row, index++, {Meeting::bounce, i, dt, state.x, v, state.v}});

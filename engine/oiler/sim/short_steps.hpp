@@ -41,14 +41,17 @@ public:
           t_(t) {}
 
     [[nodiscard]] Motion fly(const Motion& from, T start, T tau) {
-        return step(from, start, tau, [](auto& physics, auto take) { take(physics); });
+        return step(from, start, tau,
+                    [](auto& physics, const Braking<T>&, auto take) { take(physics); });
     }
     [[nodiscard]] Motion slide(const Motion& from, T start, T tau, const Support<T, Axes>& support,
                                const Friction<T, Axes>& friction) {
-        return step(from, start, tau, [&]<class Physics>(Physics& physics, auto take) {
-            SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction);
-            take(sliding);
-        });
+        return step(from, start, tau,
+                    [&]<class Physics>(Physics& physics, const Braking<T>& braking, auto take) {
+                        SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction,
+                                                                 braking);
+                        take(sliding);
+                    });
     }
     [[nodiscard]] Vector accelerate(const Motion& at, T start) {
         ++evaluations_;
@@ -67,7 +70,7 @@ private:
         return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
     }
 
-    /// One step of `tau` s; `with(physics, take)` calls take with the physics to step.
+    /// One step of `tau` s; `with(physics, braking, take)` calls take with the physics to step.
     template <class With>
     Motion step(const Motion& from, T start, T tau, With with) {
         const Plan<T> plan = make_plan<T>(method_, tau, damping_);
@@ -80,9 +83,11 @@ private:
         prepare_flows(rule);
         RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows_.data(), 0,
                                                  damping_of(rule));
-        with(physics, [&](auto& stepped) {
-            solved_ &= step_once(rule, state, stepped, t_ + static_cast<double>(start));
-        });
+        constexpr bool by_flows =
+            std::is_same_v<Rule, SplittingPlan<T>> || std::is_same_v<Rule, ExactPlan<T>>;
+        const double t = t_ + static_cast<double>(start);
+        with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t},
+             [&](auto& stepped) { solved_ &= step_once(rule, state, stepped, t); });
         evaluations_ += physics.evaluations();
     }
 

@@ -34,9 +34,16 @@ bool is_damped_along_lines(const Scene& scene) {
     return false;
 }
 
+/// Whether friction may turn with a body's velocity.
+bool slides_in_two_directions(const Scene& scene) {
+    const auto brakes = [](const ScenePlane& one) { return one.plane.friction > 0; };
+    return scene.axes == 3 && std::any_of(scene.planes.begin(), scene.planes.end(), brakes);
+}
+
 /// A method of the highest order that holds on the scene, with a small error constant.
 const Method& finest_method(const Scene& scene) {
-    return find_method(is_damped_along_lines(scene) ? "rk4" : "kahan_li8_kdk");
+    const bool by_stages = is_damped_along_lines(scene) || slides_in_two_directions(scene);
+    return find_method(by_stages ? "rk4" : "kahan_li8_kdk");
 }
 
 /// fine + (fine − coarse)/divisor, in the memory of `coarse`.

@@ -102,11 +102,12 @@ private:
             Real3 along = state_.v + surface.normal * speed;
             const Real glide = std::sqrt(squared_length(along));
             const Real kept = surface.restitution * speed;
-            const Real braked = surface.friction * (speed + kept);
-            along = braked < glide ? along * (1 - braked / glide) : Real3{};
             const Real pull = -dot(surface.normal, acceleration(free_, state_));
             const bool over =
                 pull > 0 && 2 * kept <= shortest_flight * pull && surface.restitution < 1;
+            // The friction of all further bounces is that of a slide from the landing on.
+            const Real braked = surface.friction * (over ? speed : speed + kept);
+            along = braked < glide ? along * (1 - braked / glide) : Real3{};
             state_.v = along + surface.normal * (over ? Real(0) : kept);
             return true;
         }

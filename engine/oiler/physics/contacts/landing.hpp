@@ -9,6 +9,7 @@
 #include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/lift.hpp"
 #include "oiler/physics/contacts/root.hpp"
+#include "oiler/physics/contacts/slide_end.hpp"
 #include "oiler/physics/contacts/support.hpp"
 
 namespace oiler {
@@ -64,6 +65,8 @@ public:
     /// Steps the state by `duration` s.
     [[nodiscard]] Landed step(Motion& state, T duration) {
         duration_ = left_ = duration;
+        const T speed = largest(body_.accelerate(state, T(0))) * duration;
+        hidden_ = {8 * epsilon * speed, 8 * epsilon * speed * duration};
         lift(state);
         for (int events = 0; left_ > 0; ++events) {
             if (events == most_events) return Landed::unresolved;
@@ -89,7 +92,10 @@ private:
     static constexpr T shortest_flight = T(1) / 64;
 
     [[nodiscard]] T gap_noise(const Surface& plane, const Motion& state) const {
-        return hidden_distance(plane, state, radius_, duration_);
+        return hidden_distance(plane, state, radius_, duration_) + hidden_.distance;
+    }
+    [[nodiscard]] T speed_noise(const Motion& state) const {
+        return hidden_speed(state.v) + hidden_.speed;
     }
     [[nodiscard]] T gap_of(const Surface& plane, const Vector& x) const {
         return gap(plane, x, radius_);
@@ -150,7 +156,7 @@ private:
             const T u = leaving_speed(plane, state.v);
             const T pull = -dot(plane.normal, a);
             const bool hidden = pull > 0 && u * u <= 2 * pull * gap_noise(plane, state);
-            if (touches(plane, state) && (u <= hidden_speed(state.v) || hidden))
+            if (touches(plane, state) && (u <= speed_noise(state) || hidden))
                 set |= PlaneSet{1} << index_of(plane);
         }
         return set;
@@ -160,17 +166,20 @@ private:
     bool bounce(Motion& state) {
         for (const Surface& plane : planes_) {
             const T speed = -leaving_speed(plane, state.v);
-            if (!(speed > hidden_speed(state.v)) || !touches(plane, state)) continue;
+            if (!(speed > speed_noise(state)) || !touches(plane, state)) continue;
             const Vector before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
+            const T kept = plane.restitution * speed;
             if (++bounces_at_once_ > most_bounces_at_once) {
                 state.v =
                     Bearing::against(before, planes_, touched_planes(state)).without_push(before);
-            } else {
-                state.v = bounced(plane, before, speed, plane.restitution * speed);
+                report(Meeting::bounce, plane, start_, state, before);
+                return true;
             }
+            const Vector along = landed(plane, before, speed);
+            state.v = pushed_off(plane, along, kept);
             report(Meeting::bounce, plane, start_, state, before);
-            follow_bounce(plane, state, plane.restitution * speed);
+            follow_bounce(plane, state, along, kept);
             return true;
         }
         return false;
@@ -181,26 +190,45 @@ private:
             if (touches(plane, state)) set |= PlaneSet{1} << index_of(plane);
         return set;
     }
-    /// Ends bounces whose flights are all over within the step: with acceleration a towards the
-    /// plane, all flights after a bounce to speed u last 2u/(a·(1 − e)). Passes over flights that
-    /// are much shorter than the step.
-    void follow_bounce(const Surface& plane, Motion& state, T speed) {
+    /// Ends bounces whose flights are all over within the step, or are lower than round-off shows:
+    /// with acceleration a towards the plane, all flights after a bounce to speed u last
+    /// 2u/(a·(1 − e)). Passes over flights that are much shorter than the step. In both cases the
+    /// body slides with the velocity `along` that it had between landing and being pushed off:
+    /// under constant forces, this gives the same velocity and place as all the flights.
+    void follow_bounce(const Surface& plane, Motion& state, const Vector& along, T kept) {
         const Vector a = body_.accelerate(state, start_);
         const PlaneSet others = bearing_planes(state, a) & ~(PlaneSet{1} << index_of(plane));
         const T pull = -dot(plane.normal, Bearing::against(a, planes_, others).without_push(a));
         if (!(pull > 0)) return;
-        const T flight = 2 * speed / pull;
+        const T flight = 2 * kept / pull;
         const T lost = 1 - plane.restitution;
+        const auto bearing = Bearing::against(a, planes_, others | PlaneSet{1} << index_of(plane));
         if (flight <= lost * left_) {
-            state.v -= plane.normal * leaving_speed(plane, state.v);
-            report(Meeting::rest, plane, start_ + (lost > 0 ? flight / lost : T(0)), state,
-                   state.v);
+            state.v = along;
+            report_rest(plane, state, bearing, a, lost > 0 ? flight / lost : T(0));
+        } else if (kept * kept <= 2 * pull * gap_noise(plane, state)) {
+            state.v = along;
+            report_rest(plane, state, bearing, a, T(0));
         } else if (flight < shortest_flight * left_) {
-            const T tau =
-                glide(state, Bearing::against(a, planes_, others | PlaneSet{1} << index_of(plane)));
-            state.v += plane.normal * (speed * (1 - tau * lost / flight));
+            state.v = along;
+            const T tau = glide(state, bearing);
+            state.v = pushed_off(plane, state.v, kept * (1 - tau * lost / flight));
             settled_ = false;
         }
+    }
+    /// The bounces of a body that slides end `after` s from now.
+    void report_rest(const Surface& plane, const Motion& state, const Bearing& bearing,
+                     const Vector& a, T after) {
+        const T speed = length(state.v);
+        Motion end = state;
+        if (speed > 0) {
+            const Vector direction = state.v * (1 / speed);
+            const Vector slowing = bearing.without_push(a) - direction * bearing.grip(a);
+            const T rate = -dot(slowing, direction);
+            const T tau = rate * after > speed ? speed / rate : after;
+            end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
+        }
+        report(Meeting::rest, plane, start_ + after, end, end.v);
     }
 
     /// The first part of what is left of the step.
@@ -223,7 +251,7 @@ private:
         return sticks(support, state, a) ? stick(state, support) : slide(state, support, a);
     }
     void rest_on(const Bearing& support, Motion& state) const {
-        const T noise = hidden_speed(state.v);
+        const T noise = speed_noise(state);
         state.v = support.without_push(state.v);
         if (largest(state.v) <= noise) state.v = {};
         for (std::size_t i = 0; i < support.size(); ++i)
@@ -264,10 +292,16 @@ private:
     }
 
     T slide(Motion& state, const Bearing& support, const Vector& a) {
-        const Vector direction =
-            normalised(state.v == Vector{} ? support.without_push(a) : state.v);
+        const Vector pull = support.without_push(a);
+        const Vector direction = normalised(state.v == Vector{} ? pull : state.v);
         const T grip = support.grip(a);
-        const Friction<T, Axes> friction{direction, length(state.v) > 4 * grip * duration_};
+        const bool turns = grip > 0 && support.size() + 2 <= Axes;
+        if (turns && state.v != Vector{} && dot(pull, pull) < grip * grip)
+            if (const auto end = slide_end(state.v, pull, grip); end.time <= left_) {
+                advance(state, {state.x + end.way, Vector{}}, end.time);
+                return end.time;
+            }
+        const Friction<T, Axes> friction{direction, turns};
         const auto move = [&](T tau) { return body_.slide(state, start_, tau, support, friction); };
         Leg leg{move(left_), left_};
         for (const Surface& plane : planes_)
@@ -322,7 +356,7 @@ private:
         };
         if (end < 0) {
             if (start > noise) return between(0, start, leg.tau, end);
-            if (u_start <= hidden_speed(state.v)) return std::nullopt;  // it glides along the plane
+            if (u_start <= speed_noise(state)) return std::nullopt;  // it glides along the plane
             T top = u_end < 0 ? turning_time(1) : leg.tau / 2;
             T h_top = height(top);
             while (h_top <= 0 && top > epsilon * leg.tau) h_top = height(top /= 2);
@@ -345,6 +379,11 @@ private:
     T left_ = 0;      ///< s
     int bounces_at_once_ = 0;
     bool settled_ = false;
+    /// What round-off hides in a step from rest.
+    struct {
+        T speed = 0;     ///< m/s
+        T distance = 0;  ///< m
+    } hidden_;
 };
 
 /// Whether a step of `duration` s that ignored a plane brought the body below it, may have done so

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "oiler/math/matrix.hpp"
@@ -25,7 +26,9 @@ public:
             const Vec<T, Axes> ways = ways_along_normals(gap_of);
             const T* const first = ways.axis.data();
             const T* const least = std::min_element(first, first + count_ - 1);
-            if (count_ == 1 || *least > 0) return sum_of_normals(ways);
+            // Not finite where normals depend on each other.
+            const bool needs_all = *least > 0 && std::isfinite(largest(ways));
+            if (count_ == 1 || needs_all) return sum_of_normals(ways);
             drop(static_cast<std::size_t>(least - first));
         }
     }

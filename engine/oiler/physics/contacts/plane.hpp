@@ -43,16 +43,28 @@ template <std::floating_point T, int Axes>
     return dot(plane.normal, v);
 }
 
-/// The velocity after an impact with `speed` into the plane, of which the body keeps `kept`, m/s,
+/// The velocity along the plane after friction against a push of the plane, which changes the
+/// normal speed by `push`, m/s.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Vec<T, Axes> braked(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& along,
+                                  T push) {
+    const T speed = length(along);
+    const T lost = plane.friction * push;
+    return lost < speed ? along * (1 - lost / speed) : Vec<T, Axes>{};
+}
+
+/// The velocity after the first part of an impact with `speed` into the plane: the body is stopped,
 /// with Coulomb's friction.
 template <std::floating_point T, int Axes>
-[[nodiscard]] Vec<T, Axes> bounced(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& v, T speed,
-                                   T kept) {
-    Vec<T, Axes> along = v + plane.normal * speed;
-    const T glide = length(along);
-    const T braked = plane.friction * (speed + kept);
-    along = braked < glide ? along * (1 - braked / glide) : Vec<T, Axes>{};
-    return along + plane.normal * kept;
+[[nodiscard]] Vec<T, Axes> landed(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& v, T speed) {
+    return braked(plane, v + plane.normal * speed, speed);
+}
+
+/// The velocity after the second part of an impact: the body is pushed off with the speed `kept`.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Vec<T, Axes> pushed_off(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& along,
+                                      T kept) {
+    return braked(plane, along, kept) + plane.normal * kept;
 }
 
 }  // namespace oiler

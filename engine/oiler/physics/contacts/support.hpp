@@ -102,9 +102,7 @@ private:
 template <std::floating_point T, int Axes>
 struct Friction {
     Vec<T, Axes> direction;  ///< at the start of a step, of length 1
-    /// Whether friction turns with the velocity. Near the end of a slide it does not, because the
-    /// direction of a vanishing velocity changes faster than any step follows.
-    bool turns;
+    bool turns;              ///< whether the body may slide in two directions
 
     [[nodiscard]] Vec<T, Axes> against(const Vec<T, Axes>& v) const {
         return turns && dot(v, direction) > 0 ? -normalised(v) : -direction;
