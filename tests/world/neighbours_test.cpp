@@ -94,6 +94,11 @@ TEST(Neighbours, AreInAClosedBall) {
     EXPECT_EQ(expect_same(world, neighbours, {0, 0}, std::nextafter(5, 0)), 0U);
     EXPECT_EQ(expect_same(world, neighbours, {3, 4}, 0), 1U);
     EXPECT_EQ(expect_same(world, neighbours, {3, std::nextafter(4, 5)}, 0), 0U);
+    world.teleport(at, {1e-25, 0});
+    neighbours.update(world);
+    EXPECT_EQ(expect_same(world, neighbours, {-1, 0}, 1), 1U) << "1 + 1e-25 is 1";
+    world.teleport(at, {3, 4});
+    neighbours.update(world);
     EXPECT_EQ(neighbours.within({3, 4, 1e9}, 0), std::vector{at}) << "the world has no z";
     EXPECT_EQ(world.within({3, 4, NAN}, 0), std::vector{at}) << "the world has no z";
 }

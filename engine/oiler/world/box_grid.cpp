@@ -9,20 +9,12 @@ namespace oiler {
 namespace {
 
 constexpr int greatest_exponent = 1025;
-/// Coordinates are at most 2^40 cells from the origin, so that each cell is different in double.
-constexpr double least_cell_per_metre = 0x1p-40;
 
 /// The exponent of the smallest cells that are wider than the box; none if it is not finite.
 std::optional<int> exponent_of(const Bounds& box) {
-    double half = 0x1p-1002;
-    double distance = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        half = larger(half, box.high.axis[i] / 2 - box.low.axis[i] / 2);
-        distance = larger(distance, larger(std::abs(box.low.axis[i]), std::abs(box.high.axis[i])));
-    }
-    if (!std::isfinite(distance)) return std::nullopt;
-    const double least_half = larger(half, distance * least_cell_per_metre / 2);
-    return static_cast<int>(std::bit_cast<std::uint64_t>(least_half) >> 52) - 1021;
+    if (!std::isfinite(larger(largest(box.low), largest(box.high)))) return std::nullopt;
+    const double half = std::max(largest(box.high / 2 - box.low / 2), 0x1p-1002);
+    return static_cast<int>(std::bit_cast<std::uint64_t>(half) >> 52) - 1021;
 }
 
 }  // namespace

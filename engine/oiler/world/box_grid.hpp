@@ -80,16 +80,14 @@ private:
     static constexpr int run_bits = 6;
     static constexpr std::int64_t run = std::int64_t{1} << run_bits;
 
+    /// Rounds towards 0: the cells at the origin are twice as wide. The outermost cells have no
+    /// end.
     [[nodiscard]] Cell cell_of(const Vec3& corner, double per_cell) const {
         Cell cell{};
-        for (std::size_t i = 0; i < axes_; ++i) cell[i] = floor(corner.axis[i] * per_cell);
+        for (std::size_t i = 0; i < axes_; ++i)
+            cell[i] =
+                static_cast<std::int64_t>(std::clamp(corner.axis[i] * per_cell, -0x1p61, 0x1p61));
         return cell;
-    }
-    /// Unlike std::floor it needs no SSE4.1 to be fast. Boxes are less than 2^41 cells away.
-    [[nodiscard]] static std::int64_t floor(double number) {
-        const double near = std::clamp(number, -0x1p42, 0x1p42);
-        const auto whole = static_cast<std::int64_t>(near);
-        return whole - (near < static_cast<double>(whole));
     }
     /// The number of the first cell of a run: random factors, and the finaliser of SplitMix64
     /// (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014).
