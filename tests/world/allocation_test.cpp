@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "oiler/world/world.hpp"
+#include "oiler/world/collisions.hpp"
+#include "oiler/world/neighbours.hpp"
 #include "support/counting_new.hpp"
 
 namespace {
@@ -88,6 +89,30 @@ TEST(Allocations, ReadingAWorldMakesNone) {
     const std::uint64_t hash = world.state_hash();
     const double energy = world.bodies().energy().total();
     EXPECT_EQ(allocations, before) << hash << energy;
+}
+
+TEST(Allocations, UpdatesOfQueriesMakeNone) {
+    World world(2, {.rate = {60}});
+    for (int i = 0; i < 100; ++i) {
+        const oiler::Vec3 position{0.7 * (i % 10), 0.7 * (i / 10)};
+        const double radius = i % 10 == 0 ? 2 : 0.4;
+        static_cast<void>(world.spawn({.position = position, .contact = oiler::Contact{radius}},
+                                      oiler::Spring{.anchor = position * 1.1, .stiffness = 1}));
+    }
+    oiler::Collisions collisions;
+    oiler::Neighbours neighbours;
+    const auto step = [&](int steps) {
+        for (int i = 0; i < steps; ++i) {
+            world.step();
+            collisions.update(world);
+            neighbours.update(world);
+        }
+    };
+    step(1000);
+    EXPECT_GT(collisions.pairs().size(), 50U);
+    const long before = allocations;
+    step(1000);
+    EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

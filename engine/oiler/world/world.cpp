@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <span>
 
+#include "oiler/world/ball.hpp"
+
 namespace oiler {
 namespace {
 
@@ -98,6 +100,14 @@ void World::teleport(Entity entity, const Vec3& position) {
 std::uint32_t World::jumps(Entity entity) const {
     const Jumps* const jumps = find<Jumps>(entity);
     return jumps ? jumps->count : 0;
+}
+
+std::vector<Entity> World::within(const Vec3& point, double radius) const {
+    const Ball ball(point, radius, bodies_.axes());
+    std::vector<Entity> entities;
+    for (std::size_t row = 0; row < bodies_.size(); ++row)
+        if (ball.contains(bodies_.position(row))) entities.push_back(entity_of_row(row));
+    return entities;
 }
 
 void World::step(std::int64_t count) {

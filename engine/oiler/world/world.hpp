@@ -202,6 +202,12 @@ public:
     /// The meetings of bodies with planes in the last call of step, in the order of time.
     [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 
+    /// The entities whose bodies have their centres at most `radius` m from `point`, in the order
+    /// of the rows. Coordinates of `point` on axes that the world lacks are ignored. Throws
+    /// Error{usage} for a radius that is negative, and for numbers that are not finite. It tests
+    /// all bodies; see Neighbours for many queries.
+    [[nodiscard]] std::vector<Entity> within(const Vec3& point, double radius) const;
+
     [[nodiscard]] const Bodies& bodies() const { return bodies_; }
     void set_gravity(const Vec3& acceleration) {
         placed("set_gravity", [&] { bodies_.set_gravity(acceleration); });

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "oiler/world/box_grid.hpp"
+#include "oiler/world/world.hpp"
+
+namespace oiler {
+
+/// Finds the bodies near a point, for more than about ten queries between two steps: an update
+/// takes as long as ten calls of World::within.
+///
+/// It is a value that a game keeps and updates after each step.
+class Neighbours {
+public:
+    /// Stores the positions of all bodies. Memory is reused.
+    void update(const World& world);
+
+    /// Like World::within, with the positions and entities of the last update. Bodies in clusters
+    /// far away from each other take longer to find, but hardly longer than World::within takes.
+    [[nodiscard]] std::vector<Entity> within(const Vec3& point, double radius) const;
+
+private:
+    int axes_ = 0;
+    std::vector<Entity> entities_;  ///< for each row
+    BoxGrid grid_;
+};
+
+}  // namespace oiler
