@@ -73,6 +73,8 @@ void measure(Bench& bench) {
     bench_threads(bench);
     bench_settled(bench);
     bench_peers(bench);
+    bench_bounces(bench);
+    bench_bounce_costs(bench);
     bench_nets(bench);
     bench_entities(bench);
     bench_memory(bench);
