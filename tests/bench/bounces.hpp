@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <string>
+#include <filesystem>
 #include <string_view>
 
+#include "bench/report.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler::bench {
@@ -23,5 +24,11 @@ inline constexpr std::string_view dragged_bounces =
 /// Bounces the body as most engines do, after a step that ignored the plane: a body that is below
 /// the plane and moves down is put onto it with the reflected velocity.
 void bounce_at_end(World& world, Entity body, const Plane& plane, double radius);
+
+/// Draws the errors over the rate.
+void draw_bounce_errors(const Report& report, const std::filesystem::path& folder);
+/// Draws the path of assets/scenes/bouncing_ball.toml at 20 Hz with both kinds of bounces, over the
+/// exact path.
+void draw_ball_path(const std::filesystem::path& folder);
 
 }  // namespace oiler::bench
