@@ -42,5 +42,7 @@ void bench_memory(Bench& bench);
 void bench_loop(Bench& bench);
 void bench_frames(Bench& bench);
 void bench_peers(Bench& bench);
+void bench_bounces(Bench& bench);
+void bench_bounce_costs(Bench& bench);
 
 }  // namespace oiler::bench

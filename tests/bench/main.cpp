@@ -52,7 +52,8 @@ void declare(CLI::App& app, Bench& bench, Words& words) {
                    "of Oiler and the hand-written loops: SSE2, AVX2 or AVX-512; the widest")
         ->type_name("NAME");
     app.add_option("--json", words.json, "write all numbers, - for stdout")->type_name("FILE");
-    app.add_option("--plot", words.plot, "draw cost over the number of bodies")->type_name("DIR");
+    app.add_option("--plot", words.plot, "draw cost over the number of bodies, and bounces")
+        ->type_name("DIR");
 }
 
 void state_facts(Bench& bench) {
@@ -73,6 +74,8 @@ void measure(Bench& bench) {
     bench_threads(bench);
     bench_settled(bench);
     bench_peers(bench);
+    bench_bounces(bench);
+    bench_bounce_costs(bench);
     bench_nets(bench);
     bench_entities(bench);
     bench_memory(bench);

@@ -44,4 +44,29 @@ PeerWork box2d_fall_fixtures(std::size_t bodies) {
     return work_of(world);
 }
 
+BouncingBall box2d_ball(double speed, double restitution, double dt) {
+    const auto world = std::make_shared<b2World>(b2Vec2(0, -9.81F));
+    // Bodies touch the skin of an edge, not the edge.
+    b2EdgeShape edge;
+    edge.SetTwoSided({-10, -b2_polygonRadius}, {10, -b2_polygonRadius});
+    const b2BodyDef floor;
+    world->CreateBody(&floor)->CreateFixture(&edge, 0);
+
+    b2BodyDef definition;
+    definition.type = b2_dynamicBody;
+    definition.position = {0, static_cast<float>(ball_radius)};
+    definition.linearVelocity = {0, static_cast<float>(speed)};
+    b2CircleShape circle;
+    circle.m_radius = static_cast<float>(ball_radius);
+    b2FixtureDef fixture;
+    fixture.shape = &circle;
+    fixture.density = 1;
+    fixture.restitution = static_cast<float>(restitution);
+    b2Body* const ball = world->CreateBody(&definition);
+    ball->CreateFixture(&fixture);
+    return {[=] { world->Step(static_cast<float>(dt), 8, 3); },
+            [=] { return double{ball->GetPosition().y} - ball_radius; },
+            [=] { return double{ball->GetLinearVelocity().y}; }};
+}
+
 }  // namespace oiler::bench

@@ -63,6 +63,43 @@ btSoftBody* make_net(btSoftBodyWorldInfo& info, const Net& net) {
     return body;
 }
 
+/// A ball over a floor.
+struct Bouncing {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    btStaticPlaneShape plane{{0, 1, 0}, 0};
+    btSphereShape sphere{static_cast<btScalar>(ball_radius)};
+    btRigidBody floor{{0, nullptr, &plane}};
+    btRigidBody ball{{1, nullptr, &sphere, inertia()}};
+
+    /// The restitutions of both bodies are multiplied.
+    Bouncing(double speed, double restitution) {
+        world.setGravity({0, -9.81F, 0});
+        floor.setRestitution(1);
+        ball.setRestitution(static_cast<btScalar>(restitution));
+        ball.setWorldTransform(
+            btTransform(btQuaternion::getIdentity(), {0, sphere.getRadius(), 0}));
+        ball.setLinearVelocity({0, static_cast<btScalar>(speed), 0});
+        world.addRigidBody(&floor);
+        world.addRigidBody(&ball);
+    }
+    ~Bouncing() {
+        world.removeRigidBody(&ball);
+        world.removeRigidBody(&floor);
+    }
+    Bouncing(const Bouncing&) = delete;
+    Bouncing& operator=(const Bouncing&) = delete;
+
+    [[nodiscard]] btVector3 inertia() const {
+        btVector3 of_sphere;
+        sphere.calculateLocalInertia(1, of_sphere);
+        return of_sphere;
+    }
+};
+
 }  // namespace
 
 PeerWork bullet_fall(std::size_t bodies) {
@@ -82,6 +119,13 @@ PeerWork bullet_net(const Net& net) {
     });
     return {[=](long times) { falling->step(times); },
             [=] { return double{owner->m_nodes[0].m_x.y()}; }};
+}
+
+BouncingBall bullet_ball(double speed, double restitution, double dt) {
+    const auto scene = std::make_shared<Bouncing>(speed, restitution);
+    return {[=] { scene->world.stepSimulation(static_cast<btScalar>(dt), 0); },
+            [=] { return double{scene->ball.getWorldTransform().getOrigin().y()} - ball_radius; },
+            [=] { return double{scene->ball.getLinearVelocity().y()}; }};
 }
 
 }  // namespace oiler::bench

@@ -25,6 +25,40 @@ struct Falling {
     Falling& operator=(const Falling&) = delete;
 };
 
+/// A ball over a floor.
+struct Bouncing : Falling {
+    dSpaceID space = dSimpleSpaceCreate(nullptr);
+    dJointGroupID contacts = dJointGroupCreate(0);
+    double restitution;
+
+    explicit Bouncing(double e) : restitution(e) {
+        const dBodyID ball = bodies.emplace_back(dBodyCreate(world));
+        dBodySetPosition(ball, 0, ball_radius, 0);
+        dCreatePlane(space, 0, 1, 0, 0);
+        dGeomSetBody(dCreateSphere(space, ball_radius), ball);
+    }
+    ~Bouncing() {
+        dJointGroupDestroy(contacts);
+        dSpaceDestroy(space);
+    }
+
+    void step(double dt) {
+        dSpaceCollide(space, this, &meet);
+        dWorldQuickStep(world, dt);
+        dJointGroupEmpty(contacts);
+    }
+    static void meet(void* self, dGeomID a, dGeomID b) {
+        const auto& scene = *static_cast<const Bouncing*>(self);
+        dContact contact{};
+        if (dCollide(a, b, 1, &contact.geom, sizeof contact) == 0) return;
+        contact.surface.mode = dContactBounce;
+        contact.surface.bounce = scene.restitution;
+        contact.surface.bounce_vel = 0.1;
+        dJointAttach(dJointCreateContact(scene.world, scene.contacts, &contact), dGeomGetBody(a),
+                     dGeomGetBody(b));
+    }
+};
+
 }  // namespace
 
 PeerWork ode_fall(std::size_t bodies) {
@@ -40,6 +74,15 @@ PeerWork ode_fall(std::size_t bodies) {
                 for (long i = 0; i < times; ++i) dWorldQuickStep(falling->world, peer_dt);
             },
             [=] { return double{dBodyGetPosition(falling->bodies.front())[1]}; }};
+}
+
+BouncingBall ode_ball(double speed, double restitution, double dt) {
+    const auto scene = std::make_shared<Bouncing>(restitution);
+    const dBodyID ball = scene->bodies.front();
+    dBodySetLinearVel(ball, 0, speed, 0);
+    return {[=] { scene->step(dt); },
+            [=] { return double{dBodyGetPosition(ball)[1]} - ball_radius; },
+            [=] { return double{dBodyGetLinearVel(ball)[1]}; }};
 }
 
 }  // namespace oiler::bench

@@ -14,6 +14,15 @@ struct PeerWork {
     std::function<double()> measure;  ///< a number that changes with the work
 };
 
+/// A ball that bounces on a floor.
+struct BouncingBall {
+    std::function<void()> step;
+    std::function<double()> height;    ///< m, of its lowest point above the floor
+    std::function<double()> velocity;  ///< m/s, upwards
+    /// The number of impacts in the last step; null if the library does not list them.
+    std::function<long()> impacts{};
+};
+
 /// s
 inline constexpr double peer_dt = 1.0 / 60;
 /// N/m, of oscillators of 1 kg
@@ -33,5 +42,14 @@ inline constexpr double peer_stiffness = 0.01;
 [[nodiscard]] PeerWork gsl_rk4(std::size_t oscillators);
 
 [[nodiscard]] PeerWork bullet_net(const Net& net);
+
+// A ball with a radius of ball_radius under −9.81 m/s², thrown up at `speed` m/s and stepped by
+// `dt` s, with the default settings of the library.
+inline constexpr double ball_radius = 0.5;  ///< m
+[[nodiscard]] BouncingBall bullet_ball(double speed, double restitution, double dt);
+/// 8 iterations for velocities and 3 for positions, as in the manual.
+[[nodiscard]] BouncingBall box2d_ball(double speed, double restitution, double dt);
+/// dWorldQuickStep. Impacts below 0.1 m/s do not bounce, as in its demos.
+[[nodiscard]] BouncingBall ode_ball(double speed, double restitution, double dt);
 
 }  // namespace oiler::bench

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/bounces.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/picture/palette.hpp"
@@ -109,19 +110,28 @@ Picture picture_of(const Section& section, const std::string& scene) {
     return picture;
 }
 
-}  // namespace
-
-void draw_plots(const Report& report, const std::filesystem::path& folder) {
+void draw_costs(const Report& report, const std::filesystem::path& folder) {
     const auto section =
         std::ranges::find(report.sections(), "Steps, ns per body and step", &Section::title);
     if (section == report.sections().end()) return;
     Stills stills({1280, 720});
-    make_folder(folder);
     for (const char* scene : {"projectiles", "springs"}) {
         const Picture picture = picture_of(*section, scene);
         if (!picture.labels.empty())
             stills.write(picture, folder / fmt::format("cost_{}.png", scene));
     }
+}
+
+}  // namespace
+
+void draw_plots(const Report& report, const std::filesystem::path& folder) {
+    make_folder(folder);
+    draw_costs(report, folder);
+    if (std::ranges::find(report.sections(), free_bounces, &Section::title) ==
+        report.sections().end())
+        return;
+    draw_bounce_errors(report, folder);
+    draw_ball_path(folder);
 }
 
 }  // namespace oiler::bench

@@ -12,7 +12,7 @@ namespace oiler::bench {
 namespace {
 
 /// The subject of each group of targets.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> groups{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> groups{
     {{"T1", "one step per call: the in-place sweep over the same bytes, or the hand-written loop"},
      {"T2", "256 steps per call: the hand-written loop in registers"},
      {"T3", "methods from memory, relative to semi_implicit_euler; threads"},
@@ -20,7 +20,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> groups{
      {"T5", "nets of springs, ns per spring and step"},
      {"T6", "entities, ns each; bytes for a body and its handle"},
      {"T7", "sleeping springs, relative to moving ones"},
-     {"T8", "prices: a force left out makes no step dearer; implicit steps of springs"}}};
+     {"T8", "prices: a force left out makes no step dearer; implicit steps of springs"},
+     {"T9", "bounces, error of the tenth apex"}}};
 
 std::size_t width(std::string_view words) {
     return static_cast<std::size_t>(
@@ -34,6 +35,7 @@ std::string padded(const std::string& words, std::size_t to) {
 
 /// A number with three significant digits.
 std::string number(double value) {
+    if (std::isnan(value)) return "–";
     const double size = std::abs(value);
     if (size == 0) return "0";
     if (size >= 1e6 || size < 1e-3) return fmt::format("{:.2e}", value);
