@@ -8,6 +8,7 @@
 
 #include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/lift.hpp"
+#include "oiler/physics/contacts/may_meet.hpp"
 #include "oiler/physics/contacts/root.hpp"
 #include "oiler/physics/contacts/slide_end.hpp"
 #include "oiler/physics/contacts/support.hpp"
@@ -21,33 +22,10 @@ enum class Landed {
     unresolved  ///< too many impacts
 };
 
-/// The distance from a plane that round-off hides in a step of `duration` s, m.
-template <std::floating_point T, int Axes>
-[[nodiscard]] T hidden_distance(const PlaneOf<T, Axes>& plane, const State<T, Axes>& state,
-                                T radius, T duration) {
-    return 8 * std::numeric_limits<T>::epsilon() *
-           (largest(state.x) + largest(state.v) * duration + std::abs(plane.offset) + radius);
-}
-/// The speed towards a plane that round-off hides, m/s.
-template <std::floating_point T, int Axes>
-[[nodiscard]] T hidden_speed(const Vec<T, Axes>& v) {
-    return 8 * std::numeric_limits<T>::epsilon() * largest(v);
-}
-
-/// Whether a body that is above a plane at the start and at the end of `duration` s may have been
-/// below it between, where it turned: a tangent to its path cuts the plane. h are gaps, m, and u
-/// speeds away from the plane, m/s.
-template <std::floating_point T>
-[[nodiscard]] bool may_dip(T h_start, T u_start, T h_end, T u_end, T duration) {
-    return u_start < 0 && u_end > 0 &&
-           (h_start + u_start * duration < 0 || h_end - u_end * duration < 0);
-}
-
 /// One step of one body that meets planes. Impacts, the end of sliding and the leaving of a plane
 /// are located within the step, with shorter steps of the same method, so that a bounce keeps the
 /// method's order. `Body` has
-/// - `fly(state, start, tau)` and `slide(state, start, tau, support, friction)`: the state after
-/// one
+/// - `fly(state, start, tau)` and `slide(state, start, tau, support, friction)`: the state after a
 ///   step of `tau` s that begins `start` s after the start of the whole step;
 /// - `accelerate(state, start)`, m/s²; `forces_change()`: whether forces depend on time.
 /// `report(impact)` is called for each impact, in order.
@@ -385,19 +363,5 @@ private:
         T distance = 0;  ///< m
     } hidden_;
 };
-
-/// Whether a step of `duration` s that ignored a plane brought the body below it, may have done so
-/// where the body turned, or began on or below it without leaving it.
-template <std::floating_point T, int Axes>
-[[nodiscard]] bool may_meet(const PlaneOf<T, Axes>& plane, T radius, const State<T, Axes>& start,
-                            const State<T, Axes>& end, T duration) {
-    const T noise = hidden_distance(plane, start, radius, duration);
-    const T h = gap(plane, start.x, radius);
-    const T u = leaving_speed(plane, start.v);
-    const T h_end = gap(plane, end.x, radius);
-    const T u_end = leaving_speed(plane, end.v);
-    const bool began_on = h <= noise && (u <= hidden_speed(start.v) || h < -noise);
-    return h_end < 0 || began_on || may_dip(h, u, h_end, u_end, duration);
-}
 
 }  // namespace oiler
