@@ -182,7 +182,8 @@ void bounce_at_end(World& world, Entity body, const Plane& plane, double radius)
     const double speed = -leaving_speed(plane, v);
     if (below <= 0 || speed <= 0) return;
     world.set_position(body, x + plane.normal * below);
-    world.set_velocity(body, bounced(plane, v, speed, plane.restitution * speed));
+    const Vec3 along = landed(plane, v, speed);
+    world.set_velocity(body, pushed_off(plane, along, plane.restitution * speed));
 }
 
 void bench_bounces(Bench& bench) {
