@@ -335,8 +335,8 @@ TEST(Sliding, AcrossASlopeStops) {
         World world = world_of(method, rate, 3);
         world.set_gravity({0, -g, 0});
         world.add_plane({.normal = {-0.1, 1, 0}, .friction = 0.4});
-        const Entity puck = world.spawn(
-            {.velocity = {std::cos(w), std::sin(w), 3}, .contact = Contact{}});
+        const Entity puck =
+            world.spawn({.velocity = {std::cos(w), std::sin(w), 3}, .contact = Contact{}});
         world.step(2 * rate);
         EXPECT_EQ(length(world.velocity(puck)), 0) << method << rate;
         const oiler::Vec3 end = world.position(puck);
@@ -379,6 +379,28 @@ TEST(Resting, WhereThereIsNoRoom) {
         {.position = {-0.33, -0.17}, .velocity = {1.98, 0.65}, .contact = Contact{0.1}});
     world.step(600);
     EXPECT_LT(length(world.position(ball)), 1);
+}
+
+// A game that waits for the end of bounces hears of it once, whatever the method, the rate and the
+// precision.
+TEST(Resting, IsReportedOnce) {
+    for (const char* method : methods)
+        for (const int rate : {20, 50, 60, 144})
+            for (const auto precision : {oiler::Precision::single, oiler::Precision::double_}) {
+                World world(2, {.method = &oiler::find_method(method),
+                                .rate = {rate},
+                                .precision = precision});
+                world.set_gravity({0, -g});
+                world.add_plane({.normal = {0, 1}, .restitution = 0.8, .friction = 0.1});
+                world.spawn({.position = {0, 4}, .velocity = {1}, .contact = Contact{0.2}});
+                int rests = 0;
+                for (int i = 0; i < 20 * rate; ++i) {
+                    world.step();
+                    for (const Impact& impact : world.impacts())
+                        rests += impact.kind == Meeting::rest;
+                }
+                EXPECT_EQ(rests, 1) << method << rate << name_of(precision);
+            }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/lift.hpp"
@@ -52,8 +53,11 @@ public:
             const Vector a = body_.accelerate(state, start_);
             const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
             if (support.empty()) {
+                flying_ = true;
                 fly(state);
             } else {
+                if (std::exchange(flying_, false))
+                    report(Meeting::rest, support[0], start_, state, state.v);
                 glide(state, support);
                 if (settled_) return Landed::settled;
             }
@@ -148,6 +152,7 @@ private:
             const Vector before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
             const T kept = plane.restitution * speed;
+            flying_ = true;
             if (++bounces_at_once_ > most_bounces_at_once) {
                 state.v =
                     Bearing::against(before, planes_, touched_planes(state)).without_push(before);
@@ -207,6 +212,7 @@ private:
             end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
         }
         report(Meeting::rest, plane, start_ + after, end, end.v);
+        flying_ = false;
     }
 
     /// The first part of what is left of the step.
@@ -357,6 +363,7 @@ private:
     T left_ = 0;      ///< s
     int bounces_at_once_ = 0;
     bool settled_ = false;
+    bool flying_ = false;  ///< since the start of the step, or the last rest in it
     /// What round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s
