@@ -8,15 +8,15 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$(mktemp -d)}
 mkdir -p "$folder"
-sources=("$root"/tests/bits/state_hash.cpp "$root"/engine/oiler/core/{error,require,state_hash}.cpp
-         "$root"/engine/oiler/{sim,world}/*.cpp)
+sources=("$root"/tests/bits/state_hash.cpp
+         "$root"/engine/oiler/{core,physics,physics/methods,sim,stability,world}/*.cpp)
 
 # build NAME COMPILER OPTION...
 build() {
     local name=$1 compiler=$2
     shift 2
-    "$compiler" -std=c++20 -DNDEBUG -DOILER_INSTRUCTIONS=baseline -Wno-psabi "$@" -I"$root/engine" -I/usr/include/eigen3 "${sources[@]}" \
-        -o "$folder/$name" -lfmt -lxxhash
+    "$compiler" -std=c++20 -DNDEBUG -DOILER_INSTRUCTIONS=baseline -DOILER_VERSION='"bits"' -Wno-psabi "$@" \
+        -I"$root/engine" -I/usr/include/eigen3 "${sources[@]}" -o "$folder/$name" -lfmt -lxxhash -pthread
 }
 
 has() { grep -qw "$1" /proc/cpuinfo; }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <string>
@@ -308,6 +310,79 @@ TEST(LinkedBodies, AreRemovedWithTheirLinks) {
     bodies.remove(4);
     bodies.remove(0);
     EXPECT_EQ(bodies.link_count(), 0U);
+}
+
+struct Linked {
+    std::size_t a;
+    std::size_t b;
+    Link link;
+};
+
+/// A net of 11 × 9 bodies of several masses with these links.
+Bodies net(Precision precision, const std::vector<Linked>& links) {
+    Bodies bodies(2, precision);
+    for (std::size_t row = 0; row < 99; ++row) {
+        const auto i = static_cast<double>(row);
+        bodies.add({.mass = 1 + 0.125 * static_cast<double>(row % 5),
+                    .position = {i - 11 * std::floor(i / 11), std::floor(i / 11)},
+                    .velocity = {std::sin(i), std::cos(3 * i)}});
+    }
+    for (const auto& [a, b, link] : links) bodies.link(a, b, link);
+    return bodies;
+}
+
+TEST(LinkedBodies, MoveTheSameInWhateverOrderTheyAreLinked) {
+    constexpr Link link{.stiffness = 30, .damping = 0.75, .rest_length = 0.5};
+    std::vector<Linked> alternating;
+    for (std::size_t row = 0; row < 99; ++row) {
+        if (row % 11 != 10) alternating.push_back({row, row + 1, link});
+        if (row < 88) alternating.push_back({row, row + 11, link});
+    }
+    std::vector<Linked> backwards(alternating.rbegin(), alternating.rend());
+    for_each_kind([&](const Method& method, Precision precision) {
+        Bodies one = net(precision, alternating);
+        Bodies other = net(precision, backwards);
+        const std::uint64_t start = hash_of(one);
+        for (Bodies* bodies : {&one, &other}) bodies->step(method, {rate, 0, 10});
+        EXPECT_NE(hash_of(one), start);
+        EXPECT_EQ(hash_of(one), hash_of(other));
+    });
+}
+
+/// The largest difference of two velocities, m/s.
+double velocity_difference(const Bodies& one, const Bodies& other) {
+    double most = 0;
+    for (std::size_t row = 0; row < one.size(); ++row)
+        most = std::max(most, largest(one.velocity(row) - other.velocity(row)));
+    return most;
+}
+
+// Dampers are stepped in batches of links that share no body: every other link of a chain, and as
+// many links as there are rows between their two bodies. RK4 evaluates their forces instead. The
+// drift of velocity Verlet has order 2: with rates of up to 30/s, its error after 1/8 s at 8192 Hz
+// is below (30/8192)² times a speed of 2 m/s, 2.7e-5; a damper left out or applied twice at any
+// link changes the velocities by 2·b·t = 0.2 m/s.
+TEST(LinkedBodies, AreDampedLinkByLinkInRunsOfAnyShift) {
+    for (const bool length : {false, true})
+        for (const int shift : {1, -1, 2, 3, -3, 5, 11, -17, 40}) {
+            std::vector<Linked> links;
+            for (std::size_t row = 0; row + std::abs(shift) < 99; ++row) {
+                const std::size_t other = row + std::abs(shift);
+                links.push_back(
+                    {shift > 0 ? row : other,
+                     shift > 0 ? other : row,
+                     {.stiffness = 30, .damping = 0.75, .rest_length = length ? 0.5 : 0.0}});
+            }
+            Bodies drifted = net(Precision::double_, links);
+            Bodies evaluated = drifted;
+            const Bodies start = drifted;
+            const Rate fine{8192};
+            drifted.step(find_method("velocity_verlet"), {fine, 0, 1024, Damping::in_drift});
+            evaluated.step(find_method("rk4"), {fine, 0, 1024});
+            EXPECT_LT(velocity_difference(drifted, evaluated), 2.7e-5)
+                << shift << (length ? ", with a length" : "");
+            EXPECT_GT(velocity_difference(drifted, start), 0.2) << shift;
+        }
 }
 
 }  // namespace

@@ -81,6 +81,47 @@ TEST(Sleep, NeedsASmallAcceleration) {
     EXPECT_LT(bodies.velocity(0)[1], -0.1);
 }
 
+TEST(Sleep, IsTheSameBesideLinkedBodies) {
+    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4"}) {
+        Bodies alone = oscillator(Precision::single, stiffness, damping, 1e-29);
+        Bodies beside = alone;
+        beside.add({.position = {3}, .velocity = {1}});
+        beside.add({.position = {5}});
+        beside.link(1, 2, {.stiffness = 5, .rest_length = 1});
+        bool moved = false;
+        for (std::int64_t tick = 0; tick < 2000; ++tick) {
+            for (Bodies* bodies : {&alone, &beside})
+                bodies->step(find_method(name), {rate, tick, 1});
+            moved = moved || size_of(alone) > 0;
+            ASSERT_EQ(x_of(beside), x_of(alone)) << name << ", " << tick;
+            ASSERT_EQ(v_of(beside), v_of(alone)) << name << ", " << tick;
+        }
+        EXPECT_TRUE(moved) << name;
+        EXPECT_EQ(size_of(alone), 0) << name;
+    }
+}
+
+// The speed of both bodies fades as e^(−b·t/m). From 1 m/s it is subnormal in float after 109 s.
+// Their positions stay between 4 and 8 m, where floats have one spacing, so the link exerts no force.
+TEST(Sleep, ComesToLinkedBodiesWithDrag) {
+    for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4"}) {
+        Bodies bodies(1, Precision::single);
+        for (const double x : {5, 6})
+            bodies.add({.position = {x}, .velocity = {1}}, LinearDrag{damping});
+        bodies.link(0, 1, {.stiffness = stiffness, .rest_length = 1});
+        for (std::int64_t tick = 0; rate.time(tick) < 120; ++tick) {
+            bodies.step(find_method(name), {rate, tick, 1});
+            for (std::size_t row : {0, 1}) {
+                const auto speed = static_cast<double>(std::abs(v_of(bodies, row)));
+                ASSERT_TRUE(speed == 0 || speed > std::numeric_limits<float>::min())
+                    << name << ", " << tick;
+            }
+        }
+        EXPECT_EQ(v_of(bodies, 0), 0) << name;
+        EXPECT_EQ(v_of(bodies, 1), 0) << name;
+    }
+}
+
 TEST(Sleep, DoesNotDependOnTheStepsPerCall) {
     const Method& method = find_method("semi_implicit_euler");
     Bodies one_call = oscillator(Precision::single, stiffness, damping, 1e-29);

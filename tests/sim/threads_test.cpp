@@ -35,11 +35,12 @@ std::uint64_t hash_of(const Bodies& bodies) {
     return hash.value();
 }
 
-std::uint64_t hash_after(Bodies bodies, const Method& method, int threads, std::int64_t per_call) {
+std::uint64_t hash_after(Bodies bodies, const Method& method, int threads, std::int64_t per_call,
+                         std::optional<Damping> damping = {}) {
     constexpr std::int64_t steps = 12;
     bodies.set_threads(threads);
     for (std::int64_t tick = 0; tick < steps; tick += per_call)
-        bodies.step(method, {Rate{64}, tick, per_call});
+        bodies.step(method, {Rate{64}, tick, per_call, damping});
     return hash_of(bodies);
 }
 
@@ -53,6 +54,37 @@ TEST(Threads, GiveTheSameBits) {
         for (const int threads : {1, 2, 3, 8})
             for (const std::int64_t per_call : {1, 3, 12})
                 EXPECT_EQ(hash_after(bodies, method, threads, per_call), alone)
+                    << name << ", " << threads << " threads, " << per_call << " steps per call";
+    }
+}
+
+/// A net with links along and across its rows, and one of eight bodies linked to any other.
+Bodies net() {
+    constexpr std::size_t width = 150;
+    constexpr std::size_t size = width * 120;
+    Bodies bodies = assorted(size, true);
+    for (std::size_t row = 0; row < size; ++row) {
+        if ((row + 1) % width != 0)
+            bodies.link(row, row + 1, {.stiffness = 8, .damping = 0.5, .rest_length = 0.125});
+        if (row + width < size) bodies.link(row + width, row, {.stiffness = 4});
+        const std::size_t other = (row * 7919 + 13) % size;
+        if (row % 8 == 0 && other != row) bodies.link(row, other, {.stiffness = 0.5});
+    }
+    return bodies;
+}
+
+// A link whose bodies are rows of two threads is computed by both.
+TEST(Threads, GiveNetsTheSameBits) {
+    const Bodies bodies = net();
+    for (const char* name : {"velocity_verlet", "rk4"}) {
+        const auto hash_with = [&](int threads, std::int64_t per_call) {
+            return hash_after(bodies, find_method(name), threads, per_call, Damping::in_kick);
+        };
+        const std::uint64_t alone = hash_with(1, 3);
+        EXPECT_NE(alone, hash_of(bodies)) << name;
+        for (const int threads : {2, 3, 8})
+            for (const std::int64_t per_call : {1, 12})
+                EXPECT_EQ(hash_with(threads, per_call), alone)
                     << name << ", " << threads << " threads, " << per_call << " steps per call";
     }
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tuple>
+#include <utility>
+
 #include "oiler/math/pack.hpp"
 #include "oiler/math/vec.hpp"
 
@@ -27,6 +30,21 @@ public:
     }
     [[gnu::always_inline]] void store(T* to) const {
         for_each_index<packs>([&](auto i) { pack_[i].store(to + i * Pack::lanes); });
+    }
+
+    /// The first and the second numbers of `lanes` pairs.
+    [[gnu::always_inline]] static std::pair<Batch, Batch> load_pairs(const T* from) {
+        std::pair<Batch, Batch> pairs;
+        for_each_index<packs>([&](auto i) {
+            std::tie(pairs.first.pack_[i], pairs.second.pack_[i]) =
+                Pack::load_pairs(from + 2 * i * Pack::lanes);
+        });
+        return pairs;
+    }
+    [[gnu::always_inline]] static void store_pairs(const Batch& first, const Batch& second, T* to) {
+        for_each_index<packs>([&](auto i) {
+            Pack::store_pairs(first.pack_[i], second.pack_[i], to + 2 * i * Pack::lanes);
+        });
     }
 
     [[gnu::always_inline]] friend Batch operator+(const Batch& a, const Batch& b) {

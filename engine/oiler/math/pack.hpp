@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace oiler {
 
@@ -39,6 +40,18 @@ public:
         return lanes_read;
     }
     [[gnu::always_inline]] void store(T* to) const { std::memcpy(to, &register_, Bytes); }
+
+    /// The first and the second numbers of `lanes` pairs.
+    [[gnu::always_inline]] static std::pair<Pack, Pack> load_pairs(const T* from) {
+        return shuffle(load(from), load(from + lanes),
+                       [](int i) { return i < int{lanes} ? 2 * i : 2 * (i - int{lanes}) + 1; });
+    }
+    [[gnu::always_inline]] static void store_pairs(Pack first, Pack second, T* to) {
+        const auto [low, high] =
+            shuffle(first, second, [](int i) { return i % 2 == 0 ? i / 2 : int{lanes} + i / 2; });
+        low.store(to);
+        high.store(to + lanes);
+    }
 
     [[gnu::always_inline]] friend Pack operator+(Pack a, Pack b) {
         return a.register_ + b.register_;
@@ -96,6 +109,18 @@ public:
     }
 
 private:
+    /// Lane i of the result, of two registers, is lane from(i) of `a` and `b`.
+    template <class From>
+    [[gnu::always_inline]] static std::pair<Pack, Pack> shuffle(Pack a, Pack b, From) {
+        return [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+            constexpr From from{};
+            return std::pair<Pack, Pack>(
+                __builtin_shufflevector(a.register_, b.register_, from(int{i})...),
+                __builtin_shufflevector(a.register_, b.register_, from(int{lanes + i})...));
+        }
+        (std::make_index_sequence<lanes>{});
+    }
+
     Register register_;
 };
 

@@ -15,6 +15,16 @@ namespace oiler {
 // has `accelerate(state, t)`. RowPhysics and LinkedRows add the functions that some methods need
 // beyond it.
 
+/// to += what·s. A physics may do it itself, for example on several threads.
+template <class Physics, class Vector, class T>
+[[gnu::always_inline]] inline void add_scaled(Physics& physics, Vector& to, const Vector& what,
+                                              const T& s) {
+    if constexpr (requires { physics.add_scaled(to, what, s); })
+        physics.add_scaled(to, what, s);
+    else
+        add_scaled(to, what, s);
+}
+
 /// A physics that applies damping outside the kicks.
 template <class Physics, class State>
 concept SplitsDamping = requires(Physics& physics, State& state, double t) {
@@ -33,14 +43,14 @@ template <SplitsSteps Plan, class State, class Physics>
             const auto& stage = plan.stages[i];
             if (stage.move == Move::kick) {
                 if constexpr (splits_damping)
-                    add_scaled(state.v, physics.kick(state, t), stage.tau);
+                    add_scaled(physics, state.v, physics.kick(state, t), stage.tau);
                 else
-                    add_scaled(state.v, physics.accelerate(state, t), stage.tau);
+                    add_scaled(physics, state.v, physics.accelerate(state, t), stage.tau);
             } else {
                 if constexpr (splits_damping)
                     physics.drift(state, stage.flow, stage.tau);
                 else
-                    add_scaled(state.x, state.v, stage.tau);
+                    add_scaled(physics, state.x, state.v, stage.tau);
                 t += static_cast<double>(stage.tau);
             }
         });
@@ -54,28 +64,50 @@ struct Derivative {
     decltype(State::v) dv;
 };
 
+/// What a step of a Runge–Kutta method holds beside the state.
+template <class State>
+struct Stages {
+    std::array<Derivative<State>, Tableau::most_stages> k;
+    State initial;
+    State at;
+};
+
 /// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
 /// any tableau. Each stage starts from the initial state plus the weighted rates of the stages
 /// before it.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
-                                           double t) {
-    std::array<Derivative<State>, Tableau::most_stages> k;
-    const State initial = state;
+                                           double t, Stages<State>& stages) {
+    auto& k = stages.k;
+    State& at = stages.at;
+    stages.initial = state;
     repeat(
         plan.count, [&](auto i) __attribute__((always_inline)) {
-            State at = initial;
+            at = stages.initial;
             repeat(
                 i, [&](auto j) __attribute__((always_inline)) {
                     if (!plan.uses(i, j)) return;
-                    add_scaled(at.x, k[j].dx, plan.a[i][j]);
-                    add_scaled(at.v, k[j].dv, plan.a[i][j]);
+                    add_scaled(physics, at.x, k[j].dx, plan.a[i][j]);
+                    add_scaled(physics, at.v, k[j].dv, plan.a[i][j]);
                 });
-            k[i] = {at.v, physics.accelerate(at, t + plan.c[i])};
+            k[i].dx = at.v;
+            k[i].dv = physics.accelerate(at, t + plan.c[i]);
             if (plan.b[i] == 0) return;
-            add_scaled(state.x, k[i].dx, plan.b[i]);
-            add_scaled(state.v, k[i].dv, plan.b[i]);
+            add_scaled(physics, state.x, k[i].dx, plan.b[i]);
+            add_scaled(physics, state.v, k[i].dv, plan.b[i]);
         });
+}
+
+/// The same. A physics of large states may keep their memory from step to step.
+template <IsTableau Plan, class State, class Physics>
+[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+                                           double t) {
+    if constexpr (requires { physics.stages(); }) {
+        advance(plan, state, physics, t, physics.stages());
+    } else {
+        Stages<State> stages;
+        advance(plan, state, physics, t, stages);
+    }
 }
 
 /// A physics of forces that are linear in position and velocity.
@@ -88,19 +120,20 @@ template <std::floating_point T, class State, class Physics>
 [[gnu::always_inline]] inline auto newton_change(const ImplicitPlan<T>& plan, const State& state,
                                                  State& at, Physics& physics, double t) {
     at.x = state.x;
-    add_scaled(at.x, at.v, plan.tau);
+    add_scaled(physics, at.x, at.v, plan.tau);
     auto residual = at.v;
-    add_scaled(residual, state.v, T(-1));
-    add_scaled(residual, physics.accelerate(at, t), -plan.tau);
+    add_scaled(physics, residual, state.v, T(-1));
+    add_scaled(physics, residual, physics.accelerate(at, t), -plan.tau);
     return physics.solve(at, plan.tau, residual);
 }
 
 /// Ends a step with the velocity w of its stage.
-template <std::floating_point T, class State>
-[[gnu::always_inline]] inline void end_step(const ImplicitPlan<T>& plan, State& state, State& at) {
-    add_scaled(state.x, at.v, plan.dt);
-    add_scaled(at.v, state.v, T(-1));
-    add_scaled(state.v, at.v, 1 / plan.a);
+template <std::floating_point T, class State, class Physics>
+[[gnu::always_inline]] inline void end_step(const ImplicitPlan<T>& plan, State& state, State& at,
+                                            Physics& physics) {
+    add_scaled(physics, state.x, at.v, plan.dt);
+    add_scaled(physics, at.v, state.v, T(-1));
+    add_scaled(physics, state.v, at.v, 1 / plan.a);
 }
 
 inline constexpr int most_iterations = 64;
@@ -116,13 +149,13 @@ template <std::floating_point T, class State, class Physics>
     T before = std::numeric_limits<T>::infinity();
     for (int i = 0; i < most_iterations; ++i) {
         const auto change = newton_change(plan, state, at, physics, stage_t);
-        add_scaled(at.v, change, T(-1));
+        add_scaled(physics, at.v, change, T(-1));
         const T size = largest(change);
         const T scale = largest(at.v) + largest(state.v) + std::numeric_limits<T>::min() / epsilon;
         if (!std::isfinite(size)) return false;
         const bool small = size <= std::sqrt(epsilon) * (scale + largest(at.x) / plan.tau);
         if (size <= epsilon * scale || (small && size > before / 2)) {
-            end_step(plan, state, at);
+            end_step(plan, state, at, physics);
             return true;
         }
         before = size;
@@ -138,8 +171,8 @@ template <std::floating_point T, class State, IsLinear Physics>
     const double stage_t = t + static_cast<double>(plan.tau);
     State at = state;
     for (int i = 0; i < 2; ++i)
-        add_scaled(at.v, newton_change(plan, state, at, physics, stage_t), T(-1));
-    end_step(plan, state, at);
+        add_scaled(physics, at.v, newton_change(plan, state, at, physics, stage_t), T(-1));
+    end_step(plan, state, at, physics);
     return true;
 }
 

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "oiler/physics/advance.hpp"
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
@@ -76,18 +78,37 @@ struct FlowColumns {
 /// The part of an acceleration to evaluate: the part that depends on position alone, or all.
 enum class Evaluate { field, all };
 
-/// `count` links with the same numbers between consecutive rows; `of` is the first. Each link joins
-/// the rows after those of the link before it.
+/// `count` links that are computed together; `of` is the first, with the largest damping of all.
 template <std::floating_point T>
 struct LinkRun {
     LinkRow<T> of;
-    std::size_t first;  ///< its index among the links
+    std::size_t first;  ///< its index in the order of computation
     std::size_t count;
+    /// The place in AnyLinks of links between any two rows. Otherwise all links have the same
+    /// numbers, and each joins the rows after those of the link before it.
+    std::optional<std::size_t> any;
 
     /// The distance of the two rows of a link.
     [[nodiscard]] [[gnu::always_inline]] std::size_t shift() const {
         return std::max(of.a, of.b) - std::min(of.a, of.b);
     }
+};
+
+/// Links between any two rows, of which none continues a run.
+template <class T>
+struct AnyLinks {
+    std::vector<std::uint32_t> a;
+    std::vector<std::uint32_t> b;
+    std::vector<T> stiffness;    ///< N/m
+    std::vector<T> damping;      ///< N·s/m
+    std::vector<T> rest_length;  ///< m
+};
+
+/// The sums over the links of a row.
+template <class T>
+struct LinksOfRow {
+    T stiffness = 0;  ///< N/m
+    T damping = 0;    ///< kg/s
 };
 
 /// The exact flows of a plan, computed once for all its steps.
@@ -129,9 +150,14 @@ template <class T, int Axes>
 struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
     std::vector<LinkRun<T>> runs;
+    AnyLinks<T> any;
+    bool any_damped = false;
     Parameter<T> inverse_mass;  ///< 1/kg, per row
-    T half_step = 0;            ///< s
-    std::vector<T> loss;  ///< per link: 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step
+    std::vector<LinksOfRow<T>> of_rows;
+    T half_step = 0;  ///< s
+    /// Per link, and one more: 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step.
+    std::vector<T> loss;
+    Stages<MotionColumns<T, Axes>> stages;        ///< scratch
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
     VecColumns<T, Axes> velocity_before;          ///< m/s, at the start of a step that may land

@@ -10,21 +10,33 @@
 
 namespace oiler {
 
+/// The rows that one thread writes; it begins a block.
+struct RowRange {
+    std::size_t begin;
+    std::size_t end;
+
+    [[nodiscard]] [[gnu::always_inline]] bool holds(std::size_t row) const {
+        return row >= begin && row < end;
+    }
+};
+
 /// The operations on all rows in steps of linked rows, see link_rows.hpp.
 template <std::floating_point T, int Axes>
 struct LinkedKernels {
     void (*accelerate)(const Columns<T, Axes>&, const RowViews<T, Axes>&,
-                       const MotionColumns<T, Axes>&, Evaluate, double t, VecColumns<T, Axes>& out);
+                       const MotionColumns<T, Axes>&, Evaluate, double t, const RowRange&,
+                       VecColumns<T, Axes>& out);
     void (*push_links)(const LinkCache<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate,
-                       VecColumns<T, Axes>& to);
+                       const RowRange&, VecColumns<T, Axes>& to);
     /// Half-steps of the dampers at fixed positions, one link after the other; `reverse` begins
     /// with the last.
     void (*damp_links)(const LinkCache<T, Axes>&, MotionColumns<T, Axes>&, bool reverse);
     /// A drift with linear damping, see RowPhysics::drift.
-    void (*drift)(const RowViews<T, Axes>&, std::size_t rows, std::size_t flow,
+    void (*drift)(const RowViews<T, Axes>&, std::size_t flow, const RowRange&,
                   MotionColumns<T, Axes>&);
-    void (*add_scaled)(VecColumns<T, Axes>& to, const VecColumns<T, Axes>& what, T s);
-    bool (*may_be_infinite)(const MotionColumns<T, Axes>&);
+    void (*add_scaled)(VecColumns<T, Axes>& to, const VecColumns<T, Axes>& what, T s,
+                       const RowRange&);
+    bool (*may_be_infinite)(const MotionColumns<T, Axes>&, const RowRange&);
 };
 
 /// The index of linear forces with these parts in the arrays of AxisKernels.

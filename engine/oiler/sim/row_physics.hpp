@@ -58,21 +58,29 @@ void put_to_sleep_below(Scalar<V> limit, const V& rate, const Vec<V, Axes>& a,
     });
 }
 
-/// Puts bodies with linear damping to sleep, see sleep_limit. Without sleep, their numbers would
-/// become subnormal. Returns whether any velocity was below the limit. Never inlined, because few
-/// steps need it.
+/// Puts bodies to sleep whose linear damping has a positive `rate`, see sleep_limit. Without sleep,
+/// their numbers would become subnormal. `squares` is positive if formulas square speeds or
+/// distances.
 template <Number V, int Axes, class RowForces>
-[[gnu::noinline]] bool put_row_to_sleep(const RowForces& forces, State<V, Axes>& state, double t) {
+void put_row_to_sleep(const RowForces& forces, const V& rate, const V& squares,
+                      const Vec<V, Axes>& a, State<V, Axes>& state) {
     using T = Scalar<V>;
+    put_to_sleep_below(sleep_limit<T>(false), rate, a, forces, state);
+    put_to_sleep_below(sleep_limit<T>(true), V(rate * squares), a, forces, state);
+}
+
+/// Puts a row without links to sleep. Returns whether any velocity was below the limit. Never
+/// inlined, because few steps need it.
+template <Number V, int Axes, class RowForces>
+[[gnu::noinline]] bool put_slow_row_to_sleep(const RowForces& forces, State<V, Axes>& state,
+                                             double t) {
     bool slow = false;
     for_each_index<Axes>([&](auto i) __attribute__((always_inline)) {
-        slow = slow || any_nonzero_below(state.v.axis[i], sleep_limit<T>(true));
+        slow = slow || any_nonzero_below(state.v.axis[i], sleep_limit<Scalar<V>>(true));
     });
     const V& rate = forces.linear.damping;
     if (!slow || !any_positive(rate)) return false;
-    const Vec<V, Axes> a = forces.accelerate(state, t);
-    put_to_sleep_below(sleep_limit<T>(false), rate, a, forces, state);
-    put_to_sleep_below(sleep_limit<T>(true), V(rate * forces.squares_speeds()), a, forces, state);
+    put_row_to_sleep(forces, rate, forces.squares_speeds(), forces.accelerate(state, t), state);
     return true;
 }
 
@@ -199,7 +207,7 @@ public:
         if (!forces_.parts.damping) return;
         State<V, Axes> asleep = state;
         const ForcesOfRow forces = forces_;
-        if (!put_row_to_sleep(forces, asleep, t)) return;
+        if (!put_slow_row_to_sleep(forces, asleep, t)) return;
         state = asleep;
         field_valid_ = false;
     }

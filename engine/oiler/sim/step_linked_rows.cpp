@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/link_rows.hpp"
 #include "oiler/sim/link_solver.hpp"
 #include "oiler/sim/linked_landing.hpp"
+#include "oiler/sim/row_parts.hpp"
 
 namespace oiler {
 namespace {
@@ -21,29 +25,25 @@ const LinkedKernels<T, Axes>& linked_kernels_of() {
     return one_by_one;
 }
 
-}  // namespace
-
-/// The overload that the methods call on all rows together.
-template <std::floating_point T, std::size_t Axes>
-static void add_scaled(std::array<Column<T>, Axes>& to, const std::array<Column<T>, Axes>& what,
-                       T s) {
-    linked_kernels_of<T, int{Axes}>().add_scaled(to, what, s);
-}
-
-namespace {
-
 /// The physics that a method steps: all rows and the links between them.
 template <std::floating_point T, int Axes>
 class LinkedRows {
 public:
     using Vectors = VecColumns<T, Axes>;
 
-    LinkedRows(Columns<T, Axes>& columns, const RowViews<T, Axes>& views, const Plan<T>& plan)
-        : columns_(columns), views_(views), cache_(columns.link_cache) {
+    /// Steps on the threads of the team, if there is one.
+    LinkedRows(Columns<T, Axes>& columns, const RowViews<T, Axes>& views, const Plan<T>& plan,
+               Team* team)
+        : columns_(columns), views_(views), cache_(columns.link_cache), team_(team) {
         const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
         if (splitting) damping_ = splitting->damping;
         if (damping_ == Damping::in_kick) cache_.field_valid = false;
         prepare(splitting ? splitting->half_step : T(0));
+        // Dampers are stepped one after the other, and threads that read each other's rows are
+        // slower than one.
+        if ((damping_ == Damping::in_drift && cache_.any_damped) ||
+            4 * cache_.any.a.size() > columns_.links.size())
+            team_ = nullptr;
     }
 
     const Vectors& accelerate(const MotionColumns<T, Axes>& motion, double t) {
@@ -65,24 +65,30 @@ public:
         if (damping_ == Damping::in_kick || columns_.flows.of.empty())
             add_scaled(motion.x, motion.v, tau);
         else
-            kernels_.drift(views_, columns_.size, flow, motion);
+            in_ranges([&](const RowRange& rows) { kernels_.drift(views_, flow, rows, motion); });
     }
+    void add_scaled(Vectors& to, const Vectors& what, T s) {
+        in_ranges([&](const RowRange& rows) { kernels_.add_scaled(to, what, s, rows); });
+    }
+    Stages<MotionColumns<T, Axes>>& stages() { return cache_.stages; }
 
     void damp_before(MotionColumns<T, Axes>& motion) {
         if (any_force([]<class Force>() { return DependsOnTime<Force>; }))
             cache_.field_valid = false;
         if (damping_ == Damping::in_kick) return;
         if (any_damper_of_rows())
-            change_each_row(
-                motion, [](auto& physics, State<T, Axes>& state) { physics.damp_before(state); });
+            change_each_row(motion, [](auto& physics, std::size_t, State<T, Axes>& state) {
+                physics.damp_before(state);
+            });
         kernels_.damp_links(cache_, motion, false);
     }
     void damp_after(MotionColumns<T, Axes>& motion) {
         if (damping_ == Damping::in_kick) return;
         kernels_.damp_links(cache_, motion, true);
         if (any_damper_of_rows())
-            change_each_row(
-                motion, [](auto& physics, State<T, Axes>& state) { physics.damp_after(state); });
+            change_each_row(motion, [](auto& physics, std::size_t, State<T, Axes>& state) {
+                physics.damp_after(state);
+            });
     }
 
     void land(std::int64_t tick, T dt) {
@@ -90,16 +96,35 @@ public:
             cache_.field_valid = false;
     }
 
-    /// Puts rows to sleep if any link is damped, see RowPhysics.
+    /// Puts rows to sleep by the rule of rows without links.
     void put_to_sleep(MotionColumns<T, Axes>& motion, double t) {
-        if (!any_link_damped()) return;
+        if (!any_slow(motion.v)) return;
         evaluate(motion, Evaluate::all, t, cache_.acceleration);
-        constexpr T limit = sleep_limit<T>(true);
-        for (std::size_t axis = 0; axis < Axes; ++axis)
-            for (std::size_t row = 0; row < columns_.size; ++row) {
-                T& v = motion.v[axis][row];
-                v = replace_where_sleeping(v, T(0), T(1), limit, v, cache_.acceleration[axis][row]);
-            }
+        change_each_row(motion, [&](auto& physics, std::size_t row, State<T, Axes>& state) {
+            const auto& forces = physics.forces();
+            const LinksOfRow<T>& links = cache_.of_rows[row];
+            const T rate = forces.parts.damping ? forces.linear.damping : T(0);
+            put_row_to_sleep(forces, rate + links.damping,
+                             forces.squares_speeds() + links.stiffness + links.damping,
+                             load<T>(cache_.acceleration, row), state);
+        });
+        cache_.field_valid = false;
+    }
+
+    [[nodiscard]] std::optional<Divergence> find_divergence(std::int64_t tick) {
+        using Of = Divergence::Of;
+        const MotionColumns<T, Axes>& motion = columns_.motion;
+        std::atomic<bool> possible = false;
+        in_ranges([&](const RowRange& rows) {
+            if (kernels_.may_be_infinite(motion, rows)) possible = true;
+        });
+        if (!possible) return std::nullopt;
+        for (std::size_t row = 0; row < columns_.size; ++row)
+            for (const Of of : {Of::position, Of::velocity})
+                for (std::size_t axis = 0; axis < Axes; ++axis)
+                    if (!std::isfinite((of == Of::velocity ? motion.v : motion.x)[axis][row]))
+                        return Divergence{tick, row, static_cast<int>(axis), of};
+        return std::nullopt;
     }
 
     /// Newton's changes of w for the residual of w − v − τ·a(x + τ·w, w). The matrix is kept while
@@ -126,20 +151,63 @@ private:
         cache_.half_step = half_step;
         for (std::size_t row = 0; row < columns_.size; ++row)
             cache_.inverse_mass.push(static_cast<T>(1 / columns_.mass[row]));
+        cache_.of_rows.resize(columns_.size);
         // Most links have the numbers of the link before them.
         T rate = 0;
         T reach = oscillator_response(T(0), rate, half_step).reach;
-        for (const LinkRow<T>& link : columns_.links) {
+        for (const LinkRow<T>& link : links_in_order()) {
             const T rate_before = std::exchange(
                 rate, link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]));
             if (rate != rate_before) reach = oscillator_response(T(0), rate, half_step).reach;
             cache_.loss.push_back(rate * reach);
+            cache_.any_damped = cache_.any_damped || link.damping > 0;
             if (cache_.runs.empty() || !continues(cache_.runs.back(), link))
-                cache_.runs.push_back({link, cache_.loss.size() - 1, 0});
+                cache_.runs.push_back({link, cache_.loss.size() - 1, 0, {}});
             ++cache_.runs.back().count;
+            for (const std::size_t row : {link.a, link.b}) {
+                cache_.of_rows[row].stiffness += link.stiffness;
+                cache_.of_rows[row].damping += link.damping;
+            }
         }
+        cache_.loss.push_back(0);
+        collect_single_links();
         cache_.acceleration = cache_.field = columns_.motion.v;
         cache_.valid = true;
+    }
+    /// The links in the order of their computation, so that a net has long runs in whatever order
+    /// it was linked.
+    [[nodiscard]] std::vector<LinkRow<T>> links_in_order() const {
+        const auto key = [](const LinkRow<T>& link) {
+            return std::tuple(std::int64_t{link.b} - std::int64_t{link.a}, link.rest_length,
+                              link.stiffness, link.damping, link.a);
+        };
+        std::vector<LinkRow<T>> links = columns_.links;
+        std::stable_sort(links.begin(), links.end(),
+                         [&](const auto& one, const auto& other) { return key(one) < key(other); });
+        return links;
+    }
+    /// Puts runs of one link together.
+    void collect_single_links() {
+        const auto belong_together = [](const LinkRun<T>& last, const LinkRun<T>& run) {
+            return last.any && last.count < most_any_links &&
+                   (last.of.rest_length == 0) == (run.of.rest_length == 0);
+        };
+        AnyLinks<T>& any = cache_.any;
+        for (const LinkRun<T>& run : std::exchange(cache_.runs, {})) {
+            if (run.count > 1 || cache_.runs.empty() || !belong_together(cache_.runs.back(), run))
+                cache_.runs.push_back(run);
+            else
+                ++cache_.runs.back().count;
+            if (run.count > 1) continue;
+            LinkRun<T>& together = cache_.runs.back();
+            if (together.count == 1) together.any = any.a.size();
+            together.of.damping = std::max(together.of.damping, run.of.damping);
+            any.a.push_back(run.of.a);
+            any.b.push_back(run.of.b);
+            any.stiffness.push_back(run.of.stiffness);
+            any.damping.push_back(run.of.damping);
+            any.rest_length.push_back(run.of.rest_length);
+        }
     }
     static bool continues(const LinkRun<T>& run, const LinkRow<T>& link) {
         return run.count < most_links_per_run && link.a == run.of.a + run.count &&
@@ -160,7 +228,7 @@ private:
     void change_each_row(MotionColumns<T, Axes>& motion, F f) {
         for_each_row([&](auto& physics, std::size_t row) {
             State<T, Axes> state = load<T>(motion, row);
-            f(physics, state);
+            f(physics, row, state);
             store(state, motion, row);
         });
     }
@@ -172,9 +240,18 @@ private:
         return {between(motion.x, link), between(motion.v, link)};
     }
 
+    template <class F>
+    void in_ranges(F f) {
+        for_parts(columns_.size, 1, team_, [&](std::size_t begin, std::size_t end, std::size_t) {
+            f({begin, end});
+        });
+    }
     void evaluate(const MotionColumns<T, Axes>& motion, Evaluate what, double t, Vectors& out) {
-        kernels_.accelerate(columns_, views_, motion, what, t, out);
-        kernels_.push_links(cache_, motion, what, out);
+        // Each row has its sum from one thread, in the order of the links.
+        in_ranges([&](const RowRange& rows) {
+            kernels_.accelerate(columns_, views_, motion, what, t, rows, out);
+            kernels_.push_links(cache_, motion, what, rows, out);
+        });
     }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
         ++columns_.evaluations;
@@ -182,9 +259,11 @@ private:
         cache_.field_valid = true;
     }
 
-    [[nodiscard]] bool any_link_damped() const {
-        return std::any_of(cache_.runs.begin(), cache_.runs.end(),
-                           [](const LinkRun<T>& run) { return run.of.damping > 0; });
+    [[nodiscard]] bool any_slow(const Vectors& velocity) const {
+        for (const auto& speeds : velocity)
+            for (std::size_t row = 0; row < columns_.size; ++row)
+                if (any_nonzero_below(speeds[row], sleep_limit<T>(true))) return true;
+        return false;
     }
 
     /// Whether rows have a kind of force for which `holds` is true.
@@ -236,28 +315,17 @@ private:
     Columns<T, Axes>& columns_;
     const RowViews<T, Axes>& views_;
     LinkCache<T, Axes>& cache_;
+    Team* team_;
     Damping damping_ = Damping::in_kick;
 };
-
-template <class T, int Axes>
-std::optional<Divergence> find_divergence(const MotionColumns<T, Axes>& motion, std::int64_t tick) {
-    using Of = Divergence::Of;
-    if (!linked_kernels_of<T, Axes>().may_be_infinite(motion)) return std::nullopt;
-    for (std::size_t row = 0; row < motion.x[0].size(); ++row)
-        for (const Of of : {Of::position, Of::velocity})
-            for (std::size_t axis = 0; axis < Axes; ++axis)
-                if (!std::isfinite((of == Of::velocity ? motion.v : motion.x)[axis][row]))
-                    return Divergence{tick, row, static_cast<int>(axis), of};
-    return std::nullopt;
-}
 
 }  // namespace
 
 template <std::floating_point T, int Axes>
 std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
                                            const RowViews<T, Axes>& views, const Plan<T>& plan,
-                                           const Steps& steps) {
-    LinkedRows<T, Axes> physics(columns, views, plan);
+                                           const Steps& steps, Team* team) {
+    LinkedRows<T, Axes> physics(columns, views, plan, team);
     const bool lands = columns.contacts.possible();
     return std::visit(
         [&]<class Rule>(const Rule& rule) -> std::optional<Divergence> {
@@ -274,7 +342,7 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
                 if (lands) physics.land(tick - 1, steps.rate.template dt<T>());
                 if (is_sleep_tick(tick))
                     physics.put_to_sleep(columns.motion, steps.rate.time(tick));
-                if (const auto found = find_divergence(columns.motion, tick)) return found;
+                if (const auto found = physics.find_divergence(tick)) return found;
             }
             return std::nullopt;
         },
@@ -282,25 +350,25 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
 }
 
 template std::optional<Divergence> step_linked_rows(Columns<float, 1>&, const RowViews<float, 1>&,
-                                                    const Plan<float>&, const Steps&);
+                                                    const Plan<float>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<float, 2>&, const RowViews<float, 2>&,
-                                                    const Plan<float>&, const Steps&);
+                                                    const Plan<float>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<float, 3>&, const RowViews<float, 3>&,
-                                                    const Plan<float>&, const Steps&);
+                                                    const Plan<float>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<double, 1>&, const RowViews<double, 1>&,
-                                                    const Plan<double>&, const Steps&);
+                                                    const Plan<double>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<double, 2>&, const RowViews<double, 2>&,
-                                                    const Plan<double>&, const Steps&);
+                                                    const Plan<double>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<double, 3>&, const RowViews<double, 3>&,
-                                                    const Plan<double>&, const Steps&);
+                                                    const Plan<double>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 1>&,
                                                     const RowViews<long double, 1>&,
-                                                    const Plan<long double>&, const Steps&);
+                                                    const Plan<long double>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 2>&,
                                                     const RowViews<long double, 2>&,
-                                                    const Plan<long double>&, const Steps&);
+                                                    const Plan<long double>&, const Steps&, Team*);
 template std::optional<Divergence> step_linked_rows(Columns<long double, 3>&,
                                                     const RowViews<long double, 3>&,
-                                                    const Plan<long double>&, const Steps&);
+                                                    const Plan<long double>&, const Steps&, Team*);
 
 }  // namespace oiler

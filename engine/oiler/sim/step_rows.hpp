@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "oiler/core/team.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/sim/row_views.hpp"
 #include "oiler/sim/steps.hpp"
@@ -28,10 +29,12 @@ template <std::floating_point T, int Axes>
                                                           std::size_t end,
                                                           std::vector<RowImpact<T, Axes>>& impacts);
 
-/// Steps rows with links: all rows are stepped together, stage by stage.
+/// Steps rows with links: all rows are stepped together, stage by stage. A null team means this
+/// thread alone.
 template <std::floating_point T, int Axes>
 [[nodiscard]] std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
                                                          const RowViews<T, Axes>& views,
-                                                         const Plan<T>& plan, const Steps& steps);
+                                                         const Plan<T>& plan, const Steps& steps,
+                                                         Team* team);
 
 }  // namespace oiler
