@@ -8,15 +8,23 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$(mktemp -d)}
 mkdir -p "$folder"
-sources=("$root"/tests/bits/state_hash.cpp
-         "$root"/engine/oiler/{core,physics,physics/methods,sim,stability,world}/*.cpp)
+sources=("$root"/tests/bits/state_hash.cpp)
+for file in "$root"/engine/oiler/{core,physics,physics/methods,sim,stability,world}/*.cpp; do
+    [ "${file##*/}" = kernels_of_set.cpp ] || sources+=("$file")
+done
 
 # build NAME COMPILER OPTION...
 build() {
-    local name=$1 compiler=$2
+    local name=$1 compiler=$2 precision
     shift 2
-    "$compiler" -std=c++20 -DNDEBUG -DOILER_INSTRUCTIONS=baseline -DOILER_VERSION='"bits"' -Wno-psabi "$@" \
-        -I"$root/engine" -I/usr/include/eigen3 "${sources[@]}" -o "$folder/$name" -lfmt -lxxhash -pthread
+    local options=(-std=c++20 -DNDEBUG -DOILER_INSTRUCTIONS=baseline -DOILER_KERNELS_BASELINE
+                   -DOILER_VERSION='"bits"' -Wno-psabi "$@" -I"$root/engine" -I/usr/include/eigen3)
+    for precision in float double; do
+        "$compiler" "${options[@]}" -DOILER_PRECISION=$precision \
+            -c "$root/engine/oiler/sim/kernels_of_set.cpp" -o "$folder/$name-$precision.o"
+    done
+    "$compiler" "${options[@]}" "${sources[@]}" "$folder/$name"-{float,double}.o \
+        -o "$folder/$name" -lfmt -lxxhash -pthread
 }
 
 has() { grep -qw "$1" /proc/cpuinfo; }

@@ -6,23 +6,9 @@
 #include <concepts>
 #include <vector>
 
-#include "oiler/math/vec.hpp"
-#include "oiler/sim/column.hpp"
+#include "oiler/sim/motion_columns.hpp"
 
 namespace oiler {
-
-/// One vector per row.
-template <class T, int Axes>
-using VecColumns = std::array<Column<T>, Axes>;
-
-template <class T, std::size_t Axes>
-[[nodiscard]] T largest(const std::array<Column<T>, Axes>& columns) {
-    T size = 0;
-    for (const Column<T>& column : columns)
-        for (std::size_t row = 0; row < column.size(); ++row)
-            size = larger(size, std::abs(column[row]));
-    return size;
-}
 
 /// The forces from outside over the next step, such as a thrust.
 template <std::floating_point T, int Axes>

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
@@ -14,7 +13,9 @@
 #include "oiler/physics/rate.hpp"
 #include "oiler/sim/applied_forces.hpp"
 #include "oiler/sim/contacts.hpp"
+#include "oiler/sim/motion_columns.hpp"
 #include "oiler/sim/number_view.hpp"
+#include "oiler/sim/prepared_links.hpp"
 
 namespace oiler {
 
@@ -43,72 +44,12 @@ struct ForceViewsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
 
-/// The states of all rows: the numbers that a step changes.
-template <std::floating_point T, int Axes>
-struct MotionColumns {
-    VecColumns<T, Axes> x{generate<Axes>([](auto i) { return Column<T>(i); })};         ///< m
-    VecColumns<T, Axes> v{generate<Axes>([](auto i) { return Column<T>(Axes + i); })};  ///< m/s
-};
-
-template <class T, int Axes>
-void clear_padding(MotionColumns<T, Axes>& motion) {
-    for (auto* vector : {&motion.x, &motion.v})
-        for (Column<T>& column : *vector) column.clear_padding();
-}
-
-/// A spring between two rows. Its numbers are not per unit mass, because it acts on two masses.
-template <std::floating_point T>
-struct LinkRow {
-    std::uint32_t a;
-    std::uint32_t b;
-    std::uint32_t slot;  ///< of the link's handle
-    T stiffness;         ///< N/m
-    T damping;           ///< N·s/m
-    T rest_length;       ///< m
-};
-
 /// The Response of each row over one duration.
 template <class T>
 struct FlowColumns {
     Parameter<T> reach;
     Parameter<T> sway;
     Parameter<T> decay;
-};
-
-/// The part of an acceleration to evaluate: the part that depends on position alone, or all.
-enum class Evaluate { field, all };
-
-/// `count` links that are computed together; `of` is the first, with the largest damping of all.
-template <std::floating_point T>
-struct LinkRun {
-    LinkRow<T> of;
-    std::size_t first;  ///< its index in the order of computation
-    std::size_t count;
-    /// The place in AnyLinks of links between any two rows. Otherwise all links have the same
-    /// numbers, and each joins the rows after those of the link before it.
-    std::optional<std::size_t> any;
-
-    /// The distance of the two rows of a link.
-    [[nodiscard]] [[gnu::always_inline]] std::size_t shift() const {
-        return std::max(of.a, of.b) - std::min(of.a, of.b);
-    }
-};
-
-/// Links between any two rows, of which none continues a run.
-template <class T>
-struct AnyLinks {
-    std::vector<std::uint32_t> a;
-    std::vector<std::uint32_t> b;
-    std::vector<T> stiffness;    ///< N/m
-    std::vector<T> damping;      ///< N·s/m
-    std::vector<T> rest_length;  ///< m
-};
-
-/// The sums over the links of a row.
-template <class T>
-struct LinksOfRow {
-    T stiffness = 0;  ///< N/m
-    T damping = 0;    ///< kg/s
 };
 
 /// The exact flows of a plan, computed once for all its steps.
@@ -149,14 +90,7 @@ class LinkSolver;
 template <class T, int Axes>
 struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
-    std::vector<LinkRun<T>> runs;
-    AnyLinks<T> any;
-    bool any_damped = false;
-    Parameter<T> inverse_mass;  ///< 1/kg, per row
-    std::vector<LinksOfRow<T>> of_rows;
-    T half_step = 0;  ///< s
-    /// Per link, and one more: 1 − e^(−b·(1/m₁ + 1/m₂)·τ) over a half-step.
-    std::vector<T> loss;
+    PreparedLinks<T> links;
     Stages<MotionColumns<T, Axes>> stages;        ///< scratch
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
@@ -231,43 +165,6 @@ template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] State<V, Axes> state_of(const Columns<T, Axes>& columns, std::size_t row) {
     return {{generate<Axes>([&](auto i) { return V(columns.motion.x[i][row]); })},
             {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
-}
-
-template <Number V, std::floating_point T>
-[[gnu::always_inline]] inline V load(const Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        return column[row];
-    else
-        return V::load(column.data() + row);
-}
-template <Number V, std::floating_point T>
-[[gnu::always_inline]] inline void store(const V& value, Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        column[row] = value;
-    else
-        value.store(column.data() + row);
-}
-
-template <Number V, class T, std::size_t Axes>
-[[gnu::always_inline]] inline Vec<V, int{Axes}> load(const std::array<Column<T>, Axes>& columns,
-                                                     std::size_t row) {
-    return {generate<Axes>([&](auto i) { return load<V>(columns[i], row); })};
-}
-template <Number V, class T, std::size_t Axes, int A>
-[[gnu::always_inline]] inline void store(const Vec<V, A>& value,
-                                         std::array<Column<T>, Axes>& columns, std::size_t row) {
-    for_each_index<Axes>([&](auto i) { store(value.axis[i], columns[i], row); });
-}
-template <Number V, class T, int Axes>
-[[gnu::always_inline]] inline State<V, Axes> load(const MotionColumns<T, Axes>& motion,
-                                                  std::size_t row) {
-    return {load<V>(motion.x, row), load<V>(motion.v, row)};
-}
-template <Number V, class T, int Axes>
-[[gnu::always_inline]] inline void store(const State<V, Axes>& state,
-                                         MotionColumns<T, Axes>& motion, std::size_t row) {
-    store(state.x, motion.x, row);
-    store(state.v, motion.v, row);
 }
 
 /// The columns of one kind of force.

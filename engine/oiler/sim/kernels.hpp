@@ -10,6 +10,9 @@
 
 namespace oiler {
 
+/// The part of an acceleration to evaluate: the part that depends on position alone, or all.
+enum class Evaluate { field, all };
+
 /// The rows that one thread writes; it begins a block.
 struct RowRange {
     std::size_t begin;
@@ -26,11 +29,11 @@ struct LinkedKernels {
     void (*accelerate)(const Columns<T, Axes>&, const RowViews<T, Axes>&,
                        const MotionColumns<T, Axes>&, Evaluate, double t, const RowRange&,
                        VecColumns<T, Axes>& out);
-    void (*push_links)(const LinkCache<T, Axes>&, const MotionColumns<T, Axes>&, Evaluate,
+    void (*push_links)(const PreparedLinks<T>&, const MotionColumns<T, Axes>&, Evaluate,
                        const RowRange&, VecColumns<T, Axes>& to);
     /// Half-steps of the dampers at fixed positions, one link after the other; `reverse` begins
     /// with the last.
-    void (*damp_links)(const LinkCache<T, Axes>&, MotionColumns<T, Axes>&, bool reverse);
+    void (*damp_links)(const PreparedLinks<T>&, MotionColumns<T, Axes>&, bool reverse);
     /// A drift with linear damping, see RowPhysics::drift.
     void (*drift)(const RowViews<T, Axes>&, std::size_t flow, const RowRange&,
                   MotionColumns<T, Axes>&);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -41,8 +40,8 @@ public:
         prepare(splitting ? splitting->half_step : T(0));
         // Dampers are stepped one after the other, and threads that read each other's rows are
         // slower than one.
-        if ((damping_ == Damping::in_drift && cache_.any_damped) ||
-            4 * cache_.any.a.size() > columns_.links.size())
+        if ((damping_ == Damping::in_drift && cache_.links.any_damped) ||
+            4 * cache_.links.scattered.a.size() > columns_.links.size())
             team_ = nullptr;
     }
 
@@ -80,11 +79,11 @@ public:
             change_each_row(motion, [](auto& physics, std::size_t, State<T, Axes>& state) {
                 physics.damp_before(state);
             });
-        kernels_.damp_links(cache_, motion, false);
+        kernels_.damp_links(cache_.links, motion, false);
     }
     void damp_after(MotionColumns<T, Axes>& motion) {
         if (damping_ == Damping::in_kick) return;
-        kernels_.damp_links(cache_, motion, true);
+        kernels_.damp_links(cache_.links, motion, true);
         if (any_damper_of_rows())
             change_each_row(motion, [](auto& physics, std::size_t, State<T, Axes>& state) {
                 physics.damp_after(state);
@@ -102,7 +101,7 @@ public:
         evaluate(motion, Evaluate::all, t, cache_.acceleration);
         change_each_row(motion, [&](auto& physics, std::size_t row, State<T, Axes>& state) {
             const auto& forces = physics.forces();
-            const LinksOfRow<T>& links = cache_.of_rows[row];
+            const LinksOfRow<T>& links = cache_.links.of_rows[row];
             const T rate = forces.parts.damping ? forces.linear.damping : T(0);
             put_row_to_sleep(forces, rate + links.damping,
                              forces.squares_speeds() + links.stiffness + links.damping,
@@ -146,73 +145,11 @@ public:
 private:
     /// Fills the cache for the current bodies, forces and links.
     void prepare(T half_step) {
-        if (cache_.valid && cache_.half_step == half_step) return;
+        if (cache_.valid && cache_.links.half_step == half_step) return;
         cache_ = {};
-        cache_.half_step = half_step;
-        for (std::size_t row = 0; row < columns_.size; ++row)
-            cache_.inverse_mass.push(static_cast<T>(1 / columns_.mass[row]));
-        cache_.of_rows.resize(columns_.size);
-        // Most links have the numbers of the link before them.
-        T rate = 0;
-        T reach = oscillator_response(T(0), rate, half_step).reach;
-        for (const LinkRow<T>& link : links_in_order()) {
-            const T rate_before = std::exchange(
-                rate, link.damping * (cache_.inverse_mass[link.a] + cache_.inverse_mass[link.b]));
-            if (rate != rate_before) reach = oscillator_response(T(0), rate, half_step).reach;
-            cache_.loss.push_back(rate * reach);
-            cache_.any_damped = cache_.any_damped || link.damping > 0;
-            if (cache_.runs.empty() || !continues(cache_.runs.back(), link))
-                cache_.runs.push_back({link, cache_.loss.size() - 1, 0, {}});
-            ++cache_.runs.back().count;
-            for (const std::size_t row : {link.a, link.b}) {
-                cache_.of_rows[row].stiffness += link.stiffness;
-                cache_.of_rows[row].damping += link.damping;
-            }
-        }
-        cache_.loss.push_back(0);
-        collect_single_links();
+        cache_.links = prepare_links(columns_.links, columns_.mass, columns_.size, half_step);
         cache_.acceleration = cache_.field = columns_.motion.v;
         cache_.valid = true;
-    }
-    /// The links in the order of their computation, so that a net has long runs in whatever order
-    /// it was linked.
-    [[nodiscard]] std::vector<LinkRow<T>> links_in_order() const {
-        const auto key = [](const LinkRow<T>& link) {
-            return std::tuple(std::int64_t{link.b} - std::int64_t{link.a}, link.rest_length,
-                              link.stiffness, link.damping, link.a);
-        };
-        std::vector<LinkRow<T>> links = columns_.links;
-        std::stable_sort(links.begin(), links.end(),
-                         [&](const auto& one, const auto& other) { return key(one) < key(other); });
-        return links;
-    }
-    /// Puts runs of one link together.
-    void collect_single_links() {
-        const auto belong_together = [](const LinkRun<T>& last, const LinkRun<T>& run) {
-            return last.any && last.count < most_any_links &&
-                   (last.of.rest_length == 0) == (run.of.rest_length == 0);
-        };
-        AnyLinks<T>& any = cache_.any;
-        for (const LinkRun<T>& run : std::exchange(cache_.runs, {})) {
-            if (run.count > 1 || cache_.runs.empty() || !belong_together(cache_.runs.back(), run))
-                cache_.runs.push_back(run);
-            else
-                ++cache_.runs.back().count;
-            if (run.count > 1) continue;
-            LinkRun<T>& together = cache_.runs.back();
-            if (together.count == 1) together.any = any.a.size();
-            together.of.damping = std::max(together.of.damping, run.of.damping);
-            any.a.push_back(run.of.a);
-            any.b.push_back(run.of.b);
-            any.stiffness.push_back(run.of.stiffness);
-            any.damping.push_back(run.of.damping);
-            any.rest_length.push_back(run.of.rest_length);
-        }
-    }
-    static bool continues(const LinkRun<T>& run, const LinkRow<T>& link) {
-        return run.count < most_links_per_run && link.a == run.of.a + run.count &&
-               link.b == run.of.b + run.count && link.stiffness == run.of.stiffness &&
-               link.damping == run.of.damping && link.rest_length == run.of.rest_length;
     }
 
     template <class F>
@@ -250,7 +187,7 @@ private:
         // Each row has its sum from one thread, in the order of the links.
         in_ranges([&](const RowRange& rows) {
             kernels_.accelerate(columns_, views_, motion, what, t, rows, out);
-            kernels_.push_links(cache_, motion, what, rows, out);
+            kernels_.push_links(cache_.links, motion, what, rows, out);
         });
     }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
@@ -301,8 +238,8 @@ private:
         for (const LinkRow<T>& link : columns_.links) {
             const Matrix<T, Axes> block =
                 velocity_matrix(LinkForce<T, Axes>(link).jacobian(between(at, link)), T(0), tau);
-            const T a = cache_.inverse_mass[link.a];
-            const T b = cache_.inverse_mass[link.b];
+            const T a = cache_.links.inverse_mass[link.a];
+            const T b = cache_.links.inverse_mass[link.b];
             add(link.a, link.a, block * a);
             add(link.a, link.b, block * -a);
             add(link.b, link.b, block * b);
