@@ -64,26 +64,28 @@ struct Derivative {
     decltype(State::v) dv;
 };
 
+template <class State>
+using Derivatives = std::array<Derivative<State>, Tableau::most_stages>;
+
 /// What a step of a Runge–Kutta method holds beside the state.
 template <class State>
 struct Stages {
-    std::array<Derivative<State>, Tableau::most_stages> k;
+    Derivatives<State> k;
     State initial;
     State at;
 };
 
 /// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
 /// any tableau. Each stage starts from the initial state plus the weighted rates of the stages
-/// before it.
+/// before it. The states are not in one Stages with k, whose indices would keep them in memory.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
-                                           double t, Stages<State>& stages) {
-    auto& k = stages.k;
-    State& at = stages.at;
-    stages.initial = state;
+                                           double t, Derivatives<State>& k, State& initial,
+                                           State& at) {
+    initial = state;
     repeat(
         plan.count, [&](auto i) __attribute__((always_inline)) {
-            at = stages.initial;
+            at = initial;
             repeat(
                 i, [&](auto j) __attribute__((always_inline)) {
                     if (!plan.uses(i, j)) return;
@@ -103,10 +105,13 @@ template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
     if constexpr (requires { physics.stages(); }) {
-        advance(plan, state, physics, t, physics.stages());
+        Stages<State>& stages = physics.stages();
+        advance(plan, state, physics, t, stages.k, stages.initial, stages.at);
     } else {
-        Stages<State> stages;
-        advance(plan, state, physics, t, stages);
+        Derivatives<State> k;
+        State initial;
+        State at;
+        advance(plan, state, physics, t, k, initial, at);
     }
 }
 
