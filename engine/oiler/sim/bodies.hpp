@@ -94,6 +94,9 @@ public:
     [[nodiscard]] std::size_t link_count() const;
     [[nodiscard]] Link link_at(std::size_t i) const;
     [[nodiscard]] std::array<std::size_t, 2> linked_rows(std::size_t i) const;
+    /// The links in the order of their dampers in the first half of a step with damping in the
+    /// drift; the second half has the reverse order.
+    [[nodiscard]] std::vector<std::size_t> damping_order() const;
 
     /// Adds a plane that bodies with a contact meet, and returns its index. Throws Error{usage} for
     /// a normal of 0, a restitution outside 0 to 1, a negative friction and numbers that are not

@@ -61,4 +61,9 @@ std::array<std::size_t, 2> Bodies::linked_rows(std::size_t i) const {
         columns_->of);
 }
 
+std::vector<std::size_t> Bodies::damping_order() const {
+    return std::visit([](const auto& columns) { return oiler::damping_order(columns.links); },
+                      columns_->of);
+}
+
 }  // namespace oiler

@@ -98,6 +98,24 @@ PreparedLinks<T> prepare_links(std::vector<LinkRow<T>> links, const Parameter<do
     return prepared;
 }
 
+template <std::floating_point T>
+std::vector<std::size_t> damping_order(std::vector<LinkRow<T>> links) {
+    for (std::size_t i = 0; i < links.size(); ++i) links[i].slot = static_cast<std::uint32_t>(i);
+    sort(links);
+    std::vector<std::size_t> order;
+    for (const LinkGroup<T>& run : find_runs(links)) {
+        const std::size_t step = run.shift() == 1 ? 2 : 1;
+        for (std::size_t first = 0; first < step; ++first)
+            for (std::size_t i = first; i < run.count; i += step)
+                order.push_back(links[run.first + i].slot);
+    }
+    return order;
+}
+
+template std::vector<std::size_t> damping_order(std::vector<LinkRow<float>>);
+template std::vector<std::size_t> damping_order(std::vector<LinkRow<double>>);
+template std::vector<std::size_t> damping_order(std::vector<LinkRow<long double>>);
+
 template PreparedLinks<float> prepare_links(std::vector<LinkRow<float>>, const Parameter<double>&,
                                             std::size_t, float);
 template PreparedLinks<double> prepare_links(std::vector<LinkRow<double>>, const Parameter<double>&,

@@ -81,4 +81,9 @@ template <std::floating_point T>
                                              const Parameter<double>& mass, std::size_t rows,
                                              T half_step);
 
+/// The indices of links in the order of their dampers in the first half of a step; the second half
+/// has the reverse order.
+template <std::floating_point T>
+[[nodiscard]] std::vector<std::size_t> damping_order(std::vector<LinkRow<T>> links);
+
 }  // namespace oiler

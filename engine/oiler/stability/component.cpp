@@ -127,7 +127,7 @@ std::vector<Component> linked_components(const Bodies& bodies,
         place[row] = all[component[row]].rows.size();
         add_body(bodies, row, all[component[row]]);
     }
-    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+    for (const std::size_t i : bodies.damping_order()) {
         const auto [a, b] = bodies.linked_rows(i);
         add_link(bodies, bodies.link_at(i), place[a], place[b], all[component[a]]);
     }
