@@ -36,7 +36,8 @@ moves() { ! stands_still; }
 has_changed() { screenshot stepped && ! cmp -s "$folder/paused" "$folder/stepped"; }
 window_focused() { xdotool search --name "$title" windowfocus >/dev/null 2>&1; }
 
-Xvfb -displayfd 3 -screen 0 800x600x24 -fbdir "$folder" 3>"$folder/display" >/dev/null 2>&1 &
+# Without -noreset the server restarts when its last client leaves, and refuses clients meanwhile.
+Xvfb -noreset -displayfd 3 -screen 0 800x600x24 -fbdir "$folder" 3>"$folder/display" >/dev/null 2>&1 &
 server=$!
 until_true test -s "$folder/display" || fail "Xvfb does not start"
 DISPLAY=:$(cat "$folder/display")

@@ -282,8 +282,8 @@ TEST(Landing, MakesAnElasticBallKeepItsEnergy) {
 }
 
 // Semi-implicit Euler steps a flight from u on as a parabola from u − g·dt/2, and lands at that
-// speed, after a kick that is already made: each bounce loses g·dt. The last flights, shorter than a
-// step, lose less.
+// speed, after a kick that is already made: each bounce loses g·dt. The last flights, shorter than
+// a step, lose less.
 TEST(Landing, CostsSemiImplicitEulerItsSpeed) {
     const double dt = 1.0 / 60;
     World world = world_of("semi_implicit_euler", 60);
@@ -442,6 +442,28 @@ TEST(Landing, OfLinkedBodiesHasOrderOne) {
     EXPECT_LT(error(1000), 0.01);
     EXPECT_LT(error(10000), 0.001);
     EXPECT_GT(error(1000), 1e-6);
+}
+
+// A move out of one side of a valley goes below the other, the more so the narrower the valley is.
+TEST(Landing, LeavesNoLinkedBodyBelowANarrowValley) {
+    constexpr double degree = 3.14159265358979323846 / 180;
+    for (const double half : {60 * degree, 30 * degree, 15 * degree, 5 * degree}) {
+        World world = world_of("velocity_verlet", 60, 2);
+        world.set_gravity({0, -g});
+        const std::array sides{Vec3{std::cos(half), std::sin(half)},
+                               Vec3{-std::cos(half), std::sin(half)}};
+        for (const Vec3& side : sides) world.add_plane({.normal = side, .restitution = 0.3});
+        const std::array balls{world.spawn({.position = {0.01, 2}, .contact = Contact{}}),
+                               world.spawn({.position = {-0.02, 2.5}, .contact = Contact{}})};
+        world.link(balls[0], balls[1], {.stiffness = 50, .damping = 1, .rest_length = 0.5});
+        for (int step = 0; step < 300; ++step) {
+            world.step();
+            for (const Entity ball : balls)
+                for (const Vec3& side : sides)
+                    ASSERT_GE(dot(side, world.position(ball)), -4 * epsilon)
+                        << half / degree << "° at step " << step;
+        }
+    }
 }
 
 TEST(Landing, NeverLeavesABodyBelowAPlane) {

@@ -226,6 +226,13 @@ TEST(Pushes, RefuseNumbersThatAreNotFinite) {
     EXPECT_EQ(refusal(world, [&] { world.apply_force(body, {1e30}); }),
               "apply_force of entity 1 at tick 7: the acceleration by a force of 1e+40: give a "
               "number that is finite and at most 3.40282e+38");
+    world.apply_force(body, {0, 3e28});
+    EXPECT_EQ(refusal(world,
+                      [&] {
+                          world.apply_force(body, {0, 3e28});
+                      }),
+              "apply_force of entity 1 at tick 7: the sum of the forces on a body of inf: give a "
+              "number that is finite and at most 3.40282e+38");
     EXPECT_NE(refusal(world, [&] { world.apply_impulse(body, {1e30}); }).find("1e+40"),
               std::string::npos);
     EXPECT_NE(refusal(world,

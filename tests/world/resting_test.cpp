@@ -118,6 +118,32 @@ TEST(Sliding, AcceleratesDownASlope) {
     }
 }
 
+// Straight up a slope that is too steep to rest on: it slows by g·(sin w + μ·cos w), and comes back
+// with g·(sin w − μ·cos w). The velocity does not turn, in three axes neither.
+TEST(Sliding, StraightUphillComesBack) {
+    const double angle = 0.6;
+    const double mu = 0.35;
+    const double up = g * (std::sin(angle) + mu * std::cos(angle));
+    const double down = g * (std::sin(angle) - mu * std::cos(angle));
+    const double u = 4;
+    const double back = 1.2 - u / up;
+    const double way = u * u / (2 * up) - down / 2 * back * back;
+    for (const int axes : {2, 3})
+        for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"})
+            for (const int rate : {20, 25, 100}) {
+                World world = world_of(method, rate, axes);
+                world.set_gravity({0, -g});
+                world.add_plane({.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu});
+                const Entity box = world.spawn(
+                    {.velocity = {u * std::cos(angle), u * std::sin(angle)}, .contact = Contact{}});
+                world.step(rate * 6 / 5);
+                EXPECT_NEAR(world.position(box)[0], way * std::cos(angle), 1e-13)
+                    << method << axes << rate;
+                EXPECT_NEAR(world.position(box)[1], way * std::sin(angle), 1e-13)
+                    << method << axes << rate;
+            }
+}
+
 // A block on a spring with dry friction: each half-swing of amplitude A about ±μg/ω² loses
 // 2μg/ω², until the spring is too weak: with ω = 2 /s, μg/ω² = 0.1 m and A = 0.95 m it stops at
 // the fifth turn, at 0.95 − 5·0.2 = −0.05 m after five half-periods. The turns are within steps.
@@ -379,6 +405,25 @@ TEST(Resting, WhereThereIsNoRoom) {
         {.position = {-0.33, -0.17}, .velocity = {1.98, 0.65}, .contact = Contact{0.1}});
     world.step(600);
     EXPECT_LT(length(world.position(ball)), 1);
+}
+
+// The bounces would end at √(2·0.001/10)·3 = 0.0424 s, at x = 0.924 m. The body slides from the
+// first one on, so it rests on the floor when it meets the wall at 0.75 m, at 0.025 s.
+TEST(Resting, IsNotReportedBehindAWall) {
+    World world = world_of("velocity_verlet", 10, 2);
+    world.set_gravity({0, -10});
+    world.add_plane({.normal = {0, 1}, .restitution = 0.5});
+    world.add_plane({.normal = {-1, 0}, .offset = -0.75, .restitution = 0.9});
+    world.spawn({.position = {0.5, 0.001}, .velocity = {10}, .contact = Contact{}});
+    std::vector<Impact> rests;
+    for (int i = 0; i < 3; ++i) {
+        world.step();
+        for (const Impact& impact : world.impacts())
+            if (impact.kind == Meeting::rest) rests.push_back(impact);
+    }
+    ASSERT_EQ(rests.size(), 1U);
+    EXPECT_NEAR(rests[0].time, 0.025, 4 * epsilon);
+    EXPECT_NEAR(rests[0].point[0], 0.75, 4 * epsilon);
 }
 
 // A game that waits for the end of bounces hears of it once, whatever the method, the rate and the

@@ -24,6 +24,11 @@ struct AppliedForces {
         }
         rows.push_back(row);
     }
+    /// The sum of the accelerations of a row, m/s².
+    [[nodiscard]] Vec<T, Axes> sum(std::size_t row) const {
+        if (row >= acceleration[0].size()) return {};
+        return {generate<Axes>([&](auto axis) { return acceleration[axis][row]; })};
+    }
     void clear() {
         for (const std::size_t row : rows)
             for (Column<T>& column : acceleration) column[row] = T(0);

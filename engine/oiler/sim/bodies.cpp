@@ -340,7 +340,10 @@ void Bodies::apply_force(std::size_t row, const Vec3& force) {
     limits.check(acceleration, "the acceleration by a force");
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            columns.applied.add(row, narrow<T, Axes>(acceleration), columns.size);
+            const Vec<T, Axes> change = narrow<T, Axes>(acceleration);
+            for (const T one : (columns.applied.sum(row) + change).axis)
+                limits.check(static_cast<double>(one), "the sum of the forces on a body");
+            columns.applied.add(row, change, columns.size);
             columns.state_changed(row);
         },
         columns_->of);

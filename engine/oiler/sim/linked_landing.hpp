@@ -13,17 +13,20 @@ namespace oiler {
 template <std::floating_point T, int Axes>
 bool land_linked_rows(Columns<T, Axes>& columns, const VecColumns<T, Axes>& velocity_before,
                       std::int64_t tick, T dt) {
+    using Surface = PlaneOf<T, Axes>;
     auto& contacts = columns.contacts;
     bool any = false;
     for (std::size_t row = 0; row < columns.size; ++row) {
         std::size_t index = 0;
+        bool below_any = false;
         const T radius = contacts.radius[row];
         for (std::size_t i = 0; i < contacts.planes.size(); ++i) {
-            const PlaneOf<T, Axes>& plane = contacts.planes[i];
+            const Surface& plane = contacts.planes[i];
             State<T, Axes> state = load<T>(columns.motion, row);
             const T below = -gap(plane, state.x, radius);
             if (!(below > 0)) continue;
             any = true;
+            below_any = true;
             state.x += plane.normal * below;
             const Vec<T, Axes> v = state.v;
             const T speed = -leaving_speed(plane, v);
@@ -39,6 +42,15 @@ bool land_linked_rows(Columns<T, Axes>& columns, const VecColumns<T, Axes>& velo
             }
             store(state, columns.motion, row);
         }
+        if (!below_any || contacts.planes.size() == 1) continue;
+        // A move onto one plane may go below another.
+        State<T, Axes> state = load<T>(columns.motion, row);
+        lift_onto<T, Axes>(
+            contacts.planes, state.x,
+            [&](const Surface& plane, const Vec<T, Axes>& x) { return gap(plane, x, radius); },
+            [&](const Surface& plane) { return hidden_distance(plane, state, radius, dt); },
+            [](const Surface&) {});
+        store(state, columns.motion, row);
     }
     return any;
 }

@@ -27,8 +27,9 @@ struct Collision {
 class Collisions {
 public:
     /// Finds the collisions since the update before, of the same world. A body that was created,
-    /// teleported or without a contact in between stays at its present place, and so do all bodies
-    /// at the first update. Positions that overflow double are left out.
+    /// teleported or removed in between, or without a contact at the update before, stays at its
+    /// present place, and so do all bodies at the first update. Positions that overflow double are
+    /// left out.
     ///
     /// The time is proportional to the number of bodies and of pairs whose paths have overlapping
     /// bounds: nearly n² for n bodies in one place, or n long paths across a crowd. Bodies of any

@@ -53,7 +53,7 @@ public:
             const Vector a = body_.accelerate(state, start_);
             const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
             if (support.empty()) {
-                flying_ = true;
+                take_off();
                 fly(state);
             } else {
                 if (std::exchange(flying_, false))
@@ -95,31 +95,16 @@ private:
 
     /// Moves a body that is below planes onto them.
     void lift(Motion& state) {
-        constexpr int most_moves = 64;
-        Lift<T, Axes> lift;
         PlaneSet reported = 0;
-        for (int move = 0; move < most_moves; ++move) {
-            const Surface* const plane = lowest(state);
-            if (!plane) break;
-            state.x += lift.onto(*plane, [&](const Surface& one) { return gap_of(one, state.x); });
-            const PlaneSet bit = PlaneSet{1} << index_of(*plane);
-            if ((reported & bit) == 0) report(Meeting::lifted, *plane, start_, state, state.v);
-            reported |= bit;
-        }
-        for (const Surface& plane : planes_)
-            if (const T below = -gap_of(plane, state.x); below > 0) state.x += plane.normal * below;
-    }
-    /// The plane that a body is farthest below, by more than round-off.
-    [[nodiscard]] const Surface* lowest(const Motion& state) const {
-        const Surface* lowest = nullptr;
-        T least = 0;
-        for (const Surface& plane : planes_) {
-            const T one = gap_of(plane, state.x);
-            if (one >= least || one >= -gap_noise(plane, state)) continue;
-            lowest = &plane;
-            least = one;
-        }
-        return lowest;
+        lift_onto(
+            planes_, state.x,
+            [&](const Surface& plane, const Vector& x) { return gap_of(plane, x); },
+            [&](const Surface& plane) { return gap_noise(plane, state); },
+            [&](const Surface& plane) {
+                const PlaneSet bit = PlaneSet{1} << index_of(plane);
+                if ((reported & bit) == 0) report(Meeting::lifted, plane, start_, state, state.v);
+                reported |= bit;
+            });
     }
 
     void advance(Motion& state, const Motion& to, T tau) {
@@ -127,7 +112,14 @@ private:
         start_ += tau;
         left_ = tau < left_ ? left_ - tau : T(0);
         if (tau > 0) bounces_at_once_ = 0;
+        if (rest_ && (rest_->after_start <= start_ || left_ == 0))
+            report_(*std::exchange(rest_, std::nullopt));
         lift(state);
+    }
+    /// A rest that was to come does not.
+    void take_off() {
+        flying_ = true;
+        rest_.reset();
     }
 
     /// The planes that may bear the body: those that it touches without leaving them, or leaves for
@@ -152,7 +144,7 @@ private:
             const Vector before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
             const T kept = plane.restitution * speed;
-            flying_ = true;
+            take_off();
             if (++bounces_at_once_ > most_bounces_at_once) {
                 state.v =
                     Bearing::against(before, planes_, touched_planes(state)).without_push(before);
@@ -211,7 +203,7 @@ private:
             const T tau = rate * after > speed ? speed / rate : after;
             end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
         }
-        report(Meeting::rest, plane, start_ + after, end, end.v);
+        rest_ = {Meeting::rest, index_of(plane), start_ + after, end.x, end.v, end.v};
         flying_ = false;
     }
 
@@ -275,17 +267,23 @@ private:
                                  reaction.axis.begin() + static_cast<int>(support.size()));
     }
 
+    /// Whether a pull turns a velocity.
+    [[nodiscard]] static bool is_across(const Vector& v, const Vector& pull) {
+        const T square = dot(pull, pull);
+        if (!(square > 0)) return false;
+        return largest(v - pull * (dot(v, pull) / square)) > 64 * epsilon * largest(v);
+    }
     T slide(Motion& state, const Bearing& support, const Vector& a) {
         const Vector pull = support.without_push(a);
         const Vector direction = normalised(state.v == Vector{} ? pull : state.v);
         const T grip = support.grip(a);
-        const bool turns = grip > 0 && support.size() + 2 <= Axes;
-        if (turns && state.v != Vector{} && dot(pull, pull) < grip * grip)
+        const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
+        if (free_to_turn && state.v != Vector{} && dot(pull, pull) < grip * grip)
             if (const auto end = slide_end(state.v, pull, grip); end.time <= left_) {
                 advance(state, {state.x + end.way, Vector{}}, end.time);
                 return end.time;
             }
-        const Friction<T, Axes> friction{direction, turns};
+        const Friction<T, Axes> friction{direction, free_to_turn && is_across(state.v, pull)};
         const auto move = [&](T tau) { return body_.slide(state, start_, tau, support, friction); };
         Leg leg{move(left_), left_};
         for (const Surface& plane : planes_)
@@ -364,6 +362,7 @@ private:
     int bounces_at_once_ = 0;
     bool settled_ = false;
     bool flying_ = false;  ///< since the start of the step, or the last rest in it
+    std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before
     /// What round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s

@@ -10,8 +10,8 @@
 
 namespace oiler {
 
-/// Moves a point from below planes onto them: onto the lowest one, then onto that and the lowest of
-/// the others, so that a narrow wedge takes few moves.
+/// The moves of a point from below planes onto them: onto the lowest one, then onto that and the
+/// lowest of the others, so that a narrow wedge takes few moves.
 template <std::floating_point T, int Axes>
 class Lift {
 public:
@@ -68,5 +68,34 @@ private:
     std::array<const Surface*, Axes> planes_{};
     std::size_t count_ = 0;
 };
+
+/// Moves a point at `x` onto the planes that it is below, and calls moved(plane) after each move.
+/// `gap_of(plane, x)` is the gap (m), and noise_of(plane) what round-off hides of it.
+template <std::floating_point T, int Axes, class Gap, class Noise, class Moved>
+void lift_onto(std::span<const PlaneOf<T, Axes>> planes, Vec<T, Axes>& x, Gap gap_of,
+               Noise noise_of, Moved moved) {
+    constexpr int most_moves = 64;
+    using Surface = PlaneOf<T, Axes>;
+    const auto lowest = [&] {
+        const Surface* farthest = nullptr;
+        T least = 0;
+        for (const Surface& plane : planes) {
+            const T one = gap_of(plane, x);
+            if (one >= least || one >= -noise_of(plane)) continue;
+            farthest = &plane;
+            least = one;
+        }
+        return farthest;
+    };
+    Lift<T, Axes> lift;
+    for (int move = 0; move < most_moves; ++move) {
+        const Surface* const plane = lowest();
+        if (!plane) break;
+        x += lift.onto(*plane, [&](const Surface& one) { return gap_of(one, x); });
+        moved(*plane);
+    }
+    for (const Surface& plane : planes)
+        if (const T below = -gap_of(plane, x); below > 0) x += plane.normal * below;
+}
 
 }  // namespace oiler
