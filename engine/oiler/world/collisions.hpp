@@ -26,10 +26,11 @@ struct Collision {
 /// It is a value that a game keeps and updates after each step, so other games do not pay for it.
 class Collisions {
 public:
-    /// Finds the collisions since the update before, of the same world. A body that was created,
-    /// teleported or removed in between, or without a contact at the update before, stays at its
-    /// present place, and so do all bodies at the first update. Positions that overflow double are
-    /// left out.
+    /// Finds the collisions since the update before, of the same world. A body that was created or
+    /// teleported in between, or without a contact at the update before, stays at its present
+    /// place, and so do all bodies at the first update. What an entity's body does between two
+    /// updates, also if it is removed and added again, is one motion. Positions that overflow
+    /// double are left out.
     ///
     /// The time is proportional to the number of bodies and of pairs whose paths have overlapping
     /// bounds: nearly n² for n bodies in one place, or n long paths across a crowd. Bodies of any

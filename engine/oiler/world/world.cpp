@@ -11,7 +11,7 @@
 namespace oiler {
 namespace {
 
-/// See World::jumps; only entities whose bodies have jumped have this component.
+/// The number of teleports of a body; only teleported bodies have this component.
 struct Jumps {
     std::uint32_t count = 0;
 };
@@ -43,7 +43,7 @@ Entity World::create() { return slots_.take<Entity>(); }
 void World::destroy(Entity entity) {
     require(alive(entity), gone);
     for (const TaggedPool& entry : pools_) entry.pool->erase(entity.index);
-    if (has_body(entity)) remove_row(entity);
+    if (has_body(entity)) remove_body(entity);
     slots_.release(entity.index);
 }
 
@@ -65,11 +65,6 @@ void World::reserve(std::size_t bodies) {
 }
 
 void World::remove_body(Entity entity) {
-    remove_row(entity);
-    count_jump(entity);
-}
-
-void World::remove_row(Entity entity) {
     bodies_.remove(row(entity));
     rows_.remove(entity.index);
 }
@@ -98,10 +93,6 @@ void World::refuse(const char* call, Entity entity, const Error& error) const {
 
 void World::teleport(Entity entity, const Vec3& position) {
     change("teleport", entity, [&](std::size_t row) { bodies_.set_position(row, position); });
-    count_jump(entity);
-}
-
-void World::count_jump(Entity entity) {
     if (!find<Jumps>(entity)) add(entity, Jumps{});
     ++get<Jumps>(entity).count;
 }

@@ -189,8 +189,8 @@ public:
     }
     /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
-    /// The number of times that the body was teleported or removed: the `jump` of a picture's
-    /// element. 0 if the entity is gone.
+    /// The number of teleports of the body: the `jump` of a picture's element. 0 if the entity is
+    /// gone.
     [[nodiscard]] std::uint32_t jumps(Entity entity) const;
 
     /// Adds a plane, such as a floor, that bodies with a contact meet, and returns its index. See
@@ -281,8 +281,6 @@ private:
     }
     [[noreturn]] void refuse(const char* call, Entity entity, const Error& error) const;
 
-    void remove_row(Entity entity);
-    void count_jump(Entity entity);
     void list_impacts();
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
