@@ -102,8 +102,9 @@ template <class V, class T, int Axes>
 
 /// The dampers of links between any two rows, one after the other.
 template <class T, int Axes>
-void damp_scattered(const LinkGroup<T>& group, const PreparedLinks<T>& prepared,
-                    MotionColumns<T, Axes>& motion, bool reverse) {
+[[gnu::always_inline]] inline void damp_scattered(const LinkGroup<T>& group,
+                                                  const PreparedLinks<T>& prepared,
+                                                  MotionColumns<T, Axes>& motion, bool reverse) {
     const ScatteredLinks<T>& links = prepared.scattered;
     for (std::size_t i = 0; i < group.count; ++i) {
         const std::size_t link = reverse ? group.count - 1 - i : i;
