@@ -27,7 +27,7 @@ public:
             if (support.drop_pulled(push)) continue;
             const Surface* const pressed =
                 support.count_ < Axes
-                    ? most_pressed(support.without_push(push), planes, touched, noise)
+                    ? support.most_pressed(support.without_push(push), planes, touched, noise)
                     : nullptr;
             if (!pressed) break;
             support.planes_[support.count_++] = pressed;
@@ -81,13 +81,15 @@ private:
         std::swap(planes_[static_cast<std::size_t>(least - first)], planes_[--count_]);
         return true;
     }
-    static const Surface* most_pressed(const Vector& push, std::span<const Surface> planes,
-                                       PlaneSet touched, T noise) {
+    /// The plane into which a push presses most, of those that do not bear the body yet: into the
+    /// others, a wedge's large reactions may leave a rest of round-off.
+    [[nodiscard]] const Surface* most_pressed(const Vector& push, std::span<const Surface> planes,
+                                              PlaneSet touched, T noise) const {
         const Surface* most = nullptr;
         T least = -noise;
         for (std::size_t i = 0; i < planes.size(); ++i) {
             const T one = dot(planes[i].normal, push);
-            if ((touched >> i & 1U) == 0 || one >= least) continue;
+            if ((touched >> i & 1U) == 0 || one >= least || has(planes[i])) continue;
             most = &planes[i];
             least = one;
         }
