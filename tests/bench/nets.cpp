@@ -11,9 +11,14 @@
 namespace oiler::bench {
 namespace {
 
-/// ns per spring and step.
-double cost(const Bench& bench, const Net& net, const Links& links, const Link& link) {
+/// ns per spring and step. A pinned net hangs from two corners.
+double cost(const Bench& bench, const Net& net, const Links& links, const Link& link,
+            bool pinned = false) {
     World world = make_net(net, links, link);
+    for (std::size_t i = 0; pinned && i < 2; ++i) {
+        const Entity corner = world.entity_of_row(i * (net.side - 1));
+        world.link_to_point(corner, world.position(corner), link);
+    }
     const std::vector<double> seconds = race({[&](long times) {
                                                  for (long i = 0; i < times; ++i) world.step(1);
                                              }},
@@ -32,14 +37,20 @@ void measure(Bench& bench, std::size_t side, double most) {
     if (!bench.wants("nets: " + name)) return;
     const Net net{side};
     const double with = cost(bench, net, net.links(), damped);
+    const double pinned = cost(bench, net, net.links(), damped, true);
     const double random = cost(bench, net, net.random_links(), gentle);
     bench.report.add("Nets, ns per spring and step",
                      {name,
                       {{"rest length and damping", with},
+                       {"hung from two corners", pinned},
                        {"rest length", cost(bench, net, net.links(), undamped)},
                        {"damping", cost(bench, net, net.links(), no_length)},
                        {"between any two", random}}});
     bench.report.target({.id = "T5", .what = name, .measured = with, .unit = "ns", .limit = most});
+    bench.report.target({.id = "T5",
+                         .what = name + ", hung from two corners / not",
+                         .measured = pinned / with,
+                         .limit = 1.05});
     bench.report.target({.id = "T5",
                          .what = name + " bodies, links between any two",
                          .measured = random,

@@ -22,6 +22,7 @@ using oiler::Damping;
 using oiler::find_method;
 using oiler::LinearDrag;
 using oiler::Link;
+using oiler::LinkEnds;
 using oiler::Method;
 using oiler::methods;
 using oiler::Move;
@@ -55,13 +56,15 @@ Bodies assorted(Precision precision) {
     return bodies;
 }
 
-/// Bodies of which rows 0 to 4 are linked.
+/// Bodies of which rows 0 to 4 are linked, rows 1 and 3 also to points.
 Bodies linked(Precision precision) {
     Bodies bodies = assorted(precision);
     bodies.link(0, 1, {.stiffness = 12, .damping = 0.3});
     bodies.link(1, 2, {.stiffness = 20, .damping = 0.6, .rest_length = 1.5});
     bodies.link(2, 4, {.stiffness = 9, .rest_length = 2});
     bodies.link(4, 3, {.stiffness = 4, .damping = 2});
+    bodies.link_to_point(3, {0, 9}, {.stiffness = 3, .damping = 0.4});
+    bodies.link_to_point(1, {4, 3}, {.stiffness = 6, .damping = 0.7, .rest_length = 0.5});
     return bodies;
 }
 
@@ -80,8 +83,11 @@ Bodies rebuilt(const Bodies& from) {
         std::apply([&](const auto&... force) { (attach(force), ...); }, from.forces_per_mass(row));
     }
     for (std::size_t i = 0; i < from.link_count(); ++i) {
-        const auto [a, b] = from.linked_rows(i);
-        to.link(a, b, from.link_at(i));
+        const LinkEnds ends = from.link_ends(i);
+        if (ends.other)
+            to.link(ends.row, *ends.other, from.link_at(i));
+        else
+            to.link_to_point(ends.row, ends.point, from.link_at(i));
     }
     return to;
 }
@@ -285,31 +291,33 @@ TEST(LinkedBodies, EvaluateAsOftenAsTheMethodSaysAndOnceMore) {
     }
 }
 
-std::vector<std::array<std::size_t, 2>> rows_of(const Bodies& bodies) {
-    std::vector<std::array<std::size_t, 2>> rows;
-    for (std::size_t i = 0; i < bodies.link_count(); ++i) rows.push_back(bodies.linked_rows(i));
-    return rows;
+std::vector<LinkEnds> ends_of(const Bodies& bodies) {
+    std::vector<LinkEnds> ends;
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) ends.push_back(bodies.link_ends(i));
+    return ends;
 }
 
-// Row 7 moves to row 1; links keep their order and their numbers.
+// The last row moves to the place of the removed one; links keep their order and their numbers.
 TEST(LinkedBodies, AreRemovedWithTheirLinks) {
     Bodies bodies = linked(Precision::double_);
     bodies.link(7, 0, {.stiffness = 5, .damping = 6, .rest_length = 7});
     bodies.link(5, 7, {.stiffness = 8});
     bodies.remove(1);
-    EXPECT_EQ(rows_of(bodies),
-              (std::vector<std::array<std::size_t, 2>>{{2, 4}, {4, 3}, {1, 0}, {5, 1}}));
+    const LinkEnds point{3, {}, {0, 9}};
+    EXPECT_EQ(ends_of(bodies), (std::vector<LinkEnds>{{2, 4}, {4, 3}, {1, 0}, {5, 1}, point}));
     const Link link = bodies.link_at(2);
     EXPECT_EQ(link.stiffness, 5);
     EXPECT_EQ(link.damping, 6);
     EXPECT_EQ(link.rest_length, 7);
     bodies.remove(6);
-    EXPECT_EQ(bodies.link_count(), 4U);
+    EXPECT_EQ(bodies.link_count(), 5U);
+    bodies.link_to_point(5, {1, 2}, {.stiffness = 8});
     bodies.remove(4);
-    EXPECT_EQ(rows_of(bodies), (std::vector<std::array<std::size_t, 2>>{{1, 0}, {4, 1}}));
+    EXPECT_EQ(ends_of(bodies), (std::vector<LinkEnds>{{1, 0}, {4, 1}, point, {4, {}, {1, 2}}}));
+    EXPECT_EQ(bodies.linked_rows(), (std::vector<bool>{true, true, false, true, true}));
     bodies.remove(4);
     bodies.remove(0);
-    EXPECT_EQ(bodies.link_count(), 0U);
+    EXPECT_EQ(ends_of(bodies), (std::vector<LinkEnds>{{0, {}, {0, 9}}}));
 }
 
 struct Linked {
@@ -386,7 +394,8 @@ TEST(LinkedBodies, AreDampedLinkByLinkInRunsOfAnyShift) {
 }
 
 // Links without stiffness or length: a half-step multiplies the relative velocity of its bodies by
-// e^(−b·(1/m₁ + 1/m₂)·dt/2) and keeps their momentum. Each of the 2 × 7 half-steps rounds a speed
+// e^(−b·(1/m₁ + 1/m₂)·dt/2) and keeps their momentum. To a
+// point, 1/m₂ is 0. Each of the 2 × 9 half-steps rounds a speed
 // of at most 2 m/s a few times. Another order of the dampers changes the velocities by b²·dt² ~
 // 1e-3.
 TEST(LinkedBodies, AreDampedInTheReportedOrder) {
@@ -407,13 +416,14 @@ TEST(LinkedBodies, AreDampedInTheReportedOrder) {
     link(1, 2, 2);
     link(5, 2, 1);
     link(4, 5, 2);
+    for (const std::size_t row : {5, 2}) bodies.link_to_point(row, {0.25}, {.damping = 1.5});
     const auto damp = [&](std::size_t i) {
-        const auto [a, b] = bodies.linked_rows(i);
-        const double inverse = 1 / mass_of(a) + 1 / mass_of(b);
+        const auto [a, b, point] = bodies.link_ends(i);
+        const double inverse = 1 / mass_of(a) + (b ? 1 / mass_of(*b) : 0);
         const double lost = -std::expm1(-bodies.link_at(i).damping * inverse * dt / 2);
-        const double impulse = (v[b] - v[a]) * lost / inverse;
+        const double impulse = ((b ? v[*b] : 0) - v[a]) * lost / inverse;
         v[a] += impulse / mass_of(a);
-        v[b] -= impulse / mass_of(b);
+        if (b) v[*b] -= impulse / mass_of(*b);
     };
     const std::vector<std::size_t> order = bodies.damping_order();
     std::for_each(order.begin(), order.end(), damp);

@@ -102,7 +102,8 @@ TEST(Sleep, IsTheSameBesideLinkedBodies) {
 }
 
 // The speed of both bodies fades as e^(−b·t/m). From 1 m/s it is subnormal in float after 109 s.
-// Their positions stay between 4 and 8 m, where floats have one spacing, so the link exerts no force.
+// Their positions stay between 4 and 8 m, where floats have one spacing, so the link exerts no
+// force.
 TEST(Sleep, ComesToLinkedBodiesWithDrag) {
     for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4"}) {
         Bodies bodies(1, Precision::single);

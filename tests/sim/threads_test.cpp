@@ -58,7 +58,8 @@ TEST(Threads, GiveTheSameBits) {
     }
 }
 
-/// A net with links along and across its rows, and one of eight bodies linked to any other.
+/// A net with links along and across its rows, one of eight bodies linked to any other, and some to
+/// a point.
 Bodies net() {
     constexpr std::size_t width = 150;
     constexpr std::size_t size = width * 120;
@@ -69,6 +70,7 @@ Bodies net() {
         if (row + width < size) bodies.link(row + width, row, {.stiffness = 4});
         const std::size_t other = (row * 7919 + 13) % size;
         if (row % 8 == 0 && other != row) bodies.link(row, other, {.stiffness = 0.5});
+        if (row % 5000 == 7) bodies.link_to_point(row, {}, {.stiffness = 3, .damping = 0.25});
     }
     return bodies;
 }

@@ -69,8 +69,8 @@ double longest_step(const Bodies& bodies, const Method& method, double around) {
     return quiet;
 }
 
-SpringScene crossed_coils(double angle) {
-    SpringScene scene;
+SpringScene crossed_coils(double angle, bool links_to_points = false) {
+    SpringScene scene{.links_to_points = links_to_points};
     scene.masses.push_back({});
     scene.add_relaxed({.anchor = {1, 0}, .stiffness = 4000}, true);
     scene.add_relaxed({.anchor = {std::cos(angle), std::sin(angle)}, .stiffness = 4000}, true);
@@ -80,13 +80,14 @@ SpringScene crossed_coils(double angle) {
 // Two equal springs at an angle φ have k·(1 ± cos φ).
 TEST(CrossedCoils, AddByTheirDirections) {
     const Method& verlet = find_method("velocity_verlet");
-    for (const double angle : {0.3, 1.0, std::acos(0.0), 2.0}) {
-        const Bodies bodies = crossed_coils(angle).bodies();
-        const double limit = 2 / std::sqrt(4000 * (1 + std::abs(std::cos(angle))));
-        EXPECT_NEAR(longest_step(bodies, verlet, limit) / limit, 1, 1e-4) << angle;
-        EXPECT_FALSE(explodes(bodies, verlet, 0.99 * limit, 20'000)) << angle;
-        EXPECT_TRUE(explodes(bodies, verlet, 1.01 * limit, 20'000)) << angle;
-    }
+    for (const double angle : {0.3, 1.0, std::acos(0.0), 2.0})
+        for (const bool links_to_points : {false, true}) {
+            const Bodies bodies = crossed_coils(angle, links_to_points).bodies();
+            const double limit = 2 / std::sqrt(4000 * (1 + std::abs(std::cos(angle))));
+            EXPECT_NEAR(longest_step(bodies, verlet, limit) / limit, 1, 1e-4) << angle;
+            EXPECT_FALSE(explodes(bodies, verlet, 0.99 * limit, 20'000)) << angle;
+            EXPECT_TRUE(explodes(bodies, verlet, 1.01 * limit, 20'000)) << angle;
+        }
 }
 
 TEST(CrossedCoils, ThatAreStretchedPullAcross) {
@@ -287,7 +288,8 @@ TEST(RandomSprings, AreWarnedOfIfTheyExplode) {
     int exploding = 0;
     for (int seed = 0; seed < campaign_length(); ++seed) {
         RandomScene random(static_cast<std::uint64_t>(seed));
-        const SpringScene scene = random.make();
+        SpringScene scene = random.make();
+        scene.links_to_points = seed % 2 == 1;
         const Method& method = random.method();
         const double limit = stability_limit(method, method.damping, {1, 0});
         const double dt = (limit > 0 ? limit : 1) / highest_frequency(scene) *

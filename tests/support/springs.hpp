@@ -29,6 +29,7 @@ struct SpringScene {
     int axes = 2;
     std::vector<Mass> masses{};
     std::vector<Pull> pulls{};
+    bool links_to_points = false;  ///< anchored springs are links to points
 
     [[nodiscard]] Vec3 other_end(const Pull& pull) const {
         return pull.b < 0 ? pull.anchor : masses[static_cast<std::size_t>(pull.b)].position;
@@ -49,6 +50,8 @@ struct SpringScene {
         for (const auto& [a, b, anchor, k, damping, length] : pulls)
             if (b >= 0)
                 all.link(a, static_cast<std::size_t>(b), {k, damping, length});
+            else if (links_to_points)
+                all.link_to_point(a, anchor, {k, damping, length});
             else if (length > 0)
                 all.attach_at(coils[a]++, a, CoilSpring{anchor, k, damping, length});
             else

@@ -60,6 +60,20 @@ TEST(WorldLinks, AreCopiedWithTheirWorld) {
     EXPECT_EQ(copy.state_hash(), chain.world.state_hash());
 }
 
+TEST(WorldLinks, ToPointsAreRemovedWithTheirEntities) {
+    Chain chain;
+    const oiler::LinkHandle pin = chain.world.link_to_point(chain.first, {0, 1}, stiff);
+    const oiler::LinkHandle other = chain.world.link_to_point(chain.third, {3, 2}, stiff);
+    const World copy = chain.world;
+    chain.world.destroy(chain.first);
+    EXPECT_FALSE(chain.world.alive(pin));
+    EXPECT_TRUE(chain.world.alive(other));
+    EXPECT_TRUE(copy.alive(pin));
+    EXPECT_EQ(chain.world.bodies().link_count(), 2U);
+    chain.world.unlink(other);
+    EXPECT_EQ(chain.world.bodies().link_count(), 1U);
+}
+
 // A step after a teleport must not use the acceleration from before it.
 TEST(WorldLinks, ReactToATeleportInTheNextStep) {
     Chain chain;

@@ -70,9 +70,8 @@ std::string columns_text(const Ledger& ledger) {
     std::string text = "\nStored           bytes per body\n";
     for (const ColumnGroup& group : groups_of(ledger)) text += group.line(ledger.bodies);
     if (ledger.links > 0)
-        text += fmt::format("  {:<15} {:>6.1f}  {} bytes each, {:.2f} per body\n", "links",
-                            static_cast<double>(ledger.links) *
-                                static_cast<double>(ledger.bytes_per_link) /
+        text += fmt::format("  {:<15} {:>6.1f}  {:.4g} bytes each, {:.2f} per body\n", "links",
+                            static_cast<double>(ledger.links) * ledger.bytes_per_link /
                                 static_cast<double>(ledger.bodies),
                             ledger.bytes_per_link,
                             static_cast<double>(ledger.links) / static_cast<double>(ledger.bodies));

@@ -96,9 +96,8 @@ private:
                     body_of(grid.matter, node_position(grid, column, row), grid.velocity), forces));
         for (const GridLink& link : links_of(grid)) add_links(grid, link, nodes);
         for (const std::size_t node : anchored_nodes(grid))
-            world_.attach(nodes[node], Spring{.anchor = world_.position(nodes[node]),
-                                              .stiffness = grid.stiffness,
-                                              .damping = grid.damping});
+            world_.link_to_point(nodes[node], world_.position(nodes[node]),
+                                 {.stiffness = grid.stiffness, .damping = grid.damping});
     }
     /// Links row by row, so that consecutive links join consecutive rows of bodies.
     void add_links(const SceneGrid& grid, const GridLink& link, const std::vector<Entity>& nodes) {

@@ -111,18 +111,18 @@ void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec<V, 
 }
 
 /// Removes the links of `row`, to which row `last` has moved. Calls f(link) for each of them first.
-template <class T, class F>
-void remove_links(std::vector<LinkRow<T>>& links, std::size_t row, std::size_t last, F f) {
-    std::erase_if(links, [&](const LinkRow<T>& link) {
-        const bool gone = link.a == row || link.b == row;
+template <class Row, class F>
+void remove_links(std::vector<Row>& links, std::size_t row, std::size_t last, F f) {
+    std::erase_if(links, [&](Row& link) {
+        bool gone = false;
+        link.for_each_row([&](std::uint32_t end) { gone = gone || end == row; });
         if (gone) f(link);
         return gone;
     });
-    const auto moved = static_cast<std::uint32_t>(row);
-    for (LinkRow<T>& link : links) {
-        if (link.a == last) link.a = moved;
-        if (link.b == last) link.b = moved;
-    }
+    for (Row& link : links)
+        link.for_each_row([&](std::uint32_t& end) {
+            if (end == last) end = static_cast<std::uint32_t>(row);
+        });
 }
 
 /// Drops the columns of a kind of force that no row has any more.
@@ -257,8 +257,9 @@ void Bodies::remove(std::size_t row) {
             std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
             columns.applied.swap_remove(row, --columns.size);
             columns.contacts.swap_remove(row, columns.size);
-            remove_links(columns.links, row, columns.size,
-                         [&](const auto& link) { link_slots_.release(link.slot); });
+            const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
+            remove_links(columns.links, row, columns.size, release);
+            remove_links(columns.point_links, row, columns.size, release);
             columns.forces_changed();
         },
         columns_->of);

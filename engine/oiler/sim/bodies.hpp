@@ -34,6 +34,14 @@ struct Stored {
     std::size_t rows = 0;        ///< rows with any number other than 0
 };
 
+/// What a link joins: a row with another one, or with a fixed point.
+struct LinkEnds {
+    std::size_t row = 0;
+    std::optional<std::size_t> other{};  ///< absent for a point
+    Vec3 point{};                        ///< m
+    friend bool operator==(const LinkEnds&, const LinkEnds&) = default;
+};
+
 /// The largest difference between the positions of the same rows in two worlds, m.
 struct Deviation {
     double distance = 0;
@@ -88,12 +96,19 @@ public:
     /// Adds a spring between two rows. Throws Error{usage} for a number that is not finite in the
     /// columns' precision.
     LinkHandle link(std::size_t a, std::size_t b, const Link& link);
+    /// Adds a spring between a row and a fixed point. It costs nothing for other rows, where a
+    /// Spring or CoilSpring costs each row a column; but it is stepped by itself, and the row as a
+    /// linked one.
+    LinkHandle link_to_point(std::size_t row, const Vec3& point, const Link& link);
     [[nodiscard]] bool alive(LinkHandle link) const;
     /// Removes the spring, which must be alive.
     void unlink(LinkHandle link);
+    /// The number of links: first those between rows, then those to points.
     [[nodiscard]] std::size_t link_count() const;
     [[nodiscard]] Link link_at(std::size_t i) const;
-    [[nodiscard]] std::array<std::size_t, 2> linked_rows(std::size_t i) const;
+    [[nodiscard]] LinkEnds link_ends(std::size_t i) const;
+    /// Per row, whether it has a link.
+    [[nodiscard]] std::vector<bool> linked_rows() const;
     /// The links in the order of their dampers in the first half of a step with damping in the
     /// drift; the second half has the reverse order.
     [[nodiscard]] std::vector<std::size_t> damping_order() const;
@@ -158,7 +173,7 @@ public:
 
     /// The storage of motion, mass, contact, then each force, without links and caches.
     [[nodiscard]] std::vector<Stored> stored() const;
-    [[nodiscard]] std::size_t bytes_per_link() const;
+    [[nodiscard]] std::size_t bytes_of_links() const;
     /// Compares with bodies of the same precision, axes and number; 0 only if all positions agree.
     [[nodiscard]] Deviation deviation_from(const Bodies& other) const;
 
@@ -183,6 +198,7 @@ private:
         return all;
     }
     void require_row(std::size_t row) const;
+    void require_linkable(std::size_t row, const Link& link) const;
     void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
     void attach_given(std::size_t row, std::size_t index, const GivenForces& forces);

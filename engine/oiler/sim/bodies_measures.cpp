@@ -103,18 +103,20 @@ std::size_t Bodies::most_forces_of_a_kind() const {
 }
 
 double Bodies::link_potential(std::size_t i) const {
+    const Link link = link_at(i);
+    const LinkEnds ends = link_ends(i);
     return std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const LinkRow<T>& stored = columns.links[i];
-            const LinkRow<double> link{stored.a,
-                                       stored.b,
-                                       stored.slot,
-                                       static_cast<double>(stored.stiffness),
-                                       static_cast<double>(stored.damping),
-                                       static_cast<double>(stored.rest_length)};
-            const auto a = state_of<double>(columns, link.a);
-            const auto b = state_of<double>(columns, link.b);
-            return LinkForce<double, Axes>(link).potential({a.x - b.x, a.v - b.v});
+            State<double, Axes> between = state_of<double>(columns, ends.row);
+            if (ends.other) {
+                between.x -= state_of<double>(columns, *ends.other).x;
+            } else {
+                for (std::size_t axis = 0; axis < Axes; ++axis)
+                    between.x.axis[axis] -= ends.point.axis[axis];
+            }
+            return LinkForce<double, Axes>(link.stiffness, link.damping, link.rest_length,
+                                           link.rest_length == 0)
+                .potential(between);
         },
         columns_->of);
 }
@@ -143,9 +145,13 @@ std::vector<Stored> Bodies::stored() const {
         columns_->of);
 }
 
-std::size_t Bodies::bytes_per_link() const {
-    return std::visit([]<class T, int Axes>(const Columns<T, Axes>&) { return sizeof(LinkRow<T>); },
-                      columns_->of);
+std::size_t Bodies::bytes_of_links() const {
+    const auto bytes = []<class Row>(const std::vector<Row>& links) {
+        return links.size() * sizeof(Row);
+    };
+    return std::visit(
+        [&](const auto& columns) { return bytes(columns.links) + bytes(columns.point_links); },
+        columns_->of);
 }
 
 Deviation Bodies::deviation_from(const Bodies& other) const {

@@ -57,7 +57,7 @@ std::optional<Divergence> take_steps(Columns<T, Axes>& columns, const Method& me
     const LinearColumns<T, Axes> linear = linear_columns(columns);
     prepare_flows(columns, linear, plan);
     const RowViews<T, Axes> views(columns, linear);
-    if (!columns.links.empty()) return step_linked_rows(columns, views, plan, steps, team);
+    if (columns.has_links()) return step_linked_rows(columns, views, plan, steps, team);
     // An error in a thread of the team would end the program.
     require_instructions();
     if (columns.contacts.possible())

@@ -15,6 +15,7 @@
 #include "oiler/sim/contacts.hpp"
 #include "oiler/sim/motion_columns.hpp"
 #include "oiler/sim/number_view.hpp"
+#include "oiler/sim/point_links.hpp"
 #include "oiler/sim/prepared_links.hpp"
 
 namespace oiler {
@@ -91,6 +92,7 @@ template <class T, int Axes>
 struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
     PreparedLinks<T> links;
+    PointLinks<T, Axes> point_links;
     Stages<MotionColumns<T, Axes>> stages;        ///< scratch
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
@@ -122,6 +124,7 @@ struct Columns {
     AppliedForces<T, Axes> applied;
     Contacts<T, Axes> contacts;
     std::vector<LinkRow<T>> links;
+    std::vector<PointLinkRow<T, Axes>> point_links;
     /// The number of evaluations of the forces on the first row.
     std::int64_t evaluations = 0;
     PlanCache<T> plan_cache;
@@ -132,6 +135,7 @@ struct Columns {
     typename ForceViewsOf<ForceList<T, Axes>, T>::type views;
     LinkCache<T, Axes> link_cache;
 
+    [[nodiscard]] bool has_links() const { return !links.empty() || !point_links.empty(); }
     void forces_changed() {
         flows.valid = false;
         linear_sums.valid = false;

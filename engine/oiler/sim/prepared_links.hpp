@@ -26,6 +26,11 @@ struct LinkRow {
     T stiffness;         ///< N/m
     T damping;           ///< N·s/m
     T rest_length;       ///< m
+
+    template <class F>
+    void for_each_row(F f) {
+        f(a), f(b);
+    }
 };
 
 /// `count` links that are computed together; `of` is the first, with the largest damping of all.

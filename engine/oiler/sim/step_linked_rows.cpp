@@ -12,6 +12,7 @@
 #include "oiler/sim/link_solver.hpp"
 #include "oiler/sim/linked_landing.hpp"
 #include "oiler/sim/row_parts.hpp"
+#include "oiler/sim/step_point_links.hpp"
 
 namespace oiler {
 namespace {
@@ -80,9 +81,11 @@ public:
                 physics.damp_before(state);
             });
         kernels_.damp_links(cache_.links, motion, false);
+        damp_point_links(cache_.point_links, motion, false);
     }
     void damp_after(MotionColumns<T, Axes>& motion) {
         if (damping_ == Damping::in_kick) return;
+        damp_point_links(cache_.point_links, motion, true);
         kernels_.damp_links(cache_.links, motion, true);
         if (any_damper_of_rows())
             change_each_row(motion, [](auto& physics, std::size_t, State<T, Axes>& state) {
@@ -148,6 +151,7 @@ private:
         if (cache_.valid && cache_.links.half_step == half_step) return;
         cache_ = {};
         cache_.links = prepare_links(columns_.links, columns_.mass, columns_.size, half_step);
+        cache_.point_links = prepare_point_links(columns_.point_links, half_step, cache_.links);
         cache_.acceleration = cache_.field = columns_.motion.v;
         cache_.valid = true;
     }
@@ -188,6 +192,8 @@ private:
         in_ranges([&](const RowRange& rows) {
             kernels_.accelerate(columns_, views_, motion, what, t, rows, out);
             kernels_.push_links(cache_.links, motion, what, rows, out);
+            push_point_links<T, Axes>(cache_.point_links, motion, what, cache_.links.inverse_mass,
+                                      rows, out);
         });
     }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
@@ -221,6 +227,7 @@ private:
     [[nodiscard]] bool linear() const {
         bool all = !any_force([]<class Force>() { return !Linear<Force>; });
         for (const LinkRow<T>& link : columns_.links) all = all && link.rest_length == 0;
+        for (const auto& link : columns_.point_links) all = all && link.rest_length == 0;
         return all;
     }
 
@@ -245,6 +252,10 @@ private:
             add(link.b, link.b, block * b);
             add(link.b, link.a, block * -b);
         }
+        for (const PointLinkRow<T, Axes>& link : columns_.point_links)
+            add(link.row, link.row,
+                velocity_matrix(force_of(link).jacobian(relative(at, link)), T(0), tau) *
+                    cache_.links.inverse_mass[link.row]);
         return entries;
     }
 

@@ -101,9 +101,7 @@ private:
 void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
                          std::vector<Risk>& risks) {
     if (!has_attractors(bodies)) return;
-    std::vector<bool> linked(bodies.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
+    const std::vector<bool> linked = bodies.linked_rows();
     AttractorTest test(bodies, region, rate);
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (auto risk = test.find_risk(row, linked[row])) risks.push_back(std::move(*risk));

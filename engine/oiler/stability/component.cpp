@@ -50,8 +50,12 @@ void add_body(const Bodies& bodies, std::size_t row, Component& to) {
     to.rows.push_back(row);
 }
 
-void add_link(const Bodies& bodies, const Link& link, std::size_t a, std::size_t b, Component& to) {
-    const Vec3 d = bodies.position(to.rows[a]) - bodies.position(to.rows[b]);
+/// Adds a link of body `a` of the component with body `b`, or with a point: then `b` is `ground`.
+void add_link(const Bodies& bodies, std::size_t i, std::size_t a, std::size_t b, Component& to) {
+    const Link link = bodies.link_at(i);
+    const Vec3 d =
+        bodies.position(to.rows[a]) -
+        (b == Coupling::ground ? bodies.link_ends(i).point : bodies.position(to.rows[b]));
     const bool everywhere = link.rest_length == 0;
     to.springs.push_back(
         along_line(a, b, d, link.stiffness,
@@ -92,9 +96,10 @@ std::vector<std::size_t> component_labels(const Bodies& bodies) {
         return row;
     };
     for (std::size_t i = 0; i < bodies.link_count(); ++i) {
-        const auto [a, b] = bodies.linked_rows(i);
-        const std::size_t one = root(a);
-        const std::size_t other = root(b);
+        const LinkEnds ends = bodies.link_ends(i);
+        if (!ends.other) continue;
+        const std::size_t one = root(ends.row);
+        const std::size_t other = root(*ends.other);
         label[std::max(one, other)] = std::min(one, other);
     }
     for (std::size_t row = 0; row < label.size(); ++row) label[row] = root(row);
@@ -110,9 +115,7 @@ Component component_of_row(const Bodies& bodies, std::size_t row) {
 std::vector<Component> linked_components(const Bodies& bodies,
                                          const std::vector<std::size_t>& labels) {
     constexpr std::size_t none = Coupling::ground;
-    std::vector<bool> linked(labels.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
+    const std::vector<bool> linked = bodies.linked_rows();
     std::vector<Component> all;
     std::vector<std::size_t> component(labels.size(), none);
     std::vector<std::size_t> place(labels.size(), none);
@@ -128,8 +131,9 @@ std::vector<Component> linked_components(const Bodies& bodies,
         add_body(bodies, row, all[component[row]]);
     }
     for (const std::size_t i : bodies.damping_order()) {
-        const auto [a, b] = bodies.linked_rows(i);
-        add_link(bodies, bodies.link_at(i), place[a], place[b], all[component[a]]);
+        const LinkEnds ends = bodies.link_ends(i);
+        add_link(bodies, i, place[ends.row], ends.other ? place[*ends.other] : Coupling::ground,
+                 all[component[ends.row]]);
     }
     return all;
 }

@@ -51,10 +51,10 @@ struct Component {
 /// Labels the rows by their component: the smallest row that links connect with a row.
 [[nodiscard]] std::vector<std::size_t> component_labels(const Bodies& bodies);
 
-/// The component of one body without links.
+/// The component of one body, without links.
 [[nodiscard]] Component component_of_row(const Bodies& bodies, std::size_t row);
 
-/// All components of two or more bodies.
+/// All components of bodies with links.
 [[nodiscard]] std::vector<Component> linked_components(const Bodies& bodies,
                                                        const std::vector<std::size_t>& labels);
 

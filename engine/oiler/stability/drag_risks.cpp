@@ -185,9 +185,7 @@ void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
                     std::vector<Risk>& risks) {
     if (is_implicit(region.method()) || splits_dampers(region.method(), region.damping())) return;
     if (!any_has_quadratic_drag(bodies)) return;
-    std::vector<bool> linked(bodies.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
+    const std::vector<bool> linked = bodies.linked_rows();
     DragTest test(bodies, region, steps);
     for (std::size_t row = 0; row < bodies.size(); ++row) test.add_risks(row, linked[row], risks);
 }

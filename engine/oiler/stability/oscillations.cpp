@@ -27,20 +27,23 @@ std::vector<Oscillation> own_oscillations(const Bodies& bodies, bool coils_split
 
 std::vector<BodyOscillation> oscillations(const Bodies& bodies, bool dampers_split) {
     std::vector<Oscillation> all = own_oscillations(bodies, dampers_split);
-    std::vector<bool> linked(bodies.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) {
-            const Link link = bodies.link_at(i);
-            all[row].k += link.stiffness / bodies.mass(row);
-            if (!dampers_split) all[row].c += link.damping / bodies.mass(row);
-            linked[row] = true;
-        }
+    const auto add = [&](std::size_t row, const Link& link) {
+        all[row].k += link.stiffness / bodies.mass(row);
+        if (!dampers_split) all[row].c += link.damping / bodies.mass(row);
+    };
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const LinkEnds ends = bodies.link_ends(i);
+        add(ends.row, bodies.link_at(i));
+        if (ends.other) add(*ends.other, bodies.link_at(i));
+    }
+    const std::vector<bool> linked = bodies.linked_rows();
     std::vector<BodyOscillation> found;
     for (std::size_t row = 0; row < all.size(); ++row)
         if (!linked[row]) found.push_back({row, std::nullopt, all[row]});
     for (std::size_t i = 0; i < bodies.link_count(); ++i) {
-        const auto [a, b] = bodies.linked_rows(i);
-        found.push_back({a, b, {all[a].k + all[b].k, all[a].c + all[b].c}});
+        const auto [a, b, point] = bodies.link_ends(i);
+        const Oscillation other = b ? all[*b] : Oscillation{};
+        found.push_back({a, b, {all[a].k + other.k, all[a].c + other.c}});
     }
     return found;
 }

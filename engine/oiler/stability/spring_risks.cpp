@@ -36,13 +36,6 @@ std::vector<OwnMotion> own_motions(const Bodies& bodies) {
     return own;
 }
 
-std::vector<bool> rows_with_links(const Bodies& bodies) {
-    std::vector<bool> linked(bodies.size());
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i)) linked[row] = true;
-    return linked;
-}
-
 ScaledOscillation scaled(const OwnMotion& of, double dt) {
     return {std::sqrt(of.k) * dt, of.c * dt};
 }
@@ -63,7 +56,7 @@ ScaledOscillation largest_of(const std::vector<OwnMotion>& own, double dt) {
 
 void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks) {
     const std::vector<OwnMotion> own = own_motions(bodies);
-    const std::vector<bool> linked = rows_with_links(bodies);
+    const std::vector<bool> linked = bodies.linked_rows();
     const bool all_inside = region.contains_all_up_to(largest_of(own, dt));
     for (std::size_t row = 0; row < own.size(); ++row) {
         if (linked[row]) continue;

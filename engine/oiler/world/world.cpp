@@ -144,6 +144,13 @@ LinkHandle World::link(Entity a, Entity b, const Link& link) {
     return handle;
 }
 
+LinkHandle World::link_to_point(Entity entity, const Vec3& point, const Link& link) {
+    LinkHandle handle;
+    change("link_to_point", entity,
+           [&](std::size_t row) { handle = bodies_.link_to_point(row, point, link); });
+    return handle;
+}
+
 void World::list_impacts() {
     impacts_.clear();
     for (std::size_t i = 0; i < bodies_.impact_count(); ++i) {

@@ -96,22 +96,21 @@ TEST(Ledger, OfProjectilesCountsTheirBytes) {
     EXPECT_EQ(names_of_passes(ledger), (Strings{"gravity", "linear_drag", "moving"}));
 }
 
-// A 3 × 2 net has 7 springs; each has two rows and a handle of 4 bytes, and three numbers of 8.
+// A 3 × 2 net has 7 springs; each has two rows and a handle of 4 bytes, and three numbers of 8. It
+// hangs from two more; each has a row and a handle, three numbers, and a point of two.
 TEST(Ledger, CountsLinksAndAnchoredNodes) {
     const Ledger ledger =
         ledger_of(two_axes +
                   "[[grid]]\ncount = [3, 2]\nspacing = 1.0\nstiffness = 50.0\n"
                   "hang = \"corners\"\nvelocity = [0.1, 0.0]\nrest_length = 0.9\n");
-    EXPECT_EQ(ledger.links, 7);
-    EXPECT_EQ(ledger.bytes_per_link, 40U);
-    EXPECT_EQ(names_of_passes(ledger), (Strings{"spring", "links", "moving"}));
-    // Two nodes hang: columns for an anchor of two numbers and a stiffness, none for damping.
-    EXPECT_EQ(bytes_of(ledger, "spring"), 24U);
-    EXPECT_DOUBLE_EQ(ledger.bytes_per_body(), 16 + 16 + 24 + 12 + 7 * 40 / 6.0);
-    for (const LedgerColumn& column : ledger.columns)
-        EXPECT_EQ(column.bodies, column.of == "spring" ? 2 : 6) << column.of;
+    EXPECT_EQ(ledger.links, 9);
+    constexpr double bytes = 7 * 40 + 2 * 48;
+    EXPECT_DOUBLE_EQ(ledger.bytes_per_link, bytes / 9);
+    EXPECT_EQ(names_of_passes(ledger), (Strings{"hang", "links", "moving"}));
+    EXPECT_DOUBLE_EQ(ledger.bytes_per_body(), 16 + 16 + 12 + bytes / 6);
+    for (const LedgerColumn& column : ledger.columns) EXPECT_EQ(column.bodies, 6) << column.of;
     EXPECT_GT(pass_of(ledger, "links").changes_position, 0);
-    EXPECT_GT(pass_of(ledger, "spring").changes_position, 0);
+    EXPECT_GT(pass_of(ledger, "hang").changes_position, 0);
 }
 
 // Semi-implicit Euler adds g·dt to the velocity, then the velocity to the position: after n steps

@@ -80,6 +80,10 @@ public:
             add(words.words, "", force, words.leave_out);
             words.leave_out(bare);
         }
+        if (hangs()) {
+            add("`hang` of [[grid]]", "", "hang", leave_out_hang);
+            leave_out_hang(bare);
+        }
         if (linked) {
             add(links_text, "", "links", leave_out_links);
             leave_out_links(bare);
@@ -94,6 +98,13 @@ public:
     }
 
 private:
+    [[nodiscard]] bool hangs() const {
+        return std::ranges::any_of(scene_.grids,
+                                   [](const SceneGrid& grid) { return grid.hang != Hang::none; });
+    }
+    static void leave_out_hang(Scene& scene) {
+        for (SceneGrid& grid : scene.grids) grid.hang = Hang::none;
+    }
     static void leave_out_planes(Scene& scene) { scene.planes.clear(); }
 
     static constexpr std::string_view links_text = "springs between bodies";
@@ -151,11 +162,8 @@ const std::vector<ForceDescription>& force_descriptions() {
         {"spring",
          "springs",
          {"anchor", "stiffness", "damping"},
-         "anchored [[spring]] without `rest_length`, `hang` of [[grid]]",
-         [](Scene& scene) {
-             remove_springs(scene, "spring");
-             for (SceneGrid& grid : scene.grids) grid.hang = Hang::none;
-         }},
+         "anchored [[spring]] without `rest_length`",
+         [](Scene& scene) { remove_springs(scene, "spring"); }},
         {"linear_drag",
          "linear drag",
          {"linear_drag"},

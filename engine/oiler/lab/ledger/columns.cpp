@@ -59,7 +59,9 @@ void add_handle(Ledger& ledger) {
 std::vector<std::string_view> enter_columns(Ledger& ledger, const Bodies& bodies) {
     ledger.bodies = static_cast<std::int64_t>(bodies.size());
     ledger.links = static_cast<std::int64_t>(bodies.link_count());
-    ledger.bytes_per_link = bodies.bytes_per_link();
+    if (ledger.links > 0)
+        ledger.bytes_per_link =
+            static_cast<double>(bodies.bytes_of_links()) / static_cast<double>(ledger.links);
     std::vector<std::string_view> names;
     for (const Stored& stored : bodies.stored()) {
         add_columns(ledger, stored);
@@ -80,8 +82,7 @@ double Ledger::bytes_per_body() const {
     double bytes = 0;
     for (const LedgerColumn& column : columns) bytes += static_cast<double>(column.bytes);
     if (links == 0) return bytes;
-    return bytes + static_cast<double>(links) * static_cast<double>(bytes_per_link) /
-                       static_cast<double>(bodies);
+    return bytes + static_cast<double>(links) * bytes_per_link / static_cast<double>(bodies);
 }
 
 }  // namespace oiler::lab

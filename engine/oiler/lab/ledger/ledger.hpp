@@ -44,7 +44,7 @@ struct LedgerPass {
 struct Ledger {
     std::int64_t bodies = 0;
     std::int64_t links = 0;
-    std::size_t bytes_per_link = 0;
+    double bytes_per_link = 0;  ///< the mean
     std::vector<LedgerColumn> columns;
     std::vector<std::string> absent;         ///< forces that are neither stored nor evaluated
     std::int64_t steps = 0;                  ///< number of steps compared with the ablations

@@ -18,7 +18,8 @@ namespace oiler::lab {
 struct Ablation {
     std::string words;    ///< the part, as in the scene file
     std::string part_of;  ///< `words` of the ablation that contains this one; empty for a pass
-    std::string pass;     ///< the force's name, "links" or "moving"; empty for part of a pass
+    std::string pass;  ///< the force's name, "hang", "links", "planes" or "moving"; empty for part
+                       ///< of a pass
     Scene scene;
 };
 

@@ -123,9 +123,9 @@ void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
 
 bool any_linked_kink(const Trajectory& trajectory, const Bodies& bodies) {
     if (trajectory.kinks.empty()) return false;
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        for (const std::size_t row : bodies.linked_rows(i))
-            if (!trajectory.kinks[row].empty()) return true;
+    const std::vector<bool> linked = bodies.linked_rows();
+    for (std::size_t row = 0; row < linked.size(); ++row)
+        if (linked[row] && !trajectory.kinks[row].empty()) return true;
     return false;
 }
 
