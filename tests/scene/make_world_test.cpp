@@ -74,8 +74,8 @@ TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
     std::size_t link = bodies.link_count() - 2;
     for (const std::size_t hung : {6, 8}) {
         EXPECT_EQ(bodies.link_ends(link), (oiler::LinkEnds{hung, {}, bodies.position(hung)}));
-        EXPECT_EQ(bodies.link_at(link).stiffness, 200);
-        EXPECT_EQ(bodies.link_at(link).damping, 0.6);
+        EXPECT_EQ(bodies.link_at(link).stiffness, 100);
+        EXPECT_EQ(bodies.link_at(link).damping, 0.3);
         EXPECT_EQ(bodies.link_at(link++).rest_length, 0);
     }
 }
