@@ -72,6 +72,8 @@ std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision preci
             world.link(
                 last, entity,
                 {.stiffness = 1.0 + i % 5, .damping = i % 4 / 8.0, .rest_length = i % 2 * 60.0});
+        if (scene == Scene::links && i % 50 == 0)
+            world.link_to_point(entity, {7}, {.stiffness = 2, .rest_length = i % 4 * 10.0});
         last = entity;
     }
     world.step(scene == Scene::links ? steps / 10 : steps);

@@ -48,13 +48,13 @@ struct LinkedKernels {
            4 * std::size_t{parts.damping};
 }
 
-/// The functions that step rows under linear forces in batches along one axis, by index_of(parts);
-/// see step_axis_batches.
+/// The functions that step rows under linear forces in batches along their axes, by
+/// index_of(parts); see step_axis_batches.
 template <std::floating_point T>
 struct AxisKernels {
     template <class Rule>
-    using StepsByParts = std::array<std::size_t (*)(const AxisRows<T>&, const Rule&, const Steps&,
-                                                    std::size_t begin, std::size_t end),
+    using StepsByParts = std::array<bool (*)(std::span<const AxisRows<T>>, const Rule&,
+                                             const Steps&, AxisPlace& at, std::size_t end),
                                     8>;
 
     StepsByParts<SplittingPlan<T>> splitting;

@@ -2,6 +2,8 @@
 // The kernels for one instruction set and one precision, OILER_INSTRUCTIONS and OILER_PRECISION.
 // This file is compiled once for each pair. Every function here is a template over the registers of
 // its set, or always inlined, so that no two sets share a function.
+#include <algorithm>
+
 #include "oiler/math/batch.hpp"
 #include "oiler/sim/kernels.hpp"
 #include "oiler/sim/link_rows.hpp"
@@ -44,34 +46,50 @@ using Wide = Batch<Register<T>, most_packs<T, Axes>()>;
 template <class T, int Axes>
 using Narrow = Batch<Register<T>, (most_packs<T, Axes>() + 1) / 2>;
 
-template <class Parts, class Fixed, class T, class Rule>
-[[gnu::flatten]] std::size_t step_axis(const AxisRows<T>& rows, const Rule& rule,
-                                       const Steps& steps, std::size_t begin, std::size_t end) {
-    const Fixed fixed(rule);
+template <class Parts, class T, class Rule>
+[[gnu::flatten, gnu::noinline]] std::size_t step_axis(const AxisRows<T>& rows, const Rule& rule,
+                                                      const Steps& steps, std::size_t begin,
+                                                      std::size_t end) {
     if (steps.count == 1)
-        return step_axis_batches<AxisBatchOfOneStep<T>, Parts, true>(rows, fixed, steps, begin,
-                                                                     end);
-    return step_axis_batches<AxisBatch<T, Parts>, Parts, false>(rows, fixed, steps, begin, end);
+        return step_axis_batches<AxisBatchOfOneStep<T>, Parts, true>(rows, rule, steps, begin, end);
+    return step_axis_batches<AxisBatch<T, Parts>, Parts, false>(rows, rule, steps, begin, end);
+}
+
+/// Steps the rows from `at` to `end` along their axes. Returns false at a batch that it did not
+/// store because a number in it may no longer be finite.
+template <class Parts, class Fixed, class T, class Rule>
+bool step_axes(std::span<const AxisRows<T>> axes, const Rule& rule, const Steps& steps,
+               AxisPlace& at, std::size_t end) {
+    const Fixed fixed(rule);
+    for (; at.begin < end; at = {at.begin + rows_per_axis, 0, at.begin + rows_per_axis}) {
+        const std::size_t stop = std::min(at.begin + rows_per_axis, end);
+        for (; at.axis < axes.size(); ++at.axis, at.row = at.begin) {
+            if (at.row >= stop) continue;
+            at.row = step_axis<Parts>(axes[at.axis], fixed, steps, at.row, stop);
+            if (at.row < stop) return false;
+        }
+    }
+    return true;
 }
 
 template <class Parts, class T>
-std::size_t step_axis_splitting(const AxisRows<T>& rows, const SplittingPlan<T>& rule,
-                                const Steps& steps, std::size_t begin, std::size_t end) {
+bool step_axes_splitting(std::span<const AxisRows<T>> axes, const SplittingPlan<T>& rule,
+                         const Steps& steps, AxisPlace& at, std::size_t end) {
     if (KickDriftPlan<T>::fits(rule))
-        return step_axis<Parts, KickDriftPlan<T>>(rows, rule, steps, begin, end);
+        return step_axes<Parts, KickDriftPlan<T>>(axes, rule, steps, at, end);
     if (KickDriftKickPlan<T>::fits(rule))
-        return step_axis<Parts, KickDriftKickPlan<T>>(rows, rule, steps, begin, end);
-    return step_axis<Parts, SplittingPlan<T>>(rows, rule, steps, begin, end);
+        return step_axes<Parts, KickDriftKickPlan<T>>(axes, rule, steps, at, end);
+    return step_axes<Parts, SplittingPlan<T>>(axes, rule, steps, at, end);
 }
 
 template <class Parts, class T>
-std::size_t step_axis_tableau(const AxisRows<T>& rows, const TableauPlan<T>& rule,
-                              const Steps& steps, std::size_t begin, std::size_t end) {
+bool step_axes_tableau(std::span<const AxisRows<T>> axes, const TableauPlan<T>& rule,
+                       const Steps& steps, AxisPlace& at, std::size_t end) {
     if (ChainTableauPlan<T, 4>::fits(rule))
-        return step_axis<Parts, ChainTableauPlan<T, 4>>(rows, rule, steps, begin, end);
+        return step_axes<Parts, ChainTableauPlan<T, 4>>(axes, rule, steps, at, end);
     if (ChainTableauPlan<T, 2>::fits(rule))
-        return step_axis<Parts, ChainTableauPlan<T, 2>>(rows, rule, steps, begin, end);
-    return step_axis<Parts, TableauPlan<T>>(rows, rule, steps, begin, end);
+        return step_axes<Parts, ChainTableauPlan<T, 2>>(axes, rule, steps, at, end);
+    return step_axes<Parts, TableauPlan<T>>(axes, rule, steps, at, end);
 }
 
 /// The parts of linear forces with index I, see index_of. Without any part, the steps for a
@@ -81,10 +99,10 @@ using PartsOf = FixedLinearParts<I == 0 || (I & 1U) != 0, (I & 2U) != 0, (I & 4U
 
 template <class T, std::size_t... I>
 constexpr AxisKernels<T> axis_kernels(std::index_sequence<I...>) {
-    return {{step_axis_splitting<PartsOf<I>, T>...},
-            {step_axis_tableau<PartsOf<I>, T>...},
-            {step_axis<PartsOf<I>, ImplicitPlan<T>, T, ImplicitPlan<T>>...},
-            {step_axis<PartsOf<I>, ExactPlan<T>, T, ExactPlan<T>>...}};
+    return {{step_axes_splitting<PartsOf<I>, T>...},
+            {step_axes_tableau<PartsOf<I>, T>...},
+            {step_axes<PartsOf<I>, ImplicitPlan<T>, T, ImplicitPlan<T>>...},
+            {step_axes<PartsOf<I>, ExactPlan<T>, T, ExactPlan<T>>...}};
 }
 
 template <class V, class T, int Axes, class Rule>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "oiler/sim/take_steps.hpp"
 
 namespace oiler {
@@ -51,6 +53,17 @@ template <class V, int Axes>
     });
     return !is_finite(total);
 }
+
+/// Rows whose numbers along one axis stay in the cache while the other axes are stepped, few enough
+/// that memory is read in as many streams as there are columns.
+inline constexpr std::size_t rows_per_axis = 8 * row_padding;
+
+/// Where steps along several axes are: at `row`, along `axis`, in the stretch of rows from `begin`.
+struct AxisPlace {
+    std::size_t begin;
+    std::size_t axis;
+    std::size_t row;
+};
 
 /// Steps the rows from `begin` to `end` along one axis, in batches of V. Returns `end`, or the
 /// first row of a batch that it did not store because a number in it may no longer be finite.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/step_rows.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "oiler/sim/kernels.hpp"
 
@@ -90,9 +93,6 @@ private:
         });
         return kinds;
     }();
-    /// Rows whose numbers along one axis stay in the cache while the other axes are stepped.
-    static constexpr std::size_t rows_per_axis = 8 * row_padding;
-
     /// The end of the blocks from `row` on that have these kinds of force.
     [[nodiscard]] std::size_t end_of_run(std::size_t row, std::size_t end, Kinds kinds) const {
         if (columns_.kinds.shared()) return end;
@@ -109,27 +109,45 @@ private:
 
     void step_axes(std::size_t begin, std::size_t end, Kinds kinds,
                    std::optional<Divergence>& first) {
-        for (std::size_t row = begin; row < end; row += rows_per_axis)
-            for (std::size_t axis = 0; axis < Axes; ++axis)
-                step_axis(row, std::min(row + rows_per_axis, end), axis, kinds, first);
+        std::array<AxisRows<T>, Axes> rows;
+        std::array<std::size_t, Axes> parts;
+        for (std::size_t axis = 0; axis < Axes; ++axis) {
+            rows[axis] = rows_along(axis);
+            parts[axis] = index_of(rows[axis].forces.parts(kinds));
+        }
+        // Axes with the same parts are stepped by the same kernel.
+        for (std::size_t axis = 0; axis < Axes;) {
+            std::size_t stop = axis;
+            while (stop < Axes && parts[stop] == parts[axis]) ++stop;
+            step_like_axes(std::span(rows).subspan(axis, stop - axis), begin, end, axis, kinds,
+                           first);
+            axis = stop;
+        }
     }
-    void step_axis(std::size_t begin, std::size_t end, std::size_t axis, Kinds kinds,
-                   std::optional<Divergence>& first) {
-        const AxisRows<T> rows = rows_along(axis);
-        const LinearParts parts = rows.forces.parts(kinds);
-        const auto one_by_one = [&](std::size_t from, std::size_t to) {
+    /// Steps rows along axes from `first_axis` on that have the same parts of linear forces.
+    void step_like_axes(std::span<const AxisRows<T>> axes, std::size_t begin, std::size_t end,
+                        std::size_t first_axis, Kinds kinds, std::optional<Divergence>& first) {
+        const LinearParts parts = axes[0].forces.parts(kinds);
+        const auto one_by_one = [&](std::size_t axis, std::size_t from, std::size_t to) {
             for (std::size_t row = from; row < to; ++row)
-                keep_earlier(first, step_axis_row(rows, parts, row, static_cast<int>(axis)));
+                keep_earlier(first, step_axis_row(axes[axis], parts, row,
+                                                  static_cast<int>(first_axis + axis)));
         };
         const auto* const all = kernels_or_null();
-        if (!all) return one_by_one(begin, end);
-        const auto kernel = [&](std::size_t from) {
-            if constexpr (has_kernels)
-                return all->axis.of(rule_)[index_of(parts)](rows, rule_, steps_, from, end);
-            else
-                return end;
-        };
-        in_batches(begin, end, kernel, one_by_one);
+        if constexpr (has_kernels) {
+            if (all) {
+                AxisPlace at{begin, 0, begin};
+                while (!all->axis.of(rule_)[index_of(parts)](axes, rule_, steps_, at, end)) {
+                    const std::size_t stop =
+                        std::min({at.row + row_padding, at.begin + rows_per_axis, end});
+                    one_by_one(at.axis, at.row, stop);
+                    if (stop == columns_.size) clear_padding(columns_.motion);
+                    at.row = stop;
+                }
+                return;
+            }
+        }
+        for (std::size_t axis = 0; axis < axes.size(); ++axis) one_by_one(axis, begin, end);
     }
     std::optional<Divergence> step_axis_row(const AxisRows<T>& rows, const LinearParts& parts,
                                             std::size_t row, int axis) {
