@@ -34,7 +34,7 @@ struct Stored {
     std::size_t rows = 0;        ///< rows with any number other than 0
 };
 
-/// What a link joins: a row with another one, or with a fixed point.
+/// The ends of a link: a row, and another row or a fixed point.
 struct LinkEnds {
     std::size_t row = 0;
     std::optional<std::size_t> other{};  ///< absent for a point
@@ -96,8 +96,8 @@ public:
     /// Adds a spring between two rows. Throws Error{usage} for a number that is not finite in the
     /// columns' precision.
     LinkHandle link(std::size_t a, std::size_t b, const Link& link);
-    /// Adds a spring between a row and a fixed point. It costs nothing for other rows, where a
-    /// Spring or CoilSpring costs each row a column; but it is stepped by itself, and the row as a
+    /// Adds a spring between a row and a fixed point. Other rows pay nothing for it; the numbers of
+    /// a Spring or CoilSpring take columns with a number for each row. The row is then stepped as a
     /// linked one.
     LinkHandle link_to_point(std::size_t row, const Vec3& point, const Link& link);
     [[nodiscard]] bool alive(LinkHandle link) const;

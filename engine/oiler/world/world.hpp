@@ -147,8 +147,8 @@ public:
     void reserve(std::size_t bodies);
     /// Adds a spring between the bodies of two entities; it is removed with either body.
     LinkHandle link(Entity a, Entity b, const Link& link);
-    /// Adds a spring between the body of an entity and a fixed point, m; it is removed with the
-    /// body. A net is pinned so; see Bodies::link_to_point.
+    /// Adds a spring between the body of an entity and a fixed point, m, such as a pin of a net. It
+    /// is removed with the body. See also Bodies::link_to_point.
     LinkHandle link_to_point(Entity entity, const Vec3& point, const Link& link);
     [[nodiscard]] bool alive(LinkHandle link) const { return bodies_.alive(link); }
     /// Removes a spring that is alive.
