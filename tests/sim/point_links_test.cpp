@@ -174,6 +174,27 @@ TEST(PointLinks, HoldEnergyAndAreNoLongerFeltWhenUnlinked) {
     EXPECT_EQ(bodies.link_count(), 0U);
 }
 
+// A damped body halves its amplitude every 0.1 s or faster, so that it is below the smallest normal
+// number within 1100 of these times. Undamped, it oscillates on.
+TEST(PointLinks, BringADampedBodyToRestOnTheirPoint) {
+    for (const Precision precision : {Precision::single, Precision::double_})
+        for (const char* method : {"semi_implicit_euler", "velocity_verlet", "rk4"})
+            for (const bool drag : {false, true}) {
+                Bodies bodies(2, precision);
+                bodies.add({.position = {1, 0.5}});
+                bodies.add({.position = {1e-25, 0}});
+                if (drag) bodies.attach(0, oiler::LinearDrag{16});
+                bodies.link_to_point(0, {}, {.stiffness = 70, .damping = drag ? 0.0 : 16.0});
+                bodies.link_to_point(1, {}, {.stiffness = 70});
+                bodies.step(find_method(method), {Rate{64}, 0, 110 * 64});
+                EXPECT_EQ(bodies.position(0), Vec3{}) << method;
+                EXPECT_EQ(bodies.velocity(0), Vec3{}) << method;
+                EXPECT_GT(length(bodies.position(1) * 1e20) + length(bodies.velocity(1) * 1e20),
+                          method == std::string("rk4") ? 0 : 1e-6)
+                    << method;
+            }
+}
+
 TEST(PointLinks, RefuseNumbersThatAreNotFinite) {
     Bodies bodies(2, Precision::double_);
     bodies.add({});

@@ -106,9 +106,11 @@ public:
             const auto& forces = physics.forces();
             const LinksOfRow<T>& links = cache_.links.of_rows[row];
             const T rate = forces.parts.damping ? forces.linear.damping : T(0);
+            const Vec<T, Axes> before = state.v;
             put_row_to_sleep(forces, rate + links.damping,
                              forces.squares_speeds() + links.stiffness + links.damping,
                              load<T>(cache_.acceleration, row), state);
+            settle_on_points(cache_.point_links, row, before, state);
         });
         cache_.field_valid = false;
     }

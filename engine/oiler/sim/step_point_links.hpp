@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/kernels.hpp"
 #include "oiler/sim/lanes.hpp"
@@ -65,6 +68,22 @@ void damp_point_links(const PointLinks<T, Axes>& points, MotionColumns<T, Axes>&
         const Vec<T, Axes> loss =
             force_of(link).velocity_loss(relative(motion, link), points.loss[at]);
         store(Vec<T, Axes>(load<T>(motion.v, link.row) - loss), motion.v, link.row);
+    }
+}
+
+/// Moves a row that has just been put to sleep onto the point of a link without length, axis by
+/// axis, if it is as close to it as sleep demands of springs. `before` is its velocity before that.
+template <std::floating_point T, int Axes>
+void settle_on_points(const PointLinks<T, Axes>& points, std::size_t row,
+                      const Vec<T, Axes>& before, State<T, Axes>& state) {
+    const auto of_row =
+        std::ranges::equal_range(points.links, row, {}, &PointLinkRow<T, Axes>::row);
+    for (const PointLinkRow<T, Axes>& link : of_row) {
+        if (link.rest_length != 0) continue;
+        for (std::size_t i = 0; i < Axes; ++i)
+            if (before.axis[i] != 0 && state.v.axis[i] == 0 &&
+                std::abs(state.x.axis[i] - link.point.axis[i]) < sleep_limit<T>(true))
+                state.x.axis[i] = link.point.axis[i];
     }
 }
 
