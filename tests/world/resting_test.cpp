@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "oiler/world/world.hpp"
 
@@ -377,6 +378,28 @@ TEST(Sliding, AcrossASlopeStops) {
         EXPECT_LT(error(method, 60), 1e-3) << method;
         EXPECT_LT(error(method, 480), 1e-3 / 64 + 3e-6) << method;
     }
+}
+
+// Near its stop, friction turns with the velocity at any rate: an implicit method that solved for
+// it would find no solution. Friction is larger than the slope, so that each body stops within 5 s.
+TEST(Sliding, StopsByImplicitMethods) {
+    std::mt19937_64 random(1);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    for (const char* method : {"implicit_euler", "implicit_midpoint"})
+        for (int i = 0; i < 100; ++i) {
+            World world = world_of(method, i % 2 == 0 ? 60 : 5, 3);
+            world.set_gravity({0, -10, 0});
+            const double slope = i == 0 ? 0.2 : uniform(0, 0.4);
+            world.add_plane({.normal = {slope, 1, 0},
+                             .friction = i == 0 ? 0.3 : slope * 1.2 + uniform(0.1, 0.3)});
+            const Entity body = world.spawn(
+                {.velocity = {i == 0 ? 1 : uniform(-1, 1), 0, i == 0 ? 1 : uniform(-1, 1)},
+                 .contact = Contact{}});
+            world.step(5 * world.settings().stepping.rate.steps);
+            EXPECT_EQ(length(world.velocity(body)), 0) << method << i;
+        }
 }
 
 // At the apex of a wedge at the origin, no distance and no speed is left to compare round-off with.

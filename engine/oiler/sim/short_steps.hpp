@@ -83,11 +83,16 @@ private:
         prepare_flows(rule);
         RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows_.data(), 0,
                                                  damping_of(rule));
-        constexpr bool by_flows =
-            std::is_same_v<Rule, SplittingPlan<T>> || std::is_same_v<Rule, ExactPlan<T>>;
+        constexpr bool by_flows = !std::is_same_v<Rule, TableauPlan<T>>;
         const double t = t_ + static_cast<double>(start);
-        with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t},
-             [&](auto& stepped) { solved_ &= step_once(rule, state, stepped, t); });
+        with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t}, [&](auto& stepped) {
+            constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
+                stepped.brake_before(state);
+            };
+            if constexpr (brakes) stepped.brake_before(state);
+            solved_ &= step_once(rule, state, stepped, t);
+            if constexpr (brakes) stepped.brake_after(state);
+        });
         evaluations_ += physics.evaluations();
     }
 

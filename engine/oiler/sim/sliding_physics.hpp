@@ -14,8 +14,9 @@ struct Braking {
 };
 
 /// The physics of one row that slides on planes: what pushes into them is taken away, and friction
-/// brakes. In splittings and exact flows, friction that turns with the velocity has a flow of its
-/// own in the first and the last half of the step: as a force in kicks it would have order 1.
+/// brakes. But for Runge–Kutta methods, friction that turns with the velocity has a flow of its own
+/// in the first and the last half of the step: as a force in kicks it would have order 1, and near
+/// a stop, where it turns at any rate, an implicit method would find no solution.
 template <std::floating_point T, int Axes, class Physics>
 class SlidingPhysics {
 public:
@@ -38,15 +39,19 @@ public:
         return along(physics_.kick(state, t), state.v);
     }
     void drift(Motion& state, std::size_t flow, T tau) { physics_.drift(state, flow, tau); }
+    void brake_before(Motion& state) { brake(state, braking_.t); }
+    void brake_after(Motion& state) {
+        brake(state, braking_.t + 2 * static_cast<double>(braking_.half_step));
+    }
     void damp_before(Motion& state) {
-        brake(state, braking_.t);
+        brake_before(state);
         physics_.damp_before(state);
         state.v = support_.without_push(state.v);
     }
     void damp_after(Motion& state) {
         physics_.damp_after(state);
         state.v = support_.without_push(state.v);
-        brake(state, braking_.t + 2 * static_cast<double>(braking_.half_step));
+        brake_after(state);
     }
     [[nodiscard]] Vector solve(const Motion& at, T tau, const Vector& residual) {
         const Jacobian<T, Axes> jacobian = physics_.forces().jacobian(at);
@@ -61,9 +66,9 @@ public:
         return oiler::solve(matrix, residual);
     }
     void respond(Motion& state, double t) {
-        brake(state, t);
+        brake_before(state);
         physics_.respond_to(state, along(physics_.field(state.x, t), state.v));
-        brake(state, t + 2 * static_cast<double>(braking_.half_step));
+        brake_after(state);
     }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -185,9 +186,12 @@ private:
             state.v = along;
             report_rest(plane, state, bearing, a, T(0));
         } else if (flight < shortest_flight * left_) {
-            state.v = along;
-            const T tau = glide(state, bearing);
-            state.v = pushed_off(plane, state.v, kept * (1 - tau * lost / flight));
+            // Without its normal speed, the body may rest on further planes, or go into one.
+            Motion sliding{state.x, along};
+            const auto carried = Bearing::against(a, planes_, bearing_planes(sliding, a));
+            if (!carried.has(plane) || enters_other(sliding, along, carried)) return;
+            const T tau = glide(sliding, carried);
+            state = {sliding.x, pushed_off(plane, sliding.v, kept * (1 - tau * lost / flight))};
             settled_ = false;
         }
     }
@@ -273,7 +277,16 @@ private:
         if (!(square > 0)) return false;
         return largest(v - pull * (dot(v, pull) / square)) > 64 * epsilon * largest(v);
     }
+    /// Whether a velocity goes into a plane that the body touches and that does not bear it.
+    [[nodiscard]] bool enters_other(const Motion& state, const Vector& v,
+                                    const Bearing& support) const {
+        return std::any_of(planes_.begin(), planes_.end(), [&](const Surface& plane) {
+            return !support.has(plane) && touches(plane, state) &&
+                   -leaving_speed(plane, v) > speed_noise(state);
+        });
+    }
     T slide(Motion& state, const Bearing& support, const Vector& a) {
+        if (enters_other(state, state.v, support)) return 0;
         const Vector pull = support.without_push(a);
         const Vector direction = normalised(state.v == Vector{} ? pull : state.v);
         const T grip = support.grip(a);
@@ -339,11 +352,14 @@ private:
         if (end < 0) {
             if (start > noise) return between(0, start, leg.tau, end);
             if (u_start <= speed_noise(state)) return std::nullopt;  // it glides along the plane
-            T top = u_end < 0 ? turning_time(1) : leg.tau / 2;
+            const T turn = u_end < 0 ? turning_time(1) : leg.tau / 2;
+            T top = turn;
             T h_top = height(top);
             while (h_top <= 0 && top > epsilon * leg.tau) h_top = height(top /= 2);
-            if (h_top <= 0) return std::nullopt;
-            return between(top, h_top, leg.tau, end);
+            if (h_top > 0) return between(top, h_top, leg.tau, end);
+            // Round-off hides the height of the flight: it ends as long after its turn as it began.
+            const T back = std::min(2 * turn, leg.tau);
+            return Bracket<T>{back, back};
         }
         if (start <= noise || !may_dip(start, u_start, end, u_end, leg.tau)) return std::nullopt;
         const T lowest = turning_time(-1);
