@@ -46,13 +46,15 @@ using Wide = Batch<Register<T>, most_packs<T, Axes>()>;
 template <class T, int Axes>
 using Narrow = Batch<Register<T>, (most_packs<T, Axes>() + 1) / 2>;
 
-template <class Parts, class T, class Rule>
+template <class Parts, class Fixed, class T, class Rule>
 [[gnu::flatten, gnu::noinline]] std::size_t step_axis(const AxisRows<T>& rows, const Rule& rule,
                                                       const Steps& steps, std::size_t begin,
                                                       std::size_t end) {
+    const Fixed fixed(rule);
     if (steps.count == 1)
-        return step_axis_batches<AxisBatchOfOneStep<T>, Parts, true>(rows, rule, steps, begin, end);
-    return step_axis_batches<AxisBatch<T, Parts>, Parts, false>(rows, rule, steps, begin, end);
+        return step_axis_batches<AxisBatchOfOneStep<T>, Parts, true>(rows, fixed, steps, begin,
+                                                                     end);
+    return step_axis_batches<AxisBatch<T, Parts>, Parts, false>(rows, fixed, steps, begin, end);
 }
 
 /// Steps the rows from `at` to `end` along their axes. Returns false at a batch that it did not
@@ -60,12 +62,11 @@ template <class Parts, class T, class Rule>
 template <class Parts, class Fixed, class T, class Rule>
 bool step_axes(std::span<const AxisRows<T>> axes, const Rule& rule, const Steps& steps,
                AxisPlace& at, std::size_t end) {
-    const Fixed fixed(rule);
     for (; at.begin < end; at = {at.begin + rows_per_axis, 0, at.begin + rows_per_axis}) {
         const std::size_t stop = std::min(at.begin + rows_per_axis, end);
         for (; at.axis < axes.size(); ++at.axis, at.row = at.begin) {
             if (at.row >= stop) continue;
-            at.row = step_axis<Parts>(axes[at.axis], fixed, steps, at.row, stop);
+            at.row = step_axis<Parts, Fixed>(axes[at.axis], rule, steps, at.row, stop);
             if (at.row < stop) return false;
         }
     }
