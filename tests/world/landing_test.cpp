@@ -235,15 +235,7 @@ TEST(Landing, GivesABodyInAWedgeNoEnergy) {
         const double start = energy();
         double before = start;
         for (int step = 0; step < 10 * rate; ++step) {
-            const Vec3 x0 = world.position(ball), v0 = world.velocity(ball);
-            if (world.try_step()) break;
-            if (energy() > before + 1e-12 * start) {
-                for (const auto& pl : world.bodies().planes()) printf("plane %.17g e %.17g mu %.17g\n", pl.normal[0]/pl.normal[1], pl.restitution, pl.friction);
-                printf("x %.17g %.17g v %.17g %.17g E %g rate %d\n", x0[0], x0[1], v0[0], v0[1], before, rate);
-                int n=0;
-                for (const auto& m : world.impacts()) if (n++ < 12 || n + 6 > (int)world.impacts().size()) printf("kind %d plane %zu t %.9f  b %g %g  a %g %g\n", (int)m.kind, m.plane, m.time*rate - step, m.before[0], m.before[1], m.after[0], m.after[1]);
-                printf("%zu\n", world.impacts().size());
-            }
+            if (world.try_step()) break;  // too many impacts in a step
             ASSERT_LE(energy(), before + 1e-12 * start) << i << ", step " << step;
             before = energy();
         }
