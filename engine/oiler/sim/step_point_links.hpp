@@ -76,14 +76,13 @@ void damp_point_links(const PointLinks<T, Axes>& points, MotionColumns<T, Axes>&
 template <std::floating_point T, int Axes>
 void settle_on_points(const PointLinks<T, Axes>& points, std::size_t row,
                       const Vec<T, Axes>& before, State<T, Axes>& state) {
-    const auto of_row =
-        std::ranges::equal_range(points.links, row, {}, &PointLinkRow<T, Axes>::row);
-    for (const PointLinkRow<T, Axes>& link : of_row) {
-        if (link.rest_length != 0) continue;
+    auto link = std::ranges::lower_bound(points.links, row, {}, &PointLinkRow<T, Axes>::row);
+    for (; link != points.links.end() && link->row == row; ++link) {
+        if (link->rest_length != 0) continue;
         for (std::size_t i = 0; i < Axes; ++i)
             if (before.axis[i] != 0 && state.v.axis[i] == 0 &&
-                std::abs(state.x.axis[i] - link.point.axis[i]) < sleep_limit<T>(true))
-                state.x.axis[i] = link.point.axis[i];
+                std::abs(state.x.axis[i] - link->point.axis[i]) < sleep_limit<T>(true))
+                state.x.axis[i] = link->point.axis[i];
     }
 }
 
