@@ -210,6 +210,26 @@ TEST(Landing, LeavesAWedgeOfOneDegree) {
     EXPECT_NEAR(length(world.velocity(ball)), std::hypot(5, 0.01), 180 * 8 * epsilon * 5);
 }
 
+// A body on the left side of a narrow valley leaves the right one so slowly that its hop is lower
+// than round-off shows. The forces press it into the left side only, yet along that they lead it
+// back into the right one, where it stays.
+TEST(Landing, EndsAHopThatRoundOffHides) {
+    const double slope = 0.1;
+    for (const double speed : {1e-9, 1e-8, 5e-8}) {
+        World world = world_of("velocity_verlet", 1, 2);
+        world.set_gravity({-1.2, -10});
+        world.add_plane({.normal = {1, slope}, .offset = 1 + slope});
+        world.add_plane({.normal = {-1, slope}, .offset = -1 + slope});
+        const Vec3 up = Vec3{-slope, 1} * (1 / std::hypot(slope, 1));
+        const Entity ball =
+            world.spawn({.position = {1, 1}, .velocity = up * speed, .contact = Contact{}});
+        world.step();
+        EXPECT_NEAR(length(world.position(ball) - Vec3{1, 1}), 0, 64 * epsilon / slope) << speed;
+        EXPECT_LE(length(world.velocity(ball)), speed);
+        for (const Impact& impact : world.impacts()) EXPECT_NE(impact.kind, Meeting::lifted);
+    }
+}
+
 // Flights under gravity are exact, and planes take energy away. A body that slid through the other
 // plane of a wedge for the rest of a step would gain up to g·dt per second.
 TEST(Landing, GivesABodyInAWedgeNoEnergy) {
@@ -235,7 +255,7 @@ TEST(Landing, GivesABodyInAWedgeNoEnergy) {
         const double start = energy();
         double before = start;
         for (int step = 0; step < 10 * rate; ++step) {
-            if (world.try_step()) break;  // too many impacts in a step
+            world.step();
             ASSERT_LE(energy(), before + 1e-12 * start) << i << ", step " << step;
             before = energy();
         }

@@ -403,6 +403,7 @@ TEST(Sliding, StopsByImplicitMethods) {
 }
 
 // At the apex of a wedge at the origin, no distance and no speed is left to compare round-off with.
+// At rest, nothing happens that could be listed.
 TEST(Resting, AtTheApexOfAWedge) {
     for (const double steep : {0.5, 0.2, 0.05, 0.01})
         for (const double e : {0.0, 0.5})
@@ -414,7 +415,32 @@ TEST(Resting, AtTheApexOfAWedge) {
                 const Entity ball = world.spawn({.position = {from, 20}, .contact = Contact{}});
                 world.step(1200);
                 EXPECT_NEAR(length(world.position(ball)), 0, 1e-12) << steep << e << from;
+                world.step();
+                EXPECT_EQ(length(world.velocity(ball)), 0) << steep << e << from;
+                EXPECT_TRUE(world.impacts().empty()) << steep << e << from;
             }
+}
+
+// Between an elastic plane and one that is not, flights become shorter without end, and no sum of
+// them is known. The body ends where it touches both planes.
+TEST(Resting, InAValleyWithAnElasticSide) {
+    for (const int rate : {5, 20, 60}) {
+        World world = world_of("velocity_verlet", rate, 2);
+        world.set_gravity({0, -g});
+        const double slopes[] = {0.3, -0.2};
+        const double elastic[] = {1, 0.4};
+        for (const int i : {0, 1})
+            world.add_plane({.normal = {slopes[i], 1}, .restitution = elastic[i]});
+        const double radius = 0.2;
+        const Entity ball = world.spawn({.position = {0.1, 1.5}, .contact = Contact{radius}});
+        world.step(30 * rate);
+        const double left = radius * std::hypot(slopes[0], 1);
+        const double right = radius * std::hypot(slopes[1], 1);
+        const double x = (left - right) / (slopes[0] - slopes[1]);
+        EXPECT_NEAR(world.position(ball)[0], x, 16 * epsilon) << rate;
+        EXPECT_NEAR(world.position(ball)[1], left - slopes[0] * x, 16 * epsilon) << rate;
+        EXPECT_EQ(length(world.velocity(ball)), 0) << rate;
+    }
 }
 
 // Planes that leave no room for a body leave its numbers finite.
@@ -469,6 +495,24 @@ TEST(Resting, IsReportedOnce) {
                 }
                 EXPECT_EQ(rests, 1) << method << rate << name_of(precision);
             }
+}
+
+// In float, the last flights are as low as round-off: they may end between two steps.
+TEST(Resting, IsReportedAfterFlightsAsLowAsRoundOff) {
+    for (int i = 0; i < 100; ++i) {
+        World world(2, {.method = &oiler::find_method("rk3_kutta"),
+                        .rate = {240},
+                        .precision = oiler::Precision::single});
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .restitution = 0.95});
+        world.spawn({.position = {0, 0.5 + 0.03 * i}, .contact = Contact{0.25}});
+        int rests = 0;
+        for (int step = 0; step < 40 * 240; ++step) {
+            world.step();
+            for (const Impact& impact : world.impacts()) rests += impact.kind == Meeting::rest;
+        }
+        EXPECT_EQ(rests, 1) << i;
+    }
 }
 
 }  // namespace

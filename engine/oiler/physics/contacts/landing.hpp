@@ -49,7 +49,8 @@ public:
         hidden_ = {8 * epsilon * speed, 8 * epsilon * speed * duration};
         lift(state);
         for (int events = 0; left_ > 0; ++events) {
-            if (events == most_events) return Landed::unresolved;
+            if (events == 2 * most_events) return Landed::unresolved;
+            if (events >= most_events) stop_in_corner(state);
             if (bounce(state)) continue;
             const Vector a = body_.accelerate(state, start_);
             const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
@@ -57,7 +58,8 @@ public:
                 take_off();
                 fly(state);
             } else {
-                if (std::exchange(flying_, false))
+                const bool leaves = leaving_speed(support[0], state.v) > speed_noise(state);
+                if (std::exchange(flying_, false) || leaves)
                     report(Meeting::rest, support[0], start_, state, state.v);
                 glide(state, support);
                 if (settled_) return Landed::settled;
@@ -68,6 +70,7 @@ public:
 
 private:
     static constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    /// After this many events in a step, a body that bounces in a corner stops there.
     static constexpr int most_events = 4096;
     /// After this many impacts at one instant, a body between planes loses all speed into them.
     static constexpr int most_bounces_at_once = 16;
@@ -144,6 +147,7 @@ private:
             if (!(speed > speed_noise(state)) || !touches(plane, state)) continue;
             const Vector before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
+            met_ |= PlaneSet{1} << index_of(plane);
             const T kept = plane.restitution * speed;
             take_off();
             if (++bounces_at_once_ > most_bounces_at_once) {
@@ -159,6 +163,12 @@ private:
             return true;
         }
         return false;
+    }
+    /// Puts a body that bounces between planes that bear it together onto all of them.
+    void stop_in_corner(Motion& state) {
+        const Vector a = body_.accelerate(state, start_);
+        const auto corner = Bearing::against(a, planes_, met_);
+        if (corner.size() >= 2) rest_on(corner, state);
     }
     [[nodiscard]] PlaneSet touched_planes(const Motion& state) const {
         PlaneSet set = 0;
@@ -234,8 +244,8 @@ private:
         const T noise = speed_noise(state);
         state.v = support.without_push(state.v);
         if (largest(state.v) <= noise) state.v = {};
-        for (std::size_t i = 0; i < support.size(); ++i)
-            state.x -= support[i].normal * gap_of(support[i], state.x);
+        state.x =
+            support.onto(state.x, [&](const Surface& plane) { return gap_of(plane, state.x); });
     }
     /// How much more than the pull along the planes friction could hold, m/s²; negative if it does
     /// not hold.
@@ -376,6 +386,7 @@ private:
     T start_ = 0;     ///< s, from the start of the step
     T left_ = 0;      ///< s
     int bounces_at_once_ = 0;
+    PlaneSet met_ = 0;  ///< the planes on which the body bounced in the step
     bool settled_ = false;
     bool flying_ = false;  ///< since the start of the step, or the last rest in it
     std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before

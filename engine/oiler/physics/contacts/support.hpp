@@ -45,21 +45,16 @@ public:
 
     /// The reactions N of the planes against a push, in its unit; 0 for the others.
     [[nodiscard]] Vector reactions(const Vector& push) const {
-        auto gram = Matrix<T, Axes>::scalar(T(1));
-        Vector pressure{};
-        for (std::size_t i = 0; i < count_; ++i) {
-            pressure.axis[i] = -dot(planes_[i]->normal, push);
-            for (std::size_t j = 0; j < count_; ++j)
-                gram.row[i].axis[j] = dot(planes_[i]->normal, planes_[j]->normal);
-        }
-        return solve(gram, pressure);
+        return weights([&](const Surface& plane) { return dot(plane.normal, push); });
     }
-    /// The part of a push along all planes.
+    /// The part of a push along all planes: nothing, where they bear every direction.
     [[nodiscard]] Vector without_push(const Vector& push) const {
-        const Vector reaction = reactions(push);
-        Vector rest = push;
-        for (std::size_t i = 0; i < count_; ++i) rest += planes_[i]->normal * reaction.axis[i];
-        return rest;
+        return count_ == Axes ? Vector{} : push + sum_of_normals(reactions(push));
+    }
+    /// The nearest place to x where the body touches all planes; gap_of(plane) is the gap at x, m.
+    template <class Gap>
+    [[nodiscard]] Vector onto(const Vector& x, Gap gap_of) const {
+        return x + sum_of_normals(weights(gap_of));
     }
     /// The most that friction can hold, in the unit of the push.
     [[nodiscard]] T grip(const Vector& push) const {
@@ -71,6 +66,23 @@ public:
     }
 
 private:
+    /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
+    template <class Excess>
+    [[nodiscard]] Vector weights(Excess excess) const {
+        auto gram = Matrix<T, Axes>::scalar(T(1));
+        Vector opposed{};
+        for (std::size_t i = 0; i < count_; ++i) {
+            opposed.axis[i] = -excess(*planes_[i]);
+            for (std::size_t j = 0; j < count_; ++j)
+                gram.row[i].axis[j] = dot(planes_[i]->normal, planes_[j]->normal);
+        }
+        return solve(gram, opposed);
+    }
+    [[nodiscard]] Vector sum_of_normals(const Vector& weight) const {
+        Vector sum{};
+        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->normal * weight.axis[i];
+        return sum;
+    }
     /// Removes the plane with the smallest reaction if it is not positive.
     bool drop_pulled(const Vector& push) {
         if (count_ == 0) return false;
