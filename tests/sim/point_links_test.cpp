@@ -195,12 +195,29 @@ TEST(PointLinks, BringADampedBodyToRestOnTheirPoint) {
             }
 }
 
+// A body at rest on its point swings about the new one: x = 8·(1 − cos ω·t), ω = 10/s.
+TEST(PointLinks, PullToWhereTheirPointIsMoved) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.mass = mass});
+    bodies.link_to_point(0, {}, {.stiffness = 0});
+    const LinkHandle pin = bodies.link_to_point(0, {}, {.stiffness = 50});
+    bodies.move_point(pin, {0, 8});
+    EXPECT_EQ(bodies.link_ends(1).point, (Vec3{0, 8}));
+    EXPECT_EQ(bodies.link_ends(0).point, Vec3{});
+    bodies.step(find_method("rk4"), {Rate{1024}, 0, 1024});
+    // The error of rk4 in the angle is (ω·dt)⁴/120 per radian: 7.6e-11 per radian, 10 radians.
+    EXPECT_NEAR(bodies.position(0)[1], 8 * (1 - std::cos(10.0)), 8 * 7.6e-10);
+    EXPECT_EQ(bodies.position(0)[0], 0);
+}
+
 TEST(PointLinks, RefuseNumbersThatAreNotFinite) {
     Bodies bodies(2, Precision::double_);
     bodies.add({});
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [to, link] : {std::pair<Vec3, Link>{{nan}, {.stiffness = 1}},
                                    {{}, {.stiffness = nan}},
+                                   {{}, {.stiffness = -1}},
+                                   {{}, {.stiffness = 1, .damping = -1}},
                                    {{0, 0, 1}, {.stiffness = 1}}})
         EXPECT_FALSE(
             line_of_error(oiler::Exit::usage, [&] { bodies.link_to_point(0, to, link); }).empty());

@@ -468,6 +468,30 @@ TEST(World, ADivergingRunThrows) {
     }
 }
 
+// A computed number diverges; a number that was wrong when it was written is wrong usage.
+TEST(World, TellsWrongUsageFromDivergence) {
+    World world(2, {.rate = {60}});
+    const Entity a = world.spawn({});
+    const Entity b = world.spawn({});
+    const double nan = std::nan("");
+    const auto exit_of = [](auto f) {
+        try {
+            f();
+        } catch (const oiler::Error& error) {
+            return error.exit();
+        }
+        return oiler::Exit::done;
+    };
+    using oiler::Exit;
+    EXPECT_EQ(exit_of([&] { world.set_position(a, {nan}); }), Exit::diverged);
+    EXPECT_EQ(exit_of([&] { world.set_position(a, {0, 0, 1}); }), Exit::usage);
+    EXPECT_EQ(exit_of([&] { world.apply_force(a, {0, 0, 1}); }), Exit::usage);
+    EXPECT_EQ(exit_of([&] { world.link(a, b, {.stiffness = nan}); }), Exit::diverged);
+    EXPECT_EQ(exit_of([&] { world.link(a, b, {.rest_length = -1}); }), Exit::usage);
+    EXPECT_EQ(exit_of([&] { World(2, {.rate = {0}}); }), Exit::usage);
+    EXPECT_EQ(exit_of([&] { World(2, {.rate = {60, 0}}); }), Exit::usage);
+}
+
 TEST(World, TryStepReturnsTheDivergence) {
     World world(1, {.rate = {1}, .precision = Precision::single});
     world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});

@@ -8,6 +8,12 @@
 
 namespace oiler {
 
+/// A vector in the precision and the axes of columns.
+template <class T, int Axes, class V>
+[[nodiscard]] Vec<T, Axes> narrow(const Vec<V, 3>& given) {
+    return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
+}
+
 /// The columns of all bodies, for each precision and number of axes. Only the files that define
 /// Bodies include this, because it takes seconds to compile.
 struct AnyColumns {

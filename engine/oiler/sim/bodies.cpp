@@ -8,11 +8,6 @@
 namespace oiler {
 namespace {
 
-template <class T, int Axes, class V>
-Vec<T, Axes> narrow(const Vec<V, 3>& given) {
-    return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
-}
-
 template <class T, int Axes>
 T narrow_field(const double& given, const T&) {
     return static_cast<T>(given);

@@ -100,6 +100,8 @@ public:
     /// a Spring or CoilSpring take columns with a number for each row. The row is then stepped as a
     /// linked one.
     LinkHandle link_to_point(std::size_t row, const Vec3& point, const Link& link);
+    /// Moves the point of a link to a point, m. A damper takes the point as still.
+    void move_point(LinkHandle link, const Vec3& point);
     [[nodiscard]] bool alive(LinkHandle link) const;
     /// Removes the spring, which must be alive.
     void unlink(LinkHandle link);

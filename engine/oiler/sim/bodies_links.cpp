@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
 
@@ -59,16 +61,27 @@ LinkHandle Bodies::link_to_point(std::size_t row, const Vec3& point, const Link&
     std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) {
             columns.point_links.push_back(
-                {static_cast<std::uint32_t>(row),
-                 handle.slot,
-                 static_cast<T>(link.stiffness),
-                 static_cast<T>(link.damping),
-                 static_cast<T>(link.rest_length),
-                 {generate<Axes>([&](auto i) { return static_cast<T>(point.axis[i]); })}});
+                {static_cast<std::uint32_t>(row), handle.slot, static_cast<T>(link.stiffness),
+                 static_cast<T>(link.damping), static_cast<T>(link.rest_length),
+                 narrow<T, Axes>(point)});
             columns.forces_changed();
         },
         columns_->of);
     return handle;
+}
+
+void Bodies::move_point(LinkHandle link, const Vec3& point) {
+    require(alive(link), "the link is gone");
+    Limits(precision(), axes()).check(point, "the point of a link");
+    std::visit(
+        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
+            auto& links = columns.point_links;
+            const auto found = std::ranges::find(links, link.slot, &PointLinkRow<T, Axes>::slot);
+            require(found != links.end(), "the link is between two bodies and has no point");
+            found->point = narrow<T, Axes>(point);
+            columns.forces_changed();
+        },
+        columns_->of);
 }
 
 void Bodies::require_linkable(std::size_t row, const Link& link) const {

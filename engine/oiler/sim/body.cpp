@@ -11,8 +11,9 @@ namespace {
 
 /// Apart from the checks, so that they are inlined.
 [[noreturn, gnu::cold]] void refuse(double number, std::string_view what, double largest) {
-    fail(Exit::usage, "{} of {}: give a number that is finite and at most {:g}", what, number,
-         largest);
+    throw NotFinite(Exit::usage,
+                    fmt::format("{} of {}: give a number that is finite and at most {:g}", what,
+                                number, largest));
 }
 
 }  // namespace
@@ -58,6 +59,10 @@ void Limits::check(const Link& link) const {
     check(link.stiffness, "a link's stiffness");
     check(link.damping, "a link's damping");
     check(link.rest_length, "a link's rest length");
+    if (link.stiffness < 0)
+        fail(Exit::usage, "a link's stiffness of {} N/m: give 0 or more", link.stiffness);
+    if (link.damping < 0)
+        fail(Exit::usage, "a link's damping of {} N·s/m: give 0 or more", link.damping);
     if (link.rest_length < 0)
         fail(Exit::usage, "a link's rest length of {} m: give 0 or more", link.rest_length);
 }

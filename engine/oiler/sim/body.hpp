@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "oiler/core/error.hpp"
 #include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
@@ -71,8 +72,14 @@ concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);
 };
 
+/// The error of a number that is not finite in the precision of the columns.
+class NotFinite : public Error {
+public:
+    using Error::Error;
+};
+
 /// Checks whether columns of a precision and a number of axes can hold a value. The checks run
-/// before anything is stored and throw Error{usage}.
+/// before anything is stored and throw Error{usage}, for numbers NotFinite.
 class Limits {
 public:
     Limits(Precision precision, int axes);

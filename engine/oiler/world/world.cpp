@@ -20,6 +20,10 @@ struct Jumps {
 
 World::World(int axes, const Settings& settings)
     : settings_(settings), bodies_(axes, settings.stepping.precision) {
+    const Rate rate = settings.stepping.rate;
+    if (rate.steps < 1 || rate.seconds < 1)
+        fail(Exit::usage, "a rate of {} steps in {} s: give at least 1 step and 1 s", rate.steps,
+             rate.seconds);
     bodies_.set_threads(settings.threads);
 }
 
@@ -88,7 +92,9 @@ void World::refuse(const char* call, const Error& error) const {
 }
 
 void World::refuse(const char* call, Entity entity, const Error& error) const {
-    fail(Exit::diverged, "{} of entity {} at tick {}: {}", call, entity.index, tick_, error.what());
+    const bool computed = dynamic_cast<const NotFinite*>(&error);
+    fail(computed ? Exit::diverged : error.exit(), "{} of entity {} at tick {}: {}", call,
+         entity.index, tick_, error.what());
 }
 
 void World::teleport(Entity entity, const Vec3& position) {
@@ -149,6 +155,10 @@ LinkHandle World::link_to_point(Entity entity, const Vec3& point, const Link& li
     change("link_to_point", entity,
            [&](std::size_t row) { handle = bodies_.link_to_point(row, point, link); });
     return handle;
+}
+
+void World::move_point(LinkHandle link, const Vec3& point) {
+    placed("move_point", [&] { bodies_.move_point(link, point); });
 }
 
 void World::list_impacts() {

@@ -32,7 +32,8 @@ struct Settings {
 /// copy and the original step to the same bits.
 ///
 /// `alive` and `find` accept handles of destroyed entities. Any other use of such a handle ends the
-/// program with a line that names the mistake.
+/// program with a line that names the mistake. Handles belong to a value: after a snapshot is taken
+/// back, those made since it may name other entities and links.
 class World {
 public:
     explicit World(int axes, const Settings& settings = {});
@@ -150,6 +151,8 @@ public:
     /// Adds a spring between the body of an entity and a fixed point, m, such as a pin of a net. It
     /// is removed with the body. See also Bodies::link_to_point.
     LinkHandle link_to_point(Entity entity, const Vec3& point, const Link& link);
+    /// Moves the fixed point of such a spring at once, m, as when a hand drags a pin.
+    void move_point(LinkHandle link, const Vec3& point);
     [[nodiscard]] bool alive(LinkHandle link) const { return bodies_.alive(link); }
     /// Removes a spring that is alive.
     void unlink(LinkHandle link) { bodies_.unlink(link); }
@@ -165,7 +168,8 @@ public:
     [[nodiscard]] double mass(Entity entity) const { return bodies_.mass(row(entity)); }  ///< kg
 
     // Each of these throws Error{diverged} for a number that is not finite in the world's
-    // precision; the line names call, tick, entity and value, and the body is unchanged.
+    // precision, and Error{usage} for other wrong numbers; the line names call, tick, entity and
+    // value, and the body is unchanged.
 
     void set_velocity(Entity entity, const Vec3& velocity) {
         change("set_velocity", entity,
