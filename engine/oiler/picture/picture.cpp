@@ -111,6 +111,12 @@ Point Camera::to_canvas(Point world) const {
             canvas_height / 2 + (world.y - centre.y) * units_per_metre};
 }
 
+Point Camera::to_world(Point canvas) const {
+    const float metres_per_unit = height / canvas_height;
+    return {centre.x + (canvas.x - canvas_width / 2) * metres_per_unit,
+            centre.y + (canvas.y - canvas_height / 2) * metres_per_unit};
+}
+
 Picture between(const Picture& before, const Picture& after, float alpha) {
     if (alpha >= 1) {
         return after;

@@ -79,6 +79,8 @@ struct Camera {
     float height = 10;
 
     [[nodiscard]] Point to_canvas(Point world) const;
+    [[nodiscard]] Point to_world(Point canvas) const;
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// A frame as a value: a renderer draws it, a test compares it, the loop interpolates it between

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace oiler {
+
+/// A key by its place on the keyboard, named after the US layout. Its number is that of the USB
+/// standard HID Usage Tables, page 7, which is SDL's scan code, too.
+enum class Key : std::uint8_t {
+    a = 4,
+    b,
+    c,
+    d,
+    e,
+    f,
+    g,
+    h,
+    i,
+    j,
+    k,
+    l,
+    m,
+    n,
+    o,
+    p,
+    q,
+    r,
+    s,
+    t,
+    u,
+    v,
+    w,
+    x,
+    y,
+    z,
+    n1 = 30,
+    n2,
+    n3,
+    n4,
+    n5,
+    n6,
+    n7,
+    n8,
+    n9,
+    n0,
+    enter = 40,
+    escape,
+    backspace,
+    tab,
+    space,
+    minus,
+    equals,
+    left_bracket,
+    right_bracket,
+    backslash,
+    semicolon = 51,
+    apostrophe,
+    grave,
+    comma,
+    period,
+    slash,
+    caps_lock,
+    f1 = 58,
+    f2,
+    f3,
+    f4,
+    f5,
+    f6,
+    f7,
+    f8,
+    f9,
+    f10,
+    f11,
+    f12,  // the loop's own
+    insert = 73,
+    home,
+    page_up,
+    del,
+    end,
+    page_down,
+    right,
+    left,
+    down,
+    up,
+    pad_divide = 84,
+    pad_multiply,
+    pad_minus,
+    pad_plus,
+    pad_enter,
+    pad_1 = 89,
+    pad_2,
+    pad_3,
+    pad_4,
+    pad_5,
+    pad_6,
+    pad_7,
+    pad_8,
+    pad_9,
+    pad_0,
+    pad_period,
+    left_ctrl = 224,
+    left_shift,
+    left_alt,
+    left_gui,
+    right_ctrl,
+    right_shift,
+    right_alt,
+    right_gui,
+};
+
+enum class Mouse : std::uint8_t { left, middle, right, back, forward };
+
+/// A button of a game controller by its place: `south` is A on an Xbox pad and a cross on a
+/// PlayStation's. The triggers count as pressed from 0.6 on, until 0.4.
+enum class Pad : std::uint8_t {
+    south,
+    east,
+    west,
+    north,
+    back,
+    guide,
+    start,
+    left_stick,
+    right_stick,
+    left_shoulder,
+    right_shoulder,
+    up,
+    down,
+    left,
+    right,
+    left_trigger,
+    right_trigger,
+};
+
+/// An axis of a game controller. Sticks go from -1 (left, down) to 1, triggers from 0 to 1.
+enum class Stick : std::uint8_t { left_x, left_y, right_x, right_y, left_trigger, right_trigger };
+inline constexpr std::size_t stick_count = 6;
+
+/// Anything that can be pressed.
+class Button {
+public:
+    static constexpr std::size_t count = 320;
+
+    constexpr Button(Key key) : id_(static_cast<std::uint16_t>(key)) {}
+    constexpr Button(Mouse button) : id_(first_mouse + static_cast<std::uint16_t>(button)) {}
+    constexpr Button(Pad button) : id_(first_pad + static_cast<std::uint16_t>(button)) {}
+
+    /// The number of the button, less than `count`.
+    [[nodiscard]] constexpr std::uint16_t id() const { return id_; }
+    /// The button of a number; empty if there is none.
+    [[nodiscard]] static std::optional<Button> of_id(std::uint16_t id);
+
+    friend constexpr bool operator==(Button, Button) = default;
+
+private:
+    static constexpr std::uint16_t first_mouse = 256;
+    static constexpr std::uint16_t first_pad = 272;
+
+    std::uint16_t id_;
+};
+
+/// "A", "Left", "Mouse left", "Pad south".
+[[nodiscard]] std::string name_of(Button button);
+/// The button of such a name, in upper or lower case; empty if there is none.
+[[nodiscard]] std::optional<Button> find_button(std::string_view name);
+
+[[nodiscard]] std::string_view name_of(Stick stick);  ///< "left_x"
+[[nodiscard]] std::optional<Stick> find_stick(std::string_view name);
+
+/// The keys that control the loop, F1 to F12: no game sees them.
+[[nodiscard]] constexpr bool is_of_loop(Button button) {
+    return button.id() >= Button(Key::f1).id() && button.id() <= Button(Key::f12).id();
+}
+
+}  // namespace oiler

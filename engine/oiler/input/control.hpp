@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "oiler/input/button.hpp"
+
+namespace oiler {
+
+/// Up to eight buttons of which any one counts.
+class Buttons {
+public:
+    constexpr Buttons() = default;
+    constexpr Buttons(Button one) : Buttons({one}) {}
+    constexpr Buttons(Key one) : Buttons(Button(one)) {}
+    constexpr Buttons(Mouse one) : Buttons(Button(one)) {}
+    constexpr Buttons(Pad one) : Buttons(Button(one)) {}
+    constexpr Buttons(std::initializer_list<Button> buttons) {
+        for (const Button button : buttons) ids_[size_++] = button;
+    }
+
+    [[nodiscard]] constexpr const Button* begin() const { return ids_.data(); }
+    [[nodiscard]] constexpr const Button* end() const { return ids_.data() + size_; }
+    [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+
+    friend constexpr bool operator==(const Buttons&, const Buttons&) = default;
+
+private:
+    std::array<Button, 8> ids_{Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a};
+    std::size_t size_ = 0;
+};
+
+/// What a player does, with the buttons that do it unless the player chooses others:
+/// `static constexpr Action fire{"fire", Key::space, Mouse::left, Pad::south};`
+struct Action {
+    std::string_view name;
+    Buttons buttons;
+
+    template <class... Which>
+    constexpr Action(std::string_view its_name, Which... which)
+        : name(its_name), buttons({Button(which)...}) {}
+};
+
+/// A direction from -1 to 1, from buttons and a stick:
+/// `static constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};`
+struct Axis {
+    std::string_view name;
+    Buttons negative;
+    Buttons positive;
+    std::optional<Stick> stick;
+
+    constexpr Axis(std::string_view its_name, Buttons towards_minus, Buttons towards_plus,
+                   std::optional<Stick> its_stick = {})
+        : name(its_name), negative(towards_minus), positive(towards_plus), stick(its_stick) {}
+};
+
+/// An action or an axis in the list of a game, and the buttons that a player chose for it.
+struct Control {
+    std::string_view name;
+    bool is_axis;
+    Buttons negative;  ///< of an axis
+    Buttons positive;  ///< of an axis; else all buttons of the action
+    std::optional<Stick> stick;
+
+    constexpr Control(const Action& action)
+        : name(action.name), is_axis(false), positive(action.buttons) {}
+    constexpr Control(const Axis& axis)
+        : name(axis.name),
+          is_axis(true),
+          negative(axis.negative),
+          positive(axis.positive),
+          stick(axis.stick) {}
+
+    friend constexpr bool operator==(const Control&, const Control&) = default;
+};
+
+}  // namespace oiler

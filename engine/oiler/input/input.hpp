@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oiler/input/analog.hpp"
+#include "oiler/input/control.hpp"
+#include "oiler/picture/picture.hpp"
+
+namespace oiler {
+
+/// A button that went down or up.
+struct Edge {
+    Button button;
+    bool down;
+    friend bool operator==(const Edge&, const Edge&) = default;
+};
+
+using HeldButtons = std::bitset<Button::count>;
+
+/// Where the mouse points, in units of the canvas, and the camera of the picture that was on
+/// screen.
+struct Pointer {
+    Point canvas{};
+    Camera camera{};
+    friend bool operator==(const Pointer&, const Pointer&) = default;
+};
+
+/// What a player did in one fixed step. It is a plain value: a step is a pure function of state and
+/// input, and a recording is a list of inputs.
+///
+/// Every press is seen by one step, and every release by one, whatever the frame rate. A step that
+/// sees a press also sees the button held, even if it is up again: the next step sees the release.
+class Input {
+public:
+    /// Whether a button is down; of an action, whether any of its buttons is.
+    [[nodiscard]] bool held(Button button) const { return held_[button.id()]; }
+    [[nodiscard]] bool held(const Action& action) const;
+    /// Whether it went down since the last step. An action goes down with the first of its buttons,
+    /// and up with the last.
+    template <class What>
+    [[nodiscard]] bool pressed(const What& what) const {
+        return presses(what) > 0;
+    }
+    template <class What>
+    [[nodiscard]] bool released(const What& what) const {
+        return releases(what) > 0;
+    }
+    /// How often it went down since the last step.
+    [[nodiscard]] int presses(Button button) const { return count(Buttons(button), true); }
+    [[nodiscard]] int presses(const Action& action) const;
+    [[nodiscard]] int releases(Button button) const { return count(Buttons(button), false); }
+    [[nodiscard]] int releases(const Action& action) const;
+
+    /// From -1 to 1: the sum of buttons and stick, no further.
+    [[nodiscard]] float axis(const Axis& axis) const;
+    /// The direction of two axes, no longer than 1.
+    [[nodiscard]] Point direction(const Axis& x, const Axis& y) const;
+    /// From -1 to 1, of triggers from 0; without the dead zone.
+    [[nodiscard]] float stick(Stick stick) const {
+        return static_cast<float>(sticks_[static_cast<std::size_t>(stick)]) / 127;
+    }
+
+    /// Where the mouse points, m in the world that was on screen; empty if it is not in the window.
+    [[nodiscard]] std::optional<Point> pointer() const;
+    /// The same in units of the canvas.
+    [[nodiscard]] std::optional<Point> pointer_canvas() const;
+    /// Notches that the wheel was turned since the last step, away from the user.
+    [[nodiscard]] int wheel() const { return wheel_; }
+    /// Text entered since the last step, UTF-8, while Loop::text_input is on.
+    [[nodiscard]] std::string_view text() const { return text_; }
+
+    friend bool operator==(const Input&, const Input&) = default;
+
+private:
+    friend class InputQueue;
+    friend class InputCodec;
+
+    [[nodiscard]] int count(const Buttons& buttons, bool down) const;
+    [[nodiscard]] const Control* chosen(std::string_view name) const;
+
+    HeldButtons before_;  ///< at the start of the edges
+    HeldButtons held_;
+    std::vector<Edge> edges_;
+    std::array<Deflection, stick_count> sticks_{};
+    std::optional<Pointer> pointer_;
+    int wheel_ = 0;
+    std::string text_;
+    std::shared_ptr<const std::vector<Control>> controls_;  ///< chosen by the player, if any
+};
+
+}  // namespace oiler

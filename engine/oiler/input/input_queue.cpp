@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/input/input_queue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oiler {
+namespace {
+
+float rounded(float canvas) { return std::round(canvas * 16) / 16; }
+
+/// Moves the last release of each button that a step sees pressed, and that is up at its end, to
+/// the next step.
+std::vector<Edge> take_late_releases(std::vector<Edge>& edges) {
+    std::vector<Edge> late;
+    HeldButtons pressed;
+    HeldButtons decided;
+    for (const Edge& edge : edges)
+        if (edge.down) pressed.set(edge.button.id());
+    for (std::size_t i = edges.size(); i-- > 0;) {
+        const std::size_t id = edges[i].button.id();
+        if (decided[id]) continue;
+        decided.set(id);
+        if (edges[i].down || !pressed[id]) continue;
+        late.insert(late.begin(), edges[i]);
+        edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    return late;
+}
+
+}  // namespace
+
+void InputQueue::set(Button button, bool down) {
+    if (now_[button.id()] == down) return;
+    now_[button.id()] = down;
+    if (!paused_) next_.edges_.push_back({button, down});
+}
+
+void InputQueue::release_all() {
+    for (std::uint16_t id = 0; id < Button::count; ++id)
+        if (now_[id]) set(*Button::of_id(id), false);
+    next_.sticks_ = {};
+}
+
+void InputQueue::point_at(std::optional<Point> canvas) {
+    next_.pointer_.reset();
+    if (canvas) next_.pointer_ = Pointer{{rounded(canvas->x), rounded(canvas->y)}, {}};
+}
+
+void InputQueue::set_paused(bool paused) {
+    if (paused_ && !paused) drop_taps();
+    if (!paused_ && paused) at_pause_ = now_;
+    paused_ = paused;
+}
+
+void InputQueue::drop_taps() {
+    for (std::uint16_t id = 0; id < Button::count; ++id)
+        if (now_[id] != at_pause_[id]) next_.edges_.push_back({*Button::of_id(id), now_[id]});
+    at_pause_ = now_;
+}
+
+Input InputQueue::take(const Camera& shown) {
+    if (paused_) drop_taps();
+    std::vector<Edge> late = take_late_releases(next_.edges_);
+    Input input = next_;
+    input.before_ = std::exchange(next_.held_, now_);
+    for (const Edge& edge : late) next_.held_.set(edge.button.id());
+    input.held_ = next_.held_;
+    input.controls_ = controls_;
+    if (input.pointer_) input.pointer_->camera = shown;
+    next_.edges_ = std::move(late);
+    next_.wheel_ = 0;
+    next_.text_.clear();
+    return input;
+}
+
+}  // namespace oiler
