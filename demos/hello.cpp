@@ -19,7 +19,7 @@ struct Hello {  // a mass on a spring; Space kicks it
         return {.camera = {.height = 6},
                 .polylines = {{key, coil({-5, 0}, at, 14, 0.3F), 2, palette::grey}},
                 .discs = {{key, at, 0.5F, palette::blue}},
-                .labels = {{{}, {12, 12}, "Space kicks, P pauses, Q quits"}}};
+                .labels = {{{}, {12, 12}, "Space kicks, F3 pauses, Escape quits"}}};
     }
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -50,11 +51,19 @@ struct Drifter {
     Picture picture() const { return {}; }
 };
 
+/// The steps see what is queued.
+struct Live final : InputSource {
+    InputQueue& queue;
+    explicit Live(InputQueue& its) : queue(its) {}
+    Input next(std::int64_t) override { return queue.take({}); }
+};
+
 struct Shown {
     AnyGameOf<Walker> game{Settings{.stepping = {.rate = {1}}}};
     Recorder recorder{{}, {}, game.world()};
     Playback playback{game, recorder, Keep::hashes};
-    Input input;
+    InputQueue queue;
+    Live input{queue};
 
     Point at(std::int64_t tick, double alpha) {
         return playback.show(tick, alpha, input).discs.at(0).centre;
@@ -100,10 +109,9 @@ TEST(Playback, HashIsThatOfTheShownTick) {
 
 TEST(Playback, APressIsSeenByOneStepHoweverLongItWaits) {
     Shown shown;
-    shown.input.press(Key::space);
+    shown.queue.set(Key::space, true);
     EXPECT_EQ(shown.at(0, 0).y, 0) << "no step yet";
     EXPECT_EQ(shown.at(5, 0).y, 1) << "five steps, one press";
-    EXPECT_TRUE(shown.input.held(Key::space));
     EXPECT_EQ(shown.at(9, 0).y, 1);
 }
 
@@ -116,7 +124,7 @@ TEST(Playback, DoesNotInterpolateATeleport) {
     AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}}};
     Recorder none{{}, {}, game.world()};
     Playback playback{game, none, Keep::nothing};
-    Input input;
+    NoInput input;
     for (int i = 0; i < 40; ++i) {
         const double t = 0.1 * i;
         const auto tick = static_cast<std::int64_t>(t + 1e-9);
@@ -126,13 +134,106 @@ TEST(Playback, DoesNotInterpolateATeleport) {
     }
 }
 
+/// A walker that is replaced: by a new game on Enter, by what it was on its fifth step on every
+/// step while Backspace is held. Tab holds the world.
+struct Rewinder : Walker {
+    std::vector<Walker> saved{};
+    int updates = 0;
+
+    explicit Rewinder(const Settings& settings) : Walker(settings) {}
+    void update(const Input& input, Loop& loop) {
+        ++updates;
+        if (world.tick() == 5 && saved.empty()) saved.push_back(*this);
+        if (input.pressed(Key::enter)) static_cast<Walker&>(*this) = Walker(world.settings());
+        if (input.held(Key::backspace)) static_cast<Walker&>(*this) = saved.at(0);
+        if (input.held(Key::tab)) loop.hold();
+        if (input.pressed(Key::r)) loop.restart();
+        if (input.pressed(Key::q)) loop.quit();
+    }
+};
+
+struct Rewound {
+    AnyGameOf<Rewinder> game{Settings{.stepping = {.rate = {1}}}};
+    Recorder none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    InputQueue queue;
+    Live input{queue};
+
+    float at(std::int64_t step, double alpha) {
+        return playback.show(step, alpha, input).discs.at(0).centre.x;
+    }
+};
+
+TEST(Playback, ARestartTakesOneStepAndIsNotInterpolated) {
+    Rewound shown;
+    EXPECT_EQ(shown.at(199, 0.5), 199.5F);
+    shown.queue.set(Key::enter, true);
+    EXPECT_EQ(shown.at(200, 0), 200) << "taken before the key";
+    EXPECT_EQ(shown.at(200, 0.5), 200) << "nothing flies back";
+    EXPECT_EQ(shown.at(201, 0), 1) << "a new game, one step old";
+    EXPECT_EQ(shown.at(201, 0.5), 1.5F);
+    EXPECT_EQ(shown.playback.steps(), 202);
+    EXPECT_EQ(shown.game.world().tick(), 2);
+}
+
+TEST(Playback, ARewindOnEveryStepReturns) {
+    Rewound shown;
+    (void)shown.at(20, 0);
+    shown.queue.set(Key::backspace, true);
+    for (int step = 21; step < 320; ++step) EXPECT_EQ(shown.at(step, 0.5), 6);
+    shown.queue.set(Key::backspace, false);
+    (void)shown.at(322, 0);
+    EXPECT_EQ(shown.at(322, 0.25), 8.25F) << "the play goes on";
+}
+
+TEST(Playback, TheLoopRestartsAtItsRateAndHoldsTheWorld) {
+    Rewound shown;
+    (void)shown.at(9, 0);
+    shown.queue.set(Key::r, true);
+    EXPECT_EQ(shown.at(10, 0), 0);
+    EXPECT_EQ(shown.game.world().settings().stepping.rate, Rate{1});
+    EXPECT_EQ(shown.at(12, 0), 2);
+    const std::uint64_t hash = shown.game.world().state_hash();
+    shown.queue.set(Key::tab, true);
+    EXPECT_EQ(shown.at(20, 0.5), 2);
+    EXPECT_EQ(shown.game.world().state_hash(), hash);
+    shown.queue.set(Key::tab, false);
+    EXPECT_EQ(shown.at(21, 0), 2) << "the step between 20 and 21 was held";
+    EXPECT_EQ(shown.at(21, 0.5), 2.5F);
+    shown.queue.set(Key::q, true);
+    (void)shown.at(100, 0);
+    EXPECT_TRUE(shown.playback.loop().quits());
+    EXPECT_LT(shown.game.world().tick(), 5);
+}
+
+/// A game whose update throws at tick 3.
+struct Thrower : Walker {
+    explicit Thrower(const Settings& settings) : Walker(settings) {}
+    void update(const Input&) {
+        if (world.tick() == 3) throw std::out_of_range("no such target");
+    }
+};
+
+TEST(Playback, AnExceptionOfAGameNamesTheTick) {
+    AnyGameOf<Thrower> game{Settings{.stepping = {.rate = {1}}}};
+    Recorder none{{}, {}, game.world()};
+    NoInput input;
+    try {
+        Playback(game, none, Keep::nothing).step_to(10, input);
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::diverged);
+        EXPECT_STREQ(error.what(), "update at tick 3: no such target");
+    }
+}
+
 TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}}};
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};
     Recorder none{{}, {}, together.world()};
-    Input input;
+    NoInput input;
     Playback(together, none, Keep::nothing).step_to(10'000, input);
-    for (int i = 0; i < 10'000; ++i) single.step(1, input);
+    for (int i = 0; i < 10'000; ++i) single.step(i, 1, input);
     EXPECT_EQ(together.world().tick(), 10'000);
     EXPECT_EQ(together.world().state_hash(), single.world().state_hash());
 }
@@ -140,11 +241,12 @@ TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
 /// A game whose steps take a given time, at least.
 class Sluggish final : public AnyGame {
 public:
-    void step(std::int64_t count, Input&) override {
+    void step(std::int64_t, std::int64_t count, InputSource&) override {
         calls.push_back(count);
         world_.step(count);
         std::this_thread::sleep_for(count * time_of_step);
     }
+    void restart() override {}
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override { return {}; }
 
@@ -159,7 +261,7 @@ private:
 TEST(Playback, SlowStepsShareNoLongCall) {
     Sluggish game;
     Recorder none{{}, {}, game.world()};
-    Input input;
+    NoInput input;
     game.time_of_step = std::chrono::milliseconds(1);
     Playback(game, none, Keep::nothing).step_to(40, input);
     EXPECT_LE(*std::max_element(game.calls.begin(), game.calls.end()), 8);
@@ -170,7 +272,7 @@ TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
     Sluggish game;
     Recorder none{{}, {}, game.world()};
     Playback playback(game, none, Keep::nothing);
-    Input input;
+    NoInput input;
     playback.step_to(100'000, input);
     EXPECT_GT(*std::max_element(game.calls.begin(), game.calls.end()), 100);
     game.time_of_step = std::chrono::microseconds(100);

@@ -19,7 +19,7 @@ struct Recorded {
         Recorder recorder(folder / "trace", folder / "energy", world);
         for (int i = 0; i < steps; ++i) {
             world.step();
-            recorder.record(world);
+            recorder.record(i + 1, world);
         }
         recorder.commit();
         trace = text_of(folder / "trace");

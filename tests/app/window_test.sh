@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs a demo in a real window: pause freezes the picture, a single step changes it, Q quits with
+# Runs a demo in a real window: pause freezes the picture, a single step changes it, Escape quits with
 # exit code 0, and --frames N quits after N frames. A closed window leaves with 0, a killed server
 # with 3 and complete files. Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
@@ -48,17 +48,17 @@ game=$!
 until_true window_focused || fail "no window: $(cat "$folder/err")"
 until_true grep -q "drawing with sdl2" "$folder/err" || fail "auto does not select the window"
 until_true moves || fail "nothing moves before the pause"
-xdotool key p
-until_true stands_still || fail "P does not pause"
-xdotool key period
+xdotool key F3
+until_true stands_still || fail "F3 does not pause"
+xdotool key F5
 until_true has_changed || fail "a single step shows nothing"
 until_true stands_still || fail "the picture moves after a single step"
-xdotool key p
-until_true moves || fail "P does not resume"
-xdotool key q
+xdotool key F3
+until_true moves || fail "F3 does not resume"
+xdotool key Escape
 wait $game
 status=$?
-[ $status -eq 0 ] || fail "Q leaves with exit code $status"
+[ $status -eq 0 ] || fail "Escape leaves with exit code $status"
 
 # steps_in_frames N: number of steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame
 # starts the clock and takes no step; a late frame takes at most 250.

@@ -33,25 +33,27 @@ inline constexpr std::array plan{
     Row{"lab/sweep", "lab/reference"},
     Row{"lab/advice", "lab/reference lab/sweep"},
     Row{"lab/ledger", "lab/reference"},
-    Row{"platform", "core"},
+    Row{"input", "core math picture"},
+    Row{"platform", "core input"},
     Row{"render", "core math picture"},
     Row{"capture", "core math picture"},
     Row{"compare", "core math picture capture"},
     Row{"inspector", "core math physics sim stability world picture plot scene lab render"},
     Row{"app",
-        "core math physics sim stability world picture plot scene certify lab platform render"
+        "core math physics sim stability world picture plot scene certify lab input platform render"
         " capture compare inspector"},
     Row{"cli",
-        "core math physics sim stability world picture plot scene certify lab platform render"
+        "core math physics sim stability world picture plot scene certify lab input platform render"
         " capture compare inspector app"},
     // The one include of a game: no room may include it.
     Row{"oiler.hpp",
-        "core math physics sim stability world picture plot scene certify lab platform render"
+        "core math physics sim stability world picture plot scene certify lab input platform render"
         " capture compare inspector app"},
 };
 
 /// The files that may include headers of windows and of OpenGL's providers.
-inline constexpr std::array providers{"platform/sdl2.cpp", "platform/osmesa.cpp",
+inline constexpr std::array providers{"platform/sdl2.cpp", "platform/sdl2_events.cpp",
+                                      "platform/sdl2_events.hpp", "platform/osmesa.cpp",
                                       "platform/egl.cpp"};
 
 /// Folders whose targets depend on options, presets and installed libraries. CMake's list of

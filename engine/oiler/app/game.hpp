@@ -3,11 +3,15 @@
 
 #include <concepts>
 #include <cstdint>
+#include <exception>
+#include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "oiler/core/input.hpp"
+#include "oiler/app/input_source.hpp"
+#include "oiler/app/loop.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
 
@@ -20,9 +24,10 @@ struct About {
     int rate = 100;          ///< steps per second
     std::string_view method = "semi_implicit_euler";
     Precision precision = Precision::double_;
-    double duration = 4;               ///< s, length of a headless film
-    std::string_view damping = "";     ///< "kick" or "drift"; empty: the method's default
-    std::string_view scene_text = "";  ///< the scene file; empty for a game
+    double duration = 4;                  ///< s, length of a headless film
+    std::string_view damping = "";        ///< "kick" or "drift"; empty: the method's default
+    std::string_view scene_text = "";     ///< the scene file; empty for a game
+    std::span<const Control> controls{};  ///< the actions and axes of the game
 };
 
 /// The key of an entity's element in a picture. `part` distinguishes several elements of one
@@ -37,7 +42,11 @@ struct About {
 }
 
 template <class G>
-concept Updates = requires(G game, const Input& input) {
+concept UpdatesLoop = requires(G game, const Input& input, Loop& loop) {
+    game.update(input, loop);
+};
+template <class G>
+concept Updates = UpdatesLoop<G> || requires(G game, const Input& input) {
     game.update(input);
 };
 
@@ -76,8 +85,9 @@ consteval bool check_game() {
             { game.picture() } -> std::same_as<Picture>;
         },
         "a game has: Picture picture() const");
-    static_assert(Updates<G> || !detail::MentionsUpdate<G>,
-                  "a game's update is public and takes one argument: void update(const Input&)");
+    static_assert(
+        Updates<G> || !detail::MentionsUpdate<G>,
+        "a game's update is public: void update(const Input&), or with a second argument, Loop&");
     return true;
 }
 
@@ -89,14 +99,24 @@ public:
     AnyGame(const AnyGame&) = delete;
     AnyGame& operator=(const AnyGame&) = delete;
 
-    /// Steps `count` times. Only the first step sees key presses.
-    virtual void step(std::int64_t count, Input& input) = 0;
+    /// Steps `count` times; the next step is number `step` of the loop. A game may replace its
+    /// world meanwhile.
+    virtual void step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
+    /// Makes the game anew, with the settings of its world.
+    virtual void restart() = 0;
+    /// How often the world was replaced: no picture between two worlds is drawn.
+    [[nodiscard]] std::int64_t cuts() const { return cuts_; }
+    [[nodiscard]] const Loop& loop() const { return loop_; }
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
     /// Name of a body in comparisons.
     [[nodiscard]] virtual std::string name_of(Entity entity) const {
         return "body " + std::to_string(entity.index);
     }
+
+protected:
+    Loop loop_;
+    std::int64_t cuts_ = 0;
 };
 
 template <class G>
@@ -106,23 +126,54 @@ class AnyGameOf final : public AnyGame {
 public:
     explicit AnyGameOf(const Settings& settings) : game_(settings) {}
 
-    void step(std::int64_t count, Input& input) override {
+    void step(std::int64_t step, std::int64_t count, InputSource& inputs) override {
         if constexpr (Updates<G>) {
-            for (; count > 0; --count) {
-                game_.update(std::as_const(input));
-                input.forget_presses();
-                game_.world.step();
+            for (; count > 0 && !loop_.quits(); --count) {
+                update(inputs.next(step++));
+                if (loop_.restarts())
+                    restart();
+                else if (!loop_.holds())
+                    game_.world.step();
+                find_cut();
             }
         } else {
-            input.forget_presses();
             game_.world.step(count);
         }
+    }
+    void restart() override {
+        game_ = G(Settings(game_.world.settings()));
+        age_ = -1;
+        ++cuts_;
     }
     [[nodiscard]] const World& world() const override { return game_.world; }
     [[nodiscard]] Picture picture() const override { return game_.picture(); }
 
 private:
+    void update(const Input& input) {
+        loop_.begin_step();
+        const std::int64_t tick = game_.world.tick();
+        try {
+            if constexpr (UpdatesLoop<G>)
+                game_.update(input, loop_);
+            else if constexpr (Updates<G>)
+                game_.update(input);
+        } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& error) {
+            fail(Exit::diverged, "update at tick {}: {}", tick, error.what());
+        }
+    }
+    /// A world that was replaced is younger than it would have become.
+    void find_cut() {
+        const std::int64_t age = game_.world.age();
+        if (age < age_ || (age == age_ && !loop_.holds())) ++cuts_;
+        age_ = age;
+    }
+
     G game_;
+    std::int64_t age_ = 0;  ///< of the world
 };
 
 }  // namespace oiler

@@ -59,7 +59,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
 /// Draws the frames in their order until the last one or an interrupt.
 void draw_frames(Film& film, Playback& playback, const Manifest& header, bool quiet) {
     Progress progress(quiet, "frames", header.planned_frames);
-    Input no_input;
+    NoInput no_input;
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
         const Picture picture = playback.show(at.step, at.alpha, no_input);
@@ -108,7 +108,7 @@ Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
                 const Options& options) {
     const std::int64_t frame = *options.frame;
     const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-    Input no_input;
+    NoInput no_input;
     const Picture picture = playback.show(at.step, at.alpha, no_input);
     if (Interrupt::requested()) return Exit::interrupted;
     Pixels pixels;

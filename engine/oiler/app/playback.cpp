@@ -44,24 +44,25 @@ bool Playback::hashes_ticks() const {
     return keep_ == Keep::hashes && game_.world().bodies().size() <= most_bodies_kept;
 }
 
-void Playback::step_to(std::int64_t tick, Input& input) {
+void Playback::step_to(std::int64_t step, InputSource& inputs) {
     const Span span(profile_, "step");
     const World& world = game_.world();
-    while (world.tick() < tick && !Interrupt::requested()) {
+    while (steps_ < step && !game_.loop().quits() && !Interrupt::requested()) {
         const bool single = recorder_.active() || hashes_ticks();
         const std::int64_t most = single ? 1 : steps_per_call_;
-        step(std::min(tick - world.tick(), most), input);
-        recorder_.record(world);
+        take(std::min(step - steps_, most), inputs);
+        recorder_.record(steps_, world);
         if (keep_ != Keep::hashes) continue;
         if (hashes_ticks()) tick_hashes_ += hash_text(world.state_hash()).substr(16 - tick_digits);
-        tick_hashes_.resize(tick_digits * static_cast<std::size_t>(world.tick()), '.');
+        tick_hashes_.resize(tick_digits * static_cast<std::size_t>(steps_), '.');
     }
 }
 
 /// Adapts the steps per call to the time that they take. Results do not depend on it.
-void Playback::step(std::int64_t count, Input& input) {
+void Playback::take(std::int64_t count, InputSource& inputs) {
     const Clock::time_point start = Clock::now();
-    game_.step(count, input);
+    game_.step(steps_, count, inputs);
+    steps_ += count;
     const Clock::duration spent = Clock::now() - start;
     if (spent > longest_call)
         steps_per_call_ = std::max<std::int64_t>(1, count / 2);
@@ -69,30 +70,30 @@ void Playback::step(std::int64_t count, Input& input) {
         steps_per_call_ = std::min(most_steps_per_call, 2 * count);
 }
 
-Picture Playback::show(std::int64_t tick, double alpha, Input& input) {
-    assert(tick >= before_.tick);
-    if (after_.tick == tick) {
+Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
+    assert(step >= before_.step);
+    if (after_.step == step) {
         before_ = std::move(after_);
         after_ = {};
-    } else if (before_.tick != tick) {
-        step_to(tick, input);
+    } else if (before_.step != step) {
+        step_to(step, inputs);
         before_ = sample();
         after_ = {};
     }
-    if (alpha > 0 && after_.tick < 0) {
-        step_to(tick + 1, input);
+    if (alpha > 0 && after_.step < 0) {
+        step_to(step + 1, inputs);
         after_ = sample();
     }
     const Span span(profile_, "picture");
-    return alpha > 0 ? between(before_.picture, after_.picture, static_cast<float>(alpha))
-                     : before_.picture;
+    return alpha > 0 && before_.cuts == after_.cuts
+               ? between(before_.picture, after_.picture, static_cast<float>(alpha))
+               : before_.picture;
 }
 
 Playback::Moment Playback::sample() const {
     const Span span(profile_, "picture");
-    const World& world = game_.world();
-    Moment moment{.tick = world.tick(), .picture = game_.picture()};
-    if (keep_ == Keep::hashes) moment.state_hash = world.state_hash();
+    Moment moment{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};
+    if (keep_ == Keep::hashes) moment.state_hash = game_.world().state_hash();
     if (hashes_ticks()) moment.bodies = states_of(game_);
     return moment;
 }

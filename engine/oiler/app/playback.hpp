@@ -15,7 +15,7 @@ namespace oiler {
 /// What a playback keeps for a capture, besides the picture.
 enum class Keep {
     nothing,
-    hashes,  ///< of each frame, and of each tick of a world with up to 1000 bodies
+    hashes,  ///< of each frame, and of each step of a world with up to 1000 bodies
 };
 
 /// Steps a game to the times of its frames. A frame between two ticks interpolates both, so the
@@ -24,42 +24,48 @@ class Playback {
 public:
     Playback(AnyGame& game, Recorder& recorder, Keep keep, Profile* profile = nullptr);
 
-    /// Steps to `tick`, which is not before the game's tick. Takes many steps per call unless they
+    /// Steps until the loop has taken `step` steps. Takes many steps per call unless they
     /// are recorded or hashed, but no more than a short time's, because it stops early if
     /// interrupted.
-    void step_to(std::int64_t tick, Input& input);
+    void step_to(std::int64_t step, InputSource& inputs);
 
-    /// Returns the picture at `alpha` in [0, 1) between `tick` and the next. `tick` must not
-    /// decrease.
-    [[nodiscard]] Picture show(std::int64_t tick, double alpha, Input& input);
+    /// Returns the picture at `alpha` in [0, 1) between the states after `step` steps and the next.
+    /// `step` must not decrease. Where the game replaced its world between them, it is the former.
+    [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
+    void restart() { game_.restart(); }
+    [[nodiscard]] const Loop& loop() const { return game_.loop(); }
+    /// The number of steps that the loop has taken.
+    [[nodiscard]] std::int64_t steps() const { return steps_; }
 
     [[nodiscard]] const World& world() const { return game_.world(); }
-    /// State hash of the last shown tick; 0 if no hashes are kept.
+    /// State hash after the last shown step; 0 if no hashes are kept.
     [[nodiscard]] std::uint64_t state_hash() const { return before_.state_hash; }
-    /// The bodies at the last shown tick; none if no hashes are kept, or above 1000.
+    /// The bodies after the last shown step; none if no hashes are kept, or above 1000.
     [[nodiscard]] const std::vector<BodyState>& bodies() const { return before_.bodies; }
-    /// The last four digits of the hash of each tick after `first` up to `last`; empty if one of
+    /// The last four digits of the hash after each step from `first` + 1 to `last`; empty if one of
     /// them is not kept.
     [[nodiscard]] std::string tick_hashes(std::int64_t first, std::int64_t last) const;
 
 private:
     struct Moment {
-        std::int64_t tick = -1;
+        std::int64_t step = -1;
+        std::int64_t cuts = 0;
         std::uint64_t state_hash = 0;
         std::vector<BodyState> bodies{};
         Picture picture{};
     };
 
     [[nodiscard]] Moment sample() const;
-    void step(std::int64_t count, Input& input);
+    void take(std::int64_t count, InputSource& inputs);
     [[nodiscard]] bool hashes_ticks() const;
 
     AnyGame& game_;
     Recorder& recorder_;
     Keep keep_;
     Profile* profile_;
+    std::int64_t steps_ = 0;
     std::int64_t steps_per_call_ = 1;
-    std::string tick_hashes_;  ///< four digits for each tick from 1, or dots
+    std::string tick_hashes_;  ///< four digits for each step, or dots
     Moment before_;
     Moment after_;
 };

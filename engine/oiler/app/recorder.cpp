@@ -39,19 +39,20 @@ Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::pa
                    const World& world) {
     if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.bodies().axes()));
     if (!energy.empty()) energy_.emplace(energy).write("tick,time,kinetic,potential,total\n");
-    record(world);
+    record(0, world);
 }
 
-void Recorder::record(const World& world) {
-    if (trace_) record_bodies(world);
-    if (energy_) record_energy(world);
+void Recorder::record(std::int64_t step, const World& world) {
+    if (trace_) record_bodies(step, world);
+    if (energy_) record_energy(step, world);
 }
 
-void Recorder::record_bodies(const World& world) {
+void Recorder::record_bodies(std::int64_t step, const World& world) {
+    const double time = world.settings().stepping.rate.time(step);
     const Bodies& bodies = world.bodies();
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         row_.clear();
-        fmt::format_to(std::back_inserter(row_), "{},{},{}", world.tick(), world.time(),
+        fmt::format_to(std::back_inserter(row_), "{},{},{}", step, time,
                        world.entity_of_row(row).index);
         for (const Vec3& vector : {bodies.position(row), bodies.velocity(row)})
             for (int i = 0; i < bodies.axes(); ++i)
@@ -61,11 +62,11 @@ void Recorder::record_bodies(const World& world) {
     }
 }
 
-void Recorder::record_energy(const World& world) {
+void Recorder::record_energy(std::int64_t step, const World& world) {
     const Energy energy = world.bodies().energy();
     require_finite(energy);
-    energy_->write(fmt::format("{},{},{},{},{}\n", world.tick(), world.time(), energy.kinetic,
-                               energy.potential, energy.total()));
+    energy_->write(fmt::format("{},{},{},{},{}\n", step, world.settings().stepping.rate.time(step),
+                               energy.kinetic, energy.potential, energy.total()));
 }
 
 void Recorder::commit() {

@@ -23,13 +23,14 @@ public:
 
     /// Returns whether every step must be recorded.
     [[nodiscard]] bool active() const { return trace_ || energy_; }
-    void record(const World& world);
+    /// Records the state after `step` steps of the loop: a game may restart its world meanwhile.
+    void record(std::int64_t step, const World& world);
     /// Renames the temporary files to their final names. Without this call they are deleted.
     void commit();
 
 private:
-    void record_bodies(const World& world);
-    void record_energy(const World& world);
+    void record_bodies(std::int64_t step, const World& world);
+    void record_energy(std::int64_t step, const World& world);
 
     std::optional<File> trace_;
     std::optional<File> energy_;

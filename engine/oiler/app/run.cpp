@@ -27,11 +27,11 @@ using Clock = std::chrono::steady_clock;
 void run_steps(Playback& playback, const Options& options) {
     Progress progress(options.quiet, "steps", *options.steps);
     const std::int64_t stride = std::max<std::int64_t>(1, *options.steps / 100);
-    Input no_input;
-    for (std::int64_t tick = 0; tick < *options.steps && !Interrupt::requested();) {
-        tick = std::min(tick + stride, *options.steps);
-        playback.step_to(tick, no_input);
-        progress.show(tick);
+    NoInput no_input;
+    while (playback.steps() < *options.steps && !playback.loop().quits() &&
+           !Interrupt::requested()) {
+        playback.step_to(std::min(playback.steps() + stride, *options.steps), no_input);
+        progress.show(playback.steps());
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "oiler/app/console.hpp"
 #include "oiler/app/interrupt.hpp"
@@ -28,26 +29,53 @@ public:
     [[nodiscard]] int denominator() const { return 1 << std::max(-exponent_, 0); }
     [[nodiscard]] std::string text() const {
         if (exponent_ == 0) return {};
-        return exponent_ > 0 ? fmt::format("{}× (- slower)", numerator())
-                             : fmt::format("1/{}× (= faster)", denominator());
+        return exponent_ > 0 ? fmt::format("{}× (F7 slower)", numerator())
+                             : fmt::format("1/{}× (F8 faster)", denominator());
     }
 
 private:
     int exponent_ = 0;
 };
 
-/// Handles the keys of the loop. Returns whether the user quits.
-bool control(const Input& input, StepClock& clock, Pace& pace) {
-    if (input.pressed(Key::p)) clock.paused() ? clock.resume() : clock.pause();
-    if (input.pressed(Key::period) && clock.paused()) clock.single_step();
-    if (input.pressed(Key::minus)) pace.slower();
-    if (input.pressed(Key::equals)) pace.faster();
-    clock.set_time_scale(pace.numerator(), pace.denominator());
-    return input.pressed(Key::q) || input.pressed(Key::escape);
+/// What the player does in the window. Steps see the camera of the picture that was on screen.
+class LiveInput final : public InputSource {
+public:
+    [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
+
+    InputQueue queue;
+    Camera shown{};
+};
+
+void control(Key key, StepClock& clock, Pace& pace, Playback& playback) {
+    switch (key) {
+        case Key::f3:
+            return clock.paused() ? clock.resume() : clock.pause();
+        case Key::f5:
+            if (clock.paused()) clock.single_step();
+            return;
+        case Key::f7:
+            return pace.slower();
+        case Key::f8:
+            return pace.faster();
+        case Key::f9:
+            return playback.restart();
+        default:
+            return;
+    }
+}
+
+/// Escape quits a game that has no use for it.
+bool uses_escape(const About& about) {
+    const auto has_it = [](const Buttons& buttons) {
+        return std::find(buttons.begin(), buttons.end(), Button(Key::escape)) != buttons.end();
+    };
+    return std::any_of(about.controls.begin(), about.controls.end(), [&](const Control& one) {
+        return has_it(one.positive) || has_it(one.negative);
+    });
 }
 
 void add_status(Picture& picture, const StepClock& clock, const Pace& pace) {
-    std::string status = clock.paused() ? "paused: P resumes, . steps" : "";
+    std::string status = clock.paused() ? "paused: F3 resumes, F5 steps" : "";
     if (!pace.text().empty()) status += (status.empty() ? "" : "   ") + pace.text();
     if (status.empty()) return;
     picture.labels.push_back({.at = {canvas_width / 2, 4},
@@ -77,27 +105,32 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 Played run_window(Playback& playback, const Options& options, const About& about) {
     const auto window = open_window(options.size, std::string(about.title));
     Renderer renderer([&](const char* name) { return window->procedure(name); });
-    remark(options.quiet, "drawing with {} ({}): P pause, . step, - and = pace, Q quit",
-           window->provider(), renderer.gl_renderer());
+    remark(options.quiet, "drawing with {} ({}): F3 pause, F5 step, F7 and F8 pace, F9 restart{}",
+           window->provider(), renderer.gl_renderer(), uses_escape(about) ? "" : ", Escape quits");
 
     StepClock clock(static_cast<int>(options.settings.stepping.rate.steps));
     Pace pace;
-    Input keys;      // since the last frame
-    Input for_step;  // since the last step
+    LiveInput live;
+    std::vector<Key> loop_keys;
     const int fps = options.fps.value_or(window->refresh_rate());
-    bool quit = false;
-    for (std::int64_t frame = 0; !quit && !Interrupt::requested(); ++frame) {
+    for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
         const std::chrono::nanoseconds start = now();
-        keys.forget_presses();
-        const Window::State state = window->poll(keys);
+        loop_keys.clear();
+        const Window::State state = window->poll(live.queue, loop_keys);
         if (state == Window::State::lost) return {Exit::no_display, clock.dropped_time()};
-        quit = state == Window::State::closed || (options.frames && frame + 1 >= *options.frames);
-        quit = control(keys, clock, pace) || quit;
-        for_step.gather(keys);
+        for (const Key key : loop_keys) control(key, clock, pace, playback);
+        clock.set_time_scale(pace.numerator(), pace.denominator());
+        live.queue.set_paused(clock.paused());
         clock.advance(start);
-        Picture picture = playback.show(clock.ticks(), clock.alpha(), for_step);
+        Picture picture = playback.show(clock.ticks(), clock.alpha(), live);
+        window->take_text(playback.loop().takes_text());
+        live.shown = picture.camera;
         add_status(picture, clock, pace);
         show(picture, renderer, *window);
+        const bool escaped =
+            !uses_escape(about) && std::ranges::find(loop_keys, Key::escape) != loop_keys.end();
+        const bool last = options.frames && frame + 1 >= *options.frames;
+        if (state == Window::State::closed || escaped || last || playback.loop().quits()) break;
         limit_frame_rate(start, fps);
     }
     return {.dropped = clock.dropped_time()};

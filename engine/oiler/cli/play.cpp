@@ -23,9 +23,10 @@ public:
     SceneGame(const Scene& scene, const Settings& settings)
         : scene_(scene), world_(make_world(scene, settings)), camera_(camera_of(scene, world_)) {}
 
-    void step(std::int64_t count, Input& input) override {
-        input.forget_presses();
-        world_.step(count);
+    void step(std::int64_t, std::int64_t count, InputSource&) override { world_.step(count); }
+    void restart() override {
+        world_ = make_world(scene_, world_.settings());
+        ++cuts_;
     }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override { return draw_scene(scene_, world_, camera_); }

@@ -3,12 +3,12 @@
 #include <SDL2/SDL.h>
 #include <SDL2/SDL_syswm.h>
 
-#include <array>
 #include <cstdlib>
 #include <optional>
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/library.hpp"
+#include "oiler/platform/sdl2_events.hpp"
 #include "oiler/platform/surface.hpp"
 #include "oiler/platform/x11.hpp"
 
@@ -38,6 +38,7 @@ struct SdlFunctions {
         library.resolve(swap_interval, "SDL_GL_SetSwapInterval");
         library.resolve(drawable_size, "SDL_GL_GetDrawableSize");
         library.resolve(swap_window, "SDL_GL_SwapWindow");
+        library.resolve(window_size, "SDL_GetWindowSize");
         library.resolve(window_info, "SDL_GetWindowWMInfo");
     }
 
@@ -60,60 +61,11 @@ struct SdlFunctions {
     decltype(&SDL_GL_SetSwapInterval) swap_interval = nullptr;
     decltype(&SDL_GL_GetDrawableSize) drawable_size = nullptr;
     decltype(&SDL_GL_SwapWindow) swap_window = nullptr;
+    decltype(&SDL_GetWindowSize) window_size = nullptr;
     decltype(&SDL_GetWindowWMInfo) window_info = nullptr;
 };
 
-struct KeyCode {
-    SDL_Keycode code;
-    Key key;
-};
-
-/// Key codes, not scan codes: the letter that is printed on the user's key.
-constexpr std::array key_codes{
-    KeyCode{SDLK_SPACE, Key::space},
-    KeyCode{SDLK_RETURN, Key::enter},
-    KeyCode{SDLK_KP_ENTER, Key::enter},
-    KeyCode{SDLK_ESCAPE, Key::escape},
-    KeyCode{SDLK_LEFT, Key::left},
-    KeyCode{SDLK_RIGHT, Key::right},
-    KeyCode{SDLK_UP, Key::up},
-    KeyCode{SDLK_DOWN, Key::down},
-    KeyCode{SDLK_a, Key::a},
-    KeyCode{SDLK_d, Key::d},
-    KeyCode{SDLK_p, Key::p},
-    KeyCode{SDLK_q, Key::q},
-    KeyCode{SDLK_s, Key::s},
-    KeyCode{SDLK_w, Key::w},
-    KeyCode{SDLK_PERIOD, Key::period},
-    KeyCode{SDLK_MINUS, Key::minus},
-    KeyCode{SDLK_KP_MINUS, Key::minus},
-    KeyCode{SDLK_EQUALS, Key::equals},
-    KeyCode{SDLK_KP_PLUS, Key::equals},
-    KeyCode{SDLK_PLUS, Key::equals},
-};
-
-std::optional<Key> translate(SDL_Keycode code) {
-    for (const KeyCode& entry : key_codes) {
-        if (entry.code == code) {
-            return entry.key;
-        }
-    }
-    return std::nullopt;
-}
-
-void apply(const SDL_KeyboardEvent& event, Input& input) {
-    const std::optional<Key> key = translate(event.keysym.sym);
-    if (!key || event.repeat != 0) {
-        return;
-    }
-    if (event.type == SDL_KEYDOWN) {
-        input.press(*key);
-    } else {
-        input.release(*key);
-    }
-}
-
-/// SDL's library and its video system, for the lifetime of the object.
+/// SDL's library with its video and its controllers, for the lifetime of the object.
 class Sdl {
 public:
     Sdl() : library_("libSDL2-2.0.so.0", remedy), sdl_(library_) {
@@ -139,6 +91,7 @@ public:
     Sdl& operator=(const Sdl&) = delete;
 
     const SdlFunctions* operator->() const { return &sdl_; }
+    [[nodiscard]] const Library& library() const { return library_; }
 
 private:
     /// Without a display SDL does not fail; it selects an invisible driver.
@@ -169,6 +122,9 @@ public:
         outlive_x11_display();
         take_over_thread();
         sdl_->swap_interval(1);
+        // A system without controllers plays with keys.
+        (void)sdl_->init(SDL_INIT_GAMECONTROLLER);
+        events_.emplace(sdl_.library());
     }
     ~SdlWindow() override { close(); }
 
@@ -189,13 +145,13 @@ public:
         return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
     }
 
-    State poll(Input& input) override {
+    State poll(InputQueue& game, std::vector<Key>& loop) override {
         bool quit = false;
         SDL_Event event;
         while (!display_is_lost() && sdl_->poll_event(&event) != 0) {
-            if (event.type == SDL_KEYDOWN || event.type == SDL_KEYUP) {
-                apply(event.key, input);
-            }
+            Size window;
+            sdl_->window_size(window_, &window.width, &window.height);
+            events_->handle(event, window, game, loop);
             const bool closed =
                 event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
             quit = quit || closed || event.type == SDL_QUIT;
@@ -203,6 +159,7 @@ public:
         if (display_is_lost()) return State::lost;
         return quit ? State::closed : State::open;
     }
+    void take_text(bool on) override { events_->take_text(on); }
 
     void present() override { sdl_->swap_window(window_); }
 
@@ -230,6 +187,7 @@ private:
 
     void close() {
         if (display_is_lost()) return;
+        events_.reset();
         if (context_ != nullptr) {
             sdl_->make_current(window_, nullptr);
             sdl_->delete_context(context_);
@@ -242,6 +200,7 @@ private:
     Sdl sdl_;
     SDL_Window* window_ = nullptr;
     SDL_GLContext context_ = nullptr;
+    std::optional<SdlEvents> events_;
 };
 
 }  // namespace

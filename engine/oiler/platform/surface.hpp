@@ -4,9 +4,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "oiler/core/input.hpp"
 #include "oiler/core/size.hpp"
+#include "oiler/input/input_queue.hpp"
 
 namespace oiler {
 
@@ -41,8 +42,11 @@ public:
         closed,  ///< by the user
         lost,    ///< the display has ended
     };
-    /// Adds keys pressed and released since the last call to `input`.
-    [[nodiscard]] virtual State poll(Input& input) = 0;
+    /// Hands events since the last call to the game, and presses of F1 to F12 to `loop`;
+    /// Escape to both.
+    [[nodiscard]] virtual State poll(InputQueue& game, std::vector<Key>& loop) = 0;
+    /// Whether keys enter text, but for those that edit it.
+    virtual void take_text(bool on) = 0;
     /// Shows framebuffer 0.
     virtual void present() = 0;
 };

@@ -126,7 +126,10 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
     const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
     list_impacts();
-    if (!divergence) tick_ += count;
+    if (!divergence) {
+        tick_ += count;
+        age_ += count;
+    }
     return divergence;
 }
 

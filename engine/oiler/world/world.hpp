@@ -239,6 +239,9 @@ public:
     [[nodiscard]] double time() const { return settings_.stepping.rate.time(tick_); }
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
+    /// The number of steps since this value was made, or another one was assigned to it.
+    [[nodiscard]] std::int64_t age() const { return age_; }
+
     /// The hash of the tick and of all bodies, see Bodies::hash_into.
     [[nodiscard]] std::uint64_t state_hash() const;
 
@@ -294,6 +297,7 @@ private:
 
     Settings settings_;
     std::int64_t tick_ = 0;
+    std::int64_t age_ = 0;
     HandleSlots slots_;
     std::vector<TaggedPool> pools_;
     Bodies bodies_;

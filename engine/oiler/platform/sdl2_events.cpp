@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/platform/sdl2_events.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace oiler {
+namespace {
+
+std::optional<Button> mouse_button(std::uint8_t button) {
+    constexpr std::array buttons{Mouse::left, Mouse::middle, Mouse::right, Mouse::back,
+                                 Mouse::forward};
+    static_assert(SDL_BUTTON_LEFT == 1 && SDL_BUTTON_MIDDLE == 2 && SDL_BUTTON_X2 == 5);
+    if (button < 1 || button > buttons.size()) return std::nullopt;
+    return buttons[button - 1U];
+}
+
+std::optional<Button> pad_button(std::uint8_t button) {
+    static_assert(SDL_CONTROLLER_BUTTON_A == static_cast<int>(Pad::south) &&
+                  SDL_CONTROLLER_BUTTON_START == static_cast<int>(Pad::start) &&
+                  SDL_CONTROLLER_BUTTON_DPAD_RIGHT == static_cast<int>(Pad::right));
+    if (button > SDL_CONTROLLER_BUTTON_DPAD_RIGHT) return std::nullopt;
+    return static_cast<Pad>(button);
+}
+
+/// What a key does while text is entered.
+bool edits_text(Button key) {
+    constexpr std::array keys{Key::enter, Key::escape, Key::backspace, Key::tab,
+                              Key::left,  Key::right,  Key::up,        Key::down};
+    return std::any_of(keys.begin(), keys.end(), [&](Key one) { return key == Button(one); });
+}
+
+Point canvas_point(int x, int y, Size window) {
+    const auto width = static_cast<float>(window.width);
+    const auto height = static_cast<float>(window.height);
+    const float scale = std::min(width / canvas_width, height / canvas_height);
+    return {canvas_width / 2 + (static_cast<float>(x) + 0.5F - width / 2) / scale,
+            canvas_height / 2 - (static_cast<float>(y) + 0.5F - height / 2) / scale};
+}
+
+}  // namespace
+
+SdlInputFunctions::SdlInputFunctions(const Library& library) {
+    library.resolve(open_controller, "SDL_GameControllerOpen");
+    library.resolve(close_controller, "SDL_GameControllerClose");
+    library.resolve(joystick_of, "SDL_GameControllerGetJoystick");
+    library.resolve(instance_of, "SDL_JoystickInstanceID");
+    library.resolve(start_text, "SDL_StartTextInput");
+    library.resolve(stop_text, "SDL_StopTextInput");
+    library.resolve(key_of_scancode, "SDL_GetKeyFromScancode");
+    library.resolve(name_of_key, "SDL_GetKeyName");
+}
+
+// SDL takes text from the start on.
+SdlEvents::SdlEvents(const Library& library) : sdl_(library) { sdl_.stop_text(); }
+
+SdlEvents::~SdlEvents() {
+    for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);
+}
+
+void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game,
+                       std::vector<Key>& loop) {
+    switch (event.type) {
+        case SDL_KEYDOWN:
+        case SDL_KEYUP:
+            return handle_key(event.key, game, loop);
+        case SDL_TEXTINPUT:
+            return game.enter(event.text.text);
+        case SDL_MOUSEMOTION:
+            return game.point_at(canvas_point(event.motion.x, event.motion.y, window));
+        case SDL_MOUSEBUTTONDOWN:
+        case SDL_MOUSEBUTTONUP:
+            game.point_at(canvas_point(event.button.x, event.button.y, window));
+            if (const auto button = mouse_button(event.button.button))
+                game.set(*button, event.button.state == SDL_PRESSED);
+            return;
+        case SDL_MOUSEWHEEL:
+            return game.turn_wheel(event.wheel.y);
+        case SDL_WINDOWEVENT:
+            if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) game.release_all();
+            if (event.window.event == SDL_WINDOWEVENT_LEAVE) game.point_at(std::nullopt);
+            return;
+        case SDL_CONTROLLERDEVICEADDED:
+            return plug_in(event.cdevice.which);
+        case SDL_CONTROLLERDEVICEREMOVED:
+            return unplug(event.cdevice.which, game);
+        case SDL_CONTROLLERBUTTONDOWN:
+        case SDL_CONTROLLERBUTTONUP:
+            if (const auto button = pad_button(event.cbutton.button))
+                game.set(*button, event.cbutton.state == SDL_PRESSED);
+            return;
+        case SDL_CONTROLLERAXISMOTION:
+            return handle_axis(event.caxis, game);
+        default:
+            return;
+    }
+}
+
+void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game,
+                           std::vector<Key>& loop) const {
+    if (event.repeat != 0) return;
+    const auto code = static_cast<std::uint32_t>(event.keysym.scancode);
+    if (code >= 256) return;
+    const auto button = Button::of_id(static_cast<std::uint16_t>(code));
+    if (!button) return;
+    const bool down = event.type == SDL_KEYDOWN;
+    if (down && (is_of_loop(*button) || *button == Button(Key::escape)))
+        loop.push_back(static_cast<Key>(code));
+    if (is_of_loop(*button)) return;
+    if (text_ && down && !edits_text(*button)) return;
+    game.set(*button, down);
+}
+
+void SdlEvents::handle_axis(const SDL_ControllerAxisEvent& event, InputQueue& game) {
+    const auto found = controllers_.find(event.which);
+    if (found == controllers_.end() || event.axis >= stick_count) return;
+    Controller& controller = found->second;
+    if (event.axis >= controller.sticks.size()) {
+        const std::size_t side = event.axis - controller.sticks.size();
+        bool& pressed = controller.triggers[side];
+        pressed = trigger_is_pressed(pressed, event.value);
+        game.deflect(static_cast<Stick>(event.axis), trigger_position(event.value));
+        game.set(side == 0 ? Pad::left_trigger : Pad::right_trigger, pressed);
+        return;
+    }
+    controller.sticks[event.axis] = event.value;
+    const std::size_t x = event.axis / 2U * 2U;
+    // SDL's y goes down.
+    const StickPosition at = without_dead_zone(controller.sticks[x], -controller.sticks[x + 1]);
+    game.deflect(static_cast<Stick>(x), at.x);
+    game.deflect(static_cast<Stick>(x + 1), at.y);
+}
+
+void SdlEvents::plug_in(int index) {
+    SDL_GameController* const handle = sdl_.open_controller(index);
+    if (handle == nullptr) return;
+    controllers_[sdl_.instance_of(sdl_.joystick_of(handle))] = {handle, {}, {}};
+}
+
+void SdlEvents::unplug(SDL_JoystickID id, InputQueue& game) {
+    const auto found = controllers_.find(id);
+    if (found == controllers_.end()) return;
+    sdl_.close_controller(found->second.handle);
+    controllers_.erase(found);
+    game.release_all();
+}
+
+void SdlEvents::take_text(bool on) {
+    if (on == text_) return;
+    text_ = on;
+    on ? sdl_.start_text() : sdl_.stop_text();
+}
+
+std::string SdlEvents::name_on_layout(Key key) const {
+    return sdl_.name_of_key(sdl_.key_of_scancode(static_cast<SDL_Scancode>(key)));
+}
+
+}  // namespace oiler

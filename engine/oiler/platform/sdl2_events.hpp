@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <SDL2/SDL.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "oiler/core/size.hpp"
+#include "oiler/input/input_queue.hpp"
+#include "oiler/platform/library.hpp"
+
+namespace oiler {
+
+/// SDL's functions for game controllers and text, resolved at run time like the others.
+struct SdlInputFunctions {
+    explicit SdlInputFunctions(const Library& library);
+
+    decltype(&SDL_GameControllerOpen) open_controller = nullptr;
+    decltype(&SDL_GameControllerClose) close_controller = nullptr;
+    decltype(&SDL_GameControllerGetJoystick) joystick_of = nullptr;
+    decltype(&SDL_JoystickInstanceID) instance_of = nullptr;
+    decltype(&SDL_StartTextInput) start_text = nullptr;
+    decltype(&SDL_StopTextInput) stop_text = nullptr;
+    decltype(&SDL_GetKeyFromScancode) key_of_scancode = nullptr;
+    decltype(&SDL_GetKeyName) name_of_key = nullptr;
+};
+
+/// Translates SDL's events to those of a game. Keys are places of the keyboard, whatever is printed
+/// on them. The keys of the loop, F1 to F12, are kept from the game; Escape goes to both.
+class SdlEvents {
+public:
+    explicit SdlEvents(const Library& library);
+    ~SdlEvents();
+    SdlEvents(const SdlEvents&) = delete;
+    SdlEvents& operator=(const SdlEvents&) = delete;
+
+    /// `window` is the size in the units of the mouse.
+    void handle(const SDL_Event& event, Size window, InputQueue& game, std::vector<Key>& loop);
+    void take_text(bool on);
+    [[nodiscard]] std::string name_on_layout(Key key) const;
+
+private:
+    struct Controller {
+        SDL_GameController* handle;
+        std::array<int, 4> sticks;  ///< raw, of left_x to right_y
+        std::array<bool, 2> triggers;
+    };
+
+    void handle_key(const SDL_KeyboardEvent& event, InputQueue& game, std::vector<Key>& loop) const;
+    void handle_axis(const SDL_ControllerAxisEvent& event, InputQueue& game);
+    void plug_in(int index);
+    void unplug(SDL_JoystickID id, InputQueue& game);
+
+    SdlInputFunctions sdl_;
+    std::map<SDL_JoystickID, Controller> controllers_;
+    bool text_ = false;
+};
+
+}  // namespace oiler
