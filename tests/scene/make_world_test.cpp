@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "oiler/scene/grid.hpp"
-#include "oiler/scene/random.hpp"
+#include "oiler/core/random.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
 #include "support/oscillator.hpp"

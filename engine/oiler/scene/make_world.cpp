@@ -4,7 +4,7 @@
 #include <map>
 
 #include "oiler/scene/grid.hpp"
-#include "oiler/scene/random.hpp"
+#include "oiler/core/random.hpp"
 
 namespace oiler {
 namespace {

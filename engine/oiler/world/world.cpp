@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "oiler/world/ball.hpp"
@@ -19,7 +20,7 @@ struct Jumps {
 }  // namespace
 
 World::World(int axes, const Settings& settings)
-    : settings_(settings), bodies_(axes, settings.stepping.precision) {
+    : settings_(settings), bodies_(axes, settings.stepping.precision), random_(settings.seed) {
     const Rate rate = settings.stepping.rate;
     if (rate.steps < 1 || rate.seconds < 1)
         fail(Exit::usage, "a rate of {} steps in {} s: give at least 1 step and 1 s", rate.steps,
@@ -33,8 +34,12 @@ World::World(const World& other)
       slots_(other.slots_),
       bodies_(other.bodies_),
       rows_(other.rows_),
-      impacts_(other.impacts_) {
+      impacts_(other.impacts_),
+      random_(other.random_) {
+    require(other.visits_ == 0, "a world is not copied inside its own each");
     for (const TaggedPool& entry : other.pools_) pools_.push_back({entry.tag, entry.pool->clone()});
+    for (const TaggedTimers& entry : other.timers_)
+        timers_.push_back({entry.tag, entry.timers->clone()});
 }
 
 World& World::operator=(const World& other) {
@@ -42,11 +47,27 @@ World& World::operator=(const World& other) {
     return *this;
 }
 
+World& World::operator=(World&& other) noexcept {
+    require(visits_ == 0 && other.visits_ == 0,
+            "a world is not replaced inside its own each; restart after it, or with Loop::restart");
+    settings_ = other.settings_;
+    tick_ = other.tick_;
+    age_ = other.age_;
+    slots_ = std::move(other.slots_);
+    pools_ = std::move(other.pools_);
+    bodies_ = std::move(other.bodies_);
+    rows_ = std::move(other.rows_);
+    impacts_ = std::move(other.impacts_);
+    timers_ = std::move(other.timers_);
+    random_ = other.random_;
+    return *this;
+}
+
 Entity World::create() { return slots_.take<Entity>(); }
 
 void World::destroy(Entity entity) {
     require(alive(entity), gone);
-    for (const TaggedPool& entry : pools_) entry.pool->erase(entity.index);
+    for (const TaggedPool& entry : pools_) erase(*entry.pool, entity.index);
     if (has_body(entity)) remove_body(entity);
     slots_.release(entity.index);
 }
@@ -69,8 +90,21 @@ void World::reserve(std::size_t bodies) {
 }
 
 void World::remove_body(Entity entity) {
-    bodies_.remove(row(entity));
+    const std::size_t place = row(entity);
+    if (visits_ > 0) {
+        graves_.push_back(rows_.hide(entity.index));
+        return;
+    }
+    bodies_.remove(place);
     rows_.remove(entity.index);
+}
+
+void World::bury() {
+    for (const TaggedPool& entry : pools_) entry.pool->bury();
+    for (const std::uint32_t grave : last_first(graves_)) {
+        bodies_.remove(grave);
+        rows_.fill(grave);
+    }
 }
 
 bool World::has_body(Entity entity) const {
@@ -83,7 +117,7 @@ std::size_t World::row(Entity entity) const {
 }
 
 Entity World::entity_of_row(std::size_t row) const {
-    require(row < rows_.size(), "there is no body in this row");
+    require(row < rows_.size() && rows_[row] != SlotSet::absent, "there is no body in this row");
     return {rows_[row], slots_.generation(rows_[row])};
 }
 
@@ -112,7 +146,8 @@ std::vector<Entity> World::within(const Vec3& point, double radius) const {
     const Ball ball(point, radius, bodies_.axes());
     std::vector<Entity> entities;
     for (std::size_t row = 0; row < bodies_.size(); ++row)
-        if (ball.contains(bodies_.position(row))) entities.push_back(entity_of_row(row));
+        if (rows_[row] != SlotSet::absent && ball.contains(bodies_.position(row)))
+            entities.push_back(entity_of_row(row));
     return entities;
 }
 
@@ -124,6 +159,7 @@ void World::step(std::int64_t count) {
 
 std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
+    require(visits_ == 0, "a world is not stepped inside its own each");
     const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
     list_impacts();
     if (!divergence) {
@@ -181,11 +217,45 @@ NameOfRow World::name_of_row() const {
     return [this](std::size_t row) { return std::size_t{entity_of_row(row).index}; };
 }
 
+std::int64_t World::ticks_in(double seconds) const {
+    const Rate& rate = settings_.stepping.rate;
+    const double steps =
+        seconds * static_cast<double>(rate.steps) / static_cast<double>(rate.seconds);
+    if (!(steps >= 0 && steps < 0x1p62))
+        fail(Exit::usage, "schedule of {} s at tick {}: give a finite time, 0 or more", seconds,
+             tick_);
+    // 0.7 s at 10 Hz are 7 ticks, though the product is a little more.
+    return static_cast<std::int64_t>(std::ceil(steps * (1 - 0x1p-50)));
+}
+
 std::uint64_t World::state_hash() const {
+    require(visits_ == 0, "a world is not hashed inside its own each");
     StateHash hash;
     hash.add(static_cast<std::uint64_t>(tick_));
     bodies_.hash_into(hash);
+    if (random_ != Random(settings_.seed)) hash.add(random_.state());
+    for (const TaggedPool& entry : pools_)
+        if (entry.pool->slots().size() > 0) entry.pool->hash_into(hash);
+    for (const TaggedTimers& entry : timers_) entry.timers->hash_into(hash);
     return hash.value();
 }
+
+std::vector<std::string> World::unhashed() const {
+    std::vector<std::string> types;
+    StateHash unused;
+    for (const TaggedPool& entry : pools_)
+        if (!entry.pool->hash_into(unused)) types.emplace_back(entry.pool->type());
+    for (const TaggedTimers& entry : timers_)
+        if (!entry.timers->hash_into(unused)) types.emplace_back(entry.timers->type());
+    return types;
+}
+
+Vec3 Moving::position() const { return world_.position(entity_); }
+Vec3 Moving::velocity() const { return world_.velocity(entity_); }
+double Moving::mass() const { return world_.mass(entity_); }
+void Moving::set_position(const Vec3& position) const { world_.set_position(entity_, position); }
+void Moving::set_velocity(const Vec3& velocity) const { world_.set_velocity(entity_, velocity); }
+void Moving::apply_force(const Vec3& force) const { world_.apply_force(entity_, force); }
+void Moving::apply_impulse(const Vec3& impulse) const { world_.apply_impulse(entity_, impulse); }
 
 }  // namespace oiler

@@ -11,13 +11,16 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/handle_slots.hpp"
+#include "oiler/core/random.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 #include "oiler/world/entity.hpp"
 #include "oiler/world/impact.hpp"
+#include "oiler/world/moving.hpp"
 #include "oiler/world/pool.hpp"
+#include "oiler/world/timers.hpp"
 
 namespace oiler {
 
@@ -41,7 +44,7 @@ public:
     World(const World& other);
     World& operator=(const World& other);
     World(World&&) noexcept = default;
-    World& operator=(World&&) noexcept = default;
+    World& operator=(World&& other) noexcept;
     ~World() = default;
 
     [[nodiscard]] Entity create();
@@ -51,7 +54,7 @@ public:
     [[nodiscard]] std::size_t entity_count() const;
 
     /// Adds a component of a type that the entity does not have yet. The reference is valid until
-    /// the next add or remove of this type.
+    /// a component of this type is removed, outside `each`.
     template <class T>
     T& add(Entity entity, T component) {
         static_assert(std::movable<T>, "a component must be movable");
@@ -62,7 +65,7 @@ public:
     template <class T>
     void remove(Entity entity) {
         require(find<T>(entity), "the entity has no component of this type");
-        pool<T>().erase(entity.index);
+        erase(pool<T>(), entity.index);
     }
     /// Null if the entity has none, or is destroyed.
     template <class T>
@@ -85,18 +88,22 @@ public:
         return const_cast<World*>(this)->get<T>(entity);
     }
 
-    /// Calls f(entity, first, rest...) for each entity that has all of these components. The order
-    /// is the reverse of that in which `First` was added, except that the last one moves to the
-    /// place of a removed one. `f` may destroy its entity and create others, which are not visited.
-    /// It must neither destroy other entities nor use its references after adding components.
+    /// Calls f(entity, first, rest...) for each entity that has all of these components, in the
+    /// order in which `First` was added, except that the last one moves to the place of a removed
+    /// one. `f` may create and destroy any entities and components: what is destroyed is gone at
+    /// once and not visited, what is new exists at once and is not visited either. References stay
+    /// valid until the outermost `each` ends. Meanwhile the world is neither stepped nor copied.
     template <class First, class... Rest, class F>
     void each(F&& f) {
         Pool<First>* const first = find_pool<First>();
         const std::tuple<Pool<Rest>*...> rest{find_pool<Rest>()...};
         if (!first || !(std::get<Pool<Rest>*>(rest) && ...)) return;
+        const Visit visit(*this);
         const SlotSet& slots = first->slots();
-        for (std::size_t place = slots.size(); place-- > 0;) {
+        const std::size_t end = slots.size();
+        for (std::size_t place = 0; place < end; ++place) {
             const std::uint32_t slot = slots[place];
+            if (slot == SlotSet::absent) continue;
             const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
             if ((std::get<Rest*>(others) && ...))
                 f(Entity{slot, slots_.generation(slot)}, (*first)[place],
@@ -109,6 +116,15 @@ public:
             [&](Entity entity, const First& first, const Rest&... rest) {
                 f(entity, first, rest...);
             });
+    }
+
+    /// Calls f(entity, moving, component...) for each entity that has a body and these components:
+    /// see `each`.
+    template <class First, class... Rest, class F>
+    void each_body(F&& f) {
+        each<First, Rest...>([&](Entity entity, First& first, Rest&... rest) {
+            if (has_body(entity)) f(entity, Moving(*this, entity), first, rest...);
+        });
     }
 
     /// Gives the entity a moving body with at most one force of each kind.
@@ -221,6 +237,19 @@ public:
         placed("set_gravity", [&] { bodies_.set_gravity(acceleration); });
     }
 
+    /// Hands a message to `due` of its type, `seconds` from now, rounded up to a tick.
+    template <std::copyable T>
+    void schedule(double seconds, T message) {
+        timers<T>().add(tick_ + ticks_in(seconds), std::move(message));
+    }
+    /// Calls f(message) for the messages of this type that are due, the earliest first.
+    template <class T, class F>
+    void due(F&& f) {
+        for (T& message : timers<T>().take_due(tick_)) f(message);
+    }
+    /// The random numbers of the world, from the seed of its settings.
+    [[nodiscard]] Random& random() { return random_; }
+
     /// Throws Error{usage} if the method cannot step these bodies; it steps nothing.
     void require_applicable() const;
     /// Describes each spring and damper that is unstable with the method at the rate, with a
@@ -237,13 +266,18 @@ public:
     [[nodiscard]] std::int64_t tick() const { return tick_; }
     /// The time in s, computed from the tick.
     [[nodiscard]] double time() const { return settings_.stepping.rate.time(tick_); }
+    /// The timestep, s.
+    [[nodiscard]] double dt() const { return settings_.stepping.rate.dt(); }
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
     /// The number of steps since this value was made, or another one was assigned to it.
     [[nodiscard]] std::int64_t age() const { return age_; }
 
-    /// The hash of the tick and of all bodies, see Bodies::hash_into.
+    /// The hash of the tick, of all bodies (see Bodies::hash_into), of the random numbers once one
+    /// was drawn, and of the components and scheduled messages that are Hashed.
     [[nodiscard]] std::uint64_t state_hash() const;
+    /// The types of components and messages that the hash leaves out.
+    [[nodiscard]] std::vector<std::string> unhashed() const;
 
 private:
     static constexpr const char* gone = "the entity is gone";
@@ -262,6 +296,37 @@ private:
             if (entry.tag == &tag<T>) return static_cast<Pool<T>*>(entry.pool.get());
         return nullptr;
     }
+    struct TaggedTimers {
+        const char* tag;
+        std::unique_ptr<AnyTimers> timers;
+    };
+    template <class T>
+    Timers<T>& timers() {
+        for (const TaggedTimers& entry : timers_)
+            if (entry.tag == &tag<T>) return static_cast<Timers<T>&>(*entry.timers);
+        timers_.push_back({&tag<T>, std::make_unique<Timers<T>>()});
+        return static_cast<Timers<T>&>(*timers_.back().timers);
+    }
+    [[nodiscard]] std::int64_t ticks_in(double seconds) const;
+
+    /// While one lives, what is erased leaves holes; the last one fills them.
+    class Visit {
+    public:
+        explicit Visit(World& world) : world_(world) { ++world_.visits_; }
+        ~Visit() {
+            if (--world_.visits_ == 0) world_.bury();
+        }
+        Visit(const Visit&) = delete;
+        Visit& operator=(const Visit&) = delete;
+
+    private:
+        World& world_;
+    };
+    void erase(AnyPool& pool, std::uint32_t slot) {
+        visits_ > 0 ? pool.hide(slot) : pool.erase(slot);
+    }
+    void bury();
+
     template <class T>
     Pool<T>& pool() {
         if (Pool<T>* const found = find_pool<T>()) return *found;
@@ -302,7 +367,11 @@ private:
     std::vector<TaggedPool> pools_;
     Bodies bodies_;
     SlotSet rows_;
+    std::vector<std::uint32_t> graves_;  ///< rows of bodies that were removed in a visit
     std::vector<Impact> impacts_;
+    std::vector<TaggedTimers> timers_;
+    Random random_;
+    int visits_ = 0;
 };
 
 }  // namespace oiler

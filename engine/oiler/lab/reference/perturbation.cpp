@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/perturbation.hpp"
 
-#include "oiler/scene/random.hpp"
+#include "oiler/core/random.hpp"
 
 namespace oiler::lab {
 

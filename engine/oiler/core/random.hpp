@@ -20,6 +20,21 @@ public:
         return static_cast<double>(next() >> 11) * 0x1p-53;
     }
 
+    /// From `low` up to `high`.
+    [[nodiscard]] constexpr double uniform(double low, double high) {
+        return low + (high - low) * fraction();
+    }
+    /// A whole number from 0 to `count` - 1; `count` is at least 1. Its bias is below count/2⁶⁴.
+    [[nodiscard]] constexpr std::uint64_t below(std::uint64_t count) {
+        __extension__ using Wide = unsigned __int128;
+        return static_cast<std::uint64_t>(Wide{next()} * count >> 64);
+    }
+    /// True in a share of calls: 0 never, 1 always.
+    [[nodiscard]] constexpr bool chance(double share) { return fraction() < share; }
+
+    friend constexpr bool operator==(const Random&, const Random&) = default;
+    [[nodiscard]] constexpr std::uint64_t state() const { return state_; }
+
     /// Spreads a change of any bit over all bits. 0 stays 0.
     [[nodiscard]] static constexpr std::uint64_t mixed(std::uint64_t bits) {
         bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;

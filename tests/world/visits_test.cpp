@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Creating and destroying while entities are visited; timers and random numbers of a world.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "oiler/world/world.hpp"
+
+namespace {
+
+using oiler::Entity;
+using oiler::Error;
+using oiler::Moving;
+using oiler::Vec3;
+using oiler::World;
+
+struct Health {
+    int points = 0;
+};
+struct Shield {
+    int strength = 0;
+};
+
+/// Entities with Health 0, 1, 2, …, bodies at x = points, and a Shield on the even ones.
+World crowd(int count) {
+    World world(1);
+    for (int i = 0; i < count; ++i) {
+        const Entity entity = world.spawn({.position = {static_cast<double>(i)}});
+        world.add(entity, Health{i});
+        if (i % 2 == 0) world.add(entity, Shield{i});
+    }
+    return world;
+}
+std::vector<Entity> entities_of(World& world) {
+    std::vector<Entity> entities;
+    world.each<Health>([&](Entity entity, Health&) { entities.push_back(entity); });
+    return entities;
+}
+/// What must hold after any visit: each body is where its entity's Health says.
+void expect_sound(World& world) {
+    std::size_t bodies = 0;
+    world.each<Health>([&](Entity entity, const Health& health) {
+        if (!world.has_body(entity)) return;
+        ++bodies;
+        EXPECT_EQ(world.position(entity)[0], health.points);
+        EXPECT_EQ(world.entity_of_row(world.row(entity)), entity);
+    });
+    EXPECT_EQ(world.bodies().size(), bodies);
+}
+
+TEST(Visits, MayDestroyAnyEntity) {
+    for (const int target : {-1, 0, 1, 99}) {  // the one before, itself, the next, all
+        World world = crowd(20);
+        const std::vector<Entity> entities = entities_of(world);
+        std::vector<int> visited;
+        world.each<Health>([&](Entity, const Health& health) {
+            visited.push_back(health.points);
+            if (health.points != 7) return;
+            for (int i = 0; i < 20; ++i)
+                if (target == 99 || i == 7 + target)
+                    world.destroy(entities[static_cast<std::size_t>(i)]);
+            EXPECT_EQ(health.points, 7) << "references stay valid";
+        });
+        std::vector<int> expected;
+        for (int i = 0; i < 20; ++i)
+            if (i <= 7 || (target != 99 && i != 7 + target)) expected.push_back(i);
+        EXPECT_EQ(visited, expected) << target;
+        EXPECT_EQ(world.entity_count(), target == 99 ? 0U : 19U);
+        expect_sound(world);
+    }
+}
+
+TEST(Visits, DestroyAtOnce) {
+    World world = crowd(3);
+    const Entity last = entities_of(world)[2];
+    world.each<Health>([&](Entity entity, const Health& health) {
+        if (health.points != 0) return;
+        world.destroy(last);
+        EXPECT_FALSE(world.alive(last));
+        EXPECT_FALSE(world.find<Health>(last));
+        EXPECT_EQ(world.within({2}, 0.1).size(), 0U);
+        world.remove<Shield>(entity);
+        EXPECT_FALSE(world.find<Shield>(entity));
+        world.add(entity, Shield{5});
+        EXPECT_EQ(world.get<Shield>(entity).strength, 5);
+        const Entity fresh = world.spawn({.position = {3}});
+        world.add(fresh, Health{3});
+        EXPECT_EQ(world.position(fresh)[0], 3);
+    });
+    EXPECT_EQ(entities_of(world).size(), 3U);
+    expect_sound(world);
+}
+
+TEST(Visits, MayThrow) {
+    World world = crowd(10);
+    EXPECT_THROW(world.each<Health>([&](Entity entity, const Health& health) {
+        world.destroy(entity);
+        if (health.points == 4) throw std::runtime_error("enough");
+    }),
+                 std::runtime_error);
+    EXPECT_EQ(world.bodies().size(), 5U);
+    expect_sound(world);
+    world.step();
+}
+
+// Each entity is visited once, in the order before the visit, if it still has its component by
+// then, whatever is done meanwhile; also by visits within visits.
+TEST(Visits, AgreeWithAListAfterRandomChanges) {
+    std::mt19937 random(1);
+    for (int run = 0; run < 3000; ++run) {
+        World world = crowd(static_cast<int>(random() % 12));
+        int next = 1000;
+        for (int visit = 0; visit < 3; ++visit) {
+            std::vector<Entity> waiting = entities_of(world);
+            std::set<std::uint64_t> gone;
+            const auto change_something = [&] {
+                if (waiting.empty()) return;
+                const Entity any = waiting[random() % waiting.size()];
+                const unsigned what = random() % 5;
+                if (what == 0 && world.alive(any)) {
+                    world.destroy(any);
+                    gone.insert(any.id());
+                } else if (what == 1 && world.find<Health>(any)) {
+                    world.remove<Health>(any);
+                    gone.insert(any.id());
+                } else if (what == 2) {
+                    const Entity fresh = world.spawn({.position = {double(next)}});
+                    world.add(fresh, Health{next++});
+                } else if (what == 3 && world.has_body(any)) {
+                    world.remove_body(any);
+                }
+            };
+            std::size_t place = 0;
+            world.each<Health>([&](Entity entity, const Health&) {
+                while (place < waiting.size() && gone.contains(waiting[place].id())) ++place;
+                ASSERT_LT(place, waiting.size());
+                ASSERT_EQ(entity, waiting[place++]) << "run " << run;
+                change_something();
+                if (random() % 4 == 0)
+                    world.each<Health>([&](Entity, const Health&) {
+                        if (random() % 3 == 0) change_something();
+                    });
+            });
+            while (place < waiting.size() && gone.contains(waiting[place].id())) ++place;
+            ASSERT_EQ(place, waiting.size());
+            ASSERT_NO_FATAL_FAILURE(expect_sound(world)) << "run " << run;
+        }
+    }
+}
+
+TEST(Visits, OfBodiesMoveThem) {
+    World world = crowd(4);
+    world.add(world.create(), Health{9});
+    int visits = 0;
+    world.each_body<Health>([&](Entity, const Moving& moving, const Health& health) {
+        ++visits;
+        EXPECT_EQ(moving.position()[0], health.points);
+        moving.set_velocity({2});
+        moving.apply_impulse({1});
+        EXPECT_EQ(moving.velocity()[0], 2 + 1 / moving.mass());
+    });
+    EXPECT_EQ(visits, 4);
+}
+
+TEST(VisitsDeathTest, NeitherCopyNorReplaceNorStepTheirWorld) {
+    World world = crowd(2);
+    const auto inside = [&](auto f) { world.each<Health>([&](Entity, Health&) { f(); }); };
+    EXPECT_DEATH(inside([&] { world = World(1); }), "not replaced inside its own each");
+    EXPECT_DEATH(inside([&] { (void)World(world); }), "not copied inside its own each");
+    EXPECT_DEATH(inside([&] { world.step(); }), "not stepped inside its own each");
+}
+
+TEST(Timers, AreDueAfterTheirTimeRoundedUpToATick) {
+    World world(1, {.rate = {10}});
+    world.schedule(0.7, Health{7});
+    world.schedule(0.21, Health{3});
+    world.schedule(0.25, Health{4});
+    world.schedule(0, Health{0});
+    world.schedule(0.7, Shield{1});
+    std::vector<int> due;
+    for (int tick = 0; tick <= 10; ++tick) {
+        world.due<Health>([&](const Health& health) {
+            due.push_back(health.points);
+            const int expected[] = {0, -1, -1, 3, -1, -1, -1, 7};
+            if (health.points != 4) EXPECT_EQ(expected[tick], health.points);
+        });
+        world.step();
+    }
+    EXPECT_EQ(due, (std::vector<int>{0, 3, 4, 7}));
+}
+
+TEST(Timers, AreCopiedAndMayBeSetAgainWhenDue) {
+    World world(1, {.rate = {10}});
+    world.schedule(0.1, Health{1});
+    world.step();
+    World copy = world;
+    const auto count = [](World& of) {
+        int due = 0;
+        of.due<Health>([&](Health&) {
+            ++due;
+            of.schedule(0, Health{2});
+        });
+        return due;
+    };
+    EXPECT_EQ(count(world), 1);
+    EXPECT_EQ(count(copy), 1);
+    EXPECT_EQ(count(world), 1) << "the new one";
+}
+
+TEST(Timers, RefuseTimesThatAreNone) {
+    World world(1);
+    for (const double seconds : {-0.1, std::nan(""), 1e300})
+        EXPECT_THROW(world.schedule(seconds, Health{}), Error);
+}
+
+TEST(WorldRandom, IsPartOfASnapshotAndFollowsTheSeed) {
+    World world(1, oiler::Settings{.seed = 5});
+    World same(1, oiler::Settings{.seed = 5});
+    World other(1, oiler::Settings{.seed = 6});
+    const std::uint64_t first = world.random().next();
+    EXPECT_EQ(same.random().next(), first);
+    EXPECT_NE(other.random().next(), first);
+    World copy = world;
+    EXPECT_EQ(copy.random().next(), world.random().next());
+    for (int i = 0; i < 1000; ++i) {
+        const double x = world.random().uniform(-2, 3);
+        EXPECT_TRUE(x >= -2 && x < 3);
+        EXPECT_LT(world.random().below(6), 6U);
+    }
+    EXPECT_FALSE(world.random().chance(0));
+    EXPECT_TRUE(world.random().chance(1));
+}
+
+}  // namespace
