@@ -230,6 +230,68 @@ TEST(Landing, EndsAHopThatRoundOffHides) {
     }
 }
 
+// In float, a body slides up over an edge that turns by 0.002: it loses 2·sin 0.002 into the second
+// plane, and slides on with the rest.
+TEST(Landing, SlidesOverAGentleEdge) {
+    for (const double edge : {0.001, 0.002, 0.01}) {
+        World world = world_of("velocity_verlet", 60, 2, Precision::single);
+        world.set_gravity({0, -g});
+        const double slope = 0.06;
+        for (const double angle : {slope, slope + edge}) {
+            const Vec3 normal{-std::sin(angle), std::cos(angle)};
+            world.add_plane({.normal = normal, .offset = 3 * normal[0]});
+        }
+        const Vec3 up{std::cos(slope), std::sin(slope)};
+        const Entity body = world.spawn(
+            {.position = Vec3{3, 0} - up * 0.5, .velocity = up * 2, .contact = Contact{}});
+        world.step(30);
+        // From the edge, at √(4 − 2·g·sin(slope)·0.5) times cos(edge), on the second slope.
+        const double a = g * std::sin(slope);
+        const double at_edge = std::sqrt(4 - a);
+        const double left = 0.5 - (2 - at_edge) / a;
+        const double v = at_edge * std::cos(edge) - g * std::sin(slope + edge) * left;
+        EXPECT_NEAR(length(world.velocity(body)), v, 2e-5) << edge;
+    }
+}
+
+// At the vertex of a corner with an elastic side, a slow body touches both planes. It does not
+// slide through one of them for the rest of the step.
+TEST(Landing, StaysInACornerThatItTouches) {
+    World world = world_of("exact", 60, 2);
+    world.set_gravity({0, -25.609039316005063});
+    world.add_plane({.normal = {0.40008476415060629, 0.91647814021642315},
+                     .offset = 1.3038620108926484,
+                     .restitution = 0.57638829485699161,
+                     .friction = 0.17904735242018804});
+    world.add_plane({.normal = {-0.80182430466980359, 0.5975598584583689},
+                     .offset = 5.0342552124278139,
+                     .restitution = 1,
+                     .friction = 0.65132953883984633});
+    const Entity body = world.spawn({.position = {-3.9372983946529017, 3.1414989448935708},
+                                     .velocity = {3.2574883014119913e-07, 7.0054182787477254e-07},
+                                     .contact = Contact{}});
+    for (int step = 0; step < 10; ++step) {
+        world.step();
+        EXPECT_LE(length(world.velocity(body)), 1e-6);
+        for (const Impact& impact : world.impacts()) EXPECT_NE(impact.kind, Meeting::lifted);
+    }
+}
+
+// An elastic ball on a slope that holds it by friction hops without end, 7700 times in this step.
+TEST(Landing, PassesOverHopsThatFrictionStops) {
+    World world = world_of("velocity_verlet", 30, 2);
+    world.set_gravity({0, -g});
+    const double steep = 0.3;
+    world.add_plane(
+        {.normal = {-std::sin(steep), std::cos(steep)}, .restitution = 1, .friction = 0.6});
+    const double hop = 2e-5;
+    const Entity body = world.spawn(
+        {.velocity = Vec3{-std::sin(steep), std::cos(steep)} * hop, .contact = Contact{}});
+    world.step();
+    EXPECT_LE(length(world.velocity(body)), 1.5 * hop);
+    EXPECT_LE(length(world.position(body)), 1e-6);
+}
+
 // Flights under gravity are exact, and planes take energy away. A body that slid through the other
 // plane of a wedge for the rest of a step would gain up to g·dt per second.
 TEST(Landing, GivesABodyInAWedgeNoEnergy) {

@@ -274,6 +274,37 @@ TEST(Resting, IsThatOfTheBody) {
 
 // Linked bodies rest without jitter, too. The damper of the link acts on the speed that the body
 // below gains in each step, 2·g·dt at most, and shifts the one above by b·2·g·dt/k at most.
+// The spring pulls with 3 N, and friction could hold 4.9 N.
+TEST(Resting, OfALinkedBodyIsHeldByFriction) {
+    for (const char* method :
+         {"semi_implicit_euler", "velocity_verlet", "rk4", "implicit_midpoint"}) {
+        World world = world_of(method, 60);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .friction = 0.5});
+        const Entity body = world.spawn({.position = {1, 0}, .contact = Contact{}});
+        world.link_to_point(body, {}, {.stiffness = 3});
+        world.step(600);
+        EXPECT_EQ(world.position(body), (Vec3{1, 0})) << method;
+        EXPECT_EQ(world.velocity(body), Vec3{}) << method;
+    }
+}
+
+// The spring presses the body into a sharp corner: what one of the planes takes away goes into the
+// other.
+TEST(Resting, OfALinkedBodyInACorner) {
+    World world = world_of("velocity_verlet", 60);
+    world.set_gravity({0, -g});
+    world.add_plane({.normal = {0, 1}, .restitution = 0.5, .friction = 0.1});
+    world.add_plane({.normal = {-1, -0.6}, .restitution = 0.5, .friction = 0.1});
+    const Entity body = world.spawn({.position = {-1, 1}, .contact = Contact{}});
+    world.link_to_point(body, {2, 0}, {.stiffness = 20, .damping = 1});
+    world.step(1200);
+    world.step();
+    EXPECT_LE(length(world.position(body)), 16 * epsilon);
+    EXPECT_EQ(world.velocity(body), Vec3{});
+    EXPECT_TRUE(world.impacts().empty());
+}
+
 TEST(Resting, OfALinkedBody) {
     for (const double e : {0.0, 0.5, 0.9}) {
         World world = world_of("velocity_verlet", 600);
@@ -352,6 +383,54 @@ std::array<double, 2> stop_of_puck(double vx, double vy, double pull, double gri
 }
 
 // A slope of tan w = 0.1 with μ = 0.4; the slide has order 2, and stops at every rate.
+// In three axes a stop has a closed form: 9/(2·0.5·g) m in all, of which 0.3 m to the wall.
+TEST(Sliding, BouncesOffAWallBeforeItStops) {
+    for (const char* method : {"exact", "velocity_verlet", "rk4"}) {
+        World world = world_of(method, 1, 3);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {0, 1}, .friction = 0.5});
+        world.add_plane({.normal = {1}, .restitution = 1});
+        const Entity body =
+            world.spawn({.position = {0.3}, .velocity = {-3}, .contact = Contact{}});
+        world.step();
+        EXPECT_NEAR(world.position(body)[0], 9 / g - 0.3, 16 * epsilon) << method;
+        for (const Impact& impact : world.impacts()) EXPECT_EQ(impact.kind, Meeting::bounce);
+        world.step();
+        EXPECT_EQ(world.velocity(body), Vec3{});
+    }
+}
+
+// Friction stops the body at its first impact on a steep slope, then it hops down: what an impact
+// takes at most is the whole speed along the slope. Each hop of 2u/(g·cos) is followed here in
+// closed form.
+TEST(Sliding, IsNotBrakedBetweenImpacts) {
+    const double angle = 0.995814;
+    const double e = 0.025257;
+    const double friction = 1.11459;
+    const double along = g * std::sin(angle);
+    const double into = g * std::cos(angle);
+    double t = 0;
+    double v = 2.02898 * std::cos(angle);
+    double u = 2.02898 * std::sin(angle);
+    while (u > 1e-17) {
+        v = std::max(v - friction * (1 + e) * u, 0.0);
+        u *= e;
+        v += along * 2 * u / into;
+        t += 2 * u / into;
+    }
+    v += (along - friction * into) * (1 - t);
+    for (const int rate : {1, 60, 240}) {
+        World world = world_of("exact", rate);
+        world.set_gravity({0, -g});
+        world.add_plane({.normal = {-std::sin(angle), std::cos(angle)},
+                         .restitution = e,
+                         .friction = friction});
+        const Entity body = world.spawn({.velocity = {2.02898}, .contact = Contact{}});
+        world.step(rate);
+        EXPECT_NEAR(length(world.velocity(body)), std::abs(v), 1e-12) << rate;
+    }
+}
+
 TEST(Sliding, AcrossASlopeStops) {
     const double w = std::atan(0.1);
     const double pull = g * std::sin(w);
@@ -473,6 +552,27 @@ TEST(Resting, IsNotReportedBehindAWall) {
     ASSERT_EQ(rests.size(), 1U);
     EXPECT_NEAR(rests[0].time, 0.025, 4 * epsilon);
     EXPECT_NEAR(rests[0].point[0], 0.75, 4 * epsilon);
+}
+
+// A body that slides on a floor from wall to wall does not leave the floor.
+TEST(Resting, IsNotReportedAgainAtAWall) {
+    World world = world_of("velocity_verlet", 60);
+    world.set_gravity({0, -g});
+    world.add_plane({.normal = {0, 1}});
+    world.add_plane({.normal = {1, 0}, .restitution = 1});
+    world.add_plane({.normal = {-1, 0}, .offset = -1, .restitution = 1});
+    world.spawn({.position = {0.5, 0.1}, .velocity = {3}, .contact = Contact{}});
+    int rests = 0;
+    int bounces = 0;
+    for (int i = 0; i < 600; ++i) {
+        world.step();
+        for (const Impact& impact : world.impacts()) {
+            rests += impact.kind == Meeting::rest;
+            bounces += impact.kind == Meeting::bounce;
+        }
+    }
+    EXPECT_EQ(rests, 1);
+    EXPECT_EQ(bounces, 31) << "30 walls and a floor";
 }
 
 // A game that waits for the end of bounces hears of it once, whatever the method, the rate and the

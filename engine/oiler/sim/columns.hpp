@@ -96,7 +96,7 @@ struct LinkCache {
     Stages<MotionColumns<T, Axes>> stages;        ///< scratch
     VecColumns<T, Axes> acceleration;             ///< m/s², scratch
     VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
-    VecColumns<T, Axes> velocity_before;          ///< m/s, at the start of a step that may land
+    MotionColumns<T, Axes> before;                ///< at the start of a step that may land
     bool field_valid = false;                     ///< also false after a change of positions
     std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
     T solver_tau = 0;                             ///< s

@@ -94,7 +94,7 @@ public:
     }
 
     void land(std::int64_t tick, T dt) {
-        if (land_linked_rows<T, Axes>(columns_, cache_.velocity_before, tick, dt))
+        if (land_linked_rows<T, Axes>(columns_, cache_.before, tick, dt))
             cache_.field_valid = false;
     }
 
@@ -282,7 +282,7 @@ std::optional<Divergence> step_linked_rows(Columns<T, Axes>& columns,
             for (std::int64_t j = 0; j < steps.count; ++j) {
                 const std::int64_t tick = steps.first + j + 1;
                 const double t = steps.rate.time(tick - 1);
-                if (lands) columns.link_cache.velocity_before = columns.motion.v;
+                if (lands) columns.link_cache.before = columns.motion;
                 if constexpr (std::is_same_v<Rule, ImplicitPlan<T>>) {
                     if (!advance(rule, columns.motion, physics, t))
                         return Divergence{tick, 0, 0, Divergence::Of::solution};

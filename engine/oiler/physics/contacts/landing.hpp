@@ -48,6 +48,9 @@ public:
         const T speed = largest(body_.accelerate(state, T(0))) * duration;
         hidden_ = {8 * epsilon * speed, 8 * epsilon * speed * duration};
         lift(state);
+        for (const Surface& plane : planes_)
+            if (touches(plane, state) && leaving_speed(plane, state.v) <= speed_noise(state))
+                resting_ |= bit_of(plane);
         for (int events = 0; left_ > 0; ++events) {
             if (events == 2 * most_events) return Landed::unresolved;
             if (events >= most_events) stop_in_corner(state);
@@ -55,12 +58,10 @@ public:
             const Vector a = body_.accelerate(state, start_);
             const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
             if (support.empty()) {
-                take_off();
+                take_off(~PlaneSet{0});
                 fly(state);
             } else {
-                const bool leaves = leaving_speed(support[0], state.v) > speed_noise(state);
-                if (std::exchange(flying_, false) || leaves)
-                    report(Meeting::rest, support[0], start_, state, state.v);
+                report_rests(state, support);
                 glide(state, support);
                 if (settled_) return Landed::settled;
             }
@@ -76,6 +77,8 @@ private:
     static constexpr int most_bounces_at_once = 16;
     /// Flights shorter than this part of what is left of a step are not followed one by one.
     static constexpr T shortest_flight = T(1) / 64;
+    /// So many are followed nevertheless, where friction stops the body between them.
+    static constexpr int most_followed = 64;
 
     [[nodiscard]] T gap_noise(const Surface& plane, const Motion& state) const {
         return hidden_distance(plane, state, radius_, duration_) + hidden_.distance;
@@ -92,6 +95,9 @@ private:
     [[nodiscard]] std::size_t index_of(const Surface& plane) const {
         return static_cast<std::size_t>(&plane - planes_.data());
     }
+    [[nodiscard]] PlaneSet bit_of(const Surface& plane) const {
+        return PlaneSet{1} << index_of(plane);
+    }
     void report(Meeting kind, const Surface& plane, T after_start, const Motion& state,
                 const Vector& before) {
         report_(ImpactOf<T, Axes>{kind, index_of(plane), after_start, state.x, before, state.v});
@@ -105,39 +111,65 @@ private:
             [&](const Surface& plane, const Vector& x) { return gap_of(plane, x); },
             [&](const Surface& plane) { return gap_noise(plane, state); },
             [&](const Surface& plane) {
-                const PlaneSet bit = PlaneSet{1} << index_of(plane);
-                if ((reported & bit) == 0) report(Meeting::lifted, plane, start_, state, state.v);
-                reported |= bit;
+                if ((reported & bit_of(plane)) == 0)
+                    report(Meeting::lifted, plane, start_, state, state.v);
+                reported |= bit_of(plane);
             });
     }
 
-    void advance(Motion& state, const Motion& to, T tau) {
-        state = to;
-        start_ += tau;
-        left_ = tau < left_ ? left_ - tau : T(0);
-        if (tau > 0) bounces_at_once_ = 0;
+    /// The first part of what is left of the step.
+    struct Leg {
+        Motion end;
+        T tau;
+    };
+    /// Moves the body to the end of a leg, and returns its time.
+    T advance(Motion& state, const Leg& leg) {
+        state = leg.end;
+        start_ += leg.tau;
+        left_ = leg.tau < left_ ? left_ - leg.tau : T(0);
+        if (leg.tau > 0) bounces_at_once_ = 0;
         if (rest_ && (rest_->after_start <= start_ || left_ == 0))
             report_(*std::exchange(rest_, std::nullopt));
         lift(state);
+        return leg.tau;
     }
     /// A rest that was to come does not.
-    void take_off() {
-        flying_ = true;
+    void take_off(PlaneSet from) {
+        if (rest_) from |= PlaneSet{1} << rest_->plane;
+        resting_ &= ~from;
         rest_.reset();
+    }
+    void report_rests(const Motion& state, const Bearing& support) {
+        for (std::size_t i = 0; i < support.size(); ++i) {
+            const bool rested = (resting_ & bit_of(support[i])) != 0;
+            if (!rested) report(Meeting::rest, support[i], start_, state, state.v);
+            resting_ |= bit_of(support[i]);
+        }
     }
 
     /// The planes that may bear the body: those that it touches without leaving them, or leaves for
     /// flights lower than round-off shows.
     [[nodiscard]] PlaneSet bearing_planes(const Motion& state, const Vector& a) const {
         PlaneSet set = 0;
+        PlaneSet left = 0;
         for (const Surface& plane : planes_) {
-            const T u = leaving_speed(plane, state.v);
-            const T pull = -dot(plane.normal, a);
-            const bool hidden = pull > 0 && u * u <= 2 * pull * gap_noise(plane, state);
-            if (touches(plane, state) && (u <= speed_noise(state) || hidden))
-                set |= PlaneSet{1} << index_of(plane);
+            if (!touches(plane, state)) continue;
+            const bool leaves = leaving_speed(plane, state.v) > speed_noise(state);
+            (leaves ? left : set) |= bit_of(plane);
         }
+        if (left == 0) return set;
+        const Vector pulled = Bearing::against(a, planes_, set).without_push(a);
+        for (const Surface& plane : planes_)
+            if ((left & bit_of(plane)) != 0 && is_hidden_flight(plane, state, pulled))
+                set |= bit_of(plane);
         return set;
+    }
+    /// Whether round-off hides the height of a flight off a plane under an acceleration.
+    [[nodiscard]] bool is_hidden_flight(const Surface& plane, const Motion& state,
+                                        const Vector& a) const {
+        const T u = leaving_speed(plane, state.v);
+        const T pull = -dot(plane.normal, a);
+        return pull > 0 && u * u <= 2 * pull * gap_noise(plane, state);
     }
 
     /// Resolves the first impact on a plane that the body touches. Returns false if there is none.
@@ -147,9 +179,9 @@ private:
             if (!(speed > speed_noise(state)) || !touches(plane, state)) continue;
             const Vector before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
-            met_ |= PlaneSet{1} << index_of(plane);
+            met_ |= bit_of(plane);
             const T kept = plane.restitution * speed;
-            take_off();
+            take_off(bit_of(plane));
             if (++bounces_at_once_ > most_bounces_at_once) {
                 state.v =
                     Bearing::against(before, planes_, touched_planes(state)).without_push(before);
@@ -173,23 +205,27 @@ private:
     [[nodiscard]] PlaneSet touched_planes(const Motion& state) const {
         PlaneSet set = 0;
         for (const Surface& plane : planes_)
-            if (touches(plane, state)) set |= PlaneSet{1} << index_of(plane);
+            if (touches(plane, state)) set |= bit_of(plane);
         return set;
     }
     /// Ends bounces whose flights are all over within the step, or are lower than round-off shows:
     /// with acceleration a towards the plane, all flights after a bounce to speed u last
     /// 2u/(a·(1 − e)). Passes over flights that are much shorter than the step. In both cases the
     /// body slides with the velocity `along` that it had between landing and being pushed off:
-    /// under constant forces, this gives the same velocity and place as all the flights.
+    /// under constant forces, this gives the same velocity and place as all the flights, unless
+    /// friction stops it in an impact.
     void follow_bounce(const Surface& plane, Motion& state, const Vector& along, T kept) {
         const Vector a = body_.accelerate(state, start_);
-        const PlaneSet others = bearing_planes(state, a) & ~(PlaneSet{1} << index_of(plane));
+        const PlaneSet others = bearing_planes(state, a) & ~bit_of(plane);
         const T pull = -dot(plane.normal, Bearing::against(a, planes_, others).without_push(a));
         if (!(pull > 0)) return;
         const T flight = 2 * kept / pull;
         const T lost = 1 - plane.restitution;
-        const auto bearing = Bearing::against(a, planes_, others | PlaneSet{1} << index_of(plane));
-        if (flight <= lost * left_) {
+        const auto bearing = Bearing::against(a, planes_, others | bit_of(plane));
+        if (is_stopped_between(plane, along, kept, bearing.without_push(a)) &&
+            ++followed_ <= most_followed) {
+            return;
+        } else if (flight <= lost * left_) {
             state.v = along;
             report_rest(plane, state, bearing, a, lost > 0 ? flight / lost : T(0));
         } else if (kept * kept <= 2 * pull * gap_noise(plane, state)) {
@@ -200,10 +236,19 @@ private:
             Motion sliding{state.x, along};
             const auto carried = Bearing::against(a, planes_, bearing_planes(sliding, a));
             if (!carried.has(plane) || enters_other(sliding, along, carried)) return;
-            const T tau = glide(sliding, carried);
+            T tau = glide(sliding, carried);
+            if (sliding.v == Vector{} && left_ > 0) tau += glide(sliding, carried);
             state = {sliding.x, pushed_off(plane, sliding.v, kept * (1 - tau * lost / flight))};
             settled_ = false;
         }
+    }
+    /// Whether friction stops the body in one of the impacts to come. From there on, it does not
+    /// slide as with all the flights, because friction does not act between impacts.
+    [[nodiscard]] static bool is_stopped_between(const Surface& plane, const Vector& along, T kept,
+                                                 const Vector& pull) {
+        if (plane.friction == 0 || (along == Vector{} && pull == Vector{})) return false;
+        const T pushes = (1 + plane.restitution) * kept;
+        return (1 - plane.restitution) * length(along) <= plane.friction * pushes;
     }
     /// The bounces of a body that slides end `after` s from now.
     void report_rest(const Surface& plane, const Motion& state, const Bearing& bearing,
@@ -218,20 +263,14 @@ private:
             end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
         }
         rest_ = {Meeting::rest, index_of(plane), start_ + after, end.x, end.v, end.v};
-        flying_ = false;
+        resting_ |= bit_of(plane);
     }
-
-    /// The first part of what is left of the step.
-    struct Leg {
-        Motion end;
-        T tau;
-    };
 
     void fly(Motion& state) {
         const auto move = [&](T tau) { return body_.fly(state, start_, tau); };
         Leg leg{move(left_), left_};
         for (const Surface& plane : planes_) end_at_impact(plane, state, leg, move);
-        advance(state, leg.end, leg.tau);
+        advance(state, leg);
     }
 
     /// Steps a body on the planes that bear it, and returns the time until that ends, s.
@@ -260,8 +299,7 @@ private:
         const T whole = left_;
         if (!body_.forces_change()) {
             settled_ = true;
-            advance(state, state, whole);
-            return whole;
+            return advance(state, {state, whole});
         }
         const auto held = [&](T tau) {
             const Vector a = body_.accelerate(state, start_ + tau);
@@ -272,8 +310,7 @@ private:
             at_end >= 0
                 ? whole
                 : narrow_bracket<T>(held, {0, whole}, std::max(held(0), T(0)), at_end, -1).after;
-        advance(state, state, tau);
-        return tau;
+        return advance(state, {state, tau});
     }
     [[nodiscard]] static T least_reaction(const Bearing& support, const Vector& a) {
         const Vector reaction = support.reactions(a);
@@ -301,16 +338,16 @@ private:
         const Vector direction = normalised(state.v == Vector{} ? pull : state.v);
         const T grip = support.grip(a);
         const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
-        if (free_to_turn && state.v != Vector{} && dot(pull, pull) < grip * grip)
-            if (const auto end = slide_end(state.v, pull, grip); end.time <= left_) {
-                advance(state, {state.x + end.way, Vector{}}, end.time);
-                return end.time;
-            }
         const Friction<T, Axes> friction{direction, free_to_turn && is_across(state.v, pull)};
         const auto move = [&](T tau) { return body_.slide(state, start_, tau, support, friction); };
+        if (free_to_turn && state.v != Vector{} && dot(pull, pull) < grip * grip)
+            if (const auto end = slide_end(state.v, pull, grip); end.time <= left_) {
+                Leg leg{{state.x + end.way, Vector{}}, end.time};
+                end_at_other_planes(state, support, leg, move);
+                return advance(state, leg);
+            }
         Leg leg{move(left_), left_};
-        for (const Surface& plane : planes_)
-            if (!support.has(plane)) end_at_impact(plane, state, leg, move);
+        end_at_other_planes(state, support, leg, move);
         const auto borne = [&](T tau) {
             return least_reaction(support, body_.accelerate(move(tau), start_ + tau));
         };
@@ -321,9 +358,12 @@ private:
             leg.end.v -= direction * dot(leg.end.v, direction);
             if (largest(leg.end.v) <= 64 * epsilon * largest(state.v)) leg.end.v = {};
         }
-        const T tau = leg.tau;
-        advance(state, leg.end, tau);
-        return tau;
+        return advance(state, leg);
+    }
+    template <class Move>
+    void end_at_other_planes(const Motion& state, const Bearing& support, Leg& leg, Move move) {
+        for (const Surface& plane : planes_)
+            if (!support.has(plane)) end_at_impact(plane, state, leg, move);
     }
     /// Ends the leg where a function of the time is first negative, if it is at the end.
     template <class F, class Move>
@@ -361,7 +401,8 @@ private:
         };
         if (end < 0) {
             if (start > noise) return between(0, start, leg.tau, end);
-            if (u_start <= speed_noise(state)) return std::nullopt;  // it glides along the plane
+            // It glides along the plane.
+            if (u_start <= speed_noise(state) && end >= -noise) return std::nullopt;
             const T turn = u_end < 0 ? turning_time(1) : leg.tau / 2;
             T top = turn;
             T h_top = height(top);
@@ -386,9 +427,10 @@ private:
     T start_ = 0;     ///< s, from the start of the step
     T left_ = 0;      ///< s
     int bounces_at_once_ = 0;
+    int followed_ = 0;
     PlaneSet met_ = 0;  ///< the planes on which the body bounced in the step
     bool settled_ = false;
-    bool flying_ = false;  ///< since the start of the step, or the last rest in it
+    PlaneSet resting_ = 0;  ///< the planes that the body has not left since its last rest on them
     std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before
     /// What round-off hides in a step from rest.
     struct {
