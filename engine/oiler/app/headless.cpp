@@ -57,23 +57,23 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
 }
 
 /// Draws the frames in their order until the last one or an interrupt.
-void draw_frames(Film& film, Playback& playback, const Manifest& header, bool quiet) {
+void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Manifest& header,
+                 bool quiet) {
     Progress progress(quiet, "frames", header.planned_frames);
-    NoInput no_input;
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-        const Picture picture = playback.show(at.step, at.alpha, no_input);
+        const Picture picture = playback.show(at.step, at.alpha, inputs);
         if (Interrupt::requested()) return;
         film.add(picture, at, playback);
         progress.show(frame + 1);
     }
 }
 
-void film(Playback& playback, Renderer& renderer, const Manifest& header, const Options& options,
-          Profile* profile) {
+void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
+          const Options& options, Profile* profile) {
     Film film(renderer, header, options, profile);
     try {
-        draw_frames(film, playback, header, options.quiet);
+        draw_frames(film, playback, inputs, header, options.quiet);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged)
             film.finish();
@@ -104,12 +104,11 @@ std::string changes_of(const Manifest::Frame& expected, std::uint64_t state, std
 }
 
 /// Draws one frame, and compares it with that of the manifest, if there is one.
-Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
+Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
                 const Options& options) {
     const std::int64_t frame = *options.frame;
     const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-    NoInput no_input;
-    const Picture picture = playback.show(at.step, at.alpha, no_input);
+    const Picture picture = playback.show(at.step, at.alpha, inputs);
     if (Interrupt::requested()) return Exit::interrupted;
     Pixels pixels;
     renderer.draw(picture, header.size);
@@ -136,14 +135,14 @@ Exit draw_still(Playback& playback, Renderer& renderer, const Manifest& header,
 
 }  // namespace
 
-Exit run_headless(Playback& playback, const Options& options, const About& about,
-                  Profile* profile) {
+Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
+                  const About& about, Profile* profile) {
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
     const Manifest header = describe(options, about, *surface, renderer);
-    if (options.frame) return draw_still(playback, renderer, header, options);
-    film(playback, renderer, header, options, profile);
+    if (options.frame) return draw_still(playback, inputs, renderer, header, options);
+    film(playback, inputs, renderer, header, options, profile);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 

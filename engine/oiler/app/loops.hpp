@@ -15,7 +15,8 @@ namespace oiler {
 /// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
 /// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
 /// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
-Exit run_headless(Playback& playback, const Options& options, const About& about, Profile* profile);
+Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
+                  const About& about, Profile* profile);
 
 /// The end of a run in a loop.
 struct Played {
@@ -23,8 +24,10 @@ struct Played {
     std::chrono::nanoseconds dropped{0};  ///< simulated time that late frames dropped
 };
 
-/// Shows the game in a window in real time until the user quits or the display ends.
-Played run_window(Playback& playback, const Options& options, const About& about);
+/// Shows the game in a window in real time until the user quits or the display ends. Without a
+/// script, the user plays.
+Played run_window(Playback& playback, InputSource* script, const Options& options,
+                  const About& about);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;

@@ -154,11 +154,13 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
     if (options.headless)
         outputs.push_back({options.update_golden ? "--golden" : "--out",
                            options.update_golden ? options.golden : options.out, is_capture_file});
-    std::vector<NamedPath> inputs{{"SCENE", words.scene}, {"--from", words.from}};
+    std::vector<NamedPath> inputs{
+        {"SCENE", words.scene}, {"--from", words.from}, {"--script", options.script}};
     if (!options.update_golden) inputs.push_back({"--golden", options.golden, is_capture_file});
     for (const std::vector<NamedPath>& paths : {outputs, inputs})
         for (const NamedPath& path : paths)
-            if (path.name != "SCENE" && app.count(path.name) > 0 && path.path.empty())
+            if (path.name != "SCENE" && app.get_option_no_throw(path.name) != nullptr &&
+                app.count(path.name) > 0 && path.path.empty())
                 fail(Exit::usage, "{}: give a path", path.name);
     std::erase_if(inputs, [](const NamedPath& input) { return input.path.empty(); });
     require_distinct(inputs, outputs);
@@ -284,13 +286,20 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     return options;
 }
 
+void declare_script(CLI::App& app, Options& options) {
+    app.add_option("--script", options.script,
+                   "play the keys and the mouse of a text, with lines such as: 60 press Space")
+        ->type_name("FILE");
+}
+
 void declare_scene(CLI::App& app, Words& words) {
     app.add_option("SCENE", words.scene,
                    "scene file in TOML, see assets/scenes/README.md; not needed with --from");
 }
 
 std::string footer(const std::string& program) {
-    return "Keys in a window: P pause, . step, - and = slower and faster, Q or Escape quit.\n"
+    return "Keys in a window: F3 pause, F5 step, F7 and F8 slower and faster, F9 restart, Escape "
+           "quit.\n"
            "Example: " +
            program + " --headless --frames 120 --size 640x360 --out frames";
 }
@@ -310,7 +319,7 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     CommandLine line{.options = {}, .text = {}, .about = about};
     Words words;
     const Defaults defaults = about_scene ? Defaults::of_scene() : Defaults(about);
-    if (about_scene) declare_scene(app, words);
+    about_scene ? declare_scene(app, words) : declare_script(app, line.options);
     declare_drawing(app, line.options, words, defaults);
     declare_capture(app, line.options, words);
     declare_stepping(app, words, defaults);

@@ -37,6 +37,7 @@ struct Options {
     std::filesystem::path energy;
     std::filesystem::path json;
     std::filesystem::path profile;
+    std::filesystem::path script;  ///< of a game: its input; empty: nobody plays
     bool quiet = false;
 };
 

@@ -14,6 +14,7 @@
 #include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
 #include "oiler/app/report.hpp"
+#include "oiler/app/script.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/floating_point.hpp"
@@ -24,22 +25,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void run_steps(Playback& playback, const Options& options) {
+void run_steps(Playback& playback, InputSource& inputs, const Options& options) {
     Progress progress(options.quiet, "steps", *options.steps);
     const std::int64_t stride = std::max<std::int64_t>(1, *options.steps / 100);
-    NoInput no_input;
     while (playback.steps() < *options.steps && !playback.loop().quits() &&
            !Interrupt::requested()) {
-        playback.step_to(std::min(playback.steps() + stride, *options.steps), no_input);
+        playback.step_to(std::min(playback.steps() + stride, *options.steps), inputs);
         progress.show(playback.steps());
     }
 }
 
-Played loop(Playback& playback, const Options& options, const About& about, Profile* profile) {
-    if (options.headless && !options.steps)
-        return {run_headless(playback, options, about, profile)};
-    if (!options.steps) return run_window(playback, options, about);
-    run_steps(playback, options);
+Played loop(Playback& playback, InputSource* script, const Options& options, const About& about,
+            Profile* profile) {
+    if (!options.headless && !options.steps) return run_window(playback, script, options, about);
+    NoInput nobody;
+    InputSource& inputs = script ? *script : nobody;
+    if (!options.steps) return {run_headless(playback, inputs, options, about, profile)};
+    run_steps(playback, inputs, options);
     return {Interrupt::requested() ? Exit::interrupted : Exit::done};
 }
 
@@ -77,12 +79,12 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
 }
 
 /// Plays the game. Completes the report, also after a divergence.
-Exit play(Playback& playback, const Options& options, const About& about, RunReport& report,
-          Profile* profile) {
+Exit play(Playback& playback, InputSource* script, const Options& options, const About& about,
+          RunReport& report, Profile* profile) {
     const Clock::time_point start = Clock::now();
     Played played;
     try {
-        played = loop(playback, options, about, profile);
+        played = loop(playback, script, options, about, profile);
         report.last = playback.world().bodies().energy();
         require_finite(*report.last);
     } catch (const Error& error) {
@@ -99,6 +101,9 @@ Exit play(Playback& playback, const Options& options, const About& about, RunRep
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
     const std::unique_ptr<AnyGame> game = make(options.settings);
+    std::optional<ScriptInput> script;
+    if (!options.script.empty())
+        script.emplace(parse_script(read_text(options.script), options.script.string()), *game);
     const World& world = game->world();
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
@@ -113,7 +118,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
-    Exit exit = play(playback, options, about, report, stages);
+    Exit exit = play(playback, script ? &*script : nullptr, options, about, report, stages);
     recorder.commit();
     if (profile) write_file(options.profile, profile->to_json());
     if (report.dropped.count() > 0)

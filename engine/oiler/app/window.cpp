@@ -102,7 +102,8 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 
 }  // namespace
 
-Played run_window(Playback& playback, const Options& options, const About& about) {
+Played run_window(Playback& playback, InputSource* script, const Options& options,
+                  const About& about) {
     const auto window = open_window(options.size, std::string(about.title));
     Renderer renderer([&](const char* name) { return window->procedure(name); });
     remark(options.quiet, "drawing with {} ({}): F3 pause, F5 step, F7 and F8 pace, F9 restart{}",
@@ -111,6 +112,7 @@ Played run_window(Playback& playback, const Options& options, const About& about
     StepClock clock(static_cast<int>(options.settings.stepping.rate.steps));
     Pace pace;
     LiveInput live;
+    InputSource& inputs = script ? *script : live;
     std::vector<Key> loop_keys;
     const int fps = options.fps.value_or(window->refresh_rate());
     for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
@@ -122,7 +124,7 @@ Played run_window(Playback& playback, const Options& options, const About& about
         clock.set_time_scale(pace.numerator(), pace.denominator());
         live.queue.set_paused(clock.paused());
         clock.advance(start);
-        Picture picture = playback.show(clock.ticks(), clock.alpha(), live);
+        Picture picture = playback.show(clock.ticks(), clock.alpha(), inputs);
         window->take_text(playback.loop().takes_text());
         live.shown = picture.camera;
         add_status(picture, clock, pace);

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <climits>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -203,6 +205,18 @@ void File::commit(Sync sync) {
     if (temporary_.empty()) return;
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(errno);
     temporary_.clear();
+}
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::error_code error;
+    const int reason = errno;
+    if (fs::is_directory(path, error))
+        fail(Exit::usage, "{}: it is a folder; give a file", path.string());
+    if (!file)
+        fail(exit_of_open(reason), "{}: cannot be read: {}; give a file that you may read",
+             path.string(), system_reason(reason));
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes, Links links) {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/script.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <sstream>
+#include <utility>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+using What = ScriptLine::What;
+
+/// The words of one line, taken from the left.
+class LineWords {
+public:
+    LineWords(std::string_view line, std::string place) : place_(std::move(place)) {
+        rest_ = line.substr(0, line.find('#'));
+        skip_blanks();
+        while (!rest_.empty() && is_blank(rest_.back())) rest_.remove_suffix(1);
+    }
+
+    [[nodiscard]] bool empty() const { return rest_.empty(); }
+    [[nodiscard]] std::string_view take() {
+        std::size_t end = 0;
+        while (end < rest_.size() && !is_blank(rest_[end])) ++end;
+        const std::string_view word = rest_.substr(0, end);
+        rest_.remove_prefix(end);
+        skip_blanks();
+        return word;
+    }
+    [[nodiscard]] std::string take_rest() {
+        return std::string(std::exchange(rest_, std::string_view{}));
+    }
+
+    template <class Number>
+    [[nodiscard]] Number take_number(std::string_view what) {
+        const std::string_view word = take();
+        Number number{};
+        const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || last != word.data() + word.size())
+            refuse(fmt::format("'{}' is no {}", word, what));
+        return number;
+    }
+    [[noreturn]] void refuse(const std::string& why) const {
+        fail(Exit::usage, "{}: {}", place_, why);
+    }
+
+private:
+    static bool is_blank(char one) { return one == ' ' || one == '\t' || one == '\r'; }
+    void skip_blanks() {
+        while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
+    }
+
+    std::string_view rest_;
+    std::string place_;
+};
+
+Button take_button(LineWords& words, const std::string& prefix) {
+    const std::string name = words.take_rest();
+    const auto button = find_button(prefix + name);
+    if (!button)
+        words.refuse(fmt::format(
+            "'{}' is no button; give one such as {}", name,
+            prefix.empty() ? "Space, Left, A, Mouse left or Pad south" : "left, middle or right"));
+    if (is_of_loop(*button)) words.refuse(name + " belongs to the loop, and no game sees it");
+    return *button;
+}
+
+ScriptLine parse_line(LineWords& words) {
+    ScriptLine line{.step = words.take_number<std::int64_t>("step")};
+    if (line.step < 0) words.refuse("a step is 0 or more");
+    const std::string_view what = words.take();
+    if (what == "press" || what == "hold" || what == "release") {
+        line.what = what == "press" ? What::press : what == "hold" ? What::hold : What::release;
+        line.button = take_button(words, "");
+    } else if (what == "click") {
+        line.button = take_button(words, "Mouse ");
+    } else if (what == "mouse") {
+        line.what = What::mouse;
+        line.at.x = words.take_number<float>("place in m");
+        line.at.y = words.take_number<float>("place in m");
+    } else if (what == "wheel") {
+        line.what = What::wheel;
+        line.notches = words.take_number<int>("number of notches");
+    } else {
+        words.refuse(fmt::format("'{}': give press, hold, release, click, mouse or wheel", what));
+    }
+    if (!words.empty()) words.refuse(fmt::format("'{}' is too much", words.take_rest()));
+    return line;
+}
+
+}  // namespace
+
+std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
+    std::vector<ScriptLine> lines;
+    std::istringstream input(text);
+    std::string line;
+    for (int number = 1; std::getline(input, line); ++number) {
+        LineWords words(line, fmt::format("{}, line {}", name, number));
+        if (words.empty()) continue;
+        lines.push_back(parse_line(words));
+        if (lines.size() > 1 && lines.back().step < lines[lines.size() - 2].step)
+            words.refuse(fmt::format("step {} comes after step {}; give them in their order",
+                                     lines.back().step, lines[lines.size() - 2].step));
+    }
+    return lines;
+}
+
+Input ScriptInput::next(std::int64_t step) {
+    for (; played_ < lines_.size() && lines_[played_].step <= step; ++played_)
+        play(lines_[played_]);
+    if (!mouse_) return queue_.take({});
+    const Camera camera = game_.picture().camera;
+    queue_.point_at(camera.to_canvas(*mouse_));
+    return queue_.take(camera);
+}
+
+void ScriptInput::play(const ScriptLine& line) {
+    switch (line.what) {
+        case What::press:
+            queue_.set(line.button, true);
+            return queue_.set(line.button, false);
+        case What::hold:
+            return queue_.set(line.button, true);
+        case What::release:
+            return queue_.set(line.button, false);
+        case What::mouse:
+            mouse_ = line.at;
+            return;
+        case What::wheel:
+            return queue_.turn_wheel(line.notches);
+    }
+}
+
+}  // namespace oiler
