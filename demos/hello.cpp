@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/app/run.hpp"
-#include "oiler/picture/palette.hpp"
-#include "oiler/picture/shapes.hpp"
+#include "oiler/oiler.hpp"
 using namespace oiler;
 
 struct Hello {  // a mass on a spring; Space kicks it

@@ -105,9 +105,9 @@ struct Projectile {
     }
 
     void update(const Input&) {
-        world.each<Shot, Trail>([&](Entity entity, const Shot& shot, Trail& trail) {
-            if (!world.has_body(entity)) return;
-            const Vec3 at = world.position(entity);
+        world.each_body<Shot, Trail>([&](Entity entity, const Moving& moving, const Shot& shot,
+                                         Trail& trail) {
+            const Vec3 at = moving.position();
             extend(trail, to_point(at), at[1] < 0);
             if (shot.drag != Drag::quadratic) measure(shot, at);
             if (at[1] < 0) land(entity);
