@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--surface osmesa", "--headless"}, Wrong{"--surface egl", "--headless"},
         Wrong{"--headless --surface window", "--headless"}, Wrong{"--out o", "--headless"},
         Wrong{"--steps 5 --headless", "--headless"}, Wrong{"--steps 5 --frames 2", "--frames"},
-        Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--record f", "--record"},
+        Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--recorder f", "--recorder"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
         Wrong{"--threads 0", "--threads"}, Wrong{"--threads 257", "--threads"},
         Wrong{"--frames 1000001", "--frames"}, Wrong{"--steps 1000000000001", "--steps"},

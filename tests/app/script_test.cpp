@@ -74,6 +74,7 @@ TEST(Script, NamesTheWrongLine) {
           Wrong{"1 push A", "'push': give press, hold"}, Wrong{"1 press Foo", "'Foo' is no button"},
           Wrong{"1 press F3", "belongs to the loop"},
           Wrong{"1 click Space", "left, middle or right"},
+          Wrong{"1 mouse nan 1", "nan m is farther"}, Wrong{"1 mouse 1 -inf", "-inf m is farther"},
           Wrong{"1 mouse 1", "'' is no place in m"}, Wrong{"1 mouse 1 2 3", "'3' is too much"},
           Wrong{"1 wheel 0.5", "'0.5' is no number of notches"},
           Wrong{"1 press A\n0 press A", "step 0 comes after step 1"}}) {

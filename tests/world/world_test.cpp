@@ -526,6 +526,9 @@ TEST(World, TellsWrongUsageFromDivergence) {
     EXPECT_EQ(exit_of([&] { world.apply_force(a, {0, 0, 1}); }), Exit::usage);
     EXPECT_EQ(exit_of([&] { world.link(a, b, {.stiffness = nan}); }), Exit::diverged);
     EXPECT_EQ(exit_of([&] { world.link(a, b, {.rest_length = -1}); }), Exit::usage);
+    EXPECT_EQ(exit_of([&] { world.spawn({.position = {nan}}); }), Exit::usage) << "no step yet";
+    world.step();
+    EXPECT_EQ(exit_of([&] { world.spawn({.position = {nan}}); }), Exit::diverged);
     EXPECT_EQ(exit_of([&] { World(2, {.rate = {0}}); }), Exit::usage);
     EXPECT_EQ(exit_of([&] { World(2, {.rate = {60, 0}}); }), Exit::usage);
 }

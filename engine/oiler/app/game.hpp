@@ -91,6 +91,22 @@ consteval bool check_game() {
     return true;
 }
 
+/// Calls f(). An exception of a game becomes an Error with the text of place().
+template <class Place, class F>
+auto guarded(Place place, F f) {
+    try {
+        return f();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail(Exit::diverged, "{}: {}", place(), error.what());
+    } catch (...) {
+        fail(Exit::diverged, "{}: it threw something that is no std::exception", place());
+    }
+}
+
 /// A game without its type, for the loop; one virtual call per frame.
 class AnyGame {
 public:
@@ -99,11 +115,13 @@ public:
     AnyGame(const AnyGame&) = delete;
     AnyGame& operator=(const AnyGame&) = delete;
 
-    /// Steps `count` times; the next step is number `step` of the loop. A game may replace its
-    /// world meanwhile.
-    virtual void step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
+    /// Steps `count` times, or until the game quits; the next step is number `step` of the loop. A
+    /// game may replace its world meanwhile. Returns the number of steps taken.
+    virtual std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
     /// Makes the game anew, with the settings of its world.
     virtual void restart() = 0;
+    /// Whether its steps see input.
+    [[nodiscard]] virtual bool takes_input() const { return false; }
     /// How often the world was replaced: no picture between two worlds is drawn.
     [[nodiscard]] std::int64_t cuts() const { return cuts_; }
     [[nodiscard]] const Loop& loop() const { return loop_; }
@@ -124,46 +142,59 @@ class AnyGameOf final : public AnyGame {
     static_assert(check_game<G>());
 
 public:
-    explicit AnyGameOf(const Settings& settings) : game_(settings) {}
+    explicit AnyGameOf(const Settings& settings)
+        : game_(guarded([] { return "the game's constructor"; }, [&] { return G(settings); })) {}
 
-    void step(std::int64_t step, std::int64_t count, InputSource& inputs) override {
-        if constexpr (Updates<G>) {
-            for (; count > 0 && !loop_.quits(); --count) {
-                update(inputs.next(step++));
+    std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override {
+        if constexpr (!Updates<G>) {
+            game_.world.step(count);
+            return count;
+        } else {
+            for (std::int64_t taken = 0; taken < count; ++taken) {
+                const Input input = inputs.next(step + taken);
+                if (input.restarts()) restart();
+                update(input, step + taken);
+                if (loop_.quits()) return taken;
                 if (loop_.restarts())
                     restart();
                 else if (!loop_.holds())
                     game_.world.step();
                 find_cut();
             }
-        } else {
-            game_.world.step(count);
+            return count;
         }
     }
     void restart() override {
-        game_ = G(Settings(game_.world.settings()));
+        game_ = guarded([] { return "the game's constructor"; },
+                        [&] { return G(Settings(game_.world.settings())); });
         age_ = -1;
         ++cuts_;
     }
+    [[nodiscard]] bool takes_input() const override { return Updates<G>; }
     [[nodiscard]] const World& world() const override { return game_.world; }
-    [[nodiscard]] Picture picture() const override { return game_.picture(); }
+    [[nodiscard]] Picture picture() const override {
+        return guarded([] { return "picture"; }, [&] { return game_.picture(); });
+    }
 
 private:
-    void update(const Input& input) {
+    void update(const Input& input, std::int64_t step) {
         loop_.begin_step();
+        const Rate rate = game_.world.settings().stepping.rate;
         const std::int64_t tick = game_.world.tick();
-        try {
+        const auto place = [&] {
+            const std::string of_run =
+                tick == step ? "" : " (step " + std::to_string(step) + " of the run)";
+            return "update at tick " + std::to_string(tick) + of_run;
+        };
+        guarded(place, [&] {
             if constexpr (UpdatesLoop<G>)
                 game_.update(input, loop_);
-            else if constexpr (Updates<G>)
+            else
                 game_.update(input);
-        } catch (const Error&) {
-            throw;
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& error) {
-            fail(Exit::diverged, "update at tick {}: {}", tick, error.what());
-        }
+        });
+        if (game_.world.settings().stepping.rate != rate)
+            fail(Exit::usage, "{}: the new world has another rate; make it with world.settings()",
+                 place());
     }
     /// A world that was replaced is younger than it would have become.
     void find_cut() {

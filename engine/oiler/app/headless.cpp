@@ -39,6 +39,8 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
                   const Renderer& renderer) {
     const Stepping& stepping = options.settings.stepping;
     const int fps = options.fps.value_or(default_fps);
+    const double duration =
+        options.replay ? stepping.rate.time(options.replay->steps) : about.duration;
     return {.version = std::string(version()),
             .compiler = compiler(),
             .provider = std::string(surface.provider()),
@@ -53,7 +55,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .scene = std::string(about.name),
             .scene_text = std::string(about.scene_text),
             .seed = options.settings.seed,
-            .planned_frames = options.frames ? *options.frames : frames_in(about.duration, fps)};
+            .planned_frames = options.frames ? *options.frames : frames_in(duration, fps)};
 }
 
 /// Draws the frames in their order until the last one or an interrupt.
@@ -63,7 +65,8 @@ void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Mani
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
         const Picture picture = playback.show(at.step, at.alpha, inputs);
-        if (Interrupt::requested()) return;
+        const bool ended = playback.loop().quits() && at.step > playback.steps();
+        if (ended || Interrupt::requested()) return;
         film.add(picture, at, playback);
         progress.show(frame + 1);
     }
@@ -86,7 +89,8 @@ void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Man
         remark(options.quiet, "frames and manifest.json are in {}",
                (options.update_golden ? options.golden : options.out).string());
     else
-        remark(false, "interrupted: {} of {} frames are complete in {}", film.frames(),
+        remark(false, "{}: {} of {} frames are complete in {}",
+               Interrupt::requested() ? "interrupted" : "the game has quit", film.frames(),
                header.planned_frames, options.out.string());
 }
 

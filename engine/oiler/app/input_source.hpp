@@ -19,6 +19,15 @@ public:
     [[nodiscard]] virtual Input next(std::int64_t step) = 0;
 };
 
+/// A player in the window. Steps see the camera of the picture that was on screen.
+class LiveInput final : public InputSource {
+public:
+    [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
+
+    InputQueue queue;
+    Camera shown{};
+};
+
 /// Nobody plays.
 class NoInput final : public InputSource {
 public:

@@ -24,9 +24,9 @@ struct Played {
     std::chrono::nanoseconds dropped{0};  ///< simulated time that late frames dropped
 };
 
-/// Shows the game in a window in real time until the user quits or the display ends. Without a
-/// script, the user plays.
-Played run_window(Playback& playback, InputSource* script, const Options& options,
+/// Shows the game in a window in real time until the user quits, the display or a replay ends.
+/// Steps take their input from `inputs`, which may be `live`.
+Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
                   const About& about);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.

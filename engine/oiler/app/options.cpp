@@ -34,6 +34,7 @@ struct Words {
     std::string png = "all";
     std::filesystem::path from;
     std::int64_t frame = 0;
+    bool replay_anyway = false;
     bool force = false;
 };
 
@@ -150,12 +151,14 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
     std::vector<NamedPath> outputs{{"--trace", options.trace}, {"--energy", options.energy},
                                    {"--json", options.json},   {"--profile", options.profile},
                                    {"--junit", options.junit}, {"--video", options.video},
-                                   {"--sheet", options.sheet}};
+                                   {"--sheet", options.sheet}, {"--record", options.record}};
     if (options.headless)
         outputs.push_back({options.update_golden ? "--golden" : "--out",
                            options.update_golden ? options.golden : options.out, is_capture_file});
-    std::vector<NamedPath> inputs{
-        {"SCENE", words.scene}, {"--from", words.from}, {"--script", options.script}};
+    std::vector<NamedPath> inputs{{"SCENE", words.scene},
+                                  {"--from", words.from},
+                                  {"--script", options.script},
+                                  {"--replay", options.replay_file}};
     if (!options.update_golden) inputs.push_back({"--golden", options.golden, is_capture_file});
     for (const std::vector<NamedPath>& paths : {outputs, inputs})
         for (const NamedPath& path : paths)
@@ -228,6 +231,25 @@ void check_update(const CLI::App& app, const Options& options, const Words& word
              "passes; run it on your computer, or add --force");
 }
 
+/// The settings of a replay are those of its recording.
+void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
+    for (const char* option : {"--method", "--rate", "--precision", "--damping", "--seed", "--from",
+                               "--script", "--record"})
+        if (app.count(option) > 0)
+            fail(Exit::usage, "{}: comes from the recording of --replay; leave it out", option);
+    line.options.replay = read_recording(line.options.replay_file);
+    const Stepping& stepping = line.options.replay->header.stepping;
+    words.method = stepping.method->name;
+    words.rate = static_cast<int>(stepping.rate.steps);
+    words.precision = name_of(stepping.precision);
+    words.damping = stepping.damping ? name_of(*stepping.damping) : "";
+    words.seed = line.options.replay->header.seed;
+    const Settings settings{.stepping = stepping, .seed = words.seed};
+    require_same_game(line.options.replay->header,
+                      header_of(line.about.name, settings, line.about.controls),
+                      words.replay_anyway);
+}
+
 /// Settings that the command line does not give come from the manifest or from the game.
 void fill_in(const CLI::App& app, Words& words, CommandLine& line) {
     const About& about = line.about;
@@ -236,7 +258,7 @@ void fill_in(const CLI::App& app, Words& words, CommandLine& line) {
         fail(Exit::usage, "--from: the manifest is of {}, not of {}; run that program", from->scene,
              about.name);
     const auto fill = [&](const char* option, auto& word, auto of_manifest, auto of_about) {
-        if (app.count(option) == 0)
+        if (app.count(option) == 0 && !line.options.replay)
             word = from ? static_cast<std::decay_t<decltype(word)>>(of_manifest(*from))
                         : static_cast<std::decay_t<decltype(word)>>(of_about);
     };
@@ -286,10 +308,18 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
     return options;
 }
 
-void declare_script(CLI::App& app, Options& options) {
-    app.add_option("--script", options.script,
-                   "play the keys and the mouse of a text, with lines such as: 60 press Space")
-        ->type_name("FILE");
+void declare_play(CLI::App& app, Options& options, Words& words) {
+    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* help) {
+        app.add_option(name, path, help)->type_name("FILE");
+    };
+    add_file("--script", options.script,
+             "play the keys and the mouse of a text, with lines such as: 60 press Space");
+    add_file("--record", options.record, "record what is played, for --replay");
+    add_file("--replay", options.replay_file,
+             "play a recording with its settings: exit 1 with the first step that differs");
+    app.add_flag("--replay-anyway", words.replay_anyway,
+                 "replay a recording of another version of Oiler")
+        ->disable_flag_override();
 }
 
 void declare_scene(CLI::App& app, Words& words) {
@@ -319,7 +349,7 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     CommandLine line{.options = {}, .text = {}, .about = about};
     Words words;
     const Defaults defaults = about_scene ? Defaults::of_scene() : Defaults(about);
-    about_scene ? declare_scene(app, words) : declare_script(app, line.options);
+    about_scene ? declare_scene(app, words) : declare_play(app, line.options, words);
     declare_drawing(app, line.options, words, defaults);
     declare_capture(app, line.options, words);
     declare_stepping(app, words, defaults);
@@ -328,6 +358,7 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     if (!line.text.empty()) return line;
     if (!words.from.empty()) line.options.from = read_manifest(words.from);
     if (about_scene) line.about = about_scene(words.scene, line.options.from);
+    if (!line.options.replay_file.empty()) take_replay(app, words, line);
     fill_in(app, words, line);
     line.options = collect(app, std::move(line.options), words, line.about);
     return line;

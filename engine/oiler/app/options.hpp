@@ -8,6 +8,7 @@
 #include <string>
 
 #include "oiler/app/game.hpp"
+#include "oiler/app/recording.hpp"
 #include "oiler/capture/manifest.hpp"
 #include "oiler/core/size.hpp"
 #include "oiler/platform/surface.hpp"
@@ -38,6 +39,9 @@ struct Options {
     std::filesystem::path json;
     std::filesystem::path profile;
     std::filesystem::path script;  ///< of a game: its input; empty: nobody plays
+    std::filesystem::path record;
+    std::optional<Recording> replay;
+    std::filesystem::path replay_file;
     bool quiet = false;
 };
 

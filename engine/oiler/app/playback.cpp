@@ -48,10 +48,13 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
     const Span span(profile_, "step");
     const World& world = game_.world();
     while (steps_ < step && !game_.loop().quits() && !Interrupt::requested()) {
-        const bool single = recorder_.active() || hashes_ticks();
+        const bool single = recorder_.active() || hashes_ticks() || watcher_ != nullptr;
         const std::int64_t most = single ? 1 : steps_per_call_;
+        const std::int64_t before = steps_;
         take(std::min(step - steps_, most), inputs);
+        if (steps_ == before) continue;  // the game has quit
         recorder_.record(steps_, world);
+        if (watcher_ != nullptr) watcher_->after(steps_ - 1, world);
         if (keep_ != Keep::hashes) continue;
         if (hashes_ticks()) tick_hashes_ += hash_text(world.state_hash()).substr(16 - tick_digits);
         tick_hashes_.resize(tick_digits * static_cast<std::size_t>(steps_), '.');
@@ -61,8 +64,7 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
 /// Adapts the steps per call to the time that they take. Results do not depend on it.
 void Playback::take(std::int64_t count, InputSource& inputs) {
     const Clock::time_point start = Clock::now();
-    game_.step(steps_, count, inputs);
-    steps_ += count;
+    steps_ += game_.step(steps_, count, inputs);
     const Clock::duration spent = Clock::now() - start;
     if (spent > longest_call)
         steps_per_call_ = std::max<std::int64_t>(1, count / 2);

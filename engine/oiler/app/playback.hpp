@@ -7,6 +7,7 @@
 
 #include "oiler/app/game.hpp"
 #include "oiler/app/recorder.hpp"
+#include "oiler/app/tape.hpp"
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/core/profile.hpp"
 
@@ -33,6 +34,9 @@ public:
     /// `step` must not decrease. Where the game replaced its world between them, it is the former.
     [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
     void restart() { game_.restart(); }
+    [[nodiscard]] bool takes_input() const { return game_.takes_input(); }
+    /// Shows the world to a watcher after each step. It must outlive the playback.
+    void watch(StepWatcher& watcher) { watcher_ = &watcher; }
     [[nodiscard]] const Loop& loop() const { return game_.loop(); }
     /// The number of steps that the loop has taken.
     [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -63,6 +67,7 @@ private:
     Recorder& recorder_;
     Keep keep_;
     Profile* profile_;
+    StepWatcher* watcher_ = nullptr;
     std::int64_t steps_ = 0;
     std::int64_t steps_per_call_ = 1;
     std::string tick_hashes_;  ///< four digits for each step, or dots

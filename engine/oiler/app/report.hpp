@@ -23,6 +23,7 @@ struct BudgetEntry {
 
 /// Results of a run that its world does not hold.
 struct RunReport {
+    std::int64_t steps = 0;  ///< of the loop
     std::string_view scene;
     Energy first;
     std::optional<Energy> last{};  ///< empty if the run diverged

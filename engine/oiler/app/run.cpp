@@ -15,6 +15,7 @@
 #include "oiler/app/options.hpp"
 #include "oiler/app/report.hpp"
 #include "oiler/app/script.hpp"
+#include "oiler/app/tape.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/floating_point.hpp"
@@ -24,6 +25,49 @@ namespace oiler {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Who plays: the user in a window, a script, a recording or nobody; and the recording of it.
+class Player {
+public:
+    Player(const Options& options, const About& about, const AnyGame& game) {
+        if (options.replay)
+            replay_.emplace(*options.replay, options.replay_file.string());
+        else if (!options.script.empty())
+            script_.emplace(parse_script(read_text(options.script), options.script.string()), game);
+        if (!options.record.empty())
+            tape_.emplace(source(), options.record,
+                          header_of(about.name, options.settings, about.controls));
+    }
+
+    [[nodiscard]] InputSource& inputs() { return tape_ ? *tape_ : source(); }
+    void watch(Playback& playback) {
+        if (tape_) playback.watch(*tape_);
+        if (replay_) playback.watch(*replay_);
+    }
+    void finish(std::int64_t steps, bool quiet) {
+        if (tape_) tape_->finish(steps);
+        if (script_ && script_->unplayed() > 0)
+            remark(quiet, "{} lines of the script come after the last step", script_->unplayed());
+        if (!replay_) return;
+        const bool whole = steps >= replay_->steps();
+        remark(quiet, "the replay equals the recording: {} of {} steps{}",
+               std::min(steps, replay_->steps()), replay_->steps(),
+               whole && !replay_->complete() ? ", where the program that recorded was killed" : "");
+    }
+
+    LiveInput live;
+
+private:
+    [[nodiscard]] InputSource& source() {
+        if (replay_) return *replay_;
+        if (script_) return *script_;
+        return live;
+    }
+
+    std::optional<ScriptInput> script_;
+    std::optional<Replay> replay_;
+    std::optional<Tape> tape_;
+};
 
 void run_steps(Playback& playback, InputSource& inputs, const Options& options) {
     Progress progress(options.quiet, "steps", *options.steps);
@@ -35,11 +79,11 @@ void run_steps(Playback& playback, InputSource& inputs, const Options& options) 
     }
 }
 
-Played loop(Playback& playback, InputSource* script, const Options& options, const About& about,
+Played loop(Playback& playback, Player& player, const Options& options, const About& about,
             Profile* profile) {
-    if (!options.headless && !options.steps) return run_window(playback, script, options, about);
-    NoInput nobody;
-    InputSource& inputs = script ? *script : nobody;
+    InputSource& inputs = player.inputs();
+    if (!options.headless && !options.steps)
+        return run_window(playback, player.live, inputs, options, about);
     if (!options.steps) return {run_headless(playback, inputs, options, about, profile)};
     run_steps(playback, inputs, options);
     return {Interrupt::requested() ? Exit::interrupted : Exit::done};
@@ -79,18 +123,19 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
 }
 
 /// Plays the game. Completes the report, also after a divergence.
-Exit play(Playback& playback, InputSource* script, const Options& options, const About& about,
+Exit play(Playback& playback, Player& player, const Options& options, const About& about,
           RunReport& report, Profile* profile) {
     const Clock::time_point start = Clock::now();
     Played played;
     try {
-        played = loop(playback, script, options, about, profile);
+        played = loop(playback, player, options, about, profile);
         report.last = playback.world().bodies().energy();
         require_finite(*report.last);
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) throw;
         report.divergence = error.what();
     }
+    report.steps = playback.steps();
     report.dropped = played.dropped;
     report.wall = Clock::now() - start;
     return played.exit;
@@ -101,9 +146,7 @@ Exit play(Playback& playback, InputSource* script, const Options& options, const
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
     const std::unique_ptr<AnyGame> game = make(options.settings);
-    std::optional<ScriptInput> script;
-    if (!options.script.empty())
-        script.emplace(parse_script(read_text(options.script), options.script.string()), *game);
+    Player player(options, about, *game);
     const World& world = game->world();
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
@@ -118,8 +161,10 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
-    Exit exit = play(playback, script ? &*script : nullptr, options, about, report, stages);
+    player.watch(playback);
+    Exit exit = play(playback, player, options, about, report, stages);
     recorder.commit();
+    player.finish(playback.steps(), options.quiet);
     if (profile) write_file(options.profile, profile->to_json());
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace oiler {
 namespace {
 
 using What = ScriptLine::What;
+
+constexpr float farthest = 1e9F;
 
 /// The words of one line, taken from the left.
 class LineWords {
@@ -43,6 +46,9 @@ public:
         const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), number);
         if (error != std::errc() || last != word.data() + word.size())
             refuse(fmt::format("'{}' is no {}", word, what));
+        if constexpr (std::is_floating_point_v<Number>)
+            if (!(std::abs(number) <= farthest))
+                refuse(fmt::format("{} m is farther than {:g} m", word, farthest));
         return number;
     }
     [[noreturn]] void refuse(const std::string& why) const {

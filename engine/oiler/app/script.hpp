@@ -39,6 +39,8 @@ public:
         : lines_(std::move(lines)), game_(game) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
+    /// The number of lines that come after the steps so far.
+    [[nodiscard]] std::size_t unplayed() const { return lines_.size() - played_; }
 
 private:
     void play(const ScriptLine& line);

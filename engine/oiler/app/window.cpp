@@ -37,16 +37,7 @@ private:
     int exponent_ = 0;
 };
 
-/// What the player does in the window. Steps see the camera of the picture that was on screen.
-class LiveInput final : public InputSource {
-public:
-    [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
-
-    InputQueue queue;
-    Camera shown{};
-};
-
-void control(Key key, StepClock& clock, Pace& pace, Playback& playback) {
+void control(Key key, StepClock& clock, Pace& pace, Playback& playback, InputQueue& queue) {
     switch (key) {
         case Key::f3:
             return clock.paused() ? clock.resume() : clock.pause();
@@ -58,7 +49,8 @@ void control(Key key, StepClock& clock, Pace& pace, Playback& playback) {
         case Key::f8:
             return pace.faster();
         case Key::f9:
-            return playback.restart();
+            clock.resume();
+            return playback.takes_input() ? queue.restart() : playback.restart();
         default:
             return;
     }
@@ -102,7 +94,7 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 
 }  // namespace
 
-Played run_window(Playback& playback, InputSource* script, const Options& options,
+Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
                   const About& about) {
     const auto window = open_window(options.size, std::string(about.title));
     Renderer renderer([&](const char* name) { return window->procedure(name); });
@@ -111,8 +103,6 @@ Played run_window(Playback& playback, InputSource* script, const Options& option
 
     StepClock clock(static_cast<int>(options.settings.stepping.rate.steps));
     Pace pace;
-    LiveInput live;
-    InputSource& inputs = script ? *script : live;
     std::vector<Key> loop_keys;
     const int fps = options.fps.value_or(window->refresh_rate());
     for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
@@ -120,7 +110,7 @@ Played run_window(Playback& playback, InputSource* script, const Options& option
         loop_keys.clear();
         const Window::State state = window->poll(live.queue, loop_keys);
         if (state == Window::State::lost) return {Exit::no_display, clock.dropped_time()};
-        for (const Key key : loop_keys) control(key, clock, pace, playback);
+        for (const Key key : loop_keys) control(key, clock, pace, playback, live.queue);
         clock.set_time_scale(pace.numerator(), pace.denominator());
         live.queue.set_paused(clock.paused());
         clock.advance(start);
@@ -131,7 +121,8 @@ Played run_window(Playback& playback, InputSource* script, const Options& option
         show(picture, renderer, *window);
         const bool escaped =
             !uses_escape(about) && std::ranges::find(loop_keys, Key::escape) != loop_keys.end();
-        const bool last = options.frames && frame + 1 >= *options.frames;
+        const bool last = (options.frames && frame + 1 >= *options.frames) ||
+                          (options.replay && playback.steps() >= options.replay->steps);
         if (state == Window::State::closed || escaped || last || playback.loop().quits()) break;
         limit_frame_rate(start, fps);
     }

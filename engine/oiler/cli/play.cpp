@@ -23,7 +23,10 @@ public:
     SceneGame(const Scene& scene, const Settings& settings)
         : scene_(scene), world_(make_world(scene, settings)), camera_(camera_of(scene, world_)) {}
 
-    void step(std::int64_t, std::int64_t count, InputSource&) override { world_.step(count); }
+    std::int64_t step(std::int64_t, std::int64_t count, InputSource&) override {
+        world_.step(count);
+        return count;
+    }
     void restart() override {
         world_ = make_world(scene_, world_.settings());
         ++cuts_;

@@ -32,6 +32,8 @@ struct Pointer {
     friend bool operator==(const Pointer&, const Pointer&) = default;
 };
 
+struct InputEvent;
+
 /// What a player did in one fixed step. It is a plain value: a step is a pure function of state and
 /// input, and a recording is a list of inputs.
 ///
@@ -75,12 +77,14 @@ public:
     [[nodiscard]] int wheel() const { return wheel_; }
     /// Text entered since the last step, UTF-8, while Loop::text_input is on.
     [[nodiscard]] std::string_view text() const { return text_; }
+    /// Whether the loop makes the game anew before this step.
+    [[nodiscard]] bool restarts() const { return restarts_; }
 
     friend bool operator==(const Input&, const Input&) = default;
 
 private:
     friend class InputQueue;
-    friend class InputCodec;
+    friend std::vector<InputEvent> events_between(const Input& before, const Input& now);
 
     [[nodiscard]] int count(const Buttons& buttons, bool down) const;
     [[nodiscard]] const Control* chosen(std::string_view name) const;
@@ -92,6 +96,7 @@ private:
     std::optional<Pointer> pointer_;
     int wheel_ = 0;
     std::string text_;
+    bool restarts_ = false;
     std::shared_ptr<const std::vector<Control>> controls_;  ///< chosen by the player, if any
 };
 

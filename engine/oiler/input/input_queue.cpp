@@ -72,6 +72,7 @@ Input InputQueue::take(const Camera& shown) {
     next_.edges_ = std::move(late);
     next_.wheel_ = 0;
     next_.text_.clear();
+    next_.restarts_ = false;
     return input;
 }
 

@@ -32,6 +32,8 @@ public:
     void enter(std::string_view text) {
         if (!paused_) next_.text_ += text;
     }
+    /// Makes the game anew before the next step.
+    void restart() { next_.restarts_ = true; }
     /// While the loop is paused, taps are dropped: the next step sees a press of a button only if
     /// it is still down.
     void set_paused(bool paused);

@@ -117,12 +117,15 @@ std::size_t World::row(Entity entity) const {
 }
 
 Entity World::entity_of_row(std::size_t row) const {
-    require(row < rows_.size() && rows_[row] != SlotSet::absent, "there is no body in this row");
+    require(row < rows_.size() && rows_[row] != SlotSet::absent,
+            "there is no body in this row, or it was removed in this each");
     return {rows_[row], slots_.generation(rows_[row])};
 }
 
 void World::refuse(const char* call, const Error& error) const {
-    fail(error.exit(), "{} at tick {}: {}", call, tick_, error.what());
+    // Before the first step, a number was written, not computed.
+    const bool computed = tick_ > 0 && dynamic_cast<const NotFinite*>(&error);
+    fail(computed ? Exit::diverged : error.exit(), "{} at tick {}: {}", call, tick_, error.what());
 }
 
 void World::refuse(const char* call, Entity entity, const Error& error) const {
@@ -222,8 +225,8 @@ std::int64_t World::ticks_in(double seconds) const {
     const double steps =
         seconds * static_cast<double>(rate.steps) / static_cast<double>(rate.seconds);
     if (!(steps >= 0 && steps < 0x1p62))
-        fail(Exit::usage, "schedule of {} s at tick {}: give a finite time, 0 or more", seconds,
-             tick_);
+        fail(std::isfinite(seconds) ? Exit::usage : Exit::diverged,
+             "schedule of {} s at tick {}: give a finite time, 0 or more", seconds, tick_);
     // 0.7 s at 10 Hz are 7 ticks, though the product is a little more.
     return static_cast<std::int64_t>(std::ceil(steps * (1 - 0x1p-50)));
 }

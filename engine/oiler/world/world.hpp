@@ -242,9 +242,11 @@ public:
     void schedule(double seconds, T message) {
         timers<T>().add(tick_ + ticks_in(seconds), std::move(message));
     }
-    /// Calls f(message) for the messages of this type that are due, the earliest first.
+    /// Calls f(message) for the messages of this type that are due, the earliest first. Like
+    /// `each`, it is a visit.
     template <class T, class F>
     void due(F&& f) {
+        const Visit visit(*this);
         for (T& message : timers<T>().take_due(tick_)) f(message);
     }
     /// The random numbers of the world, from the seed of its settings.

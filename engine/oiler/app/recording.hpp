@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "oiler/input/input_event.hpp"
+#include "oiler/physics/stepping.hpp"
+#include "oiler/world/world.hpp"
+
+namespace oiler {
+
+/// All that decides how a game goes on, besides its input.
+struct RecordingHeader {
+    std::string game;
+    std::string version;  ///< of Oiler
+    Stepping stepping;
+    std::uint64_t seed = 0;
+    std::vector<std::string> controls;  ///< the names of the game's actions and axes
+
+    friend bool operator==(const RecordingHeader&, const RecordingHeader&) = default;
+};
+[[nodiscard]] RecordingHeader header_of(std::string_view game, const Settings& settings,
+                                        std::span<const Control> controls);
+
+/// The last 16 bits of the hashes of a world: what differs when they do is known by the part.
+struct PartHashes {
+    std::uint16_t bodies = 0;
+    std::uint16_t whole = 0;
+    friend bool operator==(const PartHashes&, const PartHashes&) = default;
+};
+[[nodiscard]] PartHashes part_hashes(const World& world);
+
+/// Writes a recording: a line "OILERREC 1", a line of JSON, and chunks of records. A chunk is
+/// written at least once per second of play, so that a killed program leaves a recording up to
+/// there. A chunk has its size (4 bytes), the XXH3 hash of its records (8 bytes), and records: the
+/// steps since the last record, a byte that names the kind, and numbers. engine/README.md lists
+/// them.
+class RecordingWriter {
+public:
+    /// Throws Error{io}.
+    RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
+
+    /// Records the input of a step, before it.
+    void add(std::int64_t step, const Input& input);
+    /// Records the hashes after that step: of each step, or of the last in each second for a world
+    /// with more than 1000 bodies.
+    void add_state(std::int64_t step, const World& world);
+    /// Completes the file after `steps` steps.
+    void finish(std::int64_t steps);
+
+private:
+    void begin_record(std::int64_t step);
+    void write_chunk();
+
+    std::filesystem::path path_;
+    std::ofstream file_;
+    std::int64_t steps_per_second_;
+    std::string records_;
+    std::int64_t last_step_ = 0;
+    std::int64_t chunk_step_ = 0;
+    Input before_;
+};
+
+/// A recording as it was read.
+struct Recording {
+    struct Event {
+        std::int64_t step;
+        InputEvent event;
+    };
+    RecordingHeader header;
+    std::vector<Event> events;
+    std::map<std::int64_t, PartHashes> states;  ///< after a step
+    std::int64_t steps = 0;
+    bool complete = false;  ///< false: the program that recorded was killed
+};
+
+/// Throws Error{usage} with the reason for a file that is no recording, or a damaged one.
+[[nodiscard]] Recording read_recording(const std::filesystem::path& path);
+/// Throws Error{usage} if another game, version or table of controls was recorded.
+void require_same_game(const RecordingHeader& recorded, const RecordingHeader& now,
+                       bool other_version_too);
+
+}  // namespace oiler

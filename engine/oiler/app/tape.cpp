@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/tape.hpp"
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+
+Input Replay::next(std::int64_t step) {
+    const auto& events = recording_.events;
+    for (; played_ < events.size() && events[played_].step <= step; ++played_)
+        player_.play(events[played_].event);
+    return player_.take();
+}
+
+void Replay::after(std::int64_t step, const World& world) {
+    const auto recorded = recording_.states.find(step);
+    if (recorded == recording_.states.end()) return;
+    const PartHashes now = part_hashes(world);
+    if (now == recorded->second) {
+        equal_until_ = step;
+        return;
+    }
+    const bool in_bodies = now.bodies != recorded->second.bodies;
+    fail(Exit::comparison_failed,
+         "{}: the replay differs in {} after step {}; it is equal after {}", name_,
+         in_bodies ? "the bodies" : "components, timers or random numbers", step + 1,
+         equal_until_ + 1);
+}
+
+}  // namespace oiler

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "oiler/app/input_source.hpp"
+#include "oiler/app/recording.hpp"
+
+namespace oiler {
+
+/// Looks at the world after each step.
+class StepWatcher {
+public:
+    virtual ~StepWatcher() = default;
+    /// `step` is the number of the step that was taken, from 0.
+    virtual void after(std::int64_t step, const World& world) = 0;
+};
+
+/// Records what a source of input hands out.
+class Tape final : public InputSource, public StepWatcher {
+public:
+    Tape(InputSource& inputs, const std::filesystem::path& path, const RecordingHeader& header)
+        : inputs_(inputs), writer_(path, header) {}
+
+    [[nodiscard]] Input next(std::int64_t step) override {
+        Input input = inputs_.next(step);
+        writer_.add(step, input);
+        return input;
+    }
+    void after(std::int64_t step, const World& world) override { writer_.add_state(step, world); }
+    void finish(std::int64_t steps) { writer_.finish(steps); }
+
+private:
+    InputSource& inputs_;
+    RecordingWriter writer_;
+};
+
+/// Plays a recording, and compares the world with it after each step.
+class Replay final : public InputSource, public StepWatcher {
+public:
+    Replay(const Recording& recording, std::string name)
+        : recording_(recording), name_(std::move(name)) {}
+
+    [[nodiscard]] Input next(std::int64_t step) override;
+    /// Throws Error{comparison_failed} with the first step that differs, and in which part.
+    void after(std::int64_t step, const World& world) override;
+    [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
+    [[nodiscard]] bool complete() const { return recording_.complete; }
+
+private:
+    const Recording& recording_;
+    std::string name_;
+    EventPlayer player_;
+    std::size_t played_ = 0;
+    std::int64_t equal_until_ = -1;
+};
+
+}  // namespace oiler
