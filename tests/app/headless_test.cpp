@@ -40,7 +40,7 @@ protected:
         Playback playback(game, none, Keep::hashes);
         About about = Walker::about;
         about.duration = seconds;
-        NoInput nobody;
+        LiveInput nobody;
         EXPECT_EQ(run_headless(playback, nobody, options, about, nullptr), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);

@@ -124,7 +124,7 @@ TEST(Playback, DoesNotInterpolateATeleport) {
     AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}}};
     Recorder none{{}, {}, game.world()};
     Playback playback{game, none, Keep::nothing};
-    NoInput input;
+    LiveInput input;
     for (int i = 0; i < 40; ++i) {
         const double t = 0.1 * i;
         const auto tick = static_cast<std::int64_t>(t + 1e-9);
@@ -217,7 +217,7 @@ struct Thrower : Walker {
 TEST(Playback, AnExceptionOfAGameNamesTheTick) {
     AnyGameOf<Thrower> game{Settings{.stepping = {.rate = {1}}}};
     Recorder none{{}, {}, game.world()};
-    NoInput input;
+    LiveInput input;
     try {
         Playback(game, none, Keep::nothing).step_to(10, input);
         FAIL() << "nothing thrown";
@@ -231,7 +231,7 @@ TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}}};
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};
     Recorder none{{}, {}, together.world()};
-    NoInput input;
+    LiveInput input;
     Playback(together, none, Keep::nothing).step_to(10'000, input);
     for (int i = 0; i < 10'000; ++i) single.step(i, 1, input);
     EXPECT_EQ(together.world().tick(), 10'000);
@@ -262,7 +262,7 @@ private:
 TEST(Playback, SlowStepsShareNoLongCall) {
     Sluggish game;
     Recorder none{{}, {}, game.world()};
-    NoInput input;
+    LiveInput input;
     game.time_of_step = std::chrono::milliseconds(1);
     Playback(game, none, Keep::nothing).step_to(40, input);
     EXPECT_LE(*std::max_element(game.calls.begin(), game.calls.end()), 8);
@@ -273,7 +273,7 @@ TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
     Sluggish game;
     Recorder none{{}, {}, game.world()};
     Playback playback(game, none, Keep::nothing);
-    NoInput input;
+    LiveInput input;
     playback.step_to(100'000, input);
     EXPECT_GT(*std::max_element(game.calls.begin(), game.calls.end()), 100);
     game.time_of_step = std::chrono::microseconds(100);

@@ -28,10 +28,4 @@ public:
     Camera shown{};
 };
 
-/// Nobody plays.
-class NoInput final : public InputSource {
-public:
-    [[nodiscard]] Input next(std::int64_t) override { return {}; }
-};
-
 }  // namespace oiler
