@@ -9,7 +9,7 @@ namespace oiler {
 /// Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 class Random {
 public:
-    explicit constexpr Random(std::uint64_t seed) : state_(seed) {}
+    explicit constexpr Random(std::uint64_t start) : state_(start) {}
 
     [[nodiscard]] constexpr std::uint64_t next() {
         state_ += 0x9e3779b97f4a7c15;
