@@ -194,6 +194,16 @@ TEST(Timers, AreDueAfterTheirTimeRoundedUpToATick) {
     EXPECT_EQ(due, (std::vector<int>{0, 3, 4, 7}));
 }
 
+// 0.14·50 is 7.000000000000001 in double.
+TEST(Timers, AreNotLateByRoundOff) {
+    World world(1, {.rate = {50}});
+    world.schedule(0.14, Health{1});
+    world.step(7);
+    int due = 0;
+    world.due<Health>([&](const Health&) { ++due; });
+    EXPECT_EQ(due, 1);
+}
+
 TEST(Timers, AreCopiedAndMayBeSetAgainWhenDue) {
     World world(1, {.rate = {10}});
     world.schedule(0.1, Health{1});

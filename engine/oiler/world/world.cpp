@@ -227,7 +227,7 @@ std::int64_t World::ticks_in(double seconds) const {
     if (!(steps >= 0 && steps < 0x1p62))
         fail(std::isfinite(seconds) ? Exit::usage : Exit::diverged,
              "schedule of {} s at tick {}: give a finite time, 0 or more", seconds, tick_);
-    // 0.7 s at 10 Hz are 7 ticks, though the product is a little more.
+    // 0.14 s at 50 Hz are 7 ticks, though the product is a little more.
     return static_cast<std::int64_t>(std::ceil(steps * (1 - 0x1p-50)));
 }
 
