@@ -120,7 +120,7 @@ TEST(Atlas, IsClearedIfFullBeforeEachPicture) {
     Layout layout;
     int largest = 0;
     for (float size = 200; size < 260; ++size) {
-        lay_out(of_letters(size), {640, 360}, glyphs, layout);
+        lay_out(of_letters(size), 0, {640, 360}, glyphs, layout);
         largest = std::max(largest, glyphs.atlas_height());
     }
     EXPECT_GT(largest, full) << "the atlas was never full";

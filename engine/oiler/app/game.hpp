@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "oiler/app/input_source.hpp"
+#include "oiler/app/look.hpp"
 #include "oiler/app/loop.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
@@ -30,17 +31,6 @@ struct About {
     std::span<const Control> controls{};  ///< the actions and axes of the game
 };
 
-/// The key of an entity's element in a picture. `part` distinguishes several elements of one
-/// entity. Motion by `world.teleport` is not interpolated.
-[[nodiscard]] inline ElementKey key_of(const World& world, Entity entity, std::uint32_t part = 0) {
-    return {.object = entity.id(), .part = part, .jump = world.jumps(entity)};
-}
-
-/// x and y of a vector, for a picture.
-[[nodiscard]] inline Point to_point(const Vec3& v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1])};
-}
-
 template <class G>
 concept UpdatesLoop = requires(G game, const Input& input, Loop& loop) {
     game.update(input, loop);
@@ -50,24 +40,44 @@ concept Updates = UpdatesLoop<G> || requires(G game, const Input& input) {
     game.update(input);
 };
 
+template <class G>
+concept Draws = requires(const G& game) {
+    { game.picture() } -> std::same_as<Picture>;
+};
+template <class G>
+concept HasCamera = requires(const G& game) {
+    { (game.camera) } -> std::same_as<const Camera&>;
+};
+
 namespace detail {
 
-struct NameOfUpdate {
+struct NamesOfMembers {
     void update();
+    void picture();
+    void camera();
 };
-/// If G has any member `update`, even a private one, the name is ambiguous here.
+/// If G has any member of such a name, even a private one, the name is ambiguous here.
 template <class G>
-struct WithUpdate : G, NameOfUpdate {};
+struct WithMembers : G, NamesOfMembers {};
 template <class G>
 concept MentionsUpdate = !requires {
-    &WithUpdate<G>::update;
+    &WithMembers<G>::update;
+};
+template <class G>
+concept MentionsPicture = !requires {
+    &WithMembers<G>::picture;
+};
+template <class G>
+concept MentionsCamera = !requires {
+    &WithMembers<G>::camera;
 };
 
 }  // namespace detail
 
-/// Checks that G is a game: a value with a constructor from settings, a world and a picture, see
-/// the asserts. The loop calls `update`, if there is one, before each step. A game without `update`
-/// takes many steps per call if no frame is drawn between them.
+/// Checks that G is a game: a value with a constructor from settings and a world, see the asserts.
+/// The loop calls `update`, if there is one, before each step. A game without `update` takes many
+/// steps per call if no frame is drawn between them. A game without `picture` is drawn by
+/// draw_looks, through its `camera`, if it has one.
 template <class G>
 consteval bool check_game() {
     static_assert(
@@ -80,11 +90,10 @@ consteval bool check_game() {
             { (game.world) } -> std::same_as<World&>;
         },
         "a game has a public member: World world");
-    static_assert(
-        requires(const G& game) {
-            { game.picture() } -> std::same_as<Picture>;
-        },
-        "a game has: Picture picture() const");
+    static_assert(Draws<G> || !detail::MentionsPicture<G>,
+                  "a game's picture is public: Picture picture() const");
+    static_assert(Draws<G> || HasCamera<G> || !detail::MentionsCamera<G>,
+                  "the camera of a game without picture() is public: Camera camera");
     static_assert(
         Updates<G> || !detail::MentionsUpdate<G>,
         "a game's update is public: void update(const Input&), or with a second argument, Loop&");
@@ -173,7 +182,15 @@ public:
     [[nodiscard]] bool takes_input() const override { return Updates<G>; }
     [[nodiscard]] const World& world() const override { return game_.world; }
     [[nodiscard]] Picture picture() const override {
-        return guarded([] { return "picture"; }, [&] { return game_.picture(); });
+        return guarded([] { return "picture"; },
+                       [&] {
+                           if constexpr (Draws<G>)
+                               return game_.picture();
+                           else if constexpr (HasCamera<G>)
+                               return draw_looks(game_.world, game_.camera);
+                           else
+                               return draw_looks(game_.world, {});
+                       });
     }
 
 private:

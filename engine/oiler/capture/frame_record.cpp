@@ -19,24 +19,52 @@ Json json_of(Point point) { return Json::array({point.x, point.y}); }
 
 Json json_of(Colour colour) { return Json::array({colour.r, colour.g, colour.b, colour.a}); }
 
+const char* name_of(Space space) { return space == Space::world ? "world" : "canvas"; }
+
 Json json_of(const ElementKey& key) { return Json::array({key.object, key.part, key.jump}); }
 
 /// The members that all kinds of elements share.
 template <class Element>
 Json json_of_common(const Element& element) {
-    return {{"key", json_of(element.key)},
-            {"space", element.space == Space::world ? "world" : "canvas"},
-            {"colour", json_of(element.colour)}};
+    Json json{{"key", json_of(element.key)},
+              {"space", name_of(element.space)},
+              {"colour", json_of(element.colour)}};
+    if (element.layer != 0) json["layer"] = element.layer;
+    return json;
+}
+
+Json json_of(const std::vector<Point>& points) {
+    Json json = Json::array();
+    for (const Point point : points) {
+        json.push_back(point.x);
+        json.push_back(point.y);
+    }
+    return json;
+}
+
+/// The texels are not recorded: `bitmap` is their hash.
+Json json_of(const Sprite& sprite) {
+    Json json = json_of_common(sprite);
+    json["centre"] = json_of(sprite.centre);
+    json["size"] = json_of(sprite.size);
+    json["angle"] = sprite.angle;
+    json["smooth"] = sprite.is_smooth;
+    json["bitmap"] = sprite.bitmap ? sprite.bitmap->hash : 0;
+    return json;
+}
+
+Json json_of(const Polygon& polygon) {
+    Json json = json_of_common(polygon);
+    json["points"] = json_of(polygon.points);
+    json["outline"] = polygon.outline;
+    json["outline_colour"] = json_of(polygon.outline_colour);
+    return json;
 }
 
 Json json_of(const Polyline& line) {
     Json json = json_of_common(line);
     json["width"] = line.width;
-    Json& points = json["points"] = Json::array();
-    for (const Point point : line.points) {
-        points.push_back(point.x);
-        points.push_back(point.y);
-    }
+    json["points"] = json_of(line.points);
     return json;
 }
 
@@ -53,6 +81,7 @@ Json json_of(const Label& label) {
     json["text"] = label.text;
     json["size"] = label.size;
     json["align"] = static_cast<int>(label.align);
+    if (label.size_in != Space::canvas) json["size_in"] = name_of(label.size_in);
     return json;
 }
 
@@ -71,9 +100,14 @@ Json json_of_all(const std::vector<Element>& elements) {
 }
 
 Json json_of(const Picture& picture) {
-    return {{"background", json_of(picture.background)}, {"centre", json_of(picture.camera.centre)},
-            {"height", picture.camera.height},           {"lines", json_of_all(picture.polylines)},
-            {"discs", json_of_all(picture.discs)},       {"labels", json_of_all(picture.labels)}};
+    Json json{
+        {"background", json_of(picture.background)}, {"centre", json_of(picture.camera.centre)},
+        {"height", picture.camera.height},           {"lines", json_of_all(picture.polylines)},
+        {"discs", json_of_all(picture.discs)},       {"labels", json_of_all(picture.labels)}};
+    if (picture.has_bars) json["bars"] = true;
+    if (!picture.sprites.empty()) json["sprites"] = json_of_all(picture.sprites);
+    if (!picture.polygons.empty()) json["polygons"] = json_of_all(picture.polygons);
+    return json;
 }
 
 /// JSON has neither infinities nor NaN: they are null.
@@ -86,22 +120,49 @@ Point to_point(const Parsed& json) { return {to_number(json.at(0)), to_number(js
 
 Colour to_colour(const Parsed& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
 
+Space to_space(const Parsed& json) { return json == "world" ? Space::world : Space::canvas; }
+
+std::vector<Point> to_points(const Parsed& json) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i + 1 < json.size(); i += 2)
+        points.push_back({to_number(json[i]), to_number(json[i + 1])});
+    return points;
+}
+
 template <class Element>
 Element to_common(const Parsed& json) {
     Element element;
     const Parsed& key = json.at("key");
     element.key = {.object = key.at(0), .part = key.at(1), .jump = key.at(2)};
-    element.space = json.at("space") == "world" ? Space::world : Space::canvas;
+    element.space = to_space(json.at("space"));
     element.colour = to_colour(json.at("colour"));
+    element.layer = json.value("layer", 0);
     return element;
+}
+
+Sprite to_sprite(const Parsed& json) {
+    auto sprite = to_common<Sprite>(json);
+    sprite.centre = to_point(json.at("centre"));
+    sprite.size = to_point(json.at("size"));
+    sprite.angle = to_number(json.at("angle"));
+    sprite.is_smooth = json.at("smooth");
+    sprite.bitmap =
+        std::make_shared<const Bitmap>(Bitmap{.size = {}, .rgba = {}, .hash = json.at("bitmap")});
+    return sprite;
+}
+
+Polygon to_polygon(const Parsed& json) {
+    auto polygon = to_common<Polygon>(json);
+    polygon.points = to_points(json.at("points"));
+    polygon.outline = to_number(json.at("outline"));
+    polygon.outline_colour = to_colour(json.at("outline_colour"));
+    return polygon;
 }
 
 Polyline to_line(const Parsed& json) {
     auto line = to_common<Polyline>(json);
     line.width = to_number(json.at("width"));
-    const Parsed& points = json.at("points");
-    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
-        line.points.push_back({to_number(points[i]), to_number(points[i + 1])});
+    line.points = to_points(json.at("points"));
     return line;
 }
 
@@ -118,6 +179,7 @@ Label to_label(const Parsed& json) {
     label.text = json.at("text");
     label.size = to_number(json.at("size"));
     label.align = static_cast<Align>(json.at("align").get<std::uint8_t>());
+    label.size_in = to_space(json.value("size_in", "canvas"));
     return label;
 }
 
@@ -136,6 +198,11 @@ FrameRecord to_record(const Parsed& json) {
     const Parsed& picture = json.at("picture");
     record.picture.background = to_colour(picture.at("background"));
     record.picture.camera = {to_point(picture.at("centre")), to_number(picture.at("height"))};
+    record.picture.has_bars = picture.value("bars", false);
+    for (const Parsed& sprite : picture.value("sprites", Parsed::array()))
+        record.picture.sprites.push_back(to_sprite(sprite));
+    for (const Parsed& polygon : picture.value("polygons", Parsed::array()))
+        record.picture.polygons.push_back(to_polygon(polygon));
     for (const Parsed& line : picture.at("lines"))
         record.picture.polylines.push_back(to_line(line));
     for (const Parsed& disc : picture.at("discs")) record.picture.discs.push_back(to_disc(disc));
@@ -147,7 +214,8 @@ FrameRecord to_record(const Parsed& json) {
 }  // namespace
 
 bool is_recordable(std::size_t bodies, const Picture& picture) {
-    std::size_t points = picture.discs.size() + picture.labels.size();
+    std::size_t points = picture.sprites.size() + picture.discs.size() + picture.labels.size();
+    for (const Polygon& polygon : picture.polygons) points += polygon.points.size();
     for (const Polyline& line : picture.polylines) points += line.points.size();
     return bodies <= most_bodies_recorded && points <= most_points_recorded;
 }

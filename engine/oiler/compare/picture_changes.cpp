@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "oiler/core/state_hash.hpp"
 
 namespace oiler {
 namespace {
@@ -20,7 +23,7 @@ struct Element {
     std::vector<Point> points;
     float extent = 0;  ///< width, radius or size
     std::string text{};
-    Align align = Align::left;
+    int placing = 0;  ///< layer, alignment and the like
     friend bool operator==(const Element&, const Element&) = default;
 };
 
@@ -28,34 +31,49 @@ struct Kind {
     const char* name;    ///< of one element
     const char* extent;  ///< name of its extent
 };
+constexpr Kind sprite_kind{"sprite", "angle"};
+constexpr Kind polygon_kind{"polygon", "outline"};
 constexpr Kind line_kind{"line", "width"};
 constexpr Kind disc_kind{"disc", "radius"};
 constexpr Kind label_kind{"label", "size"};
 
-std::vector<Element> elements_of(const std::vector<Polyline>& lines) {
-    std::vector<Element> elements;
-    for (const Polyline& line : lines)
-        elements.push_back({line.key, line.space, line.colour, line.points, line.width});
-    return elements;
+template <class Shape>
+Element element_of(const Shape& shape, std::vector<Point> points, float extent) {
+    return {.key = shape.key,
+            .space = shape.space,
+            .colour = shape.colour,
+            .points = std::move(points),
+            .extent = extent,
+            .placing = shape.layer * 256};
 }
 
-std::vector<Element> elements_of(const std::vector<Disc>& discs) {
-    std::vector<Element> elements;
-    for (const Disc& disc : discs)
-        elements.push_back({disc.key, disc.space, disc.colour, {disc.centre}, disc.radius});
-    return elements;
+Element element_of(const Sprite& sprite) {
+    Element element = element_of(sprite, {sprite.centre, sprite.size}, sprite.angle);
+    element.text = hash_text(sprite.bitmap ? sprite.bitmap->hash : 0);
+    element.placing += sprite.is_smooth ? 1 : 0;
+    return element;
+}
+Element element_of(const Polygon& polygon) {
+    Element element = element_of(polygon, polygon.points, polygon.outline);
+    const Colour outline = polygon.outline_colour;
+    if (outline != Colour{})
+        element.text = fmt::format("outline #{:02x}{:02x}{:02x}{:02x}", outline.r, outline.g,
+                                   outline.b, outline.a);
+    return element;
+}
+Element element_of(const Polyline& line) { return element_of(line, line.points, line.width); }
+Element element_of(const Disc& disc) { return element_of(disc, {disc.centre}, disc.radius); }
+Element element_of(const Label& label) {
+    Element element = element_of(label, {label.at}, label.size);
+    element.text = label.text;
+    element.placing += static_cast<int>(label.align) + 16 * static_cast<int>(label.size_in);
+    return element;
 }
 
-std::vector<Element> elements_of(const std::vector<Label>& labels) {
+template <class Shape>
+std::vector<Element> elements_of(const std::vector<Shape>& shapes) {
     std::vector<Element> elements;
-    for (const Label& label : labels)
-        elements.push_back({label.key,
-                            label.space,
-                            label.colour,
-                            {label.at},
-                            label.size,
-                            label.text,
-                            label.align});
+    for (const Shape& shape : shapes) elements.push_back(element_of(shape));
     return elements;
 }
 
@@ -224,7 +242,9 @@ void compare_kind(const Kind& kind, const std::vector<Shape>& golden_shapes,
         });
     report.add(
         matches.changed,
-        [](const Element& a, const Element& b) { return a.align != b.align || a.space != b.space; },
+        [](const Element& a, const Element& b) {
+            return a.placing != b.placing || a.space != b.space;
+        },
         [](const std::vector<Pair>&) { return std::string(" placed in another way"); });
     if (matches.missing.empty() && matches.added.empty() && matches.changed.empty())
         report.append(fmt::format("{}s in another order", kind.name));
@@ -248,6 +268,13 @@ std::string describe_picture_change(const Picture& golden, const Picture& actual
             fmt::format("{}camera: height {} → {} m", separator(), before.height, after.height);
     const float pixels_per_unit = std::min(static_cast<float>(size.width) / canvas_width,
                                            static_cast<float>(size.height) / canvas_height);
+    if (golden.has_bars != actual.has_bars)
+        words += fmt::format("{}bars beside the canvas {}", separator(),
+                             actual.has_bars ? "new" : "missing");
+    compare_kind(sprite_kind, golden.sprites, actual.sprites, golden, actual, pixels_per_unit,
+                 words);
+    compare_kind(polygon_kind, golden.polygons, actual.polygons, golden, actual, pixels_per_unit,
+                 words);
     compare_kind(line_kind, golden.polylines, actual.polylines, golden, actual, pixels_per_unit,
                  words);
     compare_kind(disc_kind, golden.discs, actual.discs, golden, actual, pixels_per_unit, words);

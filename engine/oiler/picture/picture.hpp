@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "oiler/picture/bitmap.hpp"
 
 namespace oiler {
 
@@ -23,7 +26,8 @@ struct Colour {
 };
 
 /// The canvas is a box of 640 × 360 units, origin at its lower left, y up. It is centred in the
-/// frame, always wholly visible, and as large as possible. One unit is a pixel at 640 × 360.
+/// frame, always wholly visible, and as large as possible. One unit is a pixel at 640 × 360. What
+/// a frame of another shape shows beside it, `Picture::has_bars` decides.
 inline constexpr float canvas_width = 640;
 inline constexpr float canvas_height = 360;
 
@@ -43,12 +47,28 @@ struct ElementKey {
     friend bool operator==(const ElementKey&, const ElementKey&) = default;
 };
 
-struct Disc {
+/// An image.
+struct Sprite {
     ElementKey key{};
     Point centre{};
-    float radius = 1;  ///< in the element's space
-    Colour colour{};
+    Point size{1, 1};  ///< width and height in the element's space
+    std::shared_ptr<const Bitmap> bitmap{};
+    float angle = 0;                    ///< rad, counter-clockwise
+    Colour colour{255, 255, 255, 255};  ///< a tint: the bitmap's colours are multiplied by it
     Space space = Space::world;
+    int layer = 0;
+    bool is_smooth = true;  ///< false: magnified texels have sharp edges, as in pixel art
+};
+
+/// A filled area whose outline does not cross itself.
+struct Polygon {
+    ElementKey key{};
+    std::vector<Point> points{};
+    Colour colour{};
+    float outline = 0;  ///< width of the outline in units of the canvas; 0: none
+    Colour outline_colour{};
+    Space space = Space::world;
+    int layer = 0;
 };
 
 struct Polyline {
@@ -57,6 +77,16 @@ struct Polyline {
     float width = 1;  ///< always in units of the canvas
     Colour colour{};
     Space space = Space::world;
+    int layer = 0;
+};
+
+struct Disc {
+    ElementKey key{};
+    Point centre{};
+    float radius = 1;  ///< in the element's space
+    Colour colour{};
+    Space space = Space::world;
+    int layer = 0;
 };
 
 enum class Align : std::uint8_t { left, centre, right };
@@ -67,10 +97,12 @@ struct Label {
     ElementKey key{};
     Point at{};
     std::string text{};  ///< UTF-8
-    float size = 12;     ///< height of the font in units of the canvas
+    float size = 12;     ///< height of the font in units of `size_in`
     Colour colour{};
     Align align = Align::left;
     Space space = Space::canvas;
+    Space size_in = Space::canvas;
+    int layer = 0;
 };
 
 /// The canvas shows `height` metres of the world around `centre`.
@@ -80,23 +112,33 @@ struct Camera {
 
     [[nodiscard]] Point to_canvas(Point world) const;
     [[nodiscard]] Point to_world(Point canvas) const;
+    /// Moves the centre towards a target: to half of the distance within `half_life` s, whatever
+    /// the timestep `dt`, s, is. A half-life of 0 moves it there at once.
+    void follow(Point target, double half_life, double dt);
+    /// Multiplies the height by a factor; `fixed`, a point of the world, stays where it is seen.
+    void zoom(float factor, Point fixed);
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// A frame as a value: a renderer draws it, a test compares it, the loop interpolates it between
-/// two steps. Polylines are drawn first, then discs, then labels, each in the order of its list.
+/// two steps. Higher layers are drawn over lower ones; in a layer sprites come first, then
+/// polygons, polylines, discs and labels, each in the order of its list. Elements with a number
+/// that is not finite are not drawn; polylines have a gap there.
 struct Picture {
     Colour background{255, 255, 255, 255};
     Camera camera{};
+    std::vector<Sprite> sprites{};
+    std::vector<Polygon> polygons{};
     std::vector<Polyline> polylines{};
     std::vector<Disc> discs{};
     std::vector<Label> labels{};
+    bool has_bars = false;  ///< black beside the canvas; false: more of the world
 };
 
 /// Interpolates between the pictures of two steps, for display only: `before` at alpha 0, `after`
 /// at 1. Elements of the same kind and key move on straight lines. New, removed and teleported
 /// elements change when alpha reaches 1. A polyline with new points at its end (a trail) grows out
-/// of its last point.
+/// of its last point; a polygon with another number of points changes at 1.
 [[nodiscard]] Picture between(const Picture& before, const Picture& after, float alpha);
 
 }  // namespace oiler

@@ -30,19 +30,40 @@ void add_key(StateHash& hash, const ElementKey& key, Space space) {
     add_words(hash, key.object, key.object >> 32U, key.part, key.jump, space);
 }
 
+template <class Element>
+void add_key(StateHash& hash, const Element& element) {
+    add_key(hash, element.key, element.space);
+    if (element.layer != 0) add_words(hash, element.layer);
+}
+
+void add(StateHash& hash, const Sprite& sprite) {
+    add_key(hash, sprite);
+    add_words(hash, bits(sprite.centre.x), bits(sprite.centre.y), bits(sprite.size.x),
+              bits(sprite.size.y), bits(sprite.angle), bits(sprite.colour), sprite.is_smooth);
+    hash.add(sprite.bitmap ? sprite.bitmap->hash : 0);
+}
+
+void add(StateHash& hash, const Polygon& polygon) {
+    add_key(hash, polygon);
+    add_words(hash, bits(polygon.colour), bits(polygon.outline), bits(polygon.outline_colour),
+              polygon.points.size());
+    hash.add(std::as_bytes(std::span(polygon.points)));
+}
+
 void add(StateHash& hash, const Polyline& line) {
-    add_key(hash, line.key, line.space);
+    add_key(hash, line);
     add_words(hash, bits(line.width), bits(line.colour), line.points.size());
     hash.add(std::as_bytes(std::span(line.points)));
 }
 
 void add(StateHash& hash, const Disc& disc) {
-    add_key(hash, disc.key, disc.space);
+    add_key(hash, disc);
     add_words(hash, bits(disc.centre.x), bits(disc.centre.y), bits(disc.radius), bits(disc.colour));
 }
 
 void add(StateHash& hash, const Label& label) {
-    add_key(hash, label.key, label.space);
+    add_key(hash, label);
+    if (label.size_in != Space::canvas) add_words(hash, label.size_in);
     add_words(hash, bits(label.at.x), bits(label.at.y), bits(label.size), bits(label.colour),
               label.align, label.text.size());
     hash.add(std::as_bytes(std::span(label.text)));
@@ -63,6 +84,9 @@ std::uint64_t hash_of(const Picture& picture) {
     add_all(hash, picture.polylines);
     add_all(hash, picture.discs);
     add_all(hash, picture.labels);
+    if (!picture.sprites.empty()) add_all(hash, picture.sprites);
+    if (!picture.polygons.empty()) add_all(hash, picture.polygons);
+    if (picture.has_bars) add_words(hash, 1);
     return hash.value();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/picture/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,44 @@ std::vector<Point> coil(Point from, Point to, int turns, float radius) {
     }
     points.push_back(to);
     return points;
+}
+
+std::vector<Point> rectangle(Point centre, Point size, float angle) {
+    const float c = std::cos(angle) / 2;
+    const float s = std::sin(angle) / 2;
+    const Point along{c * size.x, s * size.x};
+    const Point up{-s * size.y, c * size.y};
+    return {{centre.x - along.x - up.x, centre.y - along.y - up.y},
+            {centre.x + along.x - up.x, centre.y + along.y - up.y},
+            {centre.x + along.x + up.x, centre.y + along.y + up.y},
+            {centre.x - along.x + up.x, centre.y - along.y + up.y}};
+}
+
+std::vector<Point> regular_polygon(Point centre, float radius, int corners) {
+    std::vector<Point> points;
+    for (int i = 0; i < corners; ++i) {
+        const float angle = turn * static_cast<float>(i) / static_cast<float>(corners);
+        points.push_back(
+            {centre.x - radius * std::sin(angle), centre.y + radius * std::cos(angle)});
+    }
+    return points;
+}
+
+std::vector<Point> arrow(Point from, Point to, float width) {
+    constexpr float head_widths = 4;
+    const float dx = to.x - from.x;
+    const float dy = to.y - from.y;
+    const float length = std::hypot(dx, dy);
+    if (!(length > 0)) return std::vector<Point>(7, from);
+    const float head = std::min(head_widths * width, length);
+    const auto at = [&](float along, float aside) {
+        return Point{from.x + (dx * along - dy * aside) / length,
+                     from.y + (dy * along + dx * aside) / length};
+    };
+    const float half = std::min(width, head / head_widths) / 2;
+    const float neck = length - head;
+    return {at(0, -half),       at(neck, -half), at(neck, -head / 2), at(length, 0),
+            at(neck, head / 2), at(neck, half),  at(0, half)};
 }
 
 std::vector<Point> circle(Point centre, float radius) {

@@ -11,6 +11,16 @@ namespace oiler {
 /// the points. The number of points does not depend on its length, so that it interpolates.
 [[nodiscard]] std::vector<Point> coil(Point from, Point to, int turns, float radius);
 
+/// The corners of a rectangle, counter-clockwise, turned by `angle` rad. For a polygon.
+[[nodiscard]] std::vector<Point> rectangle(Point centre, Point size, float angle = 0);
+
+/// The corners of a regular polygon, the first one straight above the centre.
+[[nodiscard]] std::vector<Point> regular_polygon(Point centre, float radius, int corners);
+
+/// The outline of an arrow with a shaft `width` wide and a head four times as wide and long, for a
+/// polygon. An arrow shorter than its head is a smaller head.
+[[nodiscard]] std::vector<Point> arrow(Point from, Point to, float width);
+
 /// A circle as a closed polyline.
 [[nodiscard]] std::vector<Point> circle(Point centre, float radius);
 

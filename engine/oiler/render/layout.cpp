@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+
+#include "oiler/render/polygon_mesh.hpp"
 
 namespace oiler {
 namespace {
@@ -36,6 +39,14 @@ private:
     float scale_;
 };
 
+std::vector<Point> pixels_of(const std::vector<Point>& points, Space space,
+                             const Mapping& mapping) {
+    std::vector<Point> pixels;
+    pixels.reserve(points.size());
+    for (const Point& point : points) pixels.push_back(mapping.pixel(point, space));
+    return pixels;
+}
+
 bool is_near(Point p, Size frame, float reach) {
     // False for NaN.
     return p.x > -reach && p.x < static_cast<float>(frame.width) + reach && p.y > -reach &&
@@ -68,12 +79,34 @@ void snap(const Polyline& line, float width, std::vector<Point>& points) {
     }
 }
 
+void lay_out_sprite(const Sprite& sprite, const Mapping& mapping, Size frame, Layout& layout) {
+    const Point centre = mapping.pixel(sprite.centre, sprite.space);
+    const Point half{mapping.pixels(sprite.size.x, sprite.space) / 2,
+                     mapping.pixels(sprite.size.y, sprite.space) / 2};
+    const float reach = std::hypot(half.x, half.y);
+    const bool is_drawable = sprite.bitmap && half.x > 0 && half.y > 0 && std::isfinite(reach) &&
+                             std::isfinite(sprite.angle);
+    if (!is_drawable || !is_near(centre, frame, reach + 1)) return;
+    layout.sprites.push_back({centre,
+                              half,
+                              {std::cos(sprite.angle), std::sin(sprite.angle)},
+                              sprite.is_smooth ? 1.0F : 0.0F,
+                              sprite.colour});
+    layout.bitmaps.push_back(sprite.bitmap.get());
+}
+
+void lay_out_polygon(const Polygon& polygon, const Mapping& mapping, Size frame, LineMesh& mesh) {
+    std::vector<Point> points = pixels_of(polygon.points, polygon.space, mapping);
+    append_polygon(points, polygon.colour, frame, mesh);
+    if (points.empty() || !(polygon.outline > 0)) return;
+    points.push_back(Point(points.front()));
+    append_polyline(points,
+                    {mapping.pixels(polygon.outline, Space::canvas), polygon.outline_colour}, frame,
+                    mesh);
+}
+
 void lay_out_line(const Polyline& line, const Mapping& mapping, Size frame, LineMesh& mesh) {
-    std::vector<Point> points;
-    points.reserve(line.points.size());
-    for (const Point& point : line.points) {
-        points.push_back(mapping.pixel(point, line.space));
-    }
+    std::vector<Point> points = pixels_of(line.points, line.space, mapping);
     const Stroke stroke{mapping.pixels(line.width, Space::canvas), line.colour};
     snap(line, stroke.width, points);
     append_polyline(points, stroke, frame, mesh);
@@ -99,7 +132,7 @@ void lay_out_disc(const Disc& disc, const Mapping& mapping, Size frame,
 
 void lay_out_label(const Label& label, const Mapping& mapping, Size frame, Glyphs& glyphs,
                    std::vector<PlacedGlyph>& placed) {
-    const float em = std::round(mapping.pixels(label.size, Space::canvas));
+    const float em = std::round(mapping.pixels(label.size, label.size_in));
     const Point at = mapping.pixel(label.at, label.space);
     const float longest = 65536;  // pixels of text that may still reach into the frame
     if (em >= 1 && is_near(at, frame, longest)) {
@@ -107,23 +140,66 @@ void lay_out_label(const Label& label, const Mapping& mapping, Size frame, Glyph
     }
 }
 
+/// Calls f(element) for the elements of a list that are in a layer.
+template <class Element, class F>
+void each_in(int layer, const std::vector<Element>& elements, F f) {
+    for (const Element& element : elements)
+        if (element.layer == layer) f(element);
+}
+
 }  // namespace
 
-void lay_out(const Picture& picture, Size frame, Glyphs& glyphs, Layout& layout) {
+std::vector<int> layers_of(const Picture& picture) {
+    std::set<int> layers;
+    const auto add = [&](const auto& elements) {
+        int last = 0;
+        bool any = false;
+        for (const auto& element : elements) {
+            if (any && element.layer == last) continue;
+            layers.insert(last = element.layer);
+            any = true;
+        }
+    };
+    add(picture.sprites);
+    add(picture.polygons);
+    add(picture.polylines);
+    add(picture.discs);
+    add(picture.labels);
+    return {layers.begin(), layers.end()};
+}
+
+void lay_out(const Picture& picture, int layer, Size frame, Glyphs& glyphs, Layout& layout) {
     const Mapping mapping(picture.camera, frame);
+    layout.sprites.clear();
+    layout.bitmaps.clear();
     layout.lines.clear();
-    for (const Polyline& line : picture.polylines) {
-        lay_out_line(line, mapping, frame, layout.lines);
-    }
     layout.discs.clear();
-    for (const Disc& disc : picture.discs) {
-        lay_out_disc(disc, mapping, frame, layout.discs);
-    }
     layout.glyphs.clear();
+    each_in(layer, picture.sprites,
+            [&](const Sprite& sprite) { lay_out_sprite(sprite, mapping, frame, layout); });
+    each_in(layer, picture.polygons, [&](const Polygon& polygon) {
+        lay_out_polygon(polygon, mapping, frame, layout.lines);
+    });
+    each_in(layer, picture.polylines,
+            [&](const Polyline& line) { lay_out_line(line, mapping, frame, layout.lines); });
+    each_in(layer, picture.discs,
+            [&](const Disc& disc) { lay_out_disc(disc, mapping, frame, layout.discs); });
     glyphs.clear_if_full();
-    for (const Label& label : picture.labels) {
+    each_in(layer, picture.labels, [&](const Label& label) {
         lay_out_label(label, mapping, frame, glyphs, layout.glyphs);
-    }
+    });
+}
+
+CanvasBox canvas_box(Size frame) {
+    const Mapping mapping({}, frame);
+    const Point low = mapping.pixel({0, 0}, Space::canvas);
+    const Point high = mapping.pixel({canvas_width, canvas_height}, Space::canvas);
+    const auto left = static_cast<int>(std::lround(low.x));
+    const auto bottom = static_cast<int>(std::lround(low.y));
+    return {left,
+            bottom,
+            {static_cast<int>(std::lround(high.x)) - left,
+             static_cast<int>(std::lround(high.y)) - bottom}};
 }
 
 }  // namespace oiler

@@ -2,12 +2,15 @@
 #include "oiler/render/renderer.hpp"
 
 #include <cstddef>
+#include <span>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 #include "oiler/render/embedded.hpp"
 #include "oiler/render/framebuffer.hpp"
 #include "oiler/render/gl.hpp"
 #include "oiler/render/layout.hpp"
+#include "oiler/render/textures.hpp"
 
 namespace oiler {
 namespace {
@@ -72,8 +75,8 @@ void describe_colour(const Gl& gl, GLuint location, const Field& field) {
 }
 
 template <class Item>
-void upload(const Gl& gl, GLenum target, const std::vector<Item>& items) {
-    gl.BufferData(target, static_cast<GLsizeiptr>(items.size() * sizeof(Item)), items.data(),
+void upload(const Gl& gl, GLenum target, std::span<const Item> items) {
+    gl.BufferData(target, static_cast<GLsizeiptr>(items.size_bytes()), items.data(),
                   GL_STREAM_DRAW);
 }
 
@@ -83,17 +86,29 @@ struct Renderer::Impl {
     explicit Impl(const LoadProcedure& load)
         : gl(load_functions(load)),
           framebuffer(gl),
+          sprites(gl, embedded::sprite_vert(), embedded::sprite_frag()),
           lines(gl, embedded::line_vert(), embedded::line_frag()),
           discs(gl, embedded::disc_vert(), embedded::disc_frag()),
           text(gl, embedded::text_vert(), embedded::text_frag()),
           line_indices(gl.GenBuffers, gl.DeleteBuffers),
-          atlas(gl.GenTextures, gl.DeleteTextures) {
+          atlas(gl.GenTextures, gl.DeleteTextures),
+          textures(gl) {
+        describe_sprites();
         describe_lines();
         describe_discs();
         describe_text();
         gl.BindTexture(GL_TEXTURE_2D, atlas);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+
+    void describe_sprites() const {
+        constexpr std::size_t stride = sizeof(PlacedSprite);
+        gl.BindVertexArray(sprites.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, sprites.buffer);
+        describe_floats(gl, 0, 4, {offsetof(PlacedSprite, centre), stride, 1});
+        describe_floats(gl, 1, 3, {offsetof(PlacedSprite, direction), stride, 1});
+        describe_colour(gl, 2, {offsetof(PlacedSprite, tint), stride, 1});
     }
 
     void describe_lines() const {
@@ -131,6 +146,14 @@ struct Renderer::Impl {
         gl.Clear(GL_COLOR_BUFFER_BIT);
     }
 
+    /// Clears the bars, and keeps all that follows within the canvas.
+    void clear_bars(Size frame) const {
+        clear({});
+        const CanvasBox box = canvas_box(frame);
+        gl.Scissor(box.left, box.bottom, box.size.width, box.size.height);
+        gl.Enable(GL_SCISSOR_TEST);
+    }
+
     /// Sets all state that other users of the context (an inspector) may have changed.
     void set_state() const {
         for (const GLenum off : {GL_SCISSOR_TEST, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE,
@@ -151,14 +174,14 @@ struct Renderer::Impl {
         lines.program.use(size.width, size.height);
         gl.BindVertexArray(lines.array);
         gl.BindBuffer(GL_ARRAY_BUFFER, lines.buffer);
-        upload(gl, GL_ARRAY_BUFFER, layout.lines.vertices);
-        upload(gl, GL_ELEMENT_ARRAY_BUFFER, layout.lines.indices);
+        upload(gl, GL_ARRAY_BUFFER, std::span(std::as_const(layout.lines.vertices)));
+        upload(gl, GL_ELEMENT_ARRAY_BUFFER, std::span(std::as_const(layout.lines.indices)));
         gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(layout.lines.indices.size()),
                         GL_UNSIGNED_INT, nullptr);
     }
 
     template <class Item>
-    void draw_quads(const Batch& batch, const std::vector<Item>& items, Size size) const {
+    void draw_quads(const Batch& batch, std::span<const Item> items, Size size) const {
         if (items.empty()) {
             return;
         }
@@ -167,6 +190,27 @@ struct Renderer::Impl {
         gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
         upload(gl, GL_ARRAY_BUFFER, items);
         gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(items.size()));
+    }
+
+    /// Neighbours with the same bitmap are drawn in one call.
+    void draw_sprites(Size size) {
+        const std::span<const PlacedSprite> all(layout.sprites);
+        for (std::size_t first = 0; first < all.size();) {
+            std::size_t end = first + 1;
+            while (end < all.size() && layout.bitmaps[end] == layout.bitmaps[first]) ++end;
+            textures.bind(*layout.bitmaps[first]);
+            draw_quads(sprites, all.subspan(first, end - first), size);
+            first = end;
+        }
+    }
+
+    void draw_layer(const Picture& picture, int layer, Size size) {
+        lay_out(picture, layer, size, glyphs, layout);
+        draw_sprites(size);
+        draw_lines(size);
+        draw_quads(discs, std::span<const PlacedDisc>(layout.discs), size);
+        bind_atlas();
+        draw_quads(text, std::span<const PlacedGlyph>(layout.glyphs), size);
     }
 
     void bind_atlas() {
@@ -184,11 +228,13 @@ struct Renderer::Impl {
 
     Gl gl;
     Framebuffer framebuffer;
+    Batch sprites;
     Batch lines;
     Batch discs;
     Batch text;
     GlName line_indices;
     GlName atlas;
+    Textures textures;
     Glyphs glyphs;
     std::uint64_t atlas_revision = 0;
     Layout layout;
@@ -200,12 +246,10 @@ Renderer::~Renderer() = default;
 void Renderer::draw(const Picture& picture, Size size) {
     impl_->framebuffer.bind(size);
     impl_->set_state();
+    if (picture.has_bars) impl_->clear_bars(size);
     impl_->clear(picture.background);
-    lay_out(picture, size, impl_->glyphs, impl_->layout);
-    impl_->draw_lines(size);
-    impl_->draw_quads(impl_->discs, impl_->layout.discs, size);
-    impl_->bind_atlas();
-    impl_->draw_quads(impl_->text, impl_->layout.glyphs, size);
+    impl_->textures.update(picture.sprites);
+    for (const int layer : layers_of(picture)) impl_->draw_layer(picture, layer, size);
 }
 
 void Renderer::read(Pixels& pixels) const {

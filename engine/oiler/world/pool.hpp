@@ -5,7 +5,6 @@
 #include <cassert>
 #include <concepts>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "oiler/world/hashed.hpp"
+#include "oiler/world/pages.hpp"
 
 namespace oiler {
 
@@ -145,7 +145,7 @@ private:
         slots_.fill(hole);
     }
 
-    std::deque<T> items_;
+    Pages<T> items_;
 };
 
 }  // namespace oiler

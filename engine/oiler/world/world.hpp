@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -101,13 +102,18 @@ public:
         const Visit visit(*this);
         const SlotSet& slots = first->slots();
         const std::size_t end = slots.size();
-        for (std::size_t place = 0; place < end; ++place) {
-            const std::uint32_t slot = slots[place];
-            if (slot == SlotSet::absent) continue;
-            const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
-            if ((std::get<Rest*>(others) && ...))
-                f(Entity{slot, slots_.generation(slot)}, (*first)[place],
-                  *std::get<Rest*>(others)...);
+        constexpr std::size_t page = Pages<First>::page_size;
+        for (std::size_t begin = 0; begin < end; begin += page) {
+            First* const items = &(*first)[begin];
+            const std::size_t count = std::min(page, end - begin);
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t slot = slots[begin + i];
+                if (slot == SlotSet::absent) continue;
+                const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
+                if ((std::get<Rest*>(others) && ...))
+                    f(Entity{slot, slots_.generation(slot)}, items[i],
+                      *std::get<Rest*>(others)...);
+            }
         }
     }
     template <class First, class... Rest, class F>

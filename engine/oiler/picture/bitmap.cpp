@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/picture/bitmap.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+
+#include "oiler/core/error.hpp"
+#include "oiler/core/state_hash.hpp"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#include <stb/stb_image.h>
+
+namespace oiler {
+namespace {
+
+constexpr int channels = 4;
+constexpr int longest_side = 8192;  // texels; every OpenGL 3.3 driver in use takes as many
+
+std::size_t bytes_of(Size size) {
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * channels;
+}
+
+}  // namespace
+
+std::shared_ptr<const Bitmap> make_bitmap(Size size, std::vector<std::uint8_t> rgba) {
+    if (size.width < 1 || size.height < 1 || size.width > longest_side ||
+        size.height > longest_side)
+        fail(Exit::usage, "a bitmap has sides of 1 to {} texels, not {}x{}", longest_side,
+             size.width, size.height);
+    if (rgba.size() != bytes_of(size))
+        fail(Exit::usage, "a bitmap of {}x{} texels has {} bytes, four per texel, not {}",
+             size.width, size.height, bytes_of(size), rgba.size());
+    StateHash hash;
+    hash.add(static_cast<std::uint64_t>(size.width));
+    hash.add(static_cast<std::uint64_t>(size.height));
+    hash.add(std::as_bytes(std::span(rgba)));
+    return std::make_shared<const Bitmap>(Bitmap{size, std::move(rgba), hash.value()});
+}
+
+std::shared_ptr<const Bitmap> decode_bitmap(std::span<const std::byte> file,
+                                            std::string_view name) {
+    Size size;
+    int channels_there = 0;
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
+                              static_cast<int>(file.size()), &size.width, &size.height,
+                              &channels_there, channels),
+        stbi_image_free);
+    if (!texels) fail(Exit::usage, "{}: not a PNG or JPEG image: {}", name, stbi_failure_reason());
+    return make_bitmap(size, {texels.get(), texels.get() + bytes_of(size)});
+}
+
+std::shared_ptr<const Bitmap> load_bitmap(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const int error = errno;
+    if (!file)
+        fail(exit_of_open(error), "{}: cannot read the image: {}", path.string(),
+             system_reason(error));
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    return decode_bitmap(std::as_bytes(std::span(bytes)), path.string());
+}
+
+}  // namespace oiler
