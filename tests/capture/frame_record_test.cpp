@@ -49,12 +49,41 @@ oiler::ElementKey key() {
 
 Space space() { return bits() % 2 == 0 ? Space::world : Space::canvas; }
 
+std::vector<oiler::Point> points(int count) {
+    std::vector<oiler::Point> points;
+    for (int i = 0; i < count; ++i) points.push_back({single(), single()});
+    return points;
+}
+
+int layer() { return static_cast<int>(bits() % 5) - 2; }
+
+/// Adds what plain pictures do not have.
+void add_rich(Picture& picture) {
+    picture.has_bars = bits() % 2 == 0;
+    for (int i = 0; i < 3; ++i) {
+        picture.sprites.push_back({.key = key(),
+                                   .centre = {single(), single()},
+                                   .size = {single(), single()},
+                                   .bitmap = std::make_shared<const oiler::Bitmap>(
+                                       oiler::Bitmap{.size = {}, .rgba = {}, .hash = bits()}),
+                                   .angle = single(),
+                                   .colour = colour(),
+                                   .space = space(),
+                                   .layer = layer(),
+                                   .is_smooth = bits() % 2 == 0});
+        picture.polygons.push_back(
+            {key(), points(i), colour(), single(), colour(), space(), layer()});
+        picture.polylines[0].layer = layer();
+        picture.discs[1].layer = layer();
+        picture.labels[2].layer = layer();
+        picture.labels[1].size_in = space();
+    }
+}
+
 Picture random_picture() {
     Picture picture{.background = colour(), .camera = {{single(), single()}, single()}};
     for (int i = 0; i < 4; ++i) {
-        picture.polylines.push_back({key(), {}, single(), colour(), space()});
-        for (int point = 0; point < i; ++point)
-            picture.polylines.back().points.push_back({single(), single()});
+        picture.polylines.push_back({key(), points(i), single(), colour(), space()});
         picture.discs.push_back({key(), {single(), single()}, single(), colour(), space()});
         picture.labels.push_back({key(),
                                   {single(), single()},
@@ -81,6 +110,7 @@ TEST(FrameRecord, ReadsBackToTheSameBits) {
     std::vector<FrameRecord> written;
     for (int i = 0; i < 1000; ++i) {
         written.push_back(random_record(i));
+        if (i % 2 == 0) add_rich(written.back().picture);
         lines += to_json(written.back());
     }
     const std::vector<FrameRecord> read = parse_frame_records(lines, "");
@@ -140,6 +170,15 @@ TEST(FrameRecord, IsKeptUpToItsLimits) {
     picture.polylines[1].points.resize(10'000);
     EXPECT_TRUE(oiler::is_recordable(1000, picture));
     picture.discs.emplace_back();
+    EXPECT_FALSE(oiler::is_recordable(0, picture));
+    picture.discs.clear();
+    picture.sprites.resize(1);
+    picture.polygons = {{.points = {{}}}};
+    EXPECT_TRUE(oiler::is_recordable(0, picture));
+    picture.polygons[0].points.emplace_back();
+    EXPECT_FALSE(oiler::is_recordable(0, picture));
+    picture.polygons.clear();
+    picture.sprites.resize(3);
     EXPECT_FALSE(oiler::is_recordable(0, picture));
 }
 

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "capture/captures.hpp"
 #include "oiler/capture/png.hpp"
+#include "oiler/compare/picture_changes.hpp"
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
 #include "support/text.hpp"
@@ -133,6 +135,31 @@ TEST_F(ComparisonOfFilms, APictureIsDescribed) {
     EXPECT_EQ(other.frames[3].cause, Cause::picture);
     EXPECT_EQ(other.frames[3].differing, 0) << "the pixels were compared";
     EXPECT_TRUE(other.frames[3].has_images);
+}
+
+TEST(PictureChanges, NameSpritesPolygonsLayersAndBars) {
+    Picture golden;
+    golden.sprites = {{.key = {1}, .bitmap = make_bitmap({1, 1}, {1, 2, 3, 4})}};
+    golden.polygons = {{.key = {2}, .points = {{0, 0}, {1, 0}, {0, 1}}}};
+    golden.labels = {{.key = {3}, .text = "a"}};
+    const auto words = [&](const std::function<void(Picture&)>& change) {
+        Picture actual = golden;
+        change(actual);
+        return describe_picture_change(golden, actual, {640, 360});
+    };
+    EXPECT_EQ(words([](Picture& p) { p.sprites[0].angle = 2; }), "1 sprite: angle 0 → 2");
+    EXPECT_EQ(words([](Picture& p) { p.sprites.clear(); }).substr(0, 16), "1 sprite missing");
+    EXPECT_TRUE(words([](Picture& p) {
+                    p.sprites[0].bitmap = make_bitmap({1, 1}, {9, 2, 3, 4});
+                }).starts_with("1 sprite: text '"));
+    EXPECT_EQ(words([](Picture& p) { p.polygons[0].outline = 2; }), "1 polygon: outline 0 → 2");
+    EXPECT_EQ(words([](Picture& p) { p.polygons[0].points.pop_back(); }),
+              "1 polygon: 3 → 2 points");
+    EXPECT_EQ(words([](Picture& p) { p.polygons[0].layer = 1; }),
+              "1 polygon placed in another way");
+    EXPECT_EQ(words([](Picture& p) { p.labels[0].size_in = Space::world; }),
+              "1 label placed in another way");
+    EXPECT_EQ(words([](Picture& p) { p.has_bars = true; }), "bars beside the canvas new");
 }
 
 TEST_F(ComparisonOfFilms, ThereAreAlwaysWords) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <set>
 #include <span>
 #include <utility>
@@ -34,6 +35,27 @@ Picture picture() {
     return picture;
 }
 
+std::shared_ptr<const oiler::Bitmap> bitmap(std::uint8_t shade) {
+    return oiler::make_bitmap({1, 1}, {shade, 2, 3, 4});
+}
+
+/// With two elements of the kinds that older pictures lack, too.
+Picture rich_picture() {
+    Picture rich = picture();
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const auto f = static_cast<float>(i);
+        rich.sprites.push_back(
+            {{11 + i, 8, 9}, {f, 4}, {2, 3}, bitmap(1), 0.5F, {13, 23, 33, 43}, Space::world});
+        rich.polygons.push_back({{14 + i, 8, 9},
+                                 {{f, 0}, {1, 0}, {0, 1}},
+                                 {14, 24, 34, 44},
+                                 1.5F,
+                                 {15, 25, 35, 45},
+                                 Space::canvas});
+    }
+    return rich;
+}
+
 /// The smallest change of a number.
 void nudge(float& value) { value = std::nextafter(value, 1e9F); }
 
@@ -53,6 +75,8 @@ std::vector<Change> common_changes(Elements Picture::*list) {
         [=](Picture& p) {
             last(p).space = last(p).space == Space::world ? Space::canvas : Space::world;
         },
+        [=](Picture& p) { last(p).layer = 1; },
+        [=](Picture& p) { last(p).layer = -1; },
         [=](Picture& p) { (p.*list).pop_back(); },
         [=](Picture& p) { (p.*list).push_back(last(p)); },
         [=](Picture& p) { std::swap((p.*list)[0], (p.*list)[1]); },
@@ -88,6 +112,20 @@ std::vector<Change> own_changes() {
         [](Picture& p) { p.labels[1].text = "texT"; },
         [](Picture& p) { p.labels[1].text = "text "; },
         [](Picture& p) { p.labels[1].text.clear(); },
+        [](Picture& p) { p.labels[1].size_in = Space::world; },
+        [](Picture& p) { p.has_bars = true; },
+        [](Picture& p) { nudge(p.sprites[1].centre.x); },
+        [](Picture& p) { nudge(p.sprites[1].centre.y); },
+        [](Picture& p) { nudge(p.sprites[1].size.x); },
+        [](Picture& p) { nudge(p.sprites[1].size.y); },
+        [](Picture& p) { nudge(p.sprites[1].angle); },
+        [](Picture& p) { p.sprites[1].is_smooth = false; },
+        [](Picture& p) { p.sprites[1].bitmap = bitmap(2); },
+        [](Picture& p) { p.sprites[1].bitmap.reset(); },
+        [](Picture& p) { nudge(p.polygons[1].points[2].y); },
+        [](Picture& p) { p.polygons[1].points.pop_back(); },
+        [](Picture& p) { nudge(p.polygons[1].outline); },
+        [](Picture& p) { p.polygons[1].outline_colour.b += 1; },
     };
 }
 
@@ -101,15 +139,17 @@ TEST(PictureHash, ChangesWithEachFieldOfEachElement) {
     append(changes, common_changes(&Picture::polylines));
     append(changes, common_changes(&Picture::discs));
     append(changes, common_changes(&Picture::labels));
-    std::set<std::uint64_t> hashes{hash_of(picture())};
+    append(changes, common_changes(&Picture::sprites));
+    append(changes, common_changes(&Picture::polygons));
+    std::set<std::uint64_t> hashes{hash_of(rich_picture())};
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        Picture changed = picture();
+        Picture changed = rich_picture();
         changes[i](changed);
         EXPECT_TRUE(hashes.insert(hash_of(changed)).second) << "change " << i;
     }
 }
 
-TEST(PictureHash, OfACopyIsTheSame) { EXPECT_EQ(hash_of(picture()), hash_of(picture())); }
+TEST(PictureHash, OfACopyIsTheSame) { EXPECT_EQ(hash_of(rich_picture()), hash_of(rich_picture())); }
 
 // The first points of the next line, or the first letters of the next label, are not those of this.
 TEST(PictureHash, KeepsElementsApart) {

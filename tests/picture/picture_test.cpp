@@ -35,6 +35,66 @@ TEST(Camera, PutsItsCentreInTheMiddleAndItsHeightOverTheCanvas) {
     EXPECT_EQ(camera.to_canvas({101, -50}), (Point{338, 180}));
 }
 
+// The same camera follows the same motion at any rate: half of the way in each half-life.
+TEST(Camera, FollowsByHalfOfTheWayInEachHalfLife) {
+    for (const int rate : {10, 60, 240}) {
+        Camera camera{{0, 8}, 10};
+        for (int step = 0; step < rate; ++step) camera.follow({16, 8}, 0.5, 1.0 / rate);
+        EXPECT_NEAR(camera.centre.x, 16 * (1 - 0.25), 16 * 1e-4) << rate;
+        EXPECT_EQ(camera.centre.y, 8);
+    }
+}
+
+TEST(Camera, FollowsAtOnceWithoutAHalfLife) {
+    Camera camera{{3, 8}, 10};
+    camera.follow({16, -1}, 0, 0.1);
+    EXPECT_EQ(camera.centre, (Point{16, -1}));
+    camera.follow({0, 0}, 1e-9, 0.1);
+    EXPECT_NEAR(camera.centre.x, 0, 1e-5);
+}
+
+TEST(Camera, ZoomsAroundAPoint) {
+    Camera camera{{100, -50}, 20};
+    const Point before = camera.to_canvas({103, -47});
+    camera.zoom(0.5F, {103, -47});
+    EXPECT_EQ(camera.height, 10);
+    EXPECT_NEAR(camera.to_canvas({103, -47}).x, before.x, 1e-3);
+    EXPECT_NEAR(camera.to_canvas({103, -47}).y, before.y, 1e-3);
+}
+
+TEST(Between, TurnsSpritesTheShorterWay) {
+    const auto at = [](float angle) {
+        Picture picture;
+        picture.sprites = {{.key = {1}, .centre = {0, 2}, .size = {1, 4}, .angle = angle}};
+        return picture;
+    };
+    EXPECT_NEAR(between(at(3.0F), at(-3.0F), 0.5F).sprites[0].angle, 3.14159265F, 1e-6F);
+    EXPECT_NEAR(between(at(0.5F), at(1.0F), 0.25F).sprites[0].angle, 0.625F, 1e-6F);
+    Picture after = at(0);
+    after.sprites[0].centre = {8, 2};
+    after.sprites[0].size = {3, 4};
+    after.sprites[0].colour = {55, 255, 255, 255};
+    const Sprite moved = between(at(0), after, 0.25F).sprites[0];
+    EXPECT_EQ(moved.centre, (Point{2, 2}));
+    EXPECT_EQ(moved.size, (Point{1.5F, 4}));
+    EXPECT_EQ(moved.colour, (Colour{205, 255, 255, 255}));
+}
+
+TEST(Between, MovesPolygonsPointByPoint) {
+    Picture before;
+    before.polygons = {{.key = {1}, .points = {{0, 0}, {4, 0}, {0, 4}}, .outline = 1}};
+    Picture after = before;
+    after.polygons[0].points[2] = {8, 4};
+    after.polygons[0].outline = 3;
+    after.polygons[0].outline_colour = {100, 0, 0, 255};
+    const Polygon moved = between(before, after, 0.5F).polygons[0];
+    EXPECT_EQ(moved.points[2], (Point{4, 4}));
+    EXPECT_EQ(moved.outline, 2);
+    EXPECT_EQ(moved.outline_colour, (Colour{50, 0, 0, 255}));
+    after.polygons[0].points.push_back({-1, 2});
+    EXPECT_EQ(between(before, after, 0.5F).polygons[0].points, before.polygons[0].points);
+}
+
 TEST(Between, IsExactlyBeforeAtZeroAndAfterAtOne) {
     // 0.1 and 0.7 have no exact sum or difference in float, so interpolation alone would miss.
     const Picture before = of_discs({disc({1, 0, 0}, {0.1F, 1e7F})});

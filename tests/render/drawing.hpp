@@ -60,6 +60,34 @@ inline double total_coverage(const Pixels& pixels) {
     return sum;
 }
 
+// Blending in eight bits rounds alpha and both products by up to half a step each.
+constexpr double blend_rounding = 1.5 / 255;
+
+class Drawing : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!studio_) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
+    }
+
+    Pixels draw(const Picture& picture, Size size = {640, 360}) {
+        return studio_->draw(picture, size);
+    }
+
+    /// Mean area over sixteen sub-pixel positions. It approximates the integral like samples on a
+    /// grid four times as fine.
+    template <class PictureAt>
+    double mean_coverage(PictureAt picture_at) {
+        double sum = 0;
+        for (int i = 0; i < 16; ++i) {
+            const Point shift{static_cast<float>(i % 4) / 4, static_cast<float>(i / 4) / 4};
+            sum += total_coverage(draw(picture_at(shift)));
+        }
+        return sum / 16;
+    }
+
+    std::unique_ptr<Studio> studio_ = open_studio(Offscreen::automatic);
+};
+
 /// Bounding box of the pixels that are not white.
 struct Ink {
     int left = 1 << 20;

@@ -10,7 +10,9 @@
 namespace oiler {
 namespace {
 
+using drawing::blend_rounding;
 using drawing::coverage;
+using drawing::Drawing;
 using drawing::Ink;
 using drawing::ink;
 using drawing::of_disc;
@@ -20,35 +22,8 @@ using drawing::red;
 using drawing::total_coverage;
 
 constexpr double pi = std::numbers::pi;
-// Blending in eight bits rounds alpha and both products by up to half a step each.
-constexpr double blend_rounding = 1.5 / 255;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-class Drawing : public testing::Test {
-protected:
-    void SetUp() override {
-        if (!studio_) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
-    }
-
-    Pixels draw(const Picture& picture, Size size = {640, 360}) {
-        return studio_->draw(picture, size);
-    }
-
-    /// Mean area over sixteen sub-pixel positions. It approximates the integral like samples on a
-    /// grid four times as fine.
-    template <class PictureAt>
-    double mean_coverage(PictureAt picture_at) {
-        double sum = 0;
-        for (int i = 0; i < 16; ++i) {
-            const Point shift{static_cast<float>(i % 4) / 4, static_cast<float>(i / 4) / 4};
-            sum += total_coverage(draw(picture_at(shift)));
-        }
-        return sum / 16;
-    }
-
-    std::unique_ptr<drawing::Studio> studio_ = drawing::open_studio(Offscreen::automatic);
-};
 
 TEST_F(Drawing, ADiscCoversItsArea) {
     for (const float radius : {0.2F, 0.5F, 0.7F, 1.0F, 2.5F, 10.0F, 61.3F}) {

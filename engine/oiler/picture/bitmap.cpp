@@ -3,7 +3,7 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
+#include <system_error>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
@@ -56,12 +56,16 @@ std::shared_ptr<const Bitmap> decode_bitmap(std::span<const std::byte> file,
 }
 
 std::shared_ptr<const Bitmap> load_bitmap(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
     std::ifstream file(path, std::ios::binary);
-    const int error = errno;
-    if (!file)
-        fail(exit_of_open(error), "{}: cannot read the image: {}", path.string(),
-             system_reason(error));
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    if (error || !file) {
+        const int reason = error ? error.value() : errno;
+        fail(exit_of_open(reason), "{}: cannot read the image: {}", path.string(),
+             system_reason(reason));
+    }
+    std::vector<char> bytes(size);
+    file.read(bytes.data(), static_cast<std::streamsize>(size));
     return decode_bitmap(std::as_bytes(std::span(bytes)), path.string());
 }
 

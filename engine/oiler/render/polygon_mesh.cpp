@@ -30,10 +30,9 @@ double perimeter_of(const Ring& ring) {
     return sum;
 }
 
-/// The part of a ring on the side of a line where height(point) ≥ 0: Sutherland & Hodgman, CACM 17
-/// (1974).
-template <class Height>
-Ring cut(const Ring& ring, Height height) {
+/// The part of a ring where sign · coordinate ≥ sign · limit: Sutherland & Hodgman, CACM 17 (1974).
+Ring cut(const Ring& ring, double Vec::*coordinate, double sign, double limit) {
+    const auto height = [&](Vec p) { return sign * (p.*coordinate - limit); };
     Ring kept;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec from = ring[i];
@@ -41,18 +40,19 @@ Ring cut(const Ring& ring, Height height) {
         const double a = height(from);
         const double b = height(to);
         if (a >= 0) kept.push_back(from);
-        if ((a >= 0) != (b >= 0)) kept.push_back(from + a / (a - b) * (to - from));
+        if ((a >= 0) == (b >= 0)) continue;
+        kept.push_back(from + a / (a - b) * (to - from));
+        kept.back().*coordinate = limit;  // exactly, even if an end is 1e30 pixels away
     }
     return kept;
 }
 
 /// Cuts the ring to a box around the frame: the coordinates of a rasteriser are limited.
-Ring clipped(Ring ring, Size frame) {
+Ring clipped(const Ring& ring, Size frame) {
     constexpr double margin = 8;
-    ring = cut(ring, [](Vec p) { return p.x + margin; });
-    ring = cut(ring, [](Vec p) { return p.y + margin; });
-    ring = cut(ring, [&](Vec p) { return frame.width + margin - p.x; });
-    return cut(ring, [&](Vec p) { return frame.height + margin - p.y; });
+    return cut(cut(cut(cut(ring, &Vec::x, 1, -margin), &Vec::y, 1, -margin), &Vec::x, -1,
+                   frame.width + margin),
+               &Vec::y, -1, frame.height + margin);
 }
 
 /// Removes points at the place of the one before.
@@ -174,7 +174,7 @@ void append_polygon(std::span<const Point> points, Colour colour, Size frame, Li
         if (!std::isfinite(point.x) || !std::isfinite(point.y)) return;
         ring.push_back({point.x, point.y});
     }
-    ring = corners_of(clipped(std::move(ring), frame));
+    ring = corners_of(clipped(ring, frame));
     double area = area_of(ring);
     if (area < 0) {
         std::reverse(ring.begin(), ring.end());
