@@ -32,10 +32,11 @@ Options options_for(int fps) {
 class Film : public testing::Test {
 protected:
     /// Returns the manifest of a film. Skips the test without OSMesa and EGL.
+    template <class G = Walker>
     nlohmann::json film(Options options, double seconds) {
         const Folder folder;
         options.out = folder / "film";
-        AnyGameOf<Walker> game(options.settings);
+        AnyGameOf<G> game(options.settings);
         Recorder none({}, {}, game.world());
         Playback playback(game, none, Keep::hashes);
         About about = Walker::about;
@@ -63,6 +64,22 @@ TEST_F(Film, HasTheFramesOfItsDuration) {
     EXPECT_EQ(frames(0.29, 100), 29U);
     EXPECT_EQ(frames(0.07, 100), 7U);
     EXPECT_EQ(frames(0.5, 30), 15U);
+}
+
+/// Leaves before its eighth step.
+struct Leaver : Walker {
+    using Walker::Walker;
+    void update(const Input&, Loop& loop) {
+        if (world.tick() == 7) loop.quit();
+    }
+};
+
+// At 7 steps per second the eighth one would end at 8/7 s, before frame 12 of 10 per second.
+TEST_F(Film, EndsWhenTheGameQuits) {
+    const nlohmann::json manifest = film<Leaver>(options_for(10), 3);
+    EXPECT_EQ(manifest["frames"].size(), 12U);
+    EXPECT_EQ(manifest["frames"][11]["tick"], 7);
+    EXPECT_EQ(manifest["finished"], true);
 }
 
 TEST_F(Film, HasAtLeastOneFrame) { EXPECT_EQ(frames(1e-9, 60), 1U); }

@@ -227,6 +227,32 @@ TEST(Playback, AnExceptionOfAGameNamesTheTick) {
     }
 }
 
+struct Rerater : Walker {
+    using Walker::Walker;
+    void update(const Input&) {
+        if (world.tick() != 3) return;
+        Settings settings = world.settings();
+        settings.stepping.rate.steps += 1;
+        world = World(2, settings);
+    }
+};
+
+TEST(Playback, AWorldOfAnotherRateIsRefused) {
+    AnyGameOf<Rerater> game(Settings{});
+    InputQueue queue;
+    Live live(queue);
+    EXPECT_EQ(game.step(0, 3, live), 3);
+    try {
+        (void)game.step(3, 1, live);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_STREQ(error.what(),
+                     "update at tick 3: the new world has another rate; make it with "
+                     "world.settings()");
+    }
+}
+
 TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}}};
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};

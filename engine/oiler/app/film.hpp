@@ -23,6 +23,10 @@ public:
 
     /// Draws the picture as the next frame. Throws Error{io}.
     void add(const Picture& picture, const HeadlessFrame& at, const Playback& playback);
+    /// The game has quit: a capture of fewer frames than were planned is complete.
+    void end_here() {
+        if (capture_) capture_->end_here();
+    }
     /// Completes the files with the frames so far. Throws Error{io}.
     void finish();
     /// Completes the capture after an error, which matters more than a second one of the same disk.

@@ -84,6 +84,7 @@ void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Man
             film.finish_capture_ignoring_errors();
         throw;
     }
+    if (playback.loop().quits() && !Interrupt::requested()) film.end_here();
     film.finish();
     if (film.frames() == header.planned_frames)
         remark(options.quiet, "frames and manifest.json are in {}",

@@ -51,6 +51,8 @@ public:
     /// Returns a buffer of pixels that is no longer in use, to be filled again.
     [[nodiscard]] std::vector<std::uint8_t> spare_buffer();
 
+    /// The run ends with the frames that it has: no more were planned.
+    void end_here() { manifest_.planned_frames = std::int64_t(manifest_.frames.size()); }
     /// Waits for all frames and writes the manifest with them. Throws Error{io}; the failed frame
     /// and those after it are then removed, and all records.
     void finish();
