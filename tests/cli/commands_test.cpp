@@ -241,7 +241,7 @@ TEST(Oiler, HelpFitsAScreenAndEachCommandHasAnExample) {
     const Outcome help = shell("oiler --help");
     EXPECT_LE(lines(help.out), 24);
     for (const std::string command :
-         {"play", "methods", "certify", "stability", "figures", "ledger"}) {
+         {"play", "methods", "certify", "stability", "figures", "ledger", "new"}) {
         EXPECT_TRUE(holds(help.out, "  " + command + " ")) << command;
         EXPECT_TRUE(holds(shell("oiler " + command + " --help").out, "Example: oiler " + command));
     }

@@ -50,6 +50,7 @@ COMMANDS = {
     "compare": [["{parts}/golden", "{parts}/actual", "--out", "{out}/differences",
                  "--junit", "{out}/compare.xml", "--json", "{out}/compare.json"]],
     "diverge": [["{parts}/a.csv", "{parts}/b.csv", "--json", "{out}/diverge.json"]],
+    "new": [["{out}/game"]],
 }
 CAPTURE_OWNER = ".oiler-capture"  # stays after a forced end, to tell the next capture
 SHORT = ["play", "certify", "ledger", "report"]
@@ -102,8 +103,13 @@ def fault_of_gzip(path):
     gzip.decompress(path.read_bytes())
 
 
+def fault_of_text(path):
+    return None if path.read_text().endswith("\n") else "is not complete"
+
+
 KINDS = {".csv": fault_of_csv, ".gz": fault_of_gzip, ".html": fault_of_html, ".json": fault_of_json,
          ".xml": fault_of_xml}
+KINDS |= dict.fromkeys(["", ".cmake", ".cpp", ".sh", ".txt", ".yml"], fault_of_text)
 
 
 def faults_of_pictures(pictures):

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run.sh BUILD: installs the build folder BUILD, moves the prefix into a path with a space, and builds
-# a game and a simulation with it in each documented way: find_package, pkg-config, subproject.
+# games and a simulation with it in each documented way: oiler new, find_package, pkg-config, subproject.
 set -Eeuo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,7 +10,8 @@ folder=$(mktemp -d)
 log=$folder/log
 trap 'rm -rf "$folder"' EXIT
 trap 'echo "failed in line $LINENO, after:"; tail -n 40 "$log"' ERR
-unset OILER_INSTRUCTIONS PKG_CONFIG_PATH CMAKE_PREFIX_PATH
+unset OILER_INSTRUCTIONS PKG_CONFIG_PATH CMAKE_PREFIX_PATH DISPLAY WAYLAND_DISPLAY
+unset CI JENKINS_URL  # where they are set, no new project writes its golden frames
 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL
 # Builds of the engine that compile little: one set of kernels, and what the package's build has left
@@ -71,7 +72,39 @@ draws "$prefix/libexec/oiler/hello"
 [ ! -e "$prefix/include/oiler/cli" ] || fail "the headers of the program are installed"
 [ "$(find "$prefix/share/doc/oiler/licences" -type f | wc -l)" = 7 ] || fail "licences are missing"
 
-echo "a game by CMAKE_PREFIX_PATH, component app"
+echo "a project of oiler new: the commands that it prints"
+"$prefix/bin/oiler" new "$folder/my games/cannon" > "$folder/new"
+project="$folder/my games/cannon"
+grep -qF "installed in $prefix." "$folder/new" || fail "oiler new says: $(cat "$folder/new")"
+sed -n 's/^    //p' "$folder/new" > "$folder/commands"
+[ "$(wc -l < "$folder/commands")" = 2 ] || fail "oiler new prints no two commands"
+quietly bash -euc ". '$folder/commands'"
+not_in_cache 'SDL|GLAD|CLI11|nlohmann|Eigen' "$project/build"
+[ -s "$project/frames/cannon/frame_000239.png" ] || fail "the game draws no frames"
+[ -s "$project/tests/golden/cannon/manifest.json" ] || fail "the test writes no golden frames"
+
+echo "a project of oiler new: its test, also in CI and without local.cmake"
+rm -r "$project/build" "$project/frames" "$project/local.cmake"
+configure_project() { cmake -S "$project" -B "$project/build" "$@"; }
+test_project() { CI=true ctest --test-dir "$project/build" --output-on-failure --no-tests=error; }
+PATH="$prefix/bin:$PATH" quietly configure_project
+quietly cmake --build "$project/build"
+quietly test_project
+[ -s "$project/frames/cannon.xml" ] || fail "the test writes no JUnit file"
+sed -i 's/stiffness = 12,/stiffness = 13,/' "$project/game.cpp"
+quietly cmake --build "$project/build"
+expect_failure "simulation changed at tick" test_project
+[ -s "$project/frames/cannon-differences/index.html" ] || fail "there is no page of differences"
+rm -r "$project/tests/golden"
+expect_failure "a job that updates its golden always passes" test_project
+
+echo "a project of oiler new with the source: its engine is a subproject"
+"$build/bin/oiler" new "$folder/my games/compiled" > "$folder/new"
+grep -qF "compiles the Oiler in $source:" "$folder/new" || fail "oiler new says: $(cat "$folder/new")"
+quietly cmake -G Ninja -S "$folder/my games/compiled" -B "$folder/compiled"
+quietly ninja -C "$folder/compiled" -n
+grep -q liboiler_app.a "$log" || fail "ninja -n does not build the engine"
+
 mkdir "$folder/game"
 cp "$here/game/CMakeLists.txt" "$folder/game"
 cp "$source/demos/hello.cpp" "$folder/game/game.cpp"
@@ -79,10 +112,6 @@ configure_game() {
     rm -rf "$folder/game/build"
     cmake -S "$folder/game" -B "$folder/game/build" -DCMAKE_BUILD_TYPE=Release "$@"
 }
-quietly configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_COMPONENTS=app
-not_in_cache 'SDL|GLAD|CLI11|nlohmann|Eigen' "$folder/game/build"
-quietly cmake --build "$folder/game/build"
-draws "$folder/game/build/game"
 
 echo "a game by oiler_DIR, all components"
 quietly configure_game -Doiler_DIR="$config"

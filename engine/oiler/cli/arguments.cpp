@@ -84,6 +84,11 @@ void Arguments::add_required(const std::string& name, std::vector<std::filesyste
     });
 }
 
+void Arguments::add_required(const std::string& name, std::string& target,
+                             const std::string& help) {
+    command_.add_option(name, target, help)->required();
+}
+
 void Arguments::add_words(const std::string& name, std::vector<std::string>& target,
                           const std::string& help) {
     command_.add_option(name, target, help);

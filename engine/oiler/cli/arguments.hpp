@@ -41,6 +41,8 @@ public:
     /// One or more input files.
     void add_required(const std::string& name, std::vector<std::filesystem::path>& target,
                       const std::string& help);
+    /// One word.
+    void add_required(const std::string& name, std::string& target, const std::string& help);
     /// Any number of words.
     void add_words(const std::string& name, std::vector<std::string>& target,
                    const std::string& help);
