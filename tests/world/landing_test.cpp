@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies that meet planes: bounces in flight. How they rest and slide is in resting_test.cpp.
+// Bodies that meet planes: bounces in flight. How they rest and slide is in resting_test.cpp and sliding_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
