@@ -23,12 +23,15 @@ bool shows(const Picture& picture, std::string_view text) {
 }
 
 TEST(Help, ListsControlsAndKeysOverAFadedPicture) {
-    Picture picture{.discs = {{.colour = palette::blue}}, .labels = {{.text = "score 7"}}};
+    Picture picture{.background = palette::black,
+                    .discs = {{.colour = palette::blue}},
+                    .labels = {{.text = "score 7"}}};
     add_help(picture, "Cannon", controls, on_azerty, true);
+    EXPECT_GT(picture.background.g, 200) << "the text is dark";
     EXPECT_LT(picture.discs[0].colour.a, 64);
     EXPECT_LT(picture.labels[0].colour.a, 64);
     for (const char* const text :
-         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, left_x", "nothing",
+         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
           "no button", "F4", "go back", "Escape"})
         EXPECT_TRUE(shows(picture, text)) << text;
     Picture other;

@@ -216,7 +216,7 @@ TEST(Rewind, KeepsFewCopiesOfManyBodies) {
     };
     AnyGameOf<Crowd> game{Settings{}};
     Clicks clicks;
-    Rewind rewind(game, clicks, {.bodies = 1000});
+    Rewind rewind(game, clicks, {.copied = 1000});
     for (std::int64_t step = 0; step < 5000; ++step) {
         game.step(step, 1, rewind);
         rewind.keep(step + 1);
@@ -225,6 +225,32 @@ TEST(Rewind, KeepsFewCopiesOfManyBodies) {
     rewind.go_back(2001);
     EXPECT_EQ(game.picture().labels[0].text, "2001 3");
     EXPECT_LE(Counted::alive, 11);
+}
+
+struct Growing : Tiny {
+    std::vector<Entity> bodies{};
+    explicit Growing(const Settings& its) : Tiny(its) {}
+    void update(const Input& input) {
+        Tiny::update(input);
+        if (updates == 20) bodies = {world.spawn({}), world.spawn({}), world.spawn({})};
+        if (updates == 40) world.destroy(bodies[1]);
+    }
+};
+
+TEST(Rewind, HasNoPastWhileThereAreTooManyBodies) {
+    AnyGameOf<Growing> game{Settings{}};
+    Clicks clicks;
+    Rewind rewind(game, clicks, {.bodies = 2});
+    std::string past;
+    for (std::int64_t step = 0; step < 60; ++step) {
+        past += rewind.has_past() ? 'y' : 'n';
+        game.step(step, 1, rewind);
+        rewind.keep(step + 1);
+    }
+    EXPECT_EQ(past, std::string(20, 'y') + std::string(20, 'n') + std::string(20, 'y'));
+    EXPECT_EQ(rewind.first(), 40);
+    rewind.go_back(50);
+    EXPECT_EQ(game.picture().labels[0].text, "50 1");
 }
 
 /// A body on a spring, without `update`.

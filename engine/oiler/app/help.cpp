@@ -27,7 +27,14 @@ struct Row {
     std::string text;
 };
 
+/// Leaves an eighth of the colours, on white.
 void fade(Picture& picture) {
+    const auto whiten = [](std::uint8_t& channel) {
+        channel = static_cast<std::uint8_t>(255 - (255 - channel) / 8);
+    };
+    whiten(picture.background.r);
+    whiten(picture.background.g);
+    whiten(picture.background.b);
     const auto fade_all = [](auto& elements) {
         for (auto& element : elements)
             element.colour = palette::faded(element.colour, element.colour.a / 8);
@@ -94,7 +101,8 @@ std::string buttons_of(const Control& control, const NameButton& name) {
     std::string text = names_of(control.positive, name);
     if (!control.negative.empty())
         text = names_of(control.negative, name) + (text.empty() ? "" : " and ") + text;
-    if (control.stick) text.append(text.empty() ? "" : ", ").append(name_of(*control.stick));
+    if (control.stick)
+        text.append(text.empty() ? "stick " : ", stick ").append(name_of(*control.stick));
     return text.empty() ? "no button" : text;
 }
 

@@ -14,7 +14,7 @@ namespace oiler {
 /// The name of a button for the user.
 using NameButton = std::function<std::string(Button)>;
 
-/// "Space, Mouse left" of an action, "Left and Right, left_x" of an axis.
+/// "Space, Mouse left" of an action, "Left and Right, stick left_x" of an axis.
 [[nodiscard]] std::string buttons_of(const Control& control, const NameButton& name);
 
 /// Fades a picture and lists the controls of a game and the keys of the loop over it.

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 /// Between two copies, at least.
 constexpr std::int64_t least_steps = 16;
 /// Ratio of the time between two copies to the time of a copy.
-constexpr int time_per_copy = 99;
+constexpr int time_per_copy = 400;
 
 }  // namespace
 
@@ -33,12 +33,12 @@ private:
 
 Rewind::Rewind(AnyGame& game, InputSource& inputs, const Limits& limits)
     : game_(game), inputs_(inputs), limits_(limits) {
-    add_copy(0);
+    keep(0);
 }
 
 Input Rewind::next(std::int64_t step) {
     Input input = inputs_.next(step);
-    if (!spans_.empty() && spans_.back().input == input) return input;
+    if (!has_past() || (!spans_.empty() && spans_.back().input == input)) return input;
     if (spans_.size() >= limits_.inputs) forget_oldest(step);
     spans_.push_back({step, input});
     return input;
@@ -52,13 +52,19 @@ void Rewind::forget_oldest(std::int64_t step) {
 }
 
 void Rewind::keep(std::int64_t step) {
-    if (step - copies_.back().step >= least_steps && Clock::now() >= next_copy_) add_copy(step);
+    if (game_.world().bodies().size() > limits_.bodies) {
+        copies_.clear();
+        spans_.clear();
+    } else if (!has_past() ||
+               (step - copies_.back().step >= least_steps && Clock::now() >= next_copy_)) {
+        add_copy(step);
+    }
 }
 
 void Rewind::add_copy(std::int64_t step) {
     const Clock::time_point start = Clock::now();
     const std::size_t bodies = std::max<std::size_t>(1, game_.world().bodies().size());
-    const std::size_t most = std::clamp<std::size_t>(limits_.bodies / bodies, 2, limits_.copies);
+    const std::size_t most = std::clamp<std::size_t>(limits_.copied / bodies, 2, limits_.copies);
     while (copies_.size() >= most) thin_out(step);
     copies_.push_back({step, game_.clone()});
     const Clock::time_point end = Clock::now();
@@ -86,10 +92,12 @@ Input Rewind::go_back(std::int64_t step) {
     game_.assign(*copies_.back().game);
     Past past(spans_);
     for (std::int64_t at = copies_.back().step; at < step;) {
-        const std::int64_t count = std::min(least_steps, step - at);
+        // The next step back finds a copy close by, and the later ones find others.
+        const std::int64_t left = step - at;
+        const std::int64_t count = left > least_steps ? left / 2 : left;
         game_.step(at, count, past);
         at += count;
-        if (count == least_steps) add_copy(at);
+        if (at < step) add_copy(at);
     }
     return spans_.empty() ? Input{} : spans_.back().input;
 }
@@ -97,7 +105,7 @@ Input Rewind::go_back(std::int64_t step) {
 void Rewind::forget(std::int64_t step) {
     copies_.clear();
     spans_.clear();
-    add_copy(step);
+    keep(step);
 }
 
 }  // namespace oiler

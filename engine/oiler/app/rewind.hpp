@@ -18,13 +18,15 @@ namespace oiler {
 ///
 /// Its memory is bounded. Copies are dense in the last steps and sparse in the far past; a full
 /// list loses the copy whose neighbours are closest for its age. Inputs that do not change are kept
-/// once. If there are too many, the oldest part of the past is forgotten.
+/// once. If there are too many, the oldest part of the past is forgotten. A game of very many
+/// bodies has no past, because a copy would delay a frame.
 class Rewind final : public InputSource {
 public:
     struct Limits {
         std::size_t copies = 128;
-        std::size_t bodies = 4'000'000;  ///< in all copies together, but two copies are kept
+        std::size_t bodies = 200'000;    ///< of a game
         std::size_t inputs = 250'000;    ///< about 50 MB
+        std::size_t copied = 4'000'000;  ///< bodies in all copies together; two copies are kept
     };
 
     /// The game has taken no step. It and the inputs must outlive this.
@@ -34,8 +36,10 @@ public:
     /// Hands out the input of the player, and keeps it.
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Copies the game, which has taken `step` steps, if it is time for that. Copies take at most
-    /// 1 % of the time.
+    /// 1/400 of the time.
     void keep(std::int64_t step);
+    /// Whether the game can go back.
+    [[nodiscard]] bool has_past() const { return !copies_.empty(); }
     /// The first step to go back to.
     [[nodiscard]] std::int64_t first() const { return copies_.front().step; }
     /// Makes the game as it was after `step` steps, from `first` on, and forgets what came then.

@@ -64,11 +64,11 @@ std::string_view no_way_back(const Options& options) {
 
 void add_status(Picture& picture, std::string status) {
     if (status.empty()) return;
-    picture.labels.push_back({.at = {canvas_width / 2, 4},
+    picture.labels.push_back({.at = {canvas_width - 8, 4},
                               .text = std::move(status),
                               .size = 11,
                               .colour = palette::vermilion,
-                              .align = Align::centre});
+                              .align = Align::right});
 }
 
 void show(const Picture& picture, Renderer& renderer, Window& window) {
@@ -133,7 +133,7 @@ private:
         for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         if (keys.pressed(Key::f9)) restart();
-        const bool steps = keys.pressed(Key::f5) || (rewind_ && keys.pressed(Key::f4));
+        const bool steps = keys.pressed(Key::f5) || (has_past() && keys.pressed(Key::f4));
         if (clock_.paused() && steps) clock_.single_step();
     }
 
@@ -146,7 +146,8 @@ private:
     }
 
     void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
-        const bool back = rewind_ && (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4));
+        const bool back =
+            has_past() && (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4));
         live_.queue.set_paused(clock_.paused() || back);
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
@@ -163,6 +164,7 @@ private:
         show(picture, renderer_, *window_);
     }
 
+    [[nodiscard]] bool has_past() const { return rewind_ && rewind_->has_past(); }
     void go_back(std::int64_t steps) {
         const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
         live_.queue.continue_after(rewind_->go_back(step));
@@ -172,12 +174,15 @@ private:
 
     [[nodiscard]] std::string status(const Input& keys, bool back) const {
         std::string text;
-        if (keys.held(Key::f4) && !rewind_)
-            text = fmt::format("F4: no way back with {}", no_way_back(options_));
+        if (keys.held(Key::f4) && !has_past())
+            text = fmt::format("F4: no way back with {}",
+                               rewind_ ? "so many bodies" : no_way_back(options_));
         else if (clock_.paused())
-            text = "paused: F3 resumes, F4 steps back, F5 steps";
+            text =
+                fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
         else if (back)
-            text = fmt::format("back at {:.2f} s", playback_.world().time());
+            text = fmt::format("back at {:.2f} s{}", playback_.world().time(),
+                               playback_.steps() == rewind_->first() ? ", no further" : "");
         if (!pace_.text().empty()) text += (text.empty() ? "" : "   ") + pace_.text();
         return text;
     }
