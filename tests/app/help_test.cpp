@@ -39,6 +39,19 @@ TEST(Help, ListsControlsAndKeysOverAFadedPicture) {
     EXPECT_FALSE(shows(other, "Escape"));
 }
 
+TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
+    const Control list[] = {Action{"menu", Pad::left_shoulder, Pad::right_shoulder,
+                                   Pad::left_trigger, Pad::right_trigger, Pad::left_stick}};
+    Picture picture;
+    add_help(picture, "Menu", list, on_azerty, true);
+    const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
+                                   [](const Label& label) { return label.text == "F2"; });
+    for (auto label = picture.labels.begin(); label != loop; ++label)
+        EXPECT_LT(label->at.x + 0.6F * label->size * static_cast<float>(label->text.size()),
+                  loop->at.x)
+            << label->text;
+}
+
 TEST(Help, ALongListFitsTheCanvas) {
     std::vector<Control> many;
     for (int i = 0; i < 40; ++i)

@@ -11,8 +11,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two copies, at least.
 constexpr std::int64_t least_steps = 16;
-/// Ratio of the time between two copies to the time of a copy.
-constexpr int time_per_copy = 400;
 
 }  // namespace
 
@@ -68,7 +66,7 @@ void Rewind::add_copy(std::int64_t step) {
     while (copies_.size() >= most) thin_out(step);
     copies_.push_back({step, game_.clone()});
     const Clock::time_point end = Clock::now();
-    next_copy_ = end + time_per_copy * (end - start);
+    next_copy_ = end + limits_.time_per_copy * (end - start);
 }
 
 /// Removes the copy whose neighbours are closest to each other, relative to its age; never the

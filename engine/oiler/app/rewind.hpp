@@ -27,6 +27,7 @@ public:
         std::size_t bodies = 200'000;    ///< of a game
         std::size_t inputs = 250'000;    ///< about 50 MB
         std::size_t copied = 4'000'000;  ///< bodies in all copies together; two copies are kept
+        int time_per_copy = 400;         ///< ratio of the time between copies to that of a copy
     };
 
     /// The game has taken no step. It and the inputs must outlive this.
@@ -35,8 +36,8 @@ public:
 
     /// Hands out the input of the player, and keeps it.
     [[nodiscard]] Input next(std::int64_t step) override;
-    /// Copies the game, which has taken `step` steps, if it is time for that. Copies take at most
-    /// 1/400 of the time.
+    /// Copies the game, which has taken `step` steps, if it is time for that. Copies take only a
+    /// small share of the time.
     void keep(std::int64_t step);
     /// Whether the game can go back.
     [[nodiscard]] bool has_past() const { return !copies_.empty(); }
