@@ -274,6 +274,10 @@ public:
         return count;
     }
     void restart() override {}
+    [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
+        return std::make_unique<Sluggish>(*this);
+    }
+    void assign(const AnyGame& other) override { *this = dynamic_cast<const Sluggish&>(other); }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override { return {}; }
 

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "oiler/app/loops.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
 
@@ -27,6 +28,9 @@ struct Diary {
                 line << ' ' << name_of(button) << (input.pressed(button) ? " down" : "")
                      << (input.held(button) ? " held" : "")
                      << (input.released(button) ? " up" : "");
+        if (input.stick(Stick::left_x) != 0) line << " stick " << input.stick(Stick::left_x);
+        if (input.stick(Stick::right_trigger) != 0) line << " trigger";
+        if (!input.text().empty()) line << " text " << input.text();
         if (input.wheel() != 0) line << " wheel " << input.wheel();
         if (input.pressed(Mouse::left))
             line << " at " << input.pointer()->x << ',' << input.pointer()->y;
@@ -64,20 +68,48 @@ TEST(Script, PlaysKeysAndMouse) {
               "9 Mouse left up\n");
 }
 
+// Positions of sticks are whole 127ths.
+TEST(Script, PlaysSticksAndText) {
+    EXPECT_EQ(played("2 stick left_x -1\n"
+                     "4 stick left_x 0\n"
+                     "4 stick RIGHT_TRIGGER 0.5\n"
+                     "5 stick right_trigger 0\n"
+                     "6 text \"say \\\"hü\\\" # \\\\\" # a comment\n"
+                     "7 text \"\"\n",
+                     12),
+              "2 stick -1\n"
+              "3 stick -1\n"
+              "4 trigger\n"
+              "6 text say \"hü\" # \\\n");
+}
+
 TEST(Script, NamesTheWrongLine) {
     struct Wrong {
         const char* line;
         const char* said;
     };
-    for (const Wrong& wrong :
-         {Wrong{"x press A", "'x' is no step"}, Wrong{"-1 press A", "0 or more"},
-          Wrong{"1 push A", "'push': give press, hold"}, Wrong{"1 press Foo", "'Foo' is no button"},
-          Wrong{"1 press F3", "belongs to the loop"},
-          Wrong{"1 click Space", "left, middle or right"},
-          Wrong{"1 mouse nan 1", "nan m is farther"}, Wrong{"1 mouse 1 -inf", "-inf m is farther"},
-          Wrong{"1 mouse 1", "'' is no place in m"}, Wrong{"1 mouse 1 2 3", "'3' is too much"},
-          Wrong{"1 wheel 0.5", "'0.5' is no number of notches"},
-          Wrong{"1 press A\n0 press A", "step 0 comes after step 1"}}) {
+    for (const Wrong& wrong : {Wrong{"x press A", "'x' is no step"},
+                               Wrong{"-1 press A", "0 or more"},
+                               Wrong{"1 push A", "'push': give press, hold"},
+                               Wrong{"1 press Foo", "'Foo' is no button"},
+                               Wrong{"1 press F3", "belongs to the loop"},
+                               Wrong{"1 click Space", "left, middle or right"},
+                               Wrong{"1 mouse nan 1", "'nan' is no place in m"},
+                               Wrong{"1 mouse 1 -inf", "'-inf' is no place in m"},
+                               Wrong{"1 mouse 1 2e9", "farther"},
+                               Wrong{"1 mouse 1", "'' is no place in m"},
+                               Wrong{"1 mouse 1 2 3", "'3' is too much"},
+                               Wrong{"1 wheel 0.5", "'0.5' is no number of notches"},
+                               Wrong{"1 press Spcae", "did you mean `Space`?"},
+                               Wrong{"1 stick middle_x 1", "'middle_x' is no stick; give left_x"},
+                               Wrong{"1 stick left_x 1.01", "left_x goes from -1 to 1"},
+                               Wrong{"1 stick left_trigger -0.5", "left_trigger goes from 0 to 1"},
+                               Wrong{"1 stick left_x nan", "'nan' is no position"},
+                               Wrong{"1 stick left_x", "'' is no position"},
+                               Wrong{"1 text hello", "in quotes"},
+                               Wrong{"1 text \"hello", "no quote at its end"},
+                               Wrong{"1 text \"a\" b", "'b' is too much"},
+                               Wrong{"1 press A\n0 press A", "step 0 comes after step 1"}}) {
         const std::string line = line_of_error(
             Exit::usage, [&] { (void)parse_script(std::string("\n") + wrong.line, "a.txt"); });
         EXPECT_NE(line.find(wrong.said), std::string::npos) << line;
@@ -102,7 +134,32 @@ TEST(Script, IsPlayedByPrograms) {
     const std::string filmed = trace("--headless --fps 60 --frames 61 --png none --out " +
                                      quoted(folder / "frames") + " " + script);
     EXPECT_EQ(filmed, kicked);
+    EXPECT_EQ(trace("--steps 60 --script - < " + quoted(folder / "kick.txt")), kicked);
     EXPECT_EQ(shell("hello --steps 1 --script " + quoted(folder / "none.txt")).exit, 2);
+    const Outcome wrong = shell("echo 3 push A | hello --steps 1 --script -");
+    EXPECT_EQ(wrong.exit, 2);
+    EXPECT_NE(wrong.err.find("standard input, line 1: 'push'"), std::string::npos) << wrong.err;
+}
+
+struct Deaf {
+    static constexpr About about{.name = "deaf", .title = "Deaf"};
+    World world;
+    explicit Deaf(const Settings& settings) : world(1, settings) {}
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+TEST(Script, OfAGameThatSeesNoInputIsRemarkedOn) {
+    const Folder folder;
+    put(folder / "kick.txt", "10 press Space\n");
+    Options options{.steps = 20, .script = folder / "kick.txt", .record = folder / "a"};
+    options.settings.stepping = {.method = &find_method("rk4"), .rate = {60}};
+    testing::internal::CaptureStderr();
+    (void)run_game(options, Deaf::about, [](const Settings& settings) {
+        return std::make_unique<AnyGameOf<Deaf>>(settings);
+    });
+    const std::string said = testing::internal::GetCapturedStderr();
+    for (const char* const option : {"--script: deaf has no update", "--record: deaf has no up"})
+        EXPECT_NE(said.find(option), std::string::npos) << said;
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Runs a demo in a real window: pause freezes the picture, a single step changes it, Escape quits with
-# exit code 0, and --frames N quits after N frames. A closed window leaves with 0, a killed server
+# Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it back,
+# F2 shows a help, Escape quits with exit code 0, and --frames N quits after N frames. A closed window leaves with 0, a killed server
 # with 3 and complete files. Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
 set -u
@@ -34,6 +34,7 @@ stands_still() {
 }
 moves() { ! stands_still; }
 has_changed() { screenshot stepped && ! cmp -s "$folder/paused" "$folder/stepped"; }
+shows_before() { screenshot now && cmp -s "$folder/before" "$folder/now"; }
 window_focused() { xdotool search --name "$title" windowfocus >/dev/null 2>&1; }
 
 # Without -noreset the server restarts when its last client leaves, and refuses clients meanwhile.
@@ -53,8 +54,24 @@ until_true stands_still || fail "F3 does not pause"
 xdotool key F5
 until_true has_changed || fail "a single step shows nothing"
 until_true stands_still || fail "the picture moves after a single step"
+xdotool key F4
+until_true has_changed || fail "F4 does not step back"
+until_true stands_still || fail "the picture moves after a step back"
+cp "$folder/paused" "$folder/before"
+xdotool key F5
+until_true has_changed || fail "a step after a step back shows nothing"
+xdotool key F4
+until_true shows_before || fail "F4 does not take a step back"
+xdotool key F2
+until_true has_changed || fail "F2 shows no help"
+xdotool key F2
+until_true shows_before || fail "F2 does not close the help"
 xdotool key F3
 until_true moves || fail "F3 does not resume"
+xdotool keydown F4
+until_true stands_still || fail "holding F4 does not end at the start of the game"
+xdotool keyup F4
+until_true moves || fail "the game does not go on from where it came back to"
 xdotool key Escape
 wait $game
 status=$?

@@ -50,6 +50,21 @@ TEST(InputEvents, GiveTheSameInputAgain) {
     }
 }
 
+TEST(InputEvents, OfALongTextAreSeveral) {
+    InputQueue queue;
+    for (int i = 0; i < 3000; ++i) queue.enter("ü€");
+    const Input now = queue.take({});
+    std::string bytes;
+    for (const InputEvent& event : events_between({}, now)) append(bytes, event);
+    EventPlayer player;
+    for (std::string_view rest(bytes); !rest.empty();) {
+        const auto event = take_event(rest);
+        ASSERT_TRUE(event);
+        player.play(*event);
+    }
+    EXPECT_EQ(player.take(), now);
+}
+
 TEST(InputEvents, AreRefusedIfTheirBytesAreDamaged) {
     std::mt19937 random(2);
     for (int run = 0; run < 20'000; ++run) {

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -121,14 +122,16 @@ class AnyGame {
 public:
     virtual ~AnyGame() = default;
     AnyGame() = default;
-    AnyGame(const AnyGame&) = delete;
-    AnyGame& operator=(const AnyGame&) = delete;
 
     /// Steps `count` times, or until the game quits; the next step is number `step` of the loop. A
     /// game may replace its world meanwhile. Returns the number of steps taken.
     virtual std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
     /// Makes the game anew, with the settings of its world.
     virtual void restart() = 0;
+    /// A copy, which goes on as the game does.
+    [[nodiscard]] virtual std::unique_ptr<AnyGame> clone() const = 0;
+    /// Becomes a copy of a game of the same type, as a clone is.
+    virtual void assign(const AnyGame& other) = 0;
     /// Whether its steps see input.
     [[nodiscard]] virtual bool takes_input() const { return false; }
     /// How often the world was replaced: no picture between two worlds is drawn.
@@ -142,6 +145,9 @@ public:
     }
 
 protected:
+    AnyGame(const AnyGame&) = default;
+    AnyGame& operator=(const AnyGame&) = default;
+
     Loop loop_;
     std::int64_t cuts_ = 0;
 };
@@ -179,6 +185,16 @@ public:
         age_ = -1;
         ++cuts_;
     }
+    [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
+        return guarded(copying, [&] { return std::make_unique<AnyGameOf>(*this); });
+    }
+    void assign(const AnyGame& other) override {
+        const auto& source = dynamic_cast<const AnyGameOf&>(other);
+        guarded(copying, [&] { game_ = source.game_; });
+        loop_ = source.loop_;
+        age_ = game_.world.age();
+        ++cuts_;
+    }
     [[nodiscard]] bool takes_input() const override { return Updates<G>; }
     [[nodiscard]] const World& world() const override { return game_.world; }
     [[nodiscard]] Picture picture() const override {
@@ -194,6 +210,8 @@ public:
     }
 
 private:
+    static const char* copying() { return "a copy of the game"; }
+
     void update(const Input& input, std::int64_t step) {
         loop_.begin_step();
         const Rate rate = game_.world.settings().stepping.rate;

@@ -22,6 +22,8 @@ public:
 /// A player in the window. Steps see the camera of the picture that was on screen.
 class LiveInput final : public InputSource {
 public:
+    explicit LiveInput(const ChosenControls& controls = {}) : queue(controls) {}
+
     [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
 
     InputQueue queue;

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "oiler/app/golden.hpp"
+#include "oiler/app/help.hpp"
+#include "oiler/app/keys.hpp"
 #include "oiler/app/parse.hpp"
 #include "oiler/app/parse_size.hpp"
 #include "oiler/capture/capture_folder.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/capture/paths.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
@@ -158,6 +161,7 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
     std::vector<NamedPath> inputs{{"SCENE", words.scene},
                                   {"--from", words.from},
                                   {"--script", options.script},
+                                  {"--keys", options.keys},
                                   {"--replay", options.replay_file}};
     if (!options.update_golden) inputs.push_back({"--golden", options.golden, is_capture_file});
     for (const std::vector<NamedPath>& paths : {outputs, inputs})
@@ -165,7 +169,9 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
             if (path.name != "SCENE" && app.get_option_no_throw(path.name) != nullptr &&
                 app.count(path.name) > 0 && path.path.empty())
                 fail(Exit::usage, "{}: give a path", path.name);
-    std::erase_if(inputs, [](const NamedPath& input) { return input.path.empty(); });
+    std::erase_if(inputs, [](const NamedPath& input) {
+        return input.path.empty() || (input.name == "--script" && input.path == "-");
+    });
     require_distinct(inputs, outputs);
 }
 
@@ -234,7 +240,7 @@ void check_update(const CLI::App& app, const Options& options, const Words& word
 /// The settings of a replay are those of its recording.
 void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
     for (const char* option : {"--method", "--rate", "--precision", "--damping", "--seed", "--from",
-                               "--script", "--record"})
+                               "--script", "--record", "--keys"})
         if (app.count(option) > 0)
             fail(Exit::usage, "{}: comes from the recording of --replay; leave it out", option);
     line.options.replay = read_recording(line.options.replay_file);
@@ -248,6 +254,16 @@ void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
     require_same_game(line.options.replay->header,
                       header_of(line.about.name, settings, line.about.controls),
                       words.replay_anyway);
+    line.options.controls = controls_of(line.options.replay->header, line.about.controls);
+}
+
+void take_keys(CommandLine& line) {
+    const std::string file = line.options.keys.string();
+    if (line.about.controls.empty())
+        fail(Exit::usage, "--keys: {} has no actions to choose buttons for; leave it out",
+             line.about.name);
+    line.options.controls = std::make_shared<const std::vector<Control>>(
+        parse_keys(read_text(line.options.keys), file, line.about.controls));
 }
 
 /// Settings that the command line does not give come from the manifest or from the game.
@@ -312,8 +328,11 @@ void declare_play(CLI::App& app, Options& options, Words& words) {
     const auto add_file = [&](const char* name, std::filesystem::path& path, const char* help) {
         app.add_option(name, path, help)->type_name("FILE");
     };
+    add_file("--keys", options.keys,
+             "take the buttons of actions from a TOML file: fire = [\"Space\", \"Pad south\"]");
     add_file("--script", options.script,
-             "play the keys and the mouse of a text, with lines such as: 60 press Space");
+             "play the keys and the mouse of a text, with lines such as: 60 press Space; "
+             "- for stdin");
     add_file("--record", options.record, "record what is played, for --replay");
     add_file("--replay", options.replay_file,
              "play a recording with its settings: exit 1 with the first step that differs");
@@ -327,9 +346,15 @@ void declare_scene(CLI::App& app, Words& words) {
                    "scene file in TOML, see assets/scenes/README.md; not needed with --from");
 }
 
-std::string footer(const std::string& program) {
-    return "Keys in a window: F3 pause, F5 step, F7 and F8 slower and faster, F9 restart, Escape "
-           "quit.\n"
+std::string footer(const std::string& program, std::span<const Control> controls) {
+    const auto name_of_button = [](Button button) { return name_of(button); };
+    std::string actions;
+    for (const Control& control : controls)
+        actions += fmt::format("{}{}: {}", actions.empty() ? "Actions: " : "; ", control.name,
+                               buttons_of(control, name_of_button));
+    return actions + (actions.empty() ? "" : ".\n") +
+           "Keys in a window: F2 help, F3 pause, F4 back, F5 step, F7 and F8 slower and faster, F9 "
+           "restart, Escape quit.\n"
            "Example: " +
            program + " --headless --frames 120 --size 640x360 --out frames";
 }
@@ -342,9 +367,10 @@ CommandLine parse_command_line(int argc, char** argv, const About& about) {
 
 CommandLine parse_command_line(int argc, char** argv, const About& about,
                                const AboutScene& about_scene) {
+    check_controls(about.controls);
     const std::string name(about.name);
     CLI::App app(std::string(about.title), name);
-    app.footer(footer(name + (about_scene ? " assets/scenes/cloth.toml" : "")));
+    app.footer(footer(name + (about_scene ? " assets/scenes/cloth.toml" : ""), about.controls));
     app.set_version_flag("--version", name + " " + std::string(version()));
     CommandLine line{.options = {}, .text = {}, .about = about};
     Words words;
@@ -359,6 +385,7 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     if (!words.from.empty()) line.options.from = read_manifest(words.from);
     if (about_scene) line.about = about_scene(words.scene, line.options.from);
     if (!line.options.replay_file.empty()) take_replay(app, words, line);
+    if (!line.options.keys.empty()) take_keys(line);
     fill_in(app, words, line);
     line.options = collect(app, std::move(line.options), words, line.about);
     return line;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "oiler/app/game.hpp"
@@ -38,12 +39,20 @@ struct Options {
     std::filesystem::path energy;
     std::filesystem::path json;
     std::filesystem::path profile;
-    std::filesystem::path script;  ///< of a game: its input; empty: nobody plays
+    std::filesystem::path script;  ///< of a game: its input, - is stdin; empty: nobody plays
+    std::filesystem::path keys;
+    ChosenControls controls;  ///< of --keys or of the recording that is replayed
     std::filesystem::path record;
     std::optional<Recording> replay;
     std::filesystem::path replay_file;
     bool quiet = false;
 };
+
+/// The controls of the game with the buttons that the player has.
+[[nodiscard]] inline std::span<const Control> controls_of(const Options& options,
+                                                          const About& about) {
+    return options.controls ? std::span<const Control>(*options.controls) : about.controls;
+}
 
 /// Options, or the text of --help or --version.
 struct CommandLine {

@@ -92,6 +92,13 @@ Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
                : before_.picture;
 }
 
+void Playback::go_back(std::int64_t step) {
+    assert(step <= steps_ && keep_ == Keep::nothing);
+    steps_ = step;
+    before_ = sample();
+    after_ = {};
+}
+
 Playback::Moment Playback::sample() const {
     const Span span(profile_, "picture");
     Moment moment{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};

@@ -33,8 +33,9 @@ public:
     /// Returns the picture at `alpha` in [0, 1) between the states after `step` steps and the next.
     /// `step` must not decrease. Where the game replaced its world between them, it is the former.
     [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
-    void restart() { game_.restart(); }
-    [[nodiscard]] bool takes_input() const { return game_.takes_input(); }
+    /// Shows the game as it is now: it was put back to where it was after `step` steps.
+    void go_back(std::int64_t step);
+    [[nodiscard]] AnyGame& game() { return game_; }
     /// Shows the world to a watcher after each step. It must outlive the playback.
     void watch(StepWatcher& watcher) { watcher_ = &watcher; }
     [[nodiscard]] const Loop& loop() const { return game_.loop(); }

@@ -17,7 +17,7 @@ namespace oiler {
 namespace {
 
 constexpr std::string_view magic = "OILERREC ";
-constexpr std::string_view format = "1\n";
+constexpr std::string_view format = "2\n";
 // After the kinds of events.
 constexpr std::uint8_t state_record = 16;
 constexpr std::uint8_t end_record = 17;
@@ -42,7 +42,21 @@ std::uint64_t hash_of(std::string_view bytes) {
     return hash.value();
 }
 
+Json to_json(const Buttons& buttons) {
+    Json names = Json::array();
+    for (const Button button : buttons) names.push_back(name_of(button));
+    return names;
+}
+Json to_json(const RecordedControl& control) {
+    if (!control.is_axis) return {{"action", control.name}, {"buttons", to_json(control.positive)}};
+    return {{"axis", control.name},
+            {"negative", to_json(control.negative)},
+            {"positive", to_json(control.positive)},
+            {"stick", control.stick ? name_of(*control.stick) : ""}};
+}
 Json to_json(const RecordingHeader& header) {
+    Json controls = Json::array();
+    for (const RecordedControl& control : header.controls) controls.push_back(to_json(control));
     const Stepping& stepping = header.stepping;
     return {{"game", header.game},
             {"version", header.version},
@@ -51,16 +65,35 @@ Json to_json(const RecordingHeader& header) {
             {"precision", name_of(stepping.precision)},
             {"damping", stepping.damping ? name_of(*stepping.damping) : ""},
             {"seed", header.seed},
-            {"controls", header.controls}};
+            {"controls", controls}};
 }
 
+Buttons buttons_from(const nlohmann::json& names) {
+    if (names.size() > Buttons::most) throw std::invalid_argument("buttons");
+    Buttons buttons;
+    for (const std::string name : names) buttons.add(find_button(name).value());
+    return buttons;
+}
+RecordedControl control_from(const nlohmann::json& json) {
+    if (json.contains("action"))
+        return {.name = json.at("action"), .positive = buttons_from(json.at("buttons"))};
+    RecordedControl axis{.name = json.at("axis"),
+                         .is_axis = true,
+                         .negative = buttons_from(json.at("negative")),
+                         .positive = buttons_from(json.at("positive"))};
+    const std::string stick = json.at("stick");
+    if (!stick.empty()) axis.stick = find_stick(stick).value();
+    return axis;
+}
 RecordingHeader header_from(const std::string& line) {
     const auto json = nlohmann::json::parse(line);
     RecordingHeader header{.game = json.at("game"),
                            .version = json.at("version"),
                            .stepping = {},
                            .seed = json.at("seed"),
-                           .controls = json.at("controls")};
+                           .controls = {}};
+    for (const auto& control : json.at("controls"))
+        header.controls.push_back(control_from(control));
     Stepping& stepping = header.stepping;
     stepping.method = &find_method(std::string(json.at("method")));
     stepping.rate = {json.at("rate")};
@@ -70,6 +103,14 @@ RecordingHeader header_from(const std::string& line) {
     if (!damping.empty())
         stepping.damping = damping == "kick" ? Damping::in_kick : Damping::in_drift;
     return header;
+}
+
+/// "action fire", "axis aim".
+std::vector<std::string> kinds_of(const RecordingHeader& header) {
+    std::vector<std::string> kinds;
+    for (const RecordedControl& control : header.controls)
+        kinds.push_back((control.is_axis ? "axis " : "action ") + control.name);
+    return kinds;
 }
 
 /// Reads the records of a chunk. Returns what is wrong with them; empty: nothing.
@@ -111,9 +152,20 @@ RecordingHeader header_of(std::string_view game, const Settings& settings,
                            .seed = settings.seed,
                            .controls = {}};
     for (const Control& control : controls)
-        header.controls.push_back((control.is_axis ? "axis " : "action ") +
-                                  std::string(control.name));
+        header.controls.push_back({std::string(control.name), control.is_axis, control.negative,
+                                   control.positive, control.stick});
     return header;
+}
+
+ChosenControls controls_of(const RecordingHeader& header, std::span<const Control> of_game) {
+    auto chosen = std::make_shared<std::vector<Control>>(of_game.begin(), of_game.end());
+    for (std::size_t i = 0; i < chosen->size(); ++i) {
+        const RecordedControl& recorded = header.controls.at(i);
+        (*chosen)[i].negative = recorded.negative;
+        (*chosen)[i].positive = recorded.positive;
+        (*chosen)[i].stick = recorded.stick;
+    }
+    return chosen;
 }
 
 PartHashes part_hashes(const World& world) {
@@ -215,9 +267,9 @@ void require_same_game(const RecordingHeader& recorded, const RecordingHeader& n
     if (recorded.game != now.game)
         fail(Exit::usage, "--replay: the recording is of {}, not of {}; run that program",
              recorded.game, now.game);
-    if (recorded.controls != now.controls)
+    if (kinds_of(recorded) != kinds_of(now))
         fail(Exit::usage, "--replay: the game had other actions then: {}; replay it with that game",
-             fmt::join(recorded.controls, ", "));
+             fmt::join(kinds_of(recorded), ", "));
     if (recorded.version != now.version && !other_version_too)
         fail(Exit::usage,
              "--replay: recorded with Oiler {}, this is {}; add --replay-anyway to try it",

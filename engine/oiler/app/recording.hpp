@@ -16,18 +16,33 @@
 
 namespace oiler {
 
+/// An action or axis of a recorded game, with the buttons that its player had.
+struct RecordedControl {
+    std::string name;
+    bool is_axis = false;
+    Buttons negative{};
+    Buttons positive{};
+    std::optional<Stick> stick{};
+
+    friend bool operator==(const RecordedControl&, const RecordedControl&) = default;
+};
+
 /// All that decides how a game goes on, besides its input.
 struct RecordingHeader {
     std::string game;
     std::string version;  ///< of Oiler
     Stepping stepping;
     std::uint64_t seed = 0;
-    std::vector<std::string> controls;  ///< the names of the game's actions and axes
+    std::vector<RecordedControl> controls;
 
     friend bool operator==(const RecordingHeader&, const RecordingHeader&) = default;
 };
 [[nodiscard]] RecordingHeader header_of(std::string_view game, const Settings& settings,
                                         std::span<const Control> controls);
+
+/// The controls of a game with the buttons of its recording.
+[[nodiscard]] ChosenControls controls_of(const RecordingHeader& header,
+                                         std::span<const Control> of_game);
 
 /// The last 16 bits of the hashes of a world: what differs when they do is known by the part.
 struct PartHashes {
@@ -37,7 +52,7 @@ struct PartHashes {
 };
 [[nodiscard]] PartHashes part_hashes(const World& world);
 
-/// Writes a recording: a line "OILERREC 1", a line of JSON, and chunks of records. A chunk is
+/// Writes a recording: a line "OILERREC 2", a line of JSON, and chunks of records. A chunk is
 /// written at least once per second of play, so that a killed program leaves a recording up to
 /// there. A chunk has its size (4 bytes), the XXH3 hash of its records (8 bytes), and records: the
 /// steps since the last record, a byte that names the kind, and numbers. engine/README.md lists

@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iostream>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <span>
@@ -26,17 +28,28 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+std::vector<ScriptLine> read_script(const std::filesystem::path& path) {
+    if (path != "-") return parse_script(read_text(path), path.string());
+    return parse_script({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
+}
+
 /// Who plays: the user in a window, a script, a recording or nobody; and the recording of it.
 class Player {
 public:
-    Player(const Options& options, const About& about, const AnyGame& game) {
+    Player(const Options& options, const About& about, const AnyGame& game)
+        : live(options.controls) {
         if (options.replay)
-            replay_.emplace(*options.replay, options.replay_file.string());
+            replay_.emplace(*options.replay, options.replay_file.string(), options.controls);
         else if (!options.script.empty())
-            script_.emplace(parse_script(read_text(options.script), options.script.string()), game);
+            script_.emplace(read_script(options.script), game, options.controls);
         if (!options.record.empty())
             tape_.emplace(source(), options.record,
-                          header_of(about.name, options.settings, about.controls));
+                          header_of(about.name, options.settings, controls_of(options, about)));
+        for (const auto& [option, path] :
+             {std::pair("--script", options.script), std::pair("--record", options.record)})
+            if (!path.empty() && !game.takes_input())
+                remark(options.quiet, "{}: {} has no update(const Input&), so it sees no input",
+                       option, about.name);
     }
 
     [[nodiscard]] InputSource& inputs() { return tape_ ? *tape_ : source(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/script.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/nearest.hpp"
 
 namespace oiler {
 namespace {
@@ -21,7 +22,7 @@ constexpr float farthest = 1e9F;
 class LineWords {
 public:
     LineWords(std::string_view line, std::string place) : place_(std::move(place)) {
-        rest_ = line.substr(0, line.find('#'));
+        rest_ = line.substr(0, end_of_code(line));
         skip_blanks();
         while (!rest_.empty() && is_blank(rest_.back())) rest_.remove_suffix(1);
     }
@@ -47,15 +48,48 @@ public:
         if (error != std::errc() || last != word.data() + word.size())
             refuse(fmt::format("'{}' is no {}", word, what));
         if constexpr (std::is_floating_point_v<Number>)
-            if (!(std::abs(number) <= farthest))
-                refuse(fmt::format("{} m is farther than {:g} m", word, farthest));
+            if (!std::isfinite(number)) refuse(fmt::format("'{}' is no {}", word, what));
         return number;
+    }
+    [[nodiscard]] float take_metres() {
+        const auto number = take_number<float>("place in m");
+        if (std::abs(number) > farthest)
+            refuse(fmt::format("{} m is farther than {:g} m", number, farthest));
+        return number;
+    }
+    [[nodiscard]] std::string take_quoted() {
+        if (rest_.size() < 2 || rest_.front() != '"') refuse("give the text in quotes: \"hello\"");
+        std::string text;
+        std::size_t at = 1;
+        for (; at < rest_.size() && rest_[at] != '"'; ++at) {
+            if (rest_[at] == '\\' && at + 1 < rest_.size() &&
+                (rest_[at + 1] == '"' || rest_[at + 1] == '\\'))
+                ++at;
+            text.push_back(rest_[at]);
+        }
+        if (at >= rest_.size()) refuse("the text has no quote at its end");
+        rest_.remove_prefix(at + 1);
+        skip_blanks();
+        return text;
     }
     [[noreturn]] void refuse(const std::string& why) const {
         fail(Exit::usage, "{}: {}", place_, why);
     }
 
 private:
+    /// Where a comment begins, outside of a text in quotes.
+    static std::size_t end_of_code(std::string_view line) {
+        bool quoted = false;
+        for (std::size_t at = 0; at < line.size(); ++at) {
+            if (quoted && line[at] == '\\')
+                ++at;
+            else if (line[at] == '"')
+                quoted = !quoted;
+            else if (line[at] == '#' && !quoted)
+                return at;
+        }
+        return line.size();
+    }
     static bool is_blank(char one) { return one == ' ' || one == '\t' || one == '\r'; }
     void skip_blanks() {
         while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
@@ -70,10 +104,26 @@ Button take_button(LineWords& words, const std::string& prefix) {
     const auto button = find_button(prefix + name);
     if (!button)
         words.refuse(fmt::format(
-            "'{}' is no button; give one such as {}", name,
-            prefix.empty() ? "Space, Left, A, Mouse left or Pad south" : "left, middle or right"));
+            "'{}' is no button; give one such as {}{}", name,
+            prefix.empty() ? "Space, Left, A, Mouse left or Pad south" : "left, middle or right",
+            prefix.empty() ? did_you_mean(name, button_names()) : ""));
     if (is_of_loop(*button)) words.refuse(name + " belongs to the loop, and no game sees it");
     return *button;
+}
+
+void take_stick(LineWords& words, ScriptLine& line) {
+    const std::string_view name = words.take();
+    const auto stick = find_stick(name);
+    if (!stick)
+        words.refuse(
+            fmt::format("'{}' is no stick; give {}", name, fmt::join(stick_names(), ", ")));
+    const bool is_trigger = *stick == Stick::left_trigger || *stick == Stick::right_trigger;
+    const auto position = words.take_number<float>("position of a stick");
+    if (position < (is_trigger ? 0 : -1) || position > 1)
+        words.refuse(fmt::format("{} goes from {} to 1", name, is_trigger ? 0 : -1));
+    line.what = What::stick;
+    line.stick = *stick;
+    line.deflection = static_cast<Deflection>(std::lround(position * 127));
 }
 
 ScriptLine parse_line(LineWords& words) {
@@ -87,13 +137,19 @@ ScriptLine parse_line(LineWords& words) {
         line.button = take_button(words, "Mouse ");
     } else if (what == "mouse") {
         line.what = What::mouse;
-        line.at.x = words.take_number<float>("place in m");
-        line.at.y = words.take_number<float>("place in m");
+        line.at.x = words.take_metres();
+        line.at.y = words.take_metres();
     } else if (what == "wheel") {
         line.what = What::wheel;
         line.notches = words.take_number<int>("number of notches");
+    } else if (what == "stick") {
+        take_stick(words, line);
+    } else if (what == "text") {
+        line.what = What::text;
+        line.text = words.take_quoted();
     } else {
-        words.refuse(fmt::format("'{}': give press, hold, release, click, mouse or wheel", what));
+        words.refuse(fmt::format(
+            "'{}': give press, hold, release, click, mouse, wheel, stick or text", what));
     }
     if (!words.empty()) words.refuse(fmt::format("'{}' is too much", words.take_rest()));
     return line;
@@ -139,6 +195,10 @@ void ScriptInput::play(const ScriptLine& line) {
             return;
         case What::wheel:
             return queue_.turn_wheel(line.notches);
+        case What::stick:
+            return queue_.deflect(line.stick, line.deflection);
+        case What::text:
+            return queue_.enter(line.text);
     }
 }
 

@@ -10,12 +10,15 @@ namespace oiler {
 
 /// A line of a script: what a player does before a step.
 struct ScriptLine {
-    enum class What { hold, release, press, mouse, wheel };
+    enum class What { hold, release, press, mouse, wheel, stick, text };
     What what = What::press;
     std::int64_t step = 0;  ///< counted from 0
     Button button{Key::space};
     Point at{};  ///< of the mouse, m
     int notches = 0;
+    Stick stick = Stick::left_x;
+    Deflection deflection = 0;
+    std::string text{};
 };
 
 /// Reads a script. Each line has a step and what is done before it; # begins a comment:
@@ -26,6 +29,8 @@ struct ScriptLine {
 ///     100 mouse 3.5 -1       points at a place in the world, m
 ///     100 click left         presses a button of the mouse
 ///     120 wheel -1           turns the wheel by notches
+///     130 stick left_x 0.5   deflects a stick, -1 to 1, or a trigger, 0 to 1, until the next line
+///     140 text "hello"       enters text; \" and \\ are a quote and a backslash
 ///
 /// Steps do not decrease. Names of keys and buttons are those of find_button. Throws Error{usage}
 /// with `name`, the number of the line and the remedy.
@@ -35,8 +40,8 @@ struct ScriptLine {
 /// Plays a script. The mouse points through the camera of the game's picture at that step.
 class ScriptInput final : public InputSource {
 public:
-    ScriptInput(std::vector<ScriptLine> lines, const AnyGame& game)
-        : lines_(std::move(lines)), game_(game) {}
+    ScriptInput(std::vector<ScriptLine> lines, const AnyGame& game, ChosenControls controls = {})
+        : lines_(std::move(lines)), game_(game), queue_(std::move(controls)) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
     /// The number of lines that come after the steps so far.

@@ -38,8 +38,8 @@ private:
 /// Plays a recording, and compares the world with it after each step.
 class Replay final : public InputSource, public StepWatcher {
 public:
-    Replay(const Recording& recording, std::string name)
-        : recording_(recording), name_(std::move(name)) {}
+    Replay(const Recording& recording, std::string name, ChosenControls controls = {})
+        : recording_(recording), name_(std::move(name)), player_(std::move(controls)) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Throws Error{comparison_failed} with the first step that differs, and in which part.

@@ -2,13 +2,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
-#include <vector>
+#include <utility>
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
+#include "oiler/app/rewind.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/render/renderer.hpp"
@@ -37,44 +43,32 @@ private:
     int exponent_ = 0;
 };
 
-void control(Key key, StepClock& clock, Pace& pace, Playback& playback, InputQueue& queue) {
-    switch (key) {
-        case Key::f3:
-            return clock.paused() ? clock.resume() : clock.pause();
-        case Key::f5:
-            if (clock.paused()) clock.single_step();
-            return;
-        case Key::f7:
-            return pace.slower();
-        case Key::f8:
-            return pace.faster();
-        case Key::f9:
-            clock.resume();
-            return playback.takes_input() ? queue.restart() : playback.restart();
-        default:
-            return;
-    }
-}
-
 /// Escape quits a game that has no use for it.
-bool uses_escape(const About& about) {
+bool uses_escape(std::span<const Control> controls) {
     const auto has_it = [](const Buttons& buttons) {
         return std::find(buttons.begin(), buttons.end(), Button(Key::escape)) != buttons.end();
     };
-    return std::any_of(about.controls.begin(), about.controls.end(), [&](const Control& one) {
+    return std::any_of(controls.begin(), controls.end(), [&](const Control& one) {
         return has_it(one.positive) || has_it(one.negative);
     });
 }
 
-void add_status(Picture& picture, const StepClock& clock, const Pace& pace) {
-    std::string status = clock.paused() ? "paused: F3 resumes, F5 steps" : "";
-    if (!pace.text().empty()) status += (status.empty() ? "" : "   ") + pace.text();
+/// The option that needs each step as it was first taken; empty if the player may go back.
+std::string_view no_way_back(const Options& options) {
+    if (!options.script.empty()) return "--script";
+    if (!options.record.empty()) return "--record";
+    if (!options.replay_file.empty()) return "--replay";
+    if (!options.trace.empty()) return "--trace";
+    return options.energy.empty() ? "" : "--energy";
+}
+
+void add_status(Picture& picture, std::string status) {
     if (status.empty()) return;
-    picture.labels.push_back({.at = {canvas_width / 2, 4},
+    picture.labels.push_back({.at = {canvas_width - 8, 4},
                               .text = std::move(status),
                               .size = 11,
                               .colour = palette::vermilion,
-                              .align = Align::centre});
+                              .align = Align::right});
 }
 
 void show(const Picture& picture, Renderer& renderer, Window& window) {
@@ -92,41 +86,140 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
     if (spent < period * 4 / 5) std::this_thread::sleep_for(period - spent);
 }
 
+/// A game in a window, with the keys of the loop.
+class Session {
+public:
+    Session(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
+            const About& about)
+        : playback_(playback),
+          live_(live),
+          options_(options),
+          about_(about),
+          controls_(controls_of(options, about)),
+          window_(open_window(options.size, std::string(about.title))),
+          renderer_([this](const char* name) { return window_->procedure(name); }),
+          clock_(static_cast<int>(options.settings.stepping.rate.steps)) {
+        if (no_way_back(options).empty()) rewind_.emplace(playback.game(), inputs);
+        inputs_ = rewind_ ? &*rewind_ : &inputs;
+    }
+
+    Played run() {
+        remark(options_.quiet, "drawing with {} ({}): F2 help, F3 pause, F4 back{}",
+               window_->provider(), renderer_.gl_renderer(),
+               uses_escape(controls_) ? "" : ", Escape quits");
+        const int fps = options_.fps.value_or(window_->refresh_rate());
+        for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
+            const std::chrono::nanoseconds start = now();
+            const Window::State state = window_->poll(live_.queue, keys_);
+            if (state == Window::State::lost) return {Exit::no_display, clock_.dropped_time()};
+            const Input keys = keys_.take({});
+            control(keys);
+            draw_frame(keys, start);
+            const bool escaped = !uses_escape(controls_) && keys.pressed(Key::escape);
+            const bool last = (options_.frames && frame + 1 >= *options_.frames) ||
+                              (options_.replay && playback_.steps() >= options_.replay->steps);
+            if (state == Window::State::closed || escaped || last || playback_.loop().quits())
+                break;
+            limit_frame_rate(start, fps);
+        }
+        return {.dropped = clock_.dropped_time()};
+    }
+
+private:
+    void control(const Input& keys) {
+        if (keys.presses(Key::f2) % 2 == 1) helps_ = !helps_;
+        if (keys.presses(Key::f3) % 2 == 1) clock_.paused() ? clock_.resume() : clock_.pause();
+        for (int i = 0; i < keys.presses(Key::f7); ++i) pace_.slower();
+        for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
+        clock_.set_time_scale(pace_.numerator(), pace_.denominator());
+        if (keys.pressed(Key::f9)) restart();
+        const bool steps = keys.pressed(Key::f5) || (has_past() && keys.pressed(Key::f4));
+        if (clock_.paused() && steps) clock_.single_step();
+    }
+
+    void restart() {
+        clock_.resume();
+        AnyGame& game = playback_.game();
+        if (game.takes_input()) return live_.queue.restart();
+        game.restart();
+        if (rewind_) rewind_->forget(playback_.steps());
+    }
+
+    void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
+        const bool back =
+            has_past() && (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4));
+        live_.queue.set_paused(clock_.paused() || back);
+        const std::int64_t steps = clock_.advance(start).steps;
+        if (back && steps > 0) go_back(steps);
+        if (rewind_ && !back) rewind_->keep(playback_.steps());
+        // What is shown after a step back is a whole step, until play goes on.
+        whole_ = back || (whole_ && clock_.paused());
+        Picture picture =
+            playback_.show(clock_.ticks() - undone_, whole_ ? 0 : clock_.alpha(), *inputs_);
+        window_->take_text(playback_.loop().takes_text());
+        live_.shown = picture.camera;
+        if (helps_)
+            add_help(picture, about_.title, controls_, key_names(), !uses_escape(controls_));
+        add_status(picture, status(keys, back));
+        show(picture, renderer_, *window_);
+    }
+
+    [[nodiscard]] bool has_past() const { return rewind_ && rewind_->has_past(); }
+    void go_back(std::int64_t steps) {
+        const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
+        live_.queue.continue_after(rewind_->go_back(step));
+        playback_.go_back(step);
+        undone_ = clock_.ticks() - step;
+    }
+
+    [[nodiscard]] std::string status(const Input& keys, bool back) const {
+        std::string text;
+        if (keys.held(Key::f4) && !has_past())
+            text = fmt::format("F4: no way back with {}",
+                               rewind_ ? "so many bodies" : no_way_back(options_));
+        else if (clock_.paused())
+            text =
+                fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
+        else if (back)
+            text = fmt::format("back at {:.2f} s{}", playback_.world().time(),
+                               playback_.steps() == rewind_->first() ? ", no further" : "");
+        if (!pace_.text().empty()) text += (text.empty() ? "" : "   ") + pace_.text();
+        return text;
+    }
+    /// Keys with a letter or a sign have the name of the user's keyboard.
+    [[nodiscard]] NameButton key_names() const {
+        return [this](Button button) {
+            const bool has_sign =
+                button.id() <= Button(Key::n0).id() ||
+                (button.id() >= Button(Key::minus).id() && button.id() <= Button(Key::slash).id());
+            const std::string name =
+                has_sign ? window_->name_on_layout(static_cast<Key>(button.id())) : "";
+            return name.empty() ? name_of(button) : name;
+        };
+    }
+
+    Playback& playback_;
+    LiveInput& live_;
+    const Options& options_;
+    const About& about_;
+    std::span<const Control> controls_;
+    std::unique_ptr<Window> window_;
+    Renderer renderer_;
+    StepClock clock_;
+    Pace pace_;
+    InputQueue keys_;  ///< of the loop
+    std::optional<Rewind> rewind_;
+    InputSource* inputs_ = nullptr;
+    std::int64_t undone_ = 0;  ///< steps of the clock that the game has not taken
+    bool helps_ = false;
+    bool whole_ = false;
+};
+
 }  // namespace
 
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
                   const About& about) {
-    const auto window = open_window(options.size, std::string(about.title));
-    Renderer renderer([&](const char* name) { return window->procedure(name); });
-    remark(options.quiet, "drawing with {} ({}): F3 pause, F5 step, F7 and F8 pace, F9 restart{}",
-           window->provider(), renderer.gl_renderer(), uses_escape(about) ? "" : ", Escape quits");
-
-    StepClock clock(static_cast<int>(options.settings.stepping.rate.steps));
-    Pace pace;
-    std::vector<Key> loop_keys;
-    const int fps = options.fps.value_or(window->refresh_rate());
-    for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
-        const std::chrono::nanoseconds start = now();
-        loop_keys.clear();
-        const Window::State state = window->poll(live.queue, loop_keys);
-        if (state == Window::State::lost) return {Exit::no_display, clock.dropped_time()};
-        for (const Key key : loop_keys) control(key, clock, pace, playback, live.queue);
-        clock.set_time_scale(pace.numerator(), pace.denominator());
-        live.queue.set_paused(clock.paused());
-        clock.advance(start);
-        Picture picture = playback.show(clock.ticks(), clock.alpha(), inputs);
-        window->take_text(playback.loop().takes_text());
-        live.shown = picture.camera;
-        add_status(picture, clock, pace);
-        show(picture, renderer, *window);
-        const bool escaped =
-            !uses_escape(about) && std::ranges::find(loop_keys, Key::escape) != loop_keys.end();
-        const bool last = (options.frames && frame + 1 >= *options.frames) ||
-                          (options.replay && playback.steps() >= options.replay->steps);
-        if (state == Window::State::closed || escaped || last || playback.loop().quits()) break;
-        limit_frame_rate(start, fps);
-    }
-    return {.dropped = clock.dropped_time()};
+    return Session(playback, live, inputs, options, about).run();
 }
 
 }  // namespace oiler

@@ -31,6 +31,13 @@ public:
         world_ = make_world(scene_, world_.settings());
         ++cuts_;
     }
+    [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
+        return std::make_unique<SceneGame>(*this);
+    }
+    void assign(const AnyGame& other) override {
+        world_ = dynamic_cast<const SceneGame&>(other).world_;
+        ++cuts_;
+    }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override { return draw_scene(scene_, world_, camera_); }
     [[nodiscard]] std::string name_of(Entity entity) const override {

@@ -137,7 +137,7 @@ constexpr NamedButton named_buttons[] = {
     {Pad::right_trigger, "Pad right trigger"},
 };
 
-constexpr std::array<std::string_view, stick_count> stick_names{
+constexpr std::array<std::string_view, stick_count> names_of_sticks{
     "left_x", "left_y", "right_x", "right_y", "left_trigger", "right_trigger"};
 
 bool equal_but_for_case(std::string_view a, std::string_view b) {
@@ -167,12 +167,22 @@ std::optional<Button> find_button(std::string_view name) {
     return std::nullopt;
 }
 
-std::string_view name_of(Stick stick) { return stick_names[static_cast<std::size_t>(stick)]; }
+std::vector<std::string_view> button_names() {
+    std::vector<std::string_view> names;
+    for (const NamedButton& one : named_buttons) names.push_back(one.name);
+    return names;
+}
+
+std::string_view name_of(Stick stick) { return names_of_sticks[static_cast<std::size_t>(stick)]; }
 
 std::optional<Stick> find_stick(std::string_view name) {
-    const auto* const found = std::find(stick_names.begin(), stick_names.end(), name);
-    if (found == stick_names.end()) return std::nullopt;
-    return static_cast<Stick>(found - stick_names.begin());
+    std::string spelt(name);
+    std::replace(spelt.begin(), spelt.end(), ' ', '_');
+    for (std::size_t i = 0; i < stick_count; ++i)
+        if (equal_but_for_case(names_of_sticks[i], spelt)) return static_cast<Stick>(i);
+    return std::nullopt;
 }
+
+std::span<const std::string_view> stick_names() { return names_of_sticks; }
 
 }  // namespace oiler

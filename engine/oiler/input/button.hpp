@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oiler {
 
@@ -167,9 +169,12 @@ private:
 [[nodiscard]] std::string name_of(Button button);
 /// The button of such a name, in upper or lower case; empty if there is none.
 [[nodiscard]] std::optional<Button> find_button(std::string_view name);
+[[nodiscard]] std::vector<std::string_view> button_names();
 
 [[nodiscard]] std::string_view name_of(Stick stick);  ///< "left_x"
+/// The stick of such a name, also in upper case and with a space; empty if there is none.
 [[nodiscard]] std::optional<Stick> find_stick(std::string_view name);
+[[nodiscard]] std::span<const std::string_view> stick_names();
 
 /// The keys that control the loop, F1 to F12: no game sees them.
 [[nodiscard]] constexpr bool is_of_loop(Button button) {

@@ -14,23 +14,27 @@ namespace oiler {
 /// Up to eight buttons of which any one counts.
 class Buttons {
 public:
+    static constexpr std::size_t most = 8;
+
     constexpr Buttons() = default;
     constexpr Buttons(Button one) : Buttons({one}) {}
     constexpr Buttons(Key one) : Buttons(Button(one)) {}
     constexpr Buttons(Mouse one) : Buttons(Button(one)) {}
     constexpr Buttons(Pad one) : Buttons(Button(one)) {}
     constexpr Buttons(std::initializer_list<Button> buttons) {
-        for (const Button button : buttons) ids_[size_++] = button;
+        for (const Button button : buttons) add(button);
     }
+    constexpr void add(Button one) { ids_[size_++] = one; }
 
     [[nodiscard]] constexpr const Button* begin() const { return ids_.data(); }
     [[nodiscard]] constexpr const Button* end() const { return ids_.data() + size_; }
     [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+    [[nodiscard]] constexpr std::size_t size() const { return size_; }
 
     friend constexpr bool operator==(const Buttons&, const Buttons&) = default;
 
 private:
-    std::array<Button, 8> ids_{Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a};
+    std::array<Button, most> ids_{Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a};
     std::size_t size_ = 0;
 };
 

@@ -34,6 +34,9 @@ struct Pointer {
 
 struct InputEvent;
 
+/// The controls of a game with the buttons that its player chose; null: with the game's own.
+using ChosenControls = std::shared_ptr<const std::vector<Control>>;
+
 /// What a player did in one fixed step. It is a plain value: a step is a pure function of state and
 /// input, and a recording is a list of inputs.
 ///
@@ -97,7 +100,7 @@ private:
     int wheel_ = 0;
     std::string text_;
     bool restarts_ = false;
-    std::shared_ptr<const std::vector<Control>> controls_;  ///< chosen by the player, if any
+    ChosenControls controls_;
 };
 
 }  // namespace oiler

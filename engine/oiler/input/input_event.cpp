@@ -88,7 +88,8 @@ std::vector<InputEvent> events_between(const Input& before, const Input& now) {
         }
     }
     if (now.wheel_ != 0) events.push_back({.what = What::wheel, .notches = now.wheel_});
-    if (!now.text_.empty()) events.push_back({.what = What::text, .text = now.text_});
+    for (std::size_t at = 0; at < now.text_.size(); at += longest_text)
+        events.push_back({.what = What::text, .text = now.text_.substr(at, longest_text)});
     return events;
 }
 

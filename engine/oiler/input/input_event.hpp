@@ -44,8 +44,7 @@ struct InputEvent {
 /// Plays events: a queue that is fed with those of a step hands out the same input again.
 class EventPlayer {
 public:
-    explicit EventPlayer(std::shared_ptr<const std::vector<Control>> controls = {})
-        : queue_(std::move(controls)) {}
+    explicit EventPlayer(ChosenControls controls = {}) : queue_(std::move(controls)) {}
 
     void play(const InputEvent& event);
     [[nodiscard]] Input take() { return queue_.take(camera_); }

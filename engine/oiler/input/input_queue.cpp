@@ -60,6 +60,15 @@ void InputQueue::drop_taps() {
     at_pause_ = now_;
 }
 
+void InputQueue::continue_after(const Input& last) {
+    next_.held_ = at_pause_ = last.held_;
+    next_.edges_.clear();
+    next_.wheel_ = 0;
+    next_.text_.clear();
+    next_.restarts_ = false;
+    if (!paused_) drop_taps();
+}
+
 Input InputQueue::take(const Camera& shown) {
     if (paused_) drop_taps();
     std::vector<Edge> late = take_late_releases(next_.edges_);

@@ -13,9 +13,7 @@ namespace oiler {
 class InputQueue {
 public:
     InputQueue() = default;
-    /// With the buttons that the player chose for actions and axes.
-    explicit InputQueue(std::shared_ptr<const std::vector<Control>> controls)
-        : controls_(std::move(controls)) {}
+    explicit InputQueue(ChosenControls controls) : controls_(std::move(controls)) {}
 
     /// A button goes down or up. Repeats are ignored.
     void set(Button button, bool down);
@@ -38,6 +36,10 @@ public:
     /// it is still down.
     void set_paused(bool paused);
 
+    /// The next step comes after the one that saw `last`: the buttons that are held change from
+    /// there, and what else was done since is dropped.
+    void continue_after(const Input& last);
+
     /// What the next step sees. `shown` is the camera of the picture on screen.
     [[nodiscard]] Input take(const Camera& shown);
 
@@ -48,7 +50,7 @@ private:
     HeldButtons now_;  ///< after all edges
     HeldButtons at_pause_;
     bool paused_ = false;
-    std::shared_ptr<const std::vector<Control>> controls_;
+    ChosenControls controls_;
 };
 
 }  // namespace oiler

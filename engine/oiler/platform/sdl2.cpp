@@ -145,7 +145,7 @@ public:
         return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
     }
 
-    State poll(InputQueue& game, std::vector<Key>& loop) override {
+    State poll(InputQueue& game, InputQueue& loop) override {
         bool quit = false;
         SDL_Event event;
         while (!display_is_lost() && sdl_->poll_event(&event) != 0) {
@@ -159,6 +159,7 @@ public:
         if (display_is_lost()) return State::lost;
         return quit ? State::closed : State::open;
     }
+    std::string name_on_layout(Key key) const override { return events_->name_on_layout(key); }
     void take_text(bool on) override { events_->take_text(on); }
 
     void present() override { sdl_->swap_window(window_); }

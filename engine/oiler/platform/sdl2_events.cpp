@@ -58,8 +58,7 @@ SdlEvents::~SdlEvents() {
     for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);
 }
 
-void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game,
-                       std::vector<Key>& loop) {
+void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop) {
     switch (event.type) {
         case SDL_KEYDOWN:
         case SDL_KEYUP:
@@ -77,7 +76,10 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game,
         case SDL_MOUSEWHEEL:
             return game.turn_wheel(event.wheel.y);
         case SDL_WINDOWEVENT:
-            if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) game.release_all();
+            if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
+                game.release_all();
+                loop.release_all();
+            }
             if (event.window.event == SDL_WINDOWEVENT_LEAVE) game.point_at(std::nullopt);
             return;
         case SDL_CONTROLLERDEVICEADDED:
@@ -97,15 +99,14 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game,
 }
 
 void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game,
-                           std::vector<Key>& loop) const {
+                           InputQueue& loop) const {
     if (event.repeat != 0) return;
     const auto code = static_cast<std::uint32_t>(event.keysym.scancode);
     if (code >= 256) return;
     const auto button = Button::of_id(static_cast<std::uint16_t>(code));
     if (!button) return;
     const bool down = event.type == SDL_KEYDOWN;
-    if (down && (is_of_loop(*button) || *button == Button(Key::escape)))
-        loop.push_back(static_cast<Key>(code));
+    if (is_of_loop(*button) || *button == Button(Key::escape)) loop.set(*button, down);
     if (is_of_loop(*button)) return;
     if (text_ && down && !edits_text(*button)) return;
     game.set(*button, down);

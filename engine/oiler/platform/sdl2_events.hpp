@@ -5,7 +5,6 @@
 
 #include <array>
 #include <map>
-#include <vector>
 
 #include "oiler/core/size.hpp"
 #include "oiler/input/input_queue.hpp"
@@ -37,7 +36,7 @@ public:
     SdlEvents& operator=(const SdlEvents&) = delete;
 
     /// `window` is the size in the units of the mouse.
-    void handle(const SDL_Event& event, Size window, InputQueue& game, std::vector<Key>& loop);
+    void handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop);
     void take_text(bool on);
     [[nodiscard]] std::string name_on_layout(Key key) const;
 
@@ -48,7 +47,7 @@ private:
         std::array<bool, 2> triggers;
     };
 
-    void handle_key(const SDL_KeyboardEvent& event, InputQueue& game, std::vector<Key>& loop) const;
+    void handle_key(const SDL_KeyboardEvent& event, InputQueue& game, InputQueue& loop) const;
     void handle_axis(const SDL_ControllerAxisEvent& event, InputQueue& game);
     void plug_in(int index);
     void unplug(SDL_JoystickID id, InputQueue& game);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "oiler/core/size.hpp"
 #include "oiler/input/input_queue.hpp"
@@ -42,9 +41,11 @@ public:
         closed,  ///< by the user
         lost,    ///< the display has ended
     };
-    /// Hands events since the last call to the game, and presses of F1 to F12 to `loop`;
-    /// Escape to both.
-    [[nodiscard]] virtual State poll(InputQueue& game, std::vector<Key>& loop) = 0;
+    /// Hands events since the last call to the game, and those of F1 to F12 to the loop; Escape to
+    /// both.
+    [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop) = 0;
+    /// The name of a key on the user's keyboard; empty if it has none.
+    [[nodiscard]] virtual std::string name_on_layout(Key key) const = 0;
     /// Whether keys enter text, but for those that edit it.
     virtual void take_text(bool on) = 0;
     /// Shows framebuffer 0.

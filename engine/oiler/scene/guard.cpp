@@ -64,8 +64,7 @@ private:
     void count(char c) {
         ++at_;
         if (c == '.' && ++dots_ > most_dots)
-            refuse({file_, line_}, "a key of more than {} parts; no key of a scene has more than 2",
-                   most_dots);
+            refuse({file_, line_}, "a key of more than {} parts; use at most 2", most_dots);
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
         if (depth_ > most_depth)

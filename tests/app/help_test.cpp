@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/help.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "oiler/picture/palette.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr Action fire{"fire", Key::q, Mouse::left};
+constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};
+constexpr Action nothing{"nothing"};
+constexpr Control controls[] = {fire, aim, nothing};
+
+std::string on_azerty(Button button) { return button == Button(Key::q) ? "A" : name_of(button); }
+
+bool shows(const Picture& picture, std::string_view text) {
+    return std::any_of(picture.labels.begin(), picture.labels.end(),
+                       [&](const Label& label) { return label.text == text; });
+}
+
+TEST(Help, ListsControlsAndKeysOverAFadedPicture) {
+    Picture picture{.background = palette::black,
+                    .discs = {{.colour = palette::blue}},
+                    .labels = {{.text = "score 7"}}};
+    add_help(picture, "Cannon", controls, on_azerty, true);
+    EXPECT_GT(picture.background.g, 200) << "the text is dark";
+    EXPECT_LT(picture.discs[0].colour.a, 64);
+    EXPECT_LT(picture.labels[0].colour.a, 64);
+    for (const char* const text :
+         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
+          "no button", "F4", "go back", "Escape"})
+        EXPECT_TRUE(shows(picture, text)) << text;
+    Picture other;
+    add_help(other, "Cannon", {}, on_azerty, false);
+    EXPECT_FALSE(shows(other, "Escape"));
+}
+
+TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
+    const Control list[] = {Action{"menu", Pad::left_shoulder, Pad::right_shoulder,
+                                   Pad::left_trigger, Pad::right_trigger, Pad::left_stick}};
+    Picture picture;
+    add_help(picture, "Menu", list, on_azerty, true);
+    const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
+                                   [](const Label& label) { return label.text == "F2"; });
+    for (auto label = picture.labels.begin(); label != loop; ++label)
+        EXPECT_LT(label->at.x + 0.6F * label->size * static_cast<float>(label->text.size()),
+                  loop->at.x)
+            << label->text;
+}
+
+TEST(Help, ALongListFitsTheCanvas) {
+    std::vector<Control> many;
+    for (int i = 0; i < 40; ++i)
+        many.push_back(Action{"a very long name of an action", Pad::left_shoulder,
+                              Pad::right_shoulder, Pad::left_trigger, Pad::right_trigger});
+    Picture picture;
+    add_help(picture, "Many", many, on_azerty, true);
+    for (const Label& label : picture.labels) {
+        EXPECT_GT(label.at.y, 20);
+        EXPECT_LT(label.at.y, canvas_height);
+        EXPECT_LE(label.at.x + 0.6F * label.size * static_cast<float>(label.text.size()),
+                  canvas_width)
+            << label.text;
+    }
+}
+
+}  // namespace
+}  // namespace oiler
