@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "oiler/app/game.hpp"
 #include "oiler/app/recording.hpp"
@@ -42,6 +43,8 @@ struct Options {
     std::filesystem::path record;
     std::optional<Recording> replay;
     std::filesystem::path replay_file;
+    bool what_if = false;                    ///< plays `replay` with other settings
+    std::vector<Stepping> what_if_settings;  ///< empty: the usual ones
     bool quiet = false;
 };
 
