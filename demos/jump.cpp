@@ -118,6 +118,10 @@ struct Jump {
         }
     }
 
+    std::vector<Reading> readings() const {
+        return {{"apex", double{std::ranges::max(jumper.path, {}, &Point::y).y}, "m"}};
+    }
+
     Picture picture() const {
         Picture picture{.camera = {.centre = {0, 1.14F}, .height = 2.46F}};
         std::vector<Point> path = jumper.path;

@@ -10,10 +10,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "oiler/app/input_source.hpp"
 #include "oiler/app/look.hpp"
 #include "oiler/app/loop.hpp"
+#include "oiler/app/reading.hpp"
+#include "oiler/app/step_times.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
 
@@ -56,6 +59,7 @@ struct NamesOfMembers {
     void update();
     void picture();
     void camera();
+    void readings();
 };
 /// If G has any member of such a name, even a private one, the name is ambiguous here.
 template <class G>
@@ -73,7 +77,17 @@ concept MentionsCamera = !requires {
     &WithMembers<G>::camera;
 };
 
+template <class G>
+concept MentionsReadings = !requires {
+    &WithMembers<G>::readings;
+};
+
 }  // namespace detail
+
+template <class G>
+concept HasReadings = requires(const G& game) {
+    { game.readings() } -> std::same_as<std::vector<Reading>>;
+};
 
 /// Checks that G is a game: a value with a constructor from settings and a world, see the asserts.
 /// The loop calls `update`, if there is one, before each step. A game without `update` takes many
@@ -98,6 +112,8 @@ consteval bool check_game() {
     static_assert(
         Updates<G> || !detail::MentionsUpdate<G>,
         "a game's update is public: void update(const Input&), or with a second argument, Loop&");
+    static_assert(HasReadings<G> || !detail::MentionsReadings<G>,
+                  "a game's readings are public: std::vector<Reading> readings() const");
     return true;
 }
 
@@ -139,6 +155,10 @@ public:
     [[nodiscard]] const Loop& loop() const { return loop_; }
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
+    /// What the game tells of its play; empty if it tells nothing.
+    [[nodiscard]] virtual std::vector<Reading> readings() const { return {}; }
+    /// Adds the times of all further steps to `times`, which must outlive them.
+    void measure(StepTimes& times) { times_ = &times; }
     /// Name of a body in comparisons.
     [[nodiscard]] virtual std::string name_of(Entity entity) const {
         return "body " + std::to_string(entity.index);
@@ -150,6 +170,7 @@ protected:
 
     Loop loop_;
     std::int64_t cuts_ = 0;
+    StepTimes* times_ = nullptr;
 };
 
 template <class G>
@@ -162,7 +183,7 @@ public:
 
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override {
         if constexpr (!Updates<G>) {
-            game_.world.step(count);
+            take_world_step(count);
             return count;
         } else {
             for (std::int64_t taken = 0; taken < count; ++taken) {
@@ -173,7 +194,7 @@ public:
                 if (loop_.restarts())
                     restart();
                 else if (!loop_.holds())
-                    game_.world.step();
+                    take_world_step(1);
                 find_cut();
             }
             return count;
@@ -208,11 +229,22 @@ public:
                                return draw_looks(game_.world, {});
                        });
     }
+    [[nodiscard]] std::vector<Reading> readings() const override {
+        if constexpr (HasReadings<G>)
+            return guarded([] { return "readings"; }, [&] { return game_.readings(); });
+        else
+            return {};
+    }
 
 private:
     static const char* copying() { return "a copy of the game"; }
 
+    void take_world_step(std::int64_t count) {
+        const Stopwatch stopwatch(times_, &StepTimes::step);
+        game_.world.step(count);
+    }
     void update(const Input& input, std::int64_t step) {
+        const Stopwatch stopwatch(times_, &StepTimes::update);
         loop_.begin_step();
         const Rate rate = game_.world.settings().stepping.rate;
         const std::int64_t tick = game_.world.tick();

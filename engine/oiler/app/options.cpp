@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <type_traits>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "oiler/app/keys.hpp"
 #include "oiler/app/parse.hpp"
 #include "oiler/app/parse_size.hpp"
+#include "oiler/app/what_if_settings.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/paths.hpp"
@@ -38,6 +41,7 @@ struct Words {
     std::filesystem::path from;
     std::int64_t frame = 0;
     bool replay_anyway = false;
+    std::string what_if;
     bool force = false;
 };
 
@@ -186,7 +190,7 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
              {"--headless", "--frames", "--fps", "--size", "--out", "--surface"})
             if (app.count(other) > 0)
                 refuse(other, "draws, but --steps draws nothing; give one of them");
-    if (offscreen && !options.headless)
+    if (offscreen && !options.headless && !options.what_if)
         refuse("--surface " + words.surface, "draws without a window; add --headless");
     if (words.surface == "window" && options.headless)
         refuse("--surface window", "opens a window; leave out --headless");
@@ -202,6 +206,20 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
     if (app.count("--frame") > 0)
         for (const char* other : {"--frames", "--video", "--sheet", "--golden", "--keyframes"})
             if (app.count(other) > 0) refuse(other, "draws more frames than --frame; give one");
+}
+
+/// Only options that mean something for many runs.
+void check_what_if(const CLI::App& app, const Words& words) {
+    constexpr std::array allowed{"--replay", "--replay-anyway", "--what-if", "--json",
+                                 "--quiet",  "--threads",       "--size",    "--surface"};
+    for (const CLI::Option* const option : app.get_options())
+        if (option->count() > 0 && std::ranges::count(allowed, option->get_name()) == 0)
+            fail(Exit::usage, "{}: --what-if prints a table of many runs; leave one of them out",
+                 option->get_name());
+    if (words.surface == "window")
+        fail(Exit::usage, "--surface window: --what-if draws off screen; give osmesa or egl");
+    if (app.count("--replay") == 0)
+        fail(Exit::usage, "--what-if: plays a recording; add --replay FILE");
 }
 
 /// A golden that is not there is named before the run.
@@ -251,6 +269,8 @@ void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
     words.damping = stepping.damping ? name_of(*stepping.damping) : "";
     words.seed = line.options.replay->header.seed;
     const Settings settings{.stepping = stepping, .seed = words.seed};
+    if (line.options.what_if && !words.what_if.empty())
+        line.options.what_if_settings = parse_what_if(words.what_if, stepping);
     require_same_game(line.options.replay->header,
                       header_of(line.about.name, settings, line.about.controls),
                       words.replay_anyway);
@@ -336,6 +356,11 @@ void declare_play(CLI::App& app, Options& options, Words& words) {
     add_file("--record", options.record, "record what is played, for --replay");
     add_file("--replay", options.replay_file,
              "play a recording with its settings: exit 1 with the first step that differs");
+    app.add_option("--what-if", words.what_if,
+                   "play the recording of --replay with other settings and print what differs; "
+                   "settings such as 30,rk4,velocity_verlet@120,float")
+        ->type_name("[SETTINGS]")
+        ->expected(0, 1);
     app.add_flag("--replay-anyway", words.replay_anyway,
                  "replay a recording of another version of Oiler")
         ->disable_flag_override();
@@ -382,6 +407,9 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     declare_output(app, line.options);
     line.text = parse(app, argc, argv);
     if (!line.text.empty()) return line;
+    const CLI::Option* const what_if = app.get_option_no_throw("--what-if");
+    line.options.what_if = what_if != nullptr && what_if->count() > 0;
+    if (line.options.what_if) check_what_if(app, words);
     if (!words.from.empty()) line.options.from = read_manifest(words.from);
     if (about_scene) line.about = about_scene(words.scene, line.options.from);
     if (!line.options.replay_file.empty()) take_replay(app, words, line);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "oiler/app/game.hpp"
 #include "oiler/app/recording.hpp"
@@ -45,6 +46,8 @@ struct Options {
     std::filesystem::path record;
     std::optional<Recording> replay;
     std::filesystem::path replay_file;
+    bool what_if = false;                    ///< plays `replay` with other settings
+    std::vector<Stepping> what_if_settings;  ///< empty: the usual ones
     bool quiet = false;
 };
 

@@ -18,6 +18,7 @@
 #include "oiler/app/report.hpp"
 #include "oiler/app/script.hpp"
 #include "oiler/app/tape.hpp"
+#include "oiler/app/what_if.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/floating_point.hpp"
@@ -158,6 +159,7 @@ Exit play(Playback& playback, Player& player, const Options& options, const Abou
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget) {
+    if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
     Player player(options, about, *game);
     const World& world = game->world();

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/played_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+using Times = std::vector<std::chrono::nanoseconds>;
+
+constexpr double longest_delay = 0.25;  // s
+constexpr double frames_per_second = 60;
+
+bool is_whole(double value) { return std::trunc(value) == value; }
+
+bool is_same_play(const Moment& a, const Moment& b) {
+    const auto same_body = [](const Moment::Placed& one, const Moment::Placed& other) {
+        return one.entity == other.entity && one.jumps == other.jumps;
+    };
+    const auto same_count = [](const Reading& one, const Reading& other) {
+        const bool counts = is_whole(one.value) && is_whole(other.value);
+        return one.name == other.name && (!counts || one.value == other.value);
+    };
+    return a.cuts == b.cuts && a.quits == b.quits &&
+           std::ranges::equal(a.bodies, b.bodies, same_body) &&
+           std::ranges::equal(a.readings, b.readings, same_count);
+}
+
+/// The median, ns; 0 of none.
+double median(Times times) {
+    if (times.empty()) return 0;
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::ranges::nth_element(times, middle);
+    return static_cast<double>(middle->count());
+}
+
+/// The time that a stopwatch measures of itself, ns.
+double time_of_stopwatch() {
+    Times times(101);
+    for (std::chrono::nanoseconds& time : times) {
+        StepTimes sums;
+        { const Stopwatch empty(&sums, &StepTimes::step); }
+        time = sums.step;
+    }
+    return median(times);
+}
+
+}  // namespace
+
+Moment moment_of(const AnyGame& game) {
+    const World& world = game.world();
+    Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+        const Entity entity = world.entity_of_row(row);
+        moment.bodies.push_back({entity.id(), world.jumps(entity), world.bodies().position(row)});
+    }
+    std::ranges::sort(moment.bodies, {}, &Moment::Placed::entity);
+    moment.readings = game.readings();
+    return moment;
+}
+
+std::optional<double> distance(const Moment& a, const Moment& b) {
+    if (!is_same_play(a, b)) return std::nullopt;
+    double largest = 0;
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        const Vec3 apart = a.bodies[i].position - b.bodies[i].position;
+        largest = std::max(largest, std::hypot(apart[0], apart[1], apart[2]));
+    }
+    return largest;
+}
+
+PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const MakeGame& make)
+    : result_{.stepping = stepping},
+      inputs_(*options.replay, stepping.rate),
+      ratio_(options.replay->header.stepping.rate, stepping.rate) {
+    Settings settings = options.settings;
+    settings.stepping = stepping;
+    game_ = make(settings);
+    game_->world().require_applicable();
+    game_->measure(times_);
+}
+
+void PlayedRun::play_until(std::int64_t recorded) {
+    while (steps_ < ratio_.last_until(recorded) && !game_->loop().quits() && !failed()) take_step();
+}
+
+void PlayedRun::take_step() {
+    times_ = {};
+    try {
+        steps_ += game_->step(steps_, 1, inputs_);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
+        result_.failure = error.what();
+    }
+    if (times_.update.count() > 0) updates_.push_back(times_.update);
+    if (times_.step.count() > 0) world_steps_.push_back(times_.step);
+}
+
+void PlayedRun::compare(std::int64_t recorded, double time, const Moment& reference, double pixel) {
+    if (failed() || result_.other_play_from || !ratio_.has(recorded)) return;
+    const std::optional<double> apart = distance(reference, moment_of(*game_));
+    if (!apart) {
+        differs_from_ = differs_from_.value_or(time);
+        if (time - *differs_from_ >= longest_delay) result_.other_play_from = differs_from_;
+        return;
+    }
+    differs_from_.reset();
+    result_.distance = std::max(result_.distance, *apart);
+    if (*apart > pixel && !result_.visible_from) result_.visible_from = time;
+}
+
+void PlayedRun::time_picture() {
+    if (failed()) return;
+    const auto start = std::chrono::steady_clock::now();
+    const Picture picture = game_->picture();
+    pictures_.push_back(std::chrono::steady_clock::now() - start);
+}
+
+void PlayedRun::time_drawing(DrawTimer& draw) {
+    if (!failed()) drawings_.push_back(draw.time(game_->picture()));
+}
+
+WhatIfRun PlayedRun::finish() const {
+    const double stopwatch = time_of_stopwatch();
+    const auto median_of = [&](const Times& times) {
+        return std::max(0.0, median(times) - stopwatch);
+    };
+    WhatIfRun result = result_;
+    const double steps_per_frame = 1 / (result.stepping.rate.dt() * frames_per_second);
+    result.costs = {.update = steps_per_frame * median_of(updates_),
+                    .step = steps_per_frame * median_of(world_steps_),
+                    .picture = median_of(pictures_)};
+    if (!drawings_.empty()) result.costs.draw = median_of(drawings_);
+    result.readings = game_->readings();
+    return result;
+}
+
+}  // namespace oiler

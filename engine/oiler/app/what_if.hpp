@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oiler/app/draw_timer.hpp"
+#include "oiler/app/options.hpp"
+#include "oiler/app/reading.hpp"
+#include "oiler/app/run.hpp"
+
+namespace oiler {
+
+/// The time that a frame takes at 60 frames per second, ns; medians.
+struct FrameCosts {
+    double update = 0;
+    double step = 0;
+    double picture = 0;
+    double draw = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not measured
+};
+
+/// A recording played with another setting, compared with the reference.
+struct WhatIfRun {
+    Stepping stepping;
+    /// The largest distance of a body from the same body of the reference, m.
+    double distance = 0;
+    /// The time from which a body is further away than a pixel, s.
+    std::optional<double> visible_from{};
+    /// The time from which the play is another one, s. No distance is counted from there on.
+    std::optional<double> other_play_from{};
+    std::string failure{};  ///< the error that ended the run; empty: none
+    std::vector<Reading> readings{};
+    FrameCosts costs{};
+};
+
+/// The result of --what-if.
+struct WhatIf {
+    double duration = 0;            ///< s
+    double certain_until = 0;       ///< s, the time until which distances are counted
+    double uncertainty = 0;         ///< m, the distance of `half` from the reference until then
+    WhatIfRun reference;            ///< the finest run
+    WhatIfRun half;                 ///< the reference at half its rate
+    std::vector<WhatIfRun> runs{};  ///< the recorded setting first
+};
+
+/// Smaller errors than so many uncertainties of the reference are not known to a digit.
+inline constexpr double least_certain = 10;
+
+/// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
+/// its rate. All runs go through the recording together and are compared at each recorded step that
+/// a run has, too. Bodies are the same if their entities are. The play is another one once bodies,
+/// teleports, restarts or whole-number readings have differed for 0.25 s: a shorter difference is a
+/// delay. The reference is uncertain once a run at half its rate is another play, or further away
+/// than a pixel. A pixel is 1/720 of the height that the camera of the reference shows then.
+///
+/// Empty if interrupted. Without `draw`, drawing is not timed. Throws Error{comparison_failed} if
+/// the recorded setting does not reproduce the recording, and Error{diverged} if the reference
+/// fails.
+[[nodiscard]] std::optional<WhatIf> measure_what_if(const Options& options,
+                                                    const std::vector<Stepping>& steppings,
+                                                    const MakeGame& make, DrawTimer* draw);
+
+/// Measures options.what_if, prints the table and writes --json.
+Exit run_what_if(const Options& options, const About& about, const MakeGame& make);
+
+}  // namespace oiler

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/app/console.hpp"
+#include "oiler/app/what_if.hpp"
+#include "oiler/app/what_if_settings.hpp"
+#include "oiler/capture/file.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/core/json.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr const char* legend = R"(
+distance: largest distance of a body from the same body of the reference, at the recorded steps.
+1 px: the time from which it exceeds a pixel of the game's camera, at 720 lines.
+other play: the time from which bodies, restarts or counts differ; nothing later is counted.
+ns per frame: medians, at 60 frames per second. <: below 10 times the error of the reference.
+)";
+
+/// Formats a time that may not come, s.
+std::string time_cell(const std::optional<double>& time) {
+    return time ? fmt::format("{:.3f}", *time) : "-";
+}
+std::string cost_cell(double cost) { return std::isnan(cost) ? "-" : fmt::format("{:.0f}", cost); }
+/// Formats an error, or its limit if it is too small to be certain.
+std::string error_cell(double error, double uncertainty, bool with_sign) {
+    const double limit = least_certain * uncertainty;
+    if (std::abs(error) < limit) return fmt::format("< {:.2g}", limit);
+    return with_sign && error != 0 ? fmt::format("{:+.3g}", error) : fmt::format("{:.3g}", error);
+}
+
+const Reading* find_reading(const std::vector<Reading>& readings, const std::string& name) {
+    const auto found = std::ranges::find(readings, name, &Reading::name);
+    return found == readings.end() ? nullptr : &*found;
+}
+
+/// The uncertainty of a reading of the reference; infinite if the half rate lacks it.
+double uncertainty_of(const Reading& reading, const WhatIf& result) {
+    const Reading* const half = find_reading(result.half.readings, reading.name);
+    return half ? std::abs(half->value - reading.value) : std::numeric_limits<double>::infinity();
+}
+
+std::string setting_cell(const WhatIfRun& run, const WhatIf& result) {
+    return describe(run.stepping) + (&run == result.runs.data() ? " *" : "");
+}
+
+std::string table_of_runs(const WhatIf& result) {
+    std::string text = fmt::format("  {:<38} {:>10} {:>8} {:>11} {:>36}\n", "", "distance", "1 px",
+                                   "other play", "ns per frame");
+    text += fmt::format("  {:<38} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n", "* as recorded",
+                        "m", "from, s", "from, s", "update", "step", "picture", "draw");
+    for (const WhatIfRun& run : result.runs)
+        text += fmt::format(
+            "  {:<38} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n", setting_cell(run, result),
+            error_cell(run.distance, result.uncertainty, false), time_cell(run.visible_from),
+            time_cell(run.other_play_from), cost_cell(run.costs.update), cost_cell(run.costs.step),
+            cost_cell(run.costs.picture), cost_cell(run.costs.draw));
+    for (const WhatIfRun& run : result.runs)
+        if (!run.failure.empty())
+            text += fmt::format("  {} failed: {}\n", describe(run.stepping), run.failure);
+    return text;
+}
+
+std::string table_of_reading(const Reading& reading, const WhatIf& result) {
+    std::string text = fmt::format("\n{}{}{} at the end: {:.6g}\n", reading.name,
+                                   reading.unit.empty() ? "" : ", ", reading.unit, reading.value);
+    for (const WhatIfRun& run : result.runs) {
+        const Reading* const own = find_reading(run.readings, reading.name);
+        text += fmt::format(
+            "  {:<38} {:>10} {:>10}\n", setting_cell(run, result),
+            own ? fmt::format("{:.6g}", own->value) : "-",
+            own ? error_cell(own->value - reading.value, uncertainty_of(reading, result), true)
+                : "-");
+    }
+    return text;
+}
+
+std::string text_of(const WhatIf& result, std::string_view game) {
+    std::string text =
+        fmt::format("{}: {:g} s of play\nreference: {}; at {} Hz it differs by {:.2g} m\n", game,
+                    result.duration, describe(result.reference.stepping),
+                    result.half.stepping.rate.steps, result.uncertainty);
+    if (result.certain_until < result.duration)
+        text += fmt::format("Distances are counted until {:.3f} s: there, these two part.\n",
+                            result.certain_until);
+    text += "\n" + table_of_runs(result);
+    for (const Reading& reading : result.reference.readings)
+        text += table_of_reading(reading, result);
+    return text + legend;
+}
+
+Json to_json(const Stepping& stepping) {
+    return {{"method", stepping.method->name},
+            {"rate", stepping.rate.steps},
+            {"precision", name_of(stepping.precision)},
+            {"damping", stepping.damping ? Json(name_of(*stepping.damping)) : Json()}};
+}
+
+Json to_json(const std::vector<Reading>& readings, const WhatIf& result) {
+    Json all = Json::array();
+    for (const Reading& reading : readings) {
+        const Reading* const best = find_reading(result.reference.readings, reading.name);
+        all.push_back({{"name", reading.name},
+                       {"unit", reading.unit},
+                       {"value", reading.value},
+                       {"difference", best ? Json(reading.value - best->value) : Json()},
+                       {"uncertainty", best ? Json(uncertainty_of(*best, result)) : Json()}});
+    }
+    return all;
+}
+
+Json to_json(const WhatIfRun& run, const WhatIf& result) {
+    const auto time = [](const std::optional<double>& at) { return at ? Json(*at) : Json(); };
+    Json json = to_json(run.stepping);
+    json["distance"] = run.distance;
+    json["visible_from"] = time(run.visible_from);
+    json["other_play_from"] = time(run.other_play_from);
+    json["failure"] = run.failure.empty() ? Json() : Json(run.failure);
+    json["readings"] = to_json(run.readings, result);
+    json["ns_per_frame"] = {{"update", run.costs.update},
+                            {"step", run.costs.step},
+                            {"picture", run.costs.picture},
+                            {"draw", run.costs.draw}};
+    return json;
+}
+
+Json to_json(const WhatIf& result, std::string_view game) {
+    Json reference = to_json(result.reference.stepping);
+    reference["uncertainty"] = result.uncertainty;
+    reference["certain_until"] = result.certain_until;
+    reference["readings"] = to_json(result.reference.readings, result);
+    Json json{{"scene", game}, {"time", result.duration}, {"reference", reference}};
+    json["settings"] = Json::array();
+    for (const WhatIfRun& run : result.runs) json["settings"].push_back(to_json(run, result));
+    return json;
+}
+
+/// Without a provider of OpenGL, drawing is not timed, unless the user asks for that provider.
+std::unique_ptr<DrawTimer> open_timer(const Options& options) {
+    try {
+        return std::make_unique<DrawTimer>(options.offscreen, options.size);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::no_display || options.offscreen != Offscreen::automatic) throw;
+        remark(options.quiet, "draw is not measured: {}", error.what());
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+Exit run_what_if(const Options& options, const About& about, const MakeGame& make) {
+    const std::vector<Stepping> steppings = options.what_if_settings.empty()
+                                                ? usual_what_if(options.settings, make)
+                                                : options.what_if_settings;
+    std::optional<File> json;  // opened before the runs, so that a wrong path costs no time
+    if (!options.json.empty()) json.emplace(options.json);
+    const std::unique_ptr<DrawTimer> draw = open_timer(options);
+    const std::optional<WhatIf> result = measure_what_if(options, steppings, make, draw.get());
+    if (!result) return Exit::interrupted;
+    if (json) {
+        json->write(to_json(*result, about.name).dump(2) + "\n");
+        json->commit();
+    }
+    if (options.json != "-") write_file("-", text_of(*result, about.name));
+    return Exit::done;
+}
+
+}  // namespace oiler

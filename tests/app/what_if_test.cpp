@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// A recording at other settings, compared with closed forms of falling bodies.
+#include "oiler/app/what_if.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "oiler/app/playback.hpp"
+#include "oiler/app/what_if_settings.hpp"
+#include "support/folder.hpp"
+#include "support/oscillator.hpp"
+#include "support/text.hpp"
+
+namespace oiler::test {
+namespace {
+
+constexpr double gravity = 20;         // m/s²
+constexpr double push = 5;             // m/s
+constexpr float camera_height = 7.2F;  // m: a pixel is 1 cm
+constexpr std::int64_t steps = 120;    // 2 s
+constexpr int rate = 60;
+
+/// A body that falls from rest; Space pushes it up.
+struct Fall {
+    static constexpr About about{.name = "fall", .title = "Fall", .rate = rate};
+    World world;
+    Entity body;
+    int pushes = 0;
+
+    explicit Fall(const Settings& settings) : world(1, settings), body(world.spawn(Body{})) {
+        world.set_gravity({-gravity});
+    }
+    void update(const Input& input) {
+        pushes += input.presses(Key::space);
+        if (input.pressed(Key::space)) world.apply_impulse(body, {push});
+    }
+    [[nodiscard]] std::vector<Reading> readings() const {
+        return {{"height", world.position(body)[0], "m"}, {"pushes", double(pushes)}};
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
+};
+
+/// A body that jumps at 9 m/s: its apex is 2.025 m. It meets a target at 2.01 m.
+constexpr double target_height = 2.01;
+enum class Hit { destroys, teleports, counts, restarts };
+template <Hit hit>
+struct Jump {
+    static constexpr About about{.name = "jump", .title = "Jump", .rate = rate};
+    World world;
+    Entity body;
+    Entity target;
+    int hits = 0;
+
+    explicit Jump(const Settings& settings)
+        : world(1, settings), body(world.spawn(Body{.velocity = {9}})), target(world.create()) {
+        world.set_gravity({-gravity});
+        if (hit != Hit::counts) world.add_body(target, Body{.position = {50}});
+    }
+    void update(const Input&, Loop& loop) {
+        if (hits > 0 || world.position(body)[0] < target_height) return;
+        ++hits;
+        if (hit == Hit::destroys) world.destroy(target);
+        if (hit == Hit::teleports) world.teleport(target, {60});
+        if (hit == Hit::restarts) loop.restart();
+    }
+    [[nodiscard]] std::vector<Reading> readings() const {
+        if (hit != Hit::counts) return {};
+        return {{"hits", double(hits)}};
+    }
+    [[nodiscard]] Picture picture() const {
+        return {.camera = {.height = hit == Hit::restarts ? 720 : camera_height}};
+    }
+};
+
+/// A body without forces whose game makes it 25 m/s / rate fast, which no timestep makes right.
+struct Careless {
+    static constexpr About about{.name = "careless", .title = "Careless", .rate = rate};
+    World world;
+    Entity body;
+    explicit Careless(const Settings& settings) : world(1, settings), body(world.spawn(Body{})) {}
+    void update(const Input&) {
+        if (world.settings().stepping.rate.steps == 30 && world.tick() == 10)
+            throw std::runtime_error("30 Hz is too slow");
+        world.set_velocity(body, {25 * world.dt()});
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
+};
+
+/// Presses Space in step 45, 0.75 s.
+class OnePress final : public InputSource {
+public:
+    Input next(std::int64_t step) override {
+        queue_.set(Key::space, step == 45);
+        return queue_.take({});
+    }
+
+private:
+    InputQueue queue_;
+};
+
+template <class Game>
+Options record(const char* method = "semi_implicit_euler") {
+    const Folder folder;
+    const Settings settings{.stepping = {.method = &find_method(method), .rate = {rate}}};
+    AnyGameOf<Game> game(settings);
+    Recorder none({}, {}, game.world());
+    Playback playback(game, none, Keep::nothing);
+    OnePress player;
+    Tape tape(player, folder / "a", header_of(Game::about.name, settings, {}));
+    playback.watch(tape);
+    playback.step_to(steps, tape);
+    tape.finish(steps);
+    Options options;
+    options.settings = settings;
+    options.replay = read_recording(folder / "a");
+    options.replay_file = "a.rec";
+    options.quiet = true;
+    return options;
+}
+
+template <class Game>
+WhatIf measure(const Options& options, const std::string& settings) {
+    const auto result = measure_what_if(
+        options, parse_what_if(settings, options.replay->header.stepping),
+        [](const Settings& own) { return std::make_unique<AnyGameOf<Game>>(own); }, nullptr);
+    EXPECT_TRUE(result);
+    return *result;
+}
+
+// Semi-implicit Euler is g·dt·t/2 below the parabola. A push that comes late leaves the body lower
+// by push times the delay: step 45 of 60 Hz is at 0.75 s, the next step of 30 Hz 1/60 s later.
+TEST(WhatIf, ErrorsAreThoseOfClosedForms) {
+    const WhatIf result = measure<Fall>(record<Fall>(), "20,30,120,30@rk4,velocity_verlet,float");
+    const double end = 2;
+    const auto fall = [&](double hertz) { return gravity / hertz * end / 2; };
+    const double expected[] = {fall(60), fall(20), fall(30) + push / 60, fall(120), push / 60,
+                               0,        fall(60)};
+    ASSERT_EQ(result.runs.size(), std::size(expected));
+    for (std::size_t i = 0; i < std::size(expected); ++i) {
+        const WhatIfRun& run = result.runs[i];
+        const double tolerance = run.stepping.precision == Precision::single ? 1e-4 : 1e-10;
+        EXPECT_NEAR(run.distance, expected[i], tolerance) << describe(run.stepping);
+        ASSERT_EQ(run.readings.size(), 2U);
+        EXPECT_NEAR(run.readings[0].value, result.reference.readings[0].value - expected[i],
+                    tolerance);
+        EXPECT_EQ(run.readings[1], (Reading{"pushes", 1}));
+        EXPECT_FALSE(run.other_play_from);
+        EXPECT_TRUE(std::isnan(run.costs.draw)) << "not asked for";
+    }
+    EXPECT_NEAR(result.reference.readings[0].value, push * (end - 0.75) - gravity * end * end / 2,
+                1e-10);
+    EXPECT_EQ(result.duration, end);
+    EXPECT_EQ(result.certain_until, end);
+    EXPECT_LT(result.uncertainty, 1e-10);
+}
+
+// g·dt·t/2 exceeds 1 cm at 0.06 s at 60 Hz and at 0.12 s at 120 Hz. The late push of 30 Hz leaves
+// the body 5/60 m lower from step 46 on, 0.767 s. There, one push is still missing, so that it is
+// counted one step of 30 Hz later.
+TEST(WhatIf, NamesTheTimeFromWhichAPixelIsExceeded) {
+    const WhatIf result = measure<Fall>(record<Fall>(), "120,30@rk4,rk4");
+    EXPECT_EQ(result.runs[0].visible_from, 4 / 60.0);
+    EXPECT_EQ(result.runs[1].visible_from, 8 / 60.0);
+    EXPECT_EQ(result.runs[2].visible_from, 48 / 60.0);
+    EXPECT_FALSE(result.runs[3].visible_from);
+}
+
+// The reference meets the target at 0.4113 s, before step 25 ends; semi-implicit Euler misses it,
+// because its apex is 9 m/s·dt/2 lower. Until then it is g·dt·t/2 too low. Velocity Verlet is
+// exact, but looks one step later: that is no other play.
+template <class Game>
+void expect_other_play(double after_delay = 0) {
+    const WhatIf result = measure<Game>(record<Game>(), "240,velocity_verlet");
+    ASSERT_EQ(result.runs.size(), 3U);
+    EXPECT_EQ(result.runs[0].other_play_from, 25 / 60.0);
+    EXPECT_NEAR(result.runs[0].distance, gravity / 60 * 0.4 / 2, 1e-10);
+    EXPECT_EQ(result.runs[1].other_play_from, 25 / 60.0);
+    EXPECT_NEAR(result.runs[1].distance, gravity / 240 * 0.4 / 2, 1e-10);
+    EXPECT_FALSE(result.runs[2].other_play_from);
+    EXPECT_NEAR(result.runs[2].distance, after_delay, 1e-10);
+    EXPECT_EQ(result.certain_until, 2);
+}
+TEST(WhatIf, NothingIsCountedOnceABodyIsMissing) { expect_other_play<Jump<Hit::destroys>>(); }
+// The target falls, too: from the same height, but later.
+TEST(WhatIf, NothingIsCountedOnceATeleportIsMissing) {
+    const double seen = 395 / 960.0;
+    const double seen_later = 25 / 60.0;
+    expect_other_play<Jump<Hit::teleports>>(gravity / 2 * (seen_later * seen_later - seen * seen));
+}
+TEST(WhatIf, NothingIsCountedOnceACountDiffers) { expect_other_play<Jump<Hit::counts>>(); }
+TEST(WhatIf, NothingIsCountedOnceARestartIsMissing) {
+    const WhatIf result =
+        measure<Jump<Hit::restarts>>(record<Jump<Hit::restarts>>(), "velocity_verlet");
+    EXPECT_EQ(result.runs[0].other_play_from, 25 / 60.0);
+    EXPECT_FALSE(result.runs[1].other_play_from) << "restarts a step later";
+}
+
+// The velocity is 25/rate m/s, so that 960 and 480 Hz are 25·t/960 m apart: 1 cm after 0.384 s.
+TEST(WhatIf, NothingIsCountedOnceTheReferenceIsUncertain) {
+    const WhatIf result = measure<Careless>(record<Careless>(), "120");
+    const double until = 23 / 60.0;
+    EXPECT_EQ(result.certain_until, until);
+    EXPECT_NEAR(result.uncertainty, 25 * until / 960, 1e-12);
+    EXPECT_NEAR(result.runs[0].distance, 25 * until * (1 / 60.0 - 1 / 960.0), 1e-12);
+    EXPECT_NEAR(result.runs[1].distance, 25 * until * (1 / 120.0 - 1 / 960.0), 1e-12);
+}
+
+TEST(WhatIf, ASettingThatFailsIsNamed) {
+    const WhatIf result = measure<Careless>(record<Careless>(), "30,120");
+    EXPECT_TRUE(holds(result.runs[1].failure, "tick 10")) << result.runs[1].failure;
+    EXPECT_TRUE(holds(result.runs[1].failure, "30 Hz is too slow"));
+    EXPECT_NEAR(result.runs[1].distance, 25 * 10 / 30.0 * (1 / 30.0 - 1 / 960.0), 1e-12);
+    EXPECT_EQ(result.runs[2].failure, "");
+}
+
+TEST(WhatIf, RefusesARecordingThatIsNotReproduced) {
+    Options options = record<Fall>();
+    ++options.replay->states.at(70).bodies;
+    EXPECT_EQ(line_of_error(Exit::comparison_failed, [&] { (void)measure<Fall>(options, "30"); }),
+              "a.rec: the replay differs in the bodies after step 71; it is equal after 70");
+}
+
+/// A game that takes at least 20 µs for each update and 40 µs for each picture.
+struct Slow {
+    static constexpr About about{.name = "slow", .title = "Slow", .rate = rate};
+    World world;
+    explicit Slow(const Settings& settings) : world(1, settings) {}
+    static void wait(std::chrono::microseconds time) {
+        const auto start = std::chrono::steady_clock::now();
+        while (std::chrono::steady_clock::now() - start < time) continue;
+    }
+    void update(const Input&) { wait(std::chrono::microseconds(20)); }
+    [[nodiscard]] Picture picture() const {
+        wait(std::chrono::microseconds(40));
+        return {};
+    }
+};
+
+// Half an update per frame at 30 Hz, two at 120 Hz; a fifth is left to the stopwatch itself.
+TEST(WhatIf, CostsAreOfAFrame) {
+    const WhatIf result = measure<Slow>(record<Slow>(), "30,120");
+    EXPECT_GE(result.runs[0].costs.update, 16'000);
+    EXPECT_GE(result.runs[1].costs.update, 8'000);
+    EXPECT_GE(result.runs[2].costs.update, 32'000);
+    for (const WhatIfRun& run : result.runs) {
+        EXPECT_GE(run.costs.picture, 32'000);
+        EXPECT_GE(run.costs.step, 0);
+    }
+}
+
+}  // namespace
+}  // namespace oiler::test
