@@ -135,5 +135,31 @@ TEST(Guide, Step6IsRecordedReplayedAndComparedWithGoldenFrames) {
     EXPECT_EQ(shell(film + with_script(folder, "11 press Space\n") + now).exit, 1);
 }
 
+std::string trimmed(const std::string& line) {
+    return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+}
+
+// Each line of code in the guide is in the file that the paragraph before it names.
+TEST(Guide, ReadmeShowsTheLinesOfItsPrograms) {
+    const std::string readme = text_of(OILER_SOURCE "/demos/README.md");
+    const std::size_t begin = readme.find("## Cannon in six steps");
+    std::istringstream lines(readme.substr(begin, readme.find("## Your first game") - begin));
+    std::string line, program;
+    bool in_code = false;
+    int checked = 0;
+    while (std::getline(lines, line)) {
+        const std::size_t link = line.find("(guide/step");
+        if (link != std::string::npos)
+            program = text_of(OILER_SOURCE "/demos/" + line.substr(link + 1, 15));
+        if (line.starts_with("```")) {
+            in_code = line == "```cpp";
+        } else if (in_code) {
+            EXPECT_NE(program.find(trimmed(line)), std::string::npos) << line;
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 20);
+}
+
 }  // namespace
 }  // namespace oiler::test
