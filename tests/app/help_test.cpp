@@ -22,14 +22,15 @@ bool shows(const Picture& picture, std::string_view text) {
                        [&](const Label& label) { return label.text == text; });
 }
 
-TEST(Help, ListsControlsAndKeysOverAFadedPicture) {
-    Picture picture{.background = palette::black,
-                    .discs = {{.colour = palette::blue}},
-                    .labels = {{.text = "score 7"}}};
+TEST(Help, ListsControlsAndKeysOverThePicture) {
+    Picture picture{.background = palette::black, .labels = {{.text = "score 7", .layer = 1000}}};
     add_help(picture, "Cannon", controls, on_azerty, true);
-    EXPECT_GT(picture.background.g, 200) << "the text is dark";
-    EXPECT_LT(picture.discs[0].colour.a, 64);
-    EXPECT_LT(picture.labels[0].colour.a, 64);
+    ASSERT_EQ(picture.polygons.size(), 1U);
+    EXPECT_GT(picture.polygons[0].colour.g, 200) << "the text is dark";
+    EXPECT_GT(picture.polygons[0].colour.a, 192);
+    EXPECT_GT(picture.polygons[0].layer, picture.labels[0].layer);
+    for (std::size_t i = 1; i < picture.labels.size(); ++i)
+        EXPECT_EQ(picture.labels[i].layer, picture.polygons[0].layer);
     for (const char* const text :
          {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
           "no button", "F4", "go back", "Escape"})

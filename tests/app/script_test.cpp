@@ -151,7 +151,10 @@ struct Deaf {
 TEST(Script, OfAGameThatSeesNoInputIsRemarkedOn) {
     const Folder folder;
     put(folder / "kick.txt", "10 press Space\n");
-    Options options{.steps = 20, .script = folder / "kick.txt", .record = folder / "a"};
+    Options options;
+    options.steps = 20;
+    options.script = folder / "kick.txt";
+    options.record = folder / "a";
     options.settings.stepping = {.method = &find_method("rk4"), .rate = {60}};
     testing::internal::CaptureStderr();
     (void)run_game(options, Deaf::about, [](const Settings& settings) {

@@ -71,9 +71,11 @@ struct Tick {
 /// Tick labels are centred along the x axis and right-aligned along the y axis.
 std::vector<Tick> ticks_of(const Picture& picture, Align align) {
     std::vector<Tick> ticks;
-    for (const auto& [key, at, text, size, colour, aligned, space] : picture.labels)
-        if (aligned == align && text.find_first_not_of("-.0123456789") == std::string::npos)
-            ticks.push_back({align == Align::centre ? at.x : at.y + 3, std::stod(text)});
+    for (const Label& label : picture.labels)
+        if (label.align == align &&
+            label.text.find_first_not_of("-.0123456789") == std::string::npos)
+            ticks.push_back(
+                {align == Align::centre ? label.at.x : label.at.y + 3, std::stod(label.text)});
     return ticks;
 }
 

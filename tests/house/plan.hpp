@@ -24,7 +24,8 @@ inline constexpr std::array plan{
     Row{"world", "core math physics sim stability"},
     Row{"picture", "core math"},
     Row{"plot", "core math picture"},
-    Row{"scene", "core math physics sim stability world picture"},
+    Row{"toml", "core"},
+    Row{"scene", "core math physics sim stability world picture toml"},
     Row{"certify", "core math physics sim stability picture plot"},
     Row{"lab",
         "core math physics sim stability world picture plot scene"
@@ -40,15 +41,15 @@ inline constexpr std::array plan{
     Row{"compare", "core math picture capture"},
     Row{"inspector", "core math physics sim stability world picture plot scene lab render"},
     Row{"app",
-        "core math physics sim stability world picture plot scene certify lab input platform render"
-        " capture compare inspector"},
+        "core math physics sim stability world picture plot toml scene certify lab input platform"
+        " render capture compare inspector"},
     Row{"cli",
-        "core math physics sim stability world picture plot scene certify lab input platform render"
-        " capture compare inspector app"},
+        "core math physics sim stability world picture plot toml scene certify lab input platform"
+        " render capture compare inspector app"},
     // The one include of a game: no room may include it.
     Row{"oiler.hpp",
-        "core math physics sim stability world picture plot scene certify lab input platform render"
-        " capture compare inspector app"},
+        "core math physics sim stability world picture plot toml scene certify lab input platform"
+        " render capture compare inspector app"},
 };
 
 /// The files that may include headers of windows and of OpenGL's providers.

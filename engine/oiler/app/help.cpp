@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
 
 namespace oiler {
 namespace {
@@ -27,21 +28,18 @@ struct Row {
     std::string text;
 };
 
-/// Leaves an eighth of the colours, on white.
-void fade(Picture& picture) {
-    const auto whiten = [](std::uint8_t& channel) {
-        channel = static_cast<std::uint8_t>(255 - (255 - channel) / 8);
-    };
-    whiten(picture.background.r);
-    whiten(picture.background.g);
-    whiten(picture.background.b);
-    const auto fade_all = [](auto& elements) {
-        for (auto& element : elements)
-            element.colour = palette::faded(element.colour, element.colour.a / 8);
-    };
-    fade_all(picture.polylines);
-    fade_all(picture.discs);
-    fade_all(picture.labels);
+/// A sheet of paper over the whole frame, whatever its shape is; an eighth shines through.
+Polygon sheet() {
+    return {.points = rectangle({canvas_width / 2, canvas_height / 2},
+                                {10 * canvas_width, 10 * canvas_height}),
+            .colour = palette::faded(palette::paper, 224),
+            .space = Space::canvas,
+            .layer = overlay_layer};
+}
+
+Label label(Point at, std::string text, float size, Colour colour) {
+    return {
+        .at = at, .text = std::move(text), .size = size, .colour = colour, .layer = overlay_layer};
 }
 
 std::string names_of(const Buttons& buttons, const NameButton& name) {
@@ -88,10 +86,8 @@ std::vector<Row> loop_keys(bool escape_quits) {
 void add_rows(Picture& picture, std::span<const Row> rows, float x, float text_x, float size) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const float y = top - static_cast<float>(i) * line_height * size;
-        picture.labels.push_back(
-            {.at = {x, y}, .text = rows[i].name, .size = size, .colour = palette::blue});
-        picture.labels.push_back(
-            {.at = {text_x, y}, .text = rows[i].text, .size = size, .colour = palette::ink});
+        picture.labels.push_back(label({x, y}, rows[i].name, size, palette::blue));
+        picture.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
     }
 }
 
@@ -108,7 +104,7 @@ std::string buttons_of(const Control& control, const NameButton& name) {
 
 void add_help(Picture& picture, std::string_view title, std::span<const Control> controls,
               const NameButton& name, bool escape_quits) {
-    fade(picture);
+    picture.polygons.push_back(sheet());
     std::size_t longest = 0;
     for (const Control& control : controls)
         longest = std::max(longest, std::min(control.name.size(), longest_name) + 2);
@@ -118,8 +114,7 @@ void add_help(Picture& picture, std::string_view title, std::span<const Control>
     const std::vector<Row> rows = rows_of(controls, name, letters);
     const float size =
         std::min(largest_size, (top - bottom) / line_height / static_cast<float>(rows.size()));
-    picture.labels.push_back(
-        {.at = {left, 324}, .text = std::string(title), .size = 15, .colour = palette::ink});
+    picture.labels.push_back(label({left, 324}, std::string(title), 15, palette::ink));
     add_rows(picture, rows, left, text_x, size);
     add_rows(picture, loop_keys(escape_quits), loop_keys_left, loop_keys_left + 48, largest_size);
 }

@@ -8,9 +8,9 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
-#include "oiler/scene/document.hpp"
-#include "oiler/scene/guard.hpp"
-#include "oiler/scene/refuse.hpp"
+#include "oiler/toml/document.hpp"
+#include "oiler/toml/guard.hpp"
+#include "oiler/toml/refuse.hpp"
 
 namespace oiler {
 namespace {
@@ -129,8 +129,8 @@ void check_controls(std::span<const Control> controls) {
 
 std::vector<Control> parse_keys(std::string_view text, std::string_view file,
                                 std::span<const Control> controls) {
-    if (text.size() > most_scene_bytes)
-        refuse({file}, "more than {} bytes; name each action once", most_scene_bytes);
+    if (text.size() > most_toml_bytes)
+        refuse({file}, "more than {} bytes; name each action once", most_toml_bytes);
     std::vector<Control> chosen(controls.begin(), controls.end());
     KeysReader(file, chosen).read(parse_document(text, file));
     return chosen;

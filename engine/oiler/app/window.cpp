@@ -68,7 +68,8 @@ void add_status(Picture& picture, std::string status) {
                               .text = std::move(status),
                               .size = 11,
                               .colour = palette::vermilion,
-                              .align = Align::right});
+                              .align = Align::right,
+                              .layer = overlay_layer});
 }
 
 void show(const Picture& picture, Renderer& renderer, Window& window) {

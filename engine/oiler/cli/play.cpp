@@ -10,9 +10,9 @@
 #include "oiler/cli/files.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/draw.hpp"
-#include "oiler/scene/guard.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
-#include "oiler/scene/document.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/toml/document.hpp"
 
 namespace oiler {
 namespace {

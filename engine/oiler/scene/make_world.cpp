@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "oiler/scene/grid.hpp"
 #include "oiler/core/random.hpp"
+#include "oiler/scene/grid.hpp"
 
 namespace oiler {
 namespace {

@@ -9,7 +9,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/check.hpp"
-#include "oiler/scene/guard.hpp"
+#include "oiler/scene/scene_text.hpp"
 #include "oiler/scene/section.hpp"
 
 namespace oiler {

@@ -8,9 +8,9 @@
 
 #include "oiler/math/vec.hpp"
 #include "oiler/picture/picture.hpp"
-#include "oiler/scene/document.hpp"
 #include "oiler/scene/keys.hpp"
-#include "oiler/scene/refuse.hpp"
+#include "oiler/toml/document.hpp"
+#include "oiler/toml/refuse.hpp"
 
 namespace oiler {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The only file that includes toml++. It is compiled with NDEBUG, because the parser's assertions
 // fail on texts that the parser would refuse.
-#include "oiler/scene/document.hpp"
+#include "oiler/toml/document.hpp"
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <type_traits>
 
-#include "oiler/scene/guard.hpp"
-#include "oiler/scene/refuse.hpp"
+#include "oiler/toml/guard.hpp"
+#include "oiler/toml/refuse.hpp"
 
 namespace oiler {
 namespace {
@@ -110,7 +110,7 @@ std::string Value::shown() const {
 }
 
 Value parse_document(std::string_view text, std::string_view file) {
-    guard_scene_text(text, file);
+    guard_toml(text, file);
     try {
         return Converter(text).convert(toml::parse(text));
     } catch (const toml::parse_error& error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/scene/refuse.hpp"
+#include "oiler/toml/refuse.hpp"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// A place in a scene file.
+/// A place in a TOML file.
 struct Place {
     std::string_view file;
     int line = 1;
