@@ -172,6 +172,8 @@ struct Cannon {
         world.get<Play>(player).score += ball->bounces > 0 ? 200 : 100;
     }
 
+    std::vector<Reading> readings() const { return {{"score", double(play().score)}}; }
+
     Picture picture() const {
         Picture picture = draw_looks(world, {.centre = {20, 9.25F}, .height = 22.5F});
         picture.background = {214, 236, 250};
