@@ -18,7 +18,7 @@ import tempfile
 import time
 
 KEYS = ("A B C D E F G H I J K L M N O P R S T U V W X Y Z 1 2 3 4 5 6 7 8 9 0 Space Enter Tab "
-        "Backspace Left Right Up Down").split()
+        "Backspace Escape Left Right Up Down").split()
 USUAL = "Space Left Right Up Down A D W S R Enter".split()
 
 

@@ -87,7 +87,8 @@ std::string text_of(const WhatIf& result, std::string_view game) {
     if (result.certain_until < result.duration)
         text += fmt::format("Distances are counted until {:.3f} s: there, these two part.\n",
                             result.certain_until);
-    text += "\n" + table_of_runs(result);
+    text += '\n';
+    text += table_of_runs(result);
     for (const Reading& reading : result.reference.readings)
         text += table_of_reading(reading, result);
     return text + legend;
