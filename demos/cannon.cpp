@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A complete small game: a cannon shoots at targets on springs. All that decides is kept in the
-// world, so that recordings compare it, too.
+// A complete small game: a cannon shoots at targets on springs.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -37,24 +36,13 @@ constexpr std::array levels{Level{0, 0, {Vec3{17, 5}, Vec3{25, 9.5}, Vec3{33, 4}
                             Level{7, 1.5, {Vec3{18, 4}, Vec3{26, 11}, Vec3{35, 6}}},
                             Level{-14, 2, {Vec3{20, 10}, Vec3{27, 4}, Vec3{34, 12}}}};
 
-/// The component of the player.
-struct Play {
-    std::uint32_t level = 0, shots = 0, score = 0;
-    double speed = 16;  // m/s
-    Vec3 direction = normalised(Vec3{4, 3});
-
-    void hash(StateHash& hash) const {
-        for (const std::uint32_t number : {level, shots, score}) hash.add(number);
-        hash.add(std::array{speed, direction[0], direction[1]});
-    }
-};
 struct Ball {
     int bounces = 0;
 };
 struct Target {
     Vec3 hook;  // m
     bool is_hit = false;
-    void hash(StateHash& hash) const { hash.add(std::uint64_t{is_hit}); }
+    void hash(StateHash& hash) const { hash.add(hook, is_hit); }
 };
 struct Expire {
     Entity entity;
@@ -71,30 +59,29 @@ struct Cannon {
                                  .controls = controls};
 
     World world;
-    Entity player = world.create();
+    Entity cannon = world.create();
     Collisions collisions;
+    std::uint32_t shots = 0, score = 0;
+    std::size_t level = 0;
+    double speed = 16;  // m/s
+    Vec3 direction{0.8, 0.6};
     bool is_paused = false;
-    std::optional<Point> pointer{};  // on the canvas, before this step
 
     explicit Cannon(const Settings& settings) : world(2, settings) {
         world.set_gravity(gravity);
         world.add_plane({.normal = {0, 1}, .restitution = 0.6, .friction = 0.2});
         world.add_plane({.normal = {-1, 0}, .offset = -wall, .restitution = 0.7});
-        world.add(player, Play{});
         hang_targets();
     }
-    const Play& play() const { return world.get<Play>(player); }
-    const Level& level() const { return levels[play().level]; }
-    bool has_targets() const {
-        bool any = false;
-        world.each<Target>([&](Entity, const Target&) { any = true; });
-        return any;
-    }
+    /// Adds what the world does not hold to the hash of a state.
+    void hash(StateHash& hash) const { hash.add(shots, score, level, speed, direction, is_paused); }
+    bool has_targets() const { return world.count<Target>() > 0; }
 
     void hang_targets() {
-        for (const Vec3& place : level().targets) {
-            const Entity target = world.spawn(Body{
-                .mass = 2, .position = place - Vec3{0, level().swing}, .contact = Contact{0.8}});
+        for (const Vec3& place : levels[level].targets) {
+            const Entity target = world.spawn(Body{.mass = 2,
+                                                   .position = place - Vec3{0, levels[level].swing},
+                                                   .contact = Contact{0.8}});
             const Vec3 force = world.mass(target) * gravity;
             const Vec3 hook = place - force / spring.stiffness + Vec3{0, spring.rest_length};
             world.link_to_point(target, hook, spring);
@@ -110,8 +97,8 @@ struct Cannon {
         if (is_paused) return loop.hold();
         score_hits();
         world.due<Expire>([&](Expire due) { world.destroy(due.entity); });
-        if (!has_targets() && play().level + 1 < levels.size()) {
-            ++world.get<Play>(player).level;
+        if (!has_targets() && level + 1 < levels.size()) {
+            ++level;
             hang_targets();
         }
         turn(input);
@@ -120,22 +107,18 @@ struct Cannon {
 
     /// Turns to the mouse when it moves.
     void turn(const Input& input) {
-        Vec3& direction = world.get<Play>(player).direction;
         const double angle = turning * world.dt() * input.axis(aim);
         Vec3 to = direction + angle * Vec3{-direction[1], direction[0]};
-        const auto before = std::exchange(pointer, input.pointer_canvas());
-        if (const auto mouse = input.pointer(); mouse && pointer != before)
-            to = Vec3{mouse->x, mouse->y} - pivot;
+        if (input.pointer_moved()) to = Vec3{input.pointer()->x, input.pointer()->y} - pivot;
         to = {std::max(to[0], 0.0), std::max(to[1], 0.0)};
         if (length(to) > 0.1) direction = normalised(to);
     }
 
     void shoot(const Input& input) {
-        Play& play = world.get<Play>(player);
-        if (input.pressed(fire)) play.speed = least_speed;
-        if (input.held(fire)) play.speed = std::min(play.speed + charge * world.dt(), most_speed);
+        if (input.pressed(fire)) speed = least_speed;
+        if (input.held(fire)) speed = std::min(speed + charge * world.dt(), most_speed);
         if (!input.released(fire)) return;
-        ++play.shots;
+        ++shots;
         const Entity ball = launch(world);
         world.add(ball, Ball{});
         world.add(ball, Look{.size = 0.3F, .colour = palette::ink});
@@ -144,35 +127,33 @@ struct Cannon {
 
     /// Adds a ball that leaves the cannon, to this world or to that of the preview.
     Entity launch(World& place) const {
-        const Body ball{.position = pivot + barrel * play().direction,
-                        .velocity = play().speed * play().direction,
+        const Body ball{.position = pivot + barrel * direction,
+                        .velocity = speed * direction,
                         .contact = Contact{0.3}};
-        if (level().wind == 0) return place.spawn(ball);
-        return place.spawn(ball, Wind{.velocity = {level().wind}, .coefficient = drag});
+        if (levels[level].wind == 0) return place.spawn(ball);
+        return place.spawn(ball, Wind{.velocity = {levels[level].wind}, .coefficient = drag});
     }
 
     void score_hits() {
         for (const Impact& impact : world.impacts())
             if (Ball* const ball = world.find<Ball>(impact.entity)) ++ball->bounces;
         collisions.update(world);
-        for (const Collision& pair : collisions.pairs())
-            world.find<Ball>(pair.a) ? hit(pair.a, pair.b) : hit(pair.b, pair.a);
+        collisions.each<Ball, Target>(world, [&](Entity by, Ball& ball, Entity on, Target& target) {
+            if (!std::exchange(target.is_hit, true)) hit(by, ball, on);
+        });
     }
 
-    void hit(Entity by, Entity entity) {
-        const Ball* const ball = world.find<Ball>(by);
-        Target* const target = world.find<Target>(entity);
-        if (!ball || !target || std::exchange(target->is_hit, true)) return;
-        const Vec3 speed = world.velocity(by) - world.velocity(entity);
-        const Vec3 impulse = 1.5 * speed / (1 / world.mass(by) + 1 / world.mass(entity));
+    void hit(Entity by, const Ball& ball, Entity entity) {
+        const Vec3 relative = world.velocity(by) - world.velocity(entity);
+        const Vec3 impulse = 1.5 * relative / (1 / world.mass(by) + 1 / world.mass(entity));
         world.apply_impulse(entity, impulse);
         world.apply_impulse(by, -impulse);
         world.get<Look>(entity).colour = palette::grey;
         world.schedule(2, Expire{entity});
-        world.get<Play>(player).score += ball->bounces > 0 ? 200 : 100;
+        score += ball.bounces > 0 ? 200 : 100;
     }
 
-    std::vector<Reading> readings() const { return {{"score", double(play().score)}}; }
+    std::vector<Reading> readings() const { return {{"score", double(score)}}; }
 
     Picture picture() const {
         Picture picture = draw_looks(world, {.centre = {20, 9.25F}, .height = 22.5F});
@@ -195,19 +176,16 @@ struct Cannon {
         const Entity preview = launch(air);
         for (std::uint32_t i = 1; i <= 12; ++i) {
             air.step(world.settings().stepping.rate.steps / 12);
-            picture.discs.push_back({key_of(world, player, i), to_point(air.position(preview)),
+            picture.discs.push_back({key_of(world, cannon, i), to_point(air.position(preview)),
                                      0.12F, palette::faded(palette::ink, 140)});
         }
-        const Vec3& to = play().direction;
         const auto along = [&](double length, float width, Colour colour, std::uint32_t part) {
-            const double angle = std::atan2(to[1], to[0]);
+            const Point end = to_point(pivot + length * direction);
             picture.polygons.push_back(
-                {key_of(world, player, part),
-                 rectangle(to_point(pivot + length / 2 * to), {float(length), width}, float(angle)),
-                 colour});
+                {key_of(world, cannon, part), bar(to_point(pivot), end, width), colour});
         };
         along(barrel, 0.8F, palette::ink, 0);
-        along(barrel * play().speed / most_speed, 0.3F, palette::orange, 1);
+        along(barrel * speed / most_speed, 0.3F, palette::orange, 1);
         picture.discs.push_back({{}, {2.7F, 0.85F}, 0.85F, palette::ink});
         picture.discs.push_back({{}, {2.7F, 0.85F}, 0.4F, palette::grey});
     }
@@ -223,27 +201,30 @@ struct Cannon {
 
     void draw_texts(Picture& picture) const {
         const auto text = [&](Point at, float size, Align align, const std::string& words) {
-            picture.labels.push_back({{}, at, words, size, palette::ink, align});
+            picture.labels.push_back(
+                {.at = at, .text = words, .size = size, .align = align, .layer = 1});
         };
-        const Play& now = play();
-        text({16, 334}, 16, Align::left,
-             fmt::format("Level {} of {}", now.level + 1, levels.size()));
-        text({16, 314}, 14, Align::left, fmt::format("Score {}   Shots {}", now.score, now.shots));
+        const auto sheet = [&](const std::string& title, const std::string& keys) {
+            picture.polygons.push_back({.points = rectangle({320, 211}, {640, 72}),
+                                        .colour = palette::faded(palette::paper, 216),
+                                        .space = Space::canvas,
+                                        .layer = 1});
+            text({320, 220}, 26, Align::centre, title);
+            text({320, 196}, 14, Align::centre, keys);
+        };
+        text({16, 334}, 16, Align::left, fmt::format("Level {} of {}", level + 1, levels.size()));
+        text({16, 314}, 14, Align::left, fmt::format("Score {}   Shots {}", score, shots));
         text({320, 12}, 11, Align::centre,
              "Aim with mouse or arrows. Hold Space or the button, and release. Escape: menu");
-        const auto wind = static_cast<float>(level().wind);
+        const auto wind = static_cast<float>(levels[level].wind);
         text({320, 338}, 12, Align::centre, fmt::format("Wind {} m/s", std::abs(wind)));
         const Point tail{320 - 3 * wind, 324}, head{320 + 3 * wind, 324};
         picture.polygons.push_back(
             {.points = arrow(tail, head, 4), .colour = palette::blue, .space = Space::canvas});
-        if (is_paused) {
-            text({320, 220}, 26, Align::centre, "Pause");
-            text({320, 196}, 14, Align::centre, "Escape: resume   R: restart   Q: quit");
-        } else if (!has_targets()) {
-            text({320, 220}, 26, Align::centre,
-                 fmt::format("You win: {} points with {} shots", now.score, now.shots));
-            text({320, 196}, 14, Align::centre, "R: restart");
-        }
+        if (is_paused)
+            sheet("Pause", "Escape: resume   R: restart   Q: quit");
+        else if (!has_targets())
+            sheet(fmt::format("You win: {} points with {} shots", score, shots), "R: restart");
     }
 };
 

@@ -13,7 +13,7 @@ constexpr double speed = 20;  // m/s
 struct Ball {};
 struct Target {
     Vec3 hook;  // m
-    void hash(StateHash& hash) const { hash.add(hook.axis); }
+    void hash(StateHash& hash) const { hash.add(hook); }
 };
 struct Expire {
     Entity ball;
@@ -64,13 +64,8 @@ struct Cannon {
 
     void find_hits() {
         collisions.update(world);
-        for (const Collision& pair : collisions.pairs())
-            world.find<Ball>(pair.a) ? hit(pair.a, pair.b) : hit(pair.b, pair.a);
-    }
-
-    void hit(Entity ball, Entity target) {
-        if (!world.find<Ball>(ball) || !world.find<Target>(target)) return;
-        world.destroy(target);
+        collisions.each<Ball, Target>(
+            world, [&](Entity, Ball&, Entity target, Target&) { world.destroy(target); });
     }
 
     Picture picture() const {

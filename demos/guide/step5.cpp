@@ -22,7 +22,7 @@ constexpr std::array levels{std::array{Vec3{20, 12}, Vec3{26, 8}},
 struct Ball {};
 struct Target {
     Vec3 hook;  // m
-    void hash(StateHash& hash) const { hash.add(hook.axis); }
+    void hash(StateHash& hash) const { hash.add(hook); }
 };
 struct Expire {
     Entity ball;
@@ -56,11 +56,7 @@ struct Cannon {
         world.add(target, Look{.size = 0.8F, .colour = palette::vermilion});
         world.add(target, Target{hook});
     }
-    bool has_targets() const {
-        bool any = false;
-        world.each<Target>([&](Entity, const Target&) { any = true; });
-        return any;
-    }
+    bool has_targets() const { return world.count<Target>() > 0; }
 
     void update(const Input& input, Loop& loop) {
         if (input.pressed(restart)) loop.restart();
@@ -86,14 +82,10 @@ struct Cannon {
 
     void find_hits() {
         collisions.update(world);
-        for (const Collision& pair : collisions.pairs())
-            world.find<Ball>(pair.a) ? hit(pair.a, pair.b) : hit(pair.b, pair.a);
-    }
-
-    void hit(Entity ball, Entity target) {
-        if (!world.find<Ball>(ball) || !world.find<Target>(target)) return;
-        score += 100;
-        world.destroy(target);
+        collisions.each<Ball, Target>(world, [&](Entity, Ball&, Entity target, Target&) {
+            score += 100;
+            world.destroy(target);
+        });
     }
 
     Picture picture() const {

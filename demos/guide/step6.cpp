@@ -19,20 +19,10 @@ constexpr double speed = 20;  // m/s
 constexpr std::array levels{std::array{Vec3{20, 12}, Vec3{26, 8}},
                             std::array{Vec3{12, 12}, Vec3{29, 13}},
                             std::array{Vec3{18, 17}, Vec3{24, 8}}};
-/// All that decides is a component, so that the hash of a state covers it.
-struct Play {
-    std::uint32_t level = 0, score = 0;
-    Vec3 direction{0.8, 0.6};
-    void hash(StateHash& hash) const {
-        hash.add(level);
-        hash.add(score);
-        hash.add(direction.axis);
-    }
-};
 struct Ball {};
 struct Target {
     Vec3 hook;  // m
-    void hash(StateHash& hash) const { hash.add(hook.axis); }
+    void hash(StateHash& hash) const { hash.add(hook); }
 };
 struct Expire {
     Entity ball;
@@ -48,13 +38,14 @@ struct Cannon {
     World world;
     Collisions collisions;
     bool is_paused = false;
-    Entity player = world.create();
+    Vec3 direction{0.8, 0.6};
+    std::size_t level = 0;
+    int score = 0;
 
     explicit Cannon(const Settings& settings) : world(2, settings) {
         world.set_gravity({0, -9.81});
         world.add_plane({.normal = {0, 1}, .restitution = 0.6, .friction = 0.2});
         world.add_plane({.normal = {-1, 0}, .offset = -32, .restitution = 0.7});
-        world.add(player, Play{});
         for (const Vec3& hook : levels[0]) hang_target(hook);
     }
 
@@ -65,11 +56,7 @@ struct Cannon {
         world.add(target, Look{.size = 0.8F, .colour = palette::vermilion});
         world.add(target, Target{hook});
     }
-    bool has_targets() const {
-        bool any = false;
-        world.each<Target>([&](Entity, const Target&) { any = true; });
-        return any;
-    }
+    bool has_targets() const { return world.count<Target>() > 0; }
 
     void update(const Input& input, Loop& loop) {
         if (input.pressed(restart)) loop.restart();
@@ -78,15 +65,14 @@ struct Cannon {
         if (is_paused) return loop.hold();
         find_hits();
         world.due<Expire>([&](Expire due) { world.destroy(due.ball); });
-        Play& play = world.get<Play>(player);
-        if (!has_targets() && play.level + 1 < levels.size())
-            for (const Vec3& hook : levels[++play.level]) hang_target(hook);
+        if (!has_targets() && level + 1 < levels.size())
+            for (const Vec3& hook : levels[++level]) hang_target(hook);
         // A turn by a small angle without a sine: the same bits on every machine.
-        const Vec3 left{-play.direction[1], play.direction[0]};
-        play.direction = normalised(play.direction + world.dt() * input.axis(aim) * left);
+        const Vec3 left{-direction[1], direction[0]};
+        direction = normalised(direction + world.dt() * input.axis(aim) * left);
         if (input.pressed(fire)) {
-            const Entity ball = world.spawn(Body{.position = pivot + 2 * play.direction,
-                                                 .velocity = speed * play.direction,
+            const Entity ball = world.spawn(Body{.position = pivot + 2 * direction,
+                                                 .velocity = speed * direction,
                                                  .contact = Contact{0.3}});
             world.add(ball, Look{.size = 0.3F});
             world.add(ball, Ball{});
@@ -94,22 +80,20 @@ struct Cannon {
         }
     }
 
+    /// Adds what the world does not hold to the hash of a state.
+    void hash(StateHash& hash) const { hash.add(direction, level, score, is_paused); }
+
     void find_hits() {
         collisions.update(world);
-        for (const Collision& pair : collisions.pairs())
-            world.find<Ball>(pair.a) ? hit(pair.a, pair.b) : hit(pair.b, pair.a);
-    }
-
-    void hit(Entity ball, Entity target) {
-        if (!world.find<Ball>(ball) || !world.find<Target>(target)) return;
-        world.get<Play>(player).score += 100;
-        world.destroy(target);
+        collisions.each<Ball, Target>(world, [&](Entity, Ball&, Entity target, Target&) {
+            score += 100;
+            world.destroy(target);
+        });
     }
 
     Picture picture() const {
         Picture picture = draw_looks(world, {.centre = {16, 8}, .height = 20});
-        const Play& play = world.get<Play>(player);
-        const Point muzzle = to_point(pivot + 2 * play.direction);
+        const Point muzzle = to_point(pivot + 2 * direction);
         picture.polylines.push_back(
             {.points = {to_point(pivot), muzzle}, .width = 12, .colour = palette::ink});
         world.each<Target>([&](Entity entity, const Target& target) {
@@ -119,7 +103,7 @@ struct Cannon {
                                          .width = 1.5F,
                                          .colour = palette::grey});
         });
-        std::string text = fmt::format("Level {}   Score {}", play.level + 1, play.score);
+        std::string text = fmt::format("Level {}   Score {}", level + 1, score);
         if (!has_targets()) text += "   You win. R: restart";
         if (is_paused) text = "Escape: resume   R: restart   Q: quit";
         picture.labels.push_back({.at = {16, 336}, .text = text, .size = 16});

@@ -80,7 +80,12 @@ TEST(Cannon, TheMenuHoldsTheWorldAndQuits) {
     const auto report =
         report_of("cannon --steps 100" + with_script(folder, "10 press Escape\n60 press Q\n"));
     EXPECT_EQ(report.at("steps"), 60);
-    EXPECT_EQ(report.at("state_hash"), report_of("cannon --quiet --steps 10").at("state_hash"));
+    const auto held =
+        report_of("cannon --steps 60" + with_script(folder, "10 press Escape\n50 press Escape\n"));
+    EXPECT_EQ(held.at("state_hash"), report_of("cannon --quiet --steps 20").at("state_hash"));
+    const auto paused = report_of("cannon --steps 60" + with_script(folder, "20 press Escape\n"));
+    EXPECT_EQ(paused.at("energy"), held.at("energy"));
+    EXPECT_NE(paused.at("state_hash"), held.at("state_hash")) << "the hash covers the menu";
     EXPECT_EQ(report_of("cannon --steps 100" + with_script(folder, "60 press Q\n")).at("steps"),
               100);
 }

@@ -145,12 +145,50 @@ TEST(Recordings, NameThePartThatDiffers) {
     for (auto& event : recording.events)
         if (event.event.what == InputEvent::What::text) {
             event.event.text += "!";
-            EXPECT_NE(line_of_error(Exit::comparison_failed, [&] { (void)replay(recording); })
-                          .find("differs in components, timers or random numbers"),
-                      std::string::npos);
+            EXPECT_NE(
+                line_of_error(Exit::comparison_failed, [&] { (void)replay(recording); })
+                    .find("differs in components, timers, random numbers or members of the game"),
+                std::string::npos);
             return;
         }
     FAIL() << "no text";
+}
+
+/// A game that keeps its shots beside the world, and perhaps says so.
+struct Forgetful {
+    static constexpr About about{.name = "shots", .title = "Shots"};
+    World world;
+    int shots = 0;
+    explicit Forgetful(const Settings& settings) : world(1, settings) {}
+    void update(const Input& input) { shots += input.presses(Key::space); }
+};
+struct Honest : Forgetful {
+    using Forgetful::Forgetful;
+    void hash(StateHash& hash) const { hash.add(shots); }
+};
+
+TEST(Recordings, CompareTheMembersThatAGameHashes) {
+    AnyGameOf<Forgetful> forgetful(settings_of());
+    AnyGameOf<Honest> honest(settings_of());
+    EXPECT_EQ(forgetful.state_hash(), forgetful.world().state_hash());
+    const std::uint64_t before = honest.state_hash();
+    EXPECT_NE(before, honest.world().state_hash());
+    InputQueue queue;
+    queue.set(Key::space, true);
+    struct Once final : InputSource {
+        Input input;
+        Input next(std::int64_t) override { return input; }
+    } once;
+    once.input = queue.take({});
+    AnyGameOf<Honest> idle(settings_of());
+    Once none;
+    idle.step(0, 1, none);
+    honest.step(0, 1, once);
+    forgetful.step(0, 1, once);
+    EXPECT_EQ(forgetful.state_hash(), idle.world().state_hash()) << "it keeps its shots to itself";
+    EXPECT_NE(honest.state_hash(), idle.state_hash());
+    EXPECT_NE(part_hashes(honest).whole, part_hashes(idle).whole);
+    EXPECT_EQ(part_hashes(honest).bodies, part_hashes(idle).bodies);
 }
 
 // A killed program leaves whole chunks, and a part of the next one.
@@ -237,7 +275,10 @@ TEST(Recordings, AreMadeAndReplayedByPrograms) {
     EXPECT_EQ(shell("hello --steps 9 --rate 60 --replay " + path("a")).exit, 2);
     EXPECT_EQ(shell("jump --steps 9 --replay " + path("a")).exit, 2);
     EXPECT_EQ(shell("hello --steps 9 --replay " + path("kick.txt")).exit, 2);
-    EXPECT_EQ(shell("hello --steps 9 --record " + path("none/a")).exit, 2);
+    EXPECT_EQ(shell("hello --steps 9 --record " + path("new/a")).exit, 0);
+    EXPECT_EQ(shell("hello --steps 9 --replay " + path("new/a")).exit, 0);
+    EXPECT_EQ(shell("hello --steps 9 --record " + path("a/file")).exit, 4) << "a is no folder";
+    EXPECT_EQ(shell("hello --steps 9 --record " + path("new")).exit, 2) << "new is a folder";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 
 using oiler::hash_text;
 using oiler::StateHash;
+using namespace std::string_view_literals;
 
 std::uint64_t hash_of(std::string_view text) {
     StateHash hash;
@@ -58,6 +59,36 @@ TEST(StateHash, NumbersAreLittleEndianBytes) {
     EXPECT_EQ(number.value(), hash_of("\x01\x02\x03\x04\x05\x06\x07\x08"));
     EXPECT_EQ(hash_of_column<float>({1.0F}), hash_of({"\x00\x00\x80\x3f", 4}));
     EXPECT_EQ(hash_of_column<double>({1.0}), hash_of({"\x00\x00\x00\x00\x00\x00\xf0\x3f", 8}));
+}
+
+enum class Mode : std::uint8_t { menu, play };
+struct Tag {};
+struct Player {
+    std::uint32_t score = 0;
+    double speed = 0;  // after a gap of four bytes
+    void hash(StateHash& hash) const { hash.add(score, speed); }
+};
+
+TEST(StateHash, AddsValuesAsTheirBytes) {
+    StateHash hash;
+    const float half = 0.5F;
+    std::vector<double> column{1.0};
+    hash.add(true, -2, half, Mode::play, Tag{}, Player{3, 1.0}, std::span(column),
+             std::string_view("ab"));
+    const std::string_view bytes =
+        "\1\0\0\0\0\0\0\0"
+        "\xfe\xff\xff\xff\xff\xff\xff\xff"
+        "\0\0\0\0\0\0\xe0\x3f"
+        "\1"
+        "\3\0\0\0\0\0\0\0"
+        "\0\0\0\0\0\0\xf0\x3f"
+        "\0\0\0\0\0\0\xf0\x3f"
+        "\2\0\0\0\0\0\0\0"
+        "ab"sv;
+    EXPECT_EQ(hash.value(), hash_of(bytes));
+    static_assert(!oiler::Hashed<const char*> && !oiler::Hashed<std::vector<int>>,
+                  "an address is no value");
+    static_assert(!oiler::Hashed<std::pair<char, int>>, "its gap has any bytes");
 }
 
 TEST(StateHash, DependsOnOrder) {

@@ -241,6 +241,27 @@ TEST(InputQueue, ThePointerIsInTheWorldThatWasOnScreen) {
     EXPECT_FALSE(queue.take({}).pointer());
 }
 
+TEST(InputQueue, ThePointerMovesAsSeenFromStepToStep) {
+    InputQueue queue;
+    EXPECT_FALSE(queue.take({}).pointer_moved());
+    queue.point_at(Point{100, 50});
+    const Input here = queue.take({});
+    EXPECT_TRUE(here.pointer_moved()) << "it came into the window";
+    EXPECT_FALSE(queue.take({}).pointer_moved());
+    EXPECT_FALSE(queue.take({.centre = {3, 0}}).pointer_moved()) << "only the camera moved";
+    queue.point_at(Point{101, 50});
+    queue.point_at(Point{100, 50});
+    EXPECT_FALSE(queue.take({}).pointer_moved()) << "it is where it was";
+    queue.point_at(Point{101, 50});
+    EXPECT_TRUE(queue.take({}).pointer_moved());
+    queue.continue_after(here);
+    EXPECT_TRUE(queue.take({}).pointer_moved()) << "since the step that is the last one now";
+    queue.point_at(std::nullopt);
+    EXPECT_FALSE(queue.take({}).pointer_moved());
+    queue.point_at(Point{101, 50});
+    EXPECT_TRUE(queue.take({}).pointer_moved());
+}
+
 TEST(Input, DirectionsAreNoLongerThanOne) {
     constexpr Axis x{"x", Key::a, Key::d, Stick::left_x};
     constexpr Axis y{"y", Key::s, Key::w, Stick::left_y};

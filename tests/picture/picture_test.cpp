@@ -5,6 +5,9 @@
 
 #include <limits>
 
+#include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
+
 namespace oiler {
 namespace {
 
@@ -60,6 +63,24 @@ TEST(Camera, ZoomsAroundAPoint) {
     EXPECT_EQ(camera.height, 10);
     EXPECT_NEAR(camera.to_canvas({103, -47}).x, before.x, 1e-3);
     EXPECT_NEAR(camera.to_canvas({103, -47}).y, before.y, 1e-3);
+}
+
+// From (1, 2) to (4, 6) are 5, along (0.6, 0.8); half of the width 2 is 1 along (-0.8, 0.6).
+TEST(Shapes, ABarReachesFromPointToPoint) {
+    const std::vector<Point> corners = bar({1, 2}, {4, 6}, 2);
+    const Point expected[] = {{1.8F, 1.4F}, {4.8F, 5.4F}, {3.2F, 6.6F}, {0.2F, 2.6F}};
+    ASSERT_EQ(corners.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(corners[i].x, expected[i].x, 1e-5) << i;
+        EXPECT_NEAR(corners[i].y, expected[i].y, 1e-5) << i;
+    }
+}
+
+TEST(Palette, MixesEachPart) {
+    constexpr Colour from{0, 100, 200, 255}, to{10, 0, 255, 55};
+    EXPECT_EQ(palette::mix(from, to, 0), from);
+    EXPECT_EQ(palette::mix(from, to, 1), to);
+    EXPECT_EQ(palette::mix(from, to, 0.25F), (Colour{3, 75, 214, 205}));
 }
 
 TEST(Between, TurnsSpritesTheShorterWay) {

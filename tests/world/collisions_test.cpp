@@ -330,6 +330,50 @@ TEST(Collisions, AreInTheOrderOfTheRows) {
     }
 }
 
+struct Ball {
+    int hits = 0;
+};
+struct Target {};
+
+// Two balls, two targets and a bystander in one place: four pairs of a ball and a target.
+TEST(Collisions, AreVisitedByComponentsInEitherOrder) {
+    World world = world_of(2);
+    std::vector<Entity> entities;
+    for (int i = 0; i < 5; ++i) entities.push_back(spawn(world, {}, 1));
+    for (const std::size_t i : {0U, 3U}) world.add(entities[i], Ball{});
+    for (const std::size_t i : {1U, 4U}) world.add(entities[i], Target{});
+    Collisions collisions;
+    collisions.update(world);
+    ASSERT_EQ(collisions.pairs().size(), 10U);
+    std::vector<std::pair<Entity, Entity>> met;
+    collisions.each<Ball, Target>(world, [&](Entity ball, Ball& by, Entity target, Target&) {
+        ++by.hits;
+        met.emplace_back(ball, target);
+    });
+    const std::vector<std::pair<Entity, Entity>> expected{{entities[0], entities[1]},
+                                                          {entities[0], entities[4]},
+                                                          {entities[3], entities[1]},
+                                                          {entities[3], entities[4]}};
+    std::ranges::sort(
+        met, {}, [](const auto& pair) { return std::pair(pair.first.index, pair.second.index); });
+    EXPECT_EQ(met, expected);
+    EXPECT_EQ(world.get<Ball>(entities[0]).hits, 2);
+
+    int visited = 0;
+    collisions.each<Ball, Target>(world, [&](Entity, Ball&, Entity target, Target&) {
+        ++visited;
+        world.destroy(target);
+    });
+    EXPECT_EQ(visited, 2) << "a target is destroyed by the first ball";
+    int twins = 0;
+    collisions.each<Ball, Ball>(world, [&](Entity a, Ball&, Entity b, Ball&) {
+        ++twins;
+        EXPECT_EQ(a, entities[0]);
+        EXPECT_EQ(b, entities[3]);
+    });
+    EXPECT_EQ(twins, 1);
+}
+
 TEST(Collisions, WorkAtTheLimitsOfNumbers) {
     constexpr double most = std::numeric_limits<double>::max();
     constexpr double least = std::numeric_limits<double>::denorm_min();

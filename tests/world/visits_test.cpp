@@ -73,6 +73,19 @@ TEST(Visits, MayDestroyAnyEntity) {
     }
 }
 
+TEST(Visits, AreCounted) {
+    World world = crowd(9);
+    EXPECT_EQ(world.count<Health>(), 9U);
+    EXPECT_EQ((world.count<Health, Shield>()), 5U);
+    EXPECT_EQ(world.count<int>(), 0U) << "no entity ever had one";
+    world.each<Health>([&](Entity entity, const Health& health) {
+        if (health.points == 4) world.destroy(entity);
+        const std::size_t left = health.points < 4 ? 9 : 8;
+        EXPECT_EQ(world.count<Health>(), left) << "what is destroyed is gone at once";
+    });
+    EXPECT_EQ((world.count<Shield, Health>()), 4U);
+}
+
 TEST(Visits, DestroyAtOnce) {
     World world = crowd(3);
     const Entity last = entities_of(world)[2];

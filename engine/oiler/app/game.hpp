@@ -17,6 +17,7 @@
 #include "oiler/app/loop.hpp"
 #include "oiler/app/reading.hpp"
 #include "oiler/app/step_times.hpp"
+#include "oiler/core/state_hash.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
 
@@ -60,6 +61,7 @@ struct NamesOfMembers {
     void picture();
     void camera();
     void readings();
+    void hash();
 };
 /// If G has any member of such a name, even a private one, the name is ambiguous here.
 template <class G>
@@ -80,6 +82,10 @@ concept MentionsCamera = !requires {
 template <class G>
 concept MentionsReadings = !requires {
     &WithMembers<G>::readings;
+};
+template <class G>
+concept MentionsHash = !requires {
+    &WithMembers<G>::hash;
 };
 
 }  // namespace detail
@@ -114,6 +120,8 @@ consteval bool check_game() {
         "a game's update is public: void update(const Input&), or with a second argument, Loop&");
     static_assert(HasReadings<G> || !detail::MentionsReadings<G>,
                   "a game's readings are public: std::vector<Reading> readings() const");
+    static_assert(HashesItself<G> || !detail::MentionsHash<G>,
+                  "a game's hash is public: void hash(StateHash& hash) const");
     return true;
 }
 
@@ -157,6 +165,8 @@ public:
     [[nodiscard]] virtual Picture picture() const = 0;
     /// What the game tells of its play; empty if it tells nothing.
     [[nodiscard]] virtual std::vector<Reading> readings() const { return {}; }
+    /// The hash of the world and, if the game says how it is hashed, of its other members.
+    [[nodiscard]] virtual std::uint64_t state_hash() const { return world().state_hash(); }
     /// Adds the times of all further steps to `times`, which must outlive them.
     void measure(StepTimes& times) { times_ = &times; }
     /// Name of a body in comparisons.
@@ -234,6 +244,16 @@ public:
             return guarded([] { return "readings"; }, [&] { return game_.readings(); });
         else
             return {};
+    }
+    [[nodiscard]] std::uint64_t state_hash() const override {
+        if constexpr (HashesItself<G>) {
+            StateHash hash;
+            hash.add(game_.world.state_hash());
+            game_.hash(hash);
+            return hash.value();
+        } else {
+            return AnyGame::state_hash();
+        }
     }
 
 private:

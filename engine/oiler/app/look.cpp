@@ -39,12 +39,7 @@ void draw(const Look& look, const ElementKey& key, Point at, Picture& picture) {
 
 }  // namespace
 
-void Look::hash(StateHash& hash) const {
-    hash.add(static_cast<std::uint64_t>(shape));
-    hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(size)});
-    hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(colour)});
-    hash.add(static_cast<std::uint64_t>(layer));
-}
+void Look::hash(StateHash& hash) const { hash.add(shape, size, colour, layer); }
 
 Picture draw_looks(const World& world, const Camera& camera) {
     Picture picture{.camera = camera};

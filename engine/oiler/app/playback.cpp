@@ -54,9 +54,9 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
         take(std::min(step - steps_, most), inputs);
         if (steps_ == before) continue;  // the game has quit
         recorder_.record(steps_, world);
-        if (watcher_ != nullptr) watcher_->after(steps_ - 1, world);
+        if (watcher_ != nullptr) watcher_->after(steps_ - 1, game_);
         if (keep_ != Keep::hashes) continue;
-        if (hashes_ticks()) tick_hashes_ += hash_text(world.state_hash()).substr(16 - tick_digits);
+        if (hashes_ticks()) tick_hashes_ += hash_text(game_.state_hash()).substr(16 - tick_digits);
         tick_hashes_.resize(tick_digits * static_cast<std::size_t>(steps_), '.');
     }
 }
@@ -102,7 +102,7 @@ void Playback::go_back(std::int64_t step) {
 Playback::Moment Playback::sample() const {
     const Span span(profile_, "picture");
     Moment moment{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};
-    if (keep_ == Keep::hashes) moment.state_hash = game_.world().state_hash();
+    if (keep_ == Keep::hashes) moment.state_hash = game_.state_hash();
     if (hashes_ticks()) moment.bodies = states_of(game_);
     return moment;
 }

@@ -142,6 +142,17 @@ std::string read_records(std::string_view bytes, Recording& recording, std::int6
     return "";
 }
 
+/// An empty file, with its folder.
+std::ofstream opened(const std::filesystem::path& path) {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    const int reason = errno;
+    if (!file)
+        fail(exit_of_open(reason), "--record {}: cannot be written: {}; give another file",
+             path.string(), system_reason(reason));
+    return file;
+}
+
 }  // namespace
 
 RecordingHeader header_of(std::string_view game, const Settings& settings,
@@ -168,22 +179,18 @@ ChosenControls controls_of(const RecordingHeader& header, std::span<const Contro
     return chosen;
 }
 
-PartHashes part_hashes(const World& world) {
+PartHashes part_hashes(const AnyGame& game) {
     StateHash bodies;
-    world.bodies().hash_into(bodies);
+    game.world().bodies().hash_into(bodies);
     return {static_cast<std::uint16_t>(bodies.value()),
-            static_cast<std::uint16_t>(world.state_hash())};
+            static_cast<std::uint16_t>(game.state_hash())};
 }
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header)
     : path_(path),
-      file_(path, std::ios::binary | std::ios::trunc),
+      file_(opened(path)),
       steps_per_second_(
           std::max<std::int64_t>(1, header.stepping.rate.steps / header.stepping.rate.seconds)) {
-    const int reason = errno;
-    if (!file_)
-        fail(exit_of_open(reason), "--record {}: cannot be written: {}; give another file",
-             path.string(), system_reason(reason));
     file_ << magic << format << to_json(header).dump(-1) << '\n' << std::flush;
 }
 
@@ -200,10 +207,10 @@ void RecordingWriter::add(std::int64_t step, const Input& input) {
     before_ = input;
 }
 
-void RecordingWriter::add_state(std::int64_t step, const World& world) {
+void RecordingWriter::add_state(std::int64_t step, const AnyGame& game) {
     const bool ends_second = (step + 1) % steps_per_second_ == 0;
-    if (ends_second || world.bodies().size() <= most_bodies_hashed_each_step) {
-        const PartHashes hashes = part_hashes(world);
+    if (ends_second || game.world().bodies().size() <= most_bodies_hashed_each_step) {
+        const PartHashes hashes = part_hashes(game);
         begin_record(step);
         records_.push_back(static_cast<char>(state_record));
         append_bytes(records_, hashes.bodies, 2);

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "oiler/app/game.hpp"
 #include "oiler/input/input_event.hpp"
 #include "oiler/physics/stepping.hpp"
-#include "oiler/world/world.hpp"
 
 namespace oiler {
 
@@ -44,13 +44,13 @@ struct RecordingHeader {
 [[nodiscard]] ChosenControls controls_of(const RecordingHeader& header,
                                          std::span<const Control> of_game);
 
-/// The last 16 bits of the hashes of a world: what differs when they do is known by the part.
+/// The last 16 bits of the hashes of a game: what differs when they do is known by the part.
 struct PartHashes {
     std::uint16_t bodies = 0;
     std::uint16_t whole = 0;
     friend bool operator==(const PartHashes&, const PartHashes&) = default;
 };
-[[nodiscard]] PartHashes part_hashes(const World& world);
+[[nodiscard]] PartHashes part_hashes(const AnyGame& game);
 
 /// Writes a recording: a line "OILERREC 2", a line of JSON, and chunks of records. A chunk is
 /// written at least once per second of play, so that a killed program leaves a recording up to
@@ -66,7 +66,7 @@ public:
     void add(std::int64_t step, const Input& input);
     /// Records the hashes after that step: of each step, or of the last in each second for a world
     /// with more than 1000 bodies.
-    void add_state(std::int64_t step, const World& world);
+    void add_state(std::int64_t step, const AnyGame& game);
     /// Completes the file after `steps` steps.
     void finish(std::int64_t steps);
 

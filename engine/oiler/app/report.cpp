@@ -40,7 +40,7 @@ void write_report(File& file, const RunReport& report, const World& world) {
               {"time", settings.stepping.rate.time(report.steps)},
               {"bodies", world.bodies().size()},
               {"diverged", report.divergence.empty() ? Json() : Json(report.divergence)},
-              {"state_hash", report.last ? Json(hash_text(world.state_hash())) : Json()},
+              {"state_hash", report.last ? Json(hash_text(report.state_hash)) : Json()},
               {"energy",
                {{"first", to_json(report.first)},
                 {"last", report.last ? to_json(*report.last) : Json()}}},

@@ -27,7 +27,8 @@ struct RunReport {
     std::string_view scene;
     Energy first;
     std::optional<Energy> last{};  ///< empty if the run diverged
-    std::string divergence{};      ///< its message; empty if the run did not diverge
+    std::uint64_t state_hash = 0;
+    std::string divergence{};  ///< its message; empty if the run did not diverge
     std::chrono::nanoseconds dropped{0};
     std::chrono::nanoseconds wall{0};
     std::vector<BudgetEntry> budget{};

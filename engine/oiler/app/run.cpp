@@ -144,6 +144,7 @@ Exit play(Playback& playback, Player& player, const Options& options, const Abou
     try {
         played = loop(playback, player, options, about, profile);
         report.last = playback.world().bodies().energy();
+        report.state_hash = playback.game().state_hash();
         require_finite(*report.last);
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) throw;

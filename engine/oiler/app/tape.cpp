@@ -12,10 +12,10 @@ Input Replay::next(std::int64_t step) {
     return player_.take();
 }
 
-void Replay::after(std::int64_t step, const World& world) {
+void Replay::after(std::int64_t step, const AnyGame& game) {
     const auto recorded = recording_.states.find(step);
     if (recorded == recording_.states.end()) return;
-    const PartHashes now = part_hashes(world);
+    const PartHashes now = part_hashes(game);
     if (now == recorded->second) {
         equal_until_ = step;
         return;
@@ -23,8 +23,8 @@ void Replay::after(std::int64_t step, const World& world) {
     const bool in_bodies = now.bodies != recorded->second.bodies;
     fail(Exit::comparison_failed,
          "{}: the replay differs in {} after step {}; it is equal after {}", name_,
-         in_bodies ? "the bodies" : "components, timers or random numbers", step + 1,
-         equal_until_ + 1);
+         in_bodies ? "the bodies" : "components, timers, random numbers or members of the game",
+         step + 1, equal_until_ + 1);
 }
 
 }  // namespace oiler

@@ -8,12 +8,12 @@
 
 namespace oiler {
 
-/// Looks at the world after each step.
+/// Looks at the game after each step.
 class StepWatcher {
 public:
     virtual ~StepWatcher() = default;
     /// `step` is the number of the step that was taken, from 0.
-    virtual void after(std::int64_t step, const World& world) = 0;
+    virtual void after(std::int64_t step, const AnyGame& game) = 0;
 };
 
 /// Records what a source of input hands out.
@@ -27,7 +27,7 @@ public:
         writer_.add(step, input);
         return input;
     }
-    void after(std::int64_t step, const World& world) override { writer_.add_state(step, world); }
+    void after(std::int64_t step, const AnyGame& game) override { writer_.add_state(step, game); }
     void finish(std::int64_t steps) { writer_.finish(steps); }
 
 private:
@@ -35,7 +35,7 @@ private:
     RecordingWriter writer_;
 };
 
-/// Plays a recording, and compares the world with it after each step.
+/// Plays a recording, and compares the game with it after each step.
 class Replay final : public InputSource, public StepWatcher {
 public:
     Replay(const Recording& recording, std::string name, ChosenControls controls = {})
@@ -43,7 +43,7 @@ public:
 
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Throws Error{comparison_failed} with the first step that differs, and in which part.
-    void after(std::int64_t step, const World& world) override;
+    void after(std::int64_t step, const AnyGame& game) override;
     [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
     [[nodiscard]] bool complete() const { return recording_.complete; }
 

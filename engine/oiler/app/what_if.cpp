@@ -58,7 +58,7 @@ public:
         reference_.play_until(step);
         for (const auto& run : runs_) run->play_until(step);
         if (step > 0 && !runs_.front()->failed())
-            replay_.after(step - 1, runs_.front()->game().world());
+            replay_.after(step - 1, runs_.front()->game());
         if (certain_) compare(step);
     }
     void time_pictures(DrawTimer* draw) {

@@ -34,6 +34,11 @@ void StateHash::add(std::span<const std::byte> bytes) {
 
 void StateHash::add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
 
+void StateHash::add(std::string_view text) {
+    add(text.size());
+    add(std::as_bytes(std::span(text)));
+}
+
 void StateHash::add(std::span<const float> column) { add(std::as_bytes(column)); }
 
 void StateHash::add(std::span<const double> column) { add(std::as_bytes(column)); }

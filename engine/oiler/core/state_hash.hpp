@@ -2,12 +2,35 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace oiler {
+
+class StateHash;
+
+template <class T>
+inline constexpr bool is_view = std::is_pointer_v<T>;
+template <class T, std::size_t Extent>
+inline constexpr bool is_view<std::span<T, Extent>> = true;
+
+/// A type that says how it is hashed: `void hash(StateHash& hash) const { hash.add(points, speed);
+/// }`
+template <class T>
+concept HashesItself = requires(const T& value, StateHash& hash) {
+    value.hash(hash);
+};
+/// A type that can be part of a state hash: a number, a type without members, a type that hashes
+/// itself, and of other types those whose bytes are their value. A struct without gaps and without
+/// floating-point members is one of these.
+template <class T>
+concept Hashed = std::is_arithmetic_v<T> || std::is_empty_v<T> || HashesItself<T> ||
+    (std::has_unique_object_representations_v<T> && !is_view<T>);
 
 /// A fingerprint for comparing runs on different compilers and machines: XXH3 (64 bits, seed 0)
 /// over the added values in order, little-endian, without separators. Add a count before columns
@@ -21,6 +44,28 @@ public:
     void add(std::span<const float> column);
     void add(std::span<const double> column);
     void add(std::span<const std::byte> bytes);
+    /// Adds the length and the bytes.
+    void add(std::string_view text);
+    /// Adds whole numbers as 64 bits, other numbers as a double.
+    template <Hashed T>
+    void add(const T& value) {
+        if constexpr (std::floating_point<T>) {
+            const double number = value;
+            add(std::span(&number, 1));
+        } else if constexpr (std::integral<T>) {
+            add(static_cast<std::uint64_t>(value));
+        } else if constexpr (HashesItself<T>) {
+            value.hash(*this);
+        } else if constexpr (!std::is_empty_v<T>) {
+            add(std::as_bytes(std::span(&value, 1)));
+        }
+    }
+    /// Adds several values, one after the other.
+    template <class First, class Second, class... Rest>
+    void add(const First& first, const Second& second, const Rest&... rest) {
+        add(first);
+        add(second, rest...);
+    }
 
     /// The hash of all values added so far; more may follow.
     [[nodiscard]] std::uint64_t value() const;

@@ -76,6 +76,9 @@ public:
     [[nodiscard]] std::optional<Point> pointer() const;
     /// The same in units of the canvas.
     [[nodiscard]] std::optional<Point> pointer_canvas() const;
+    /// Whether the mouse moved since the last step, or came into the window: a mouse at rest need
+    /// not win over keys.
+    [[nodiscard]] bool pointer_moved() const { return pointer_moved_; }
     /// Notches that the wheel was turned since the last step, away from the user.
     [[nodiscard]] int wheel() const { return wheel_; }
     /// Text entered since the last step, UTF-8, while Loop::text_input is on.
@@ -97,6 +100,7 @@ private:
     std::vector<Edge> edges_;
     std::array<Deflection, stick_count> sticks_{};
     std::optional<Pointer> pointer_;
+    bool pointer_moved_ = false;
     int wheel_ = 0;
     std::string text_;
     bool restarts_ = false;

@@ -66,6 +66,7 @@ void InputQueue::continue_after(const Input& last) {
     next_.wheel_ = 0;
     next_.text_.clear();
     next_.restarts_ = false;
+    pointed_ = last.pointer_canvas();
     if (!paused_) drop_taps();
 }
 
@@ -78,6 +79,8 @@ Input InputQueue::take(const Camera& shown) {
     input.held_ = next_.held_;
     input.controls_ = controls_;
     if (input.pointer_) input.pointer_->camera = shown;
+    const auto pointed = std::exchange(pointed_, input.pointer_canvas());
+    input.pointer_moved_ = pointed_ && pointed_ != pointed;
     next_.edges_ = std::move(late);
     next_.wheel_ = 0;
     next_.text_.clear();

@@ -49,6 +49,7 @@ private:
     Input next_;       ///< `held_` is what the last step saw
     HeldButtons now_;  ///< after all edges
     HeldButtons at_pause_;
+    std::optional<Point> pointed_;  ///< canvas, at the last step
     bool paused_ = false;
     ChosenControls controls_;
 };

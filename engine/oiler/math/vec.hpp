@@ -92,6 +92,10 @@ struct Vec {
     constexpr Vec& operator*=(const V& s) { return *this = *this * s; }
     constexpr Vec& operator/=(const V& s) { return *this = *this / s; }
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
+    template <class Hash>
+    void hash(Hash& hash) const {
+        hash.add(axis);
+    }
 };
 
 inline constexpr std::string_view axis_names = "xyz";

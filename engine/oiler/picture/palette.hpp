@@ -25,4 +25,13 @@ inline constexpr Colour paper{255, 255, 255};
     return colour;
 }
 
+/// Returns the colour at `share` of the way from one to another, from 0 to 1; opacity, too.
+[[nodiscard]] constexpr Colour mix(Colour from, Colour to, float share) {
+    const auto part = [&](std::uint8_t a, std::uint8_t b) {
+        const float mixed = static_cast<float>(a) + share * static_cast<float>(b - a);
+        return static_cast<std::uint8_t>(mixed + 0.5F);
+    };
+    return {part(from.r, to.r), part(from.g, to.g), part(from.b, to.b), part(from.a, to.a)};
+}
+
 }  // namespace oiler::palette

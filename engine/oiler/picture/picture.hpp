@@ -14,6 +14,10 @@ struct Point {
     float x = 0;
     float y = 0;
     friend bool operator==(const Point&, const Point&) = default;
+    template <class Hash>
+    void hash(Hash& hash) const {
+        hash.add(x, y);
+    }
 };
 
 /// Eight bits per channel, not premultiplied.

@@ -45,6 +45,12 @@ std::vector<Point> rectangle(Point centre, Point size, float angle) {
             {centre.x - along.x + up.x, centre.y - along.y + up.y}};
 }
 
+std::vector<Point> bar(Point from, Point to, float width) {
+    const Point along{to.x - from.x, to.y - from.y};
+    return rectangle({(from.x + to.x) / 2, (from.y + to.y) / 2},
+                     {std::hypot(along.x, along.y), width}, std::atan2(along.y, along.x));
+}
+
 std::vector<Point> regular_polygon(Point centre, float radius, int corners) {
     std::vector<Point> points;
     for (int i = 0; i < corners; ++i) {

@@ -14,6 +14,10 @@ namespace oiler {
 /// The corners of a rectangle, counter-clockwise, turned by `angle` rad. For a polygon.
 [[nodiscard]] std::vector<Point> rectangle(Point centre, Point size, float angle = 0);
 
+/// The corners of a rectangle that reaches from one point to another, `width` across. For a
+/// polygon.
+[[nodiscard]] std::vector<Point> bar(Point from, Point to, float width);
+
 /// The corners of a regular polygon, the first one straight above the centre.
 [[nodiscard]] std::vector<Point> regular_polygon(Point centre, float radius, int corners);
 

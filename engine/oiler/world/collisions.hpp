@@ -40,6 +40,20 @@ public:
     /// Each pair once, in the order of the rows of a, then of b. A distance that equals the sum of
     /// the radii is a touch.
     [[nodiscard]] const std::vector<Collision>& pairs() const { return pairs_; }
+    /// Calls f(a, A&, b, B&) for each pair of an entity that has A and one that has B, whichever
+    /// has the earlier row. It is a visit: see World::each. Of a pair that both have both, a is the
+    /// earlier.
+    template <class A, class B, class F>
+    void each(World& world, F&& f) const {
+        for (const Collision& pair : pairs_)
+            for (const auto& [a, b] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+                A* const first = world.find<A>(a);
+                B* const second = world.find<B>(b);
+                if (!first || !second) continue;
+                f(a, *first, b, *second);
+                break;
+            }
+    }
 
 private:
     /// The way of a body since the update before.

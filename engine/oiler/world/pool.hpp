@@ -13,8 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "oiler/world/hashed.hpp"
+#include "oiler/core/state_hash.hpp"
 #include "oiler/world/pages.hpp"
+#include "oiler/world/type_name.hpp"
 
 namespace oiler {
 
@@ -118,7 +119,7 @@ public:
             hash.add(slots_.size());
             for (std::size_t place = 0; place < items_.size(); ++place) {
                 hash.add(std::uint64_t{slots_[place]});
-                add_to_hash(hash, items_[place]);
+                hash.add(items_[place]);
             }
         }
         return Hashed<T>;

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "oiler/world/hashed.hpp"
+#include "oiler/core/state_hash.hpp"
+#include "oiler/world/type_name.hpp"
 
 namespace oiler {
 
@@ -39,7 +40,7 @@ public:
         if constexpr (Hashed<T>)
             for (const Entry& entry : entries_) {
                 hash.add(static_cast<std::uint64_t>(entry.tick));
-                add_to_hash(hash, entry.message);
+                hash.add(entry.message);
             }
         return Hashed<T>;
     }

@@ -111,8 +111,7 @@ public:
                 if (slot == SlotSet::absent) continue;
                 const std::tuple<Rest*...> others{std::get<Pool<Rest>*>(rest)->find(slot)...};
                 if ((std::get<Rest*>(others) && ...))
-                    f(Entity{slot, slots_.generation(slot)}, items[i],
-                      *std::get<Rest*>(others)...);
+                    f(Entity{slot, slots_.generation(slot)}, items[i], *std::get<Rest*>(others)...);
             }
         }
     }
@@ -122,6 +121,14 @@ public:
             [&](Entity entity, const First& first, const Rest&... rest) {
                 f(entity, first, rest...);
             });
+    }
+
+    /// The number of entities that have all of these components.
+    template <class First, class... Rest>
+    [[nodiscard]] std::size_t count() const {
+        std::size_t entities = 0;
+        each<First, Rest...>([&](const Entity&, const auto&...) { ++entities; });
+        return entities;
     }
 
     /// Calls f(entity, moving, component...) for each entity that has a body and these components:
