@@ -110,9 +110,10 @@ struct Played {
         }
     }
     void go_back(std::int64_t step) {
-        rewind.go_back(step);
+        const Input last = rewind.go_back(step);
         playback.go_back(step);
         list.inputs.resize(static_cast<std::size_t>(step));
+        EXPECT_EQ(last, step > 0 ? list.inputs.back() : Input{}) << "what the last step saw";
     }
 };
 
