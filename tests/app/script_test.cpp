@@ -109,6 +109,11 @@ TEST(Script, NamesTheWrongLine) {
                                Wrong{"1 text hello", "in quotes"},
                                Wrong{"1 text \"hello", "no quote at its end"},
                                Wrong{"1 text \"a\" b", "'b' is too much"},
+                               Wrong{"1 release A", "A is not down then"},
+                               Wrong{"1 hold A\n2 release A\n2 release A", "A is not down then"},
+                               Wrong{"1 press A\n2 hold A\n3 hold A", "A is down already then"},
+                               Wrong{"1 hold A\n3 press A", "A is down already then"},
+                               Wrong{"1 hold Mouse left\n3 click left", "Mouse left is down"},
                                Wrong{"1 press A\n0 press A", "step 0 comes after step 1"}}) {
         const std::string line = line_of_error(
             Exit::usage, [&] { (void)parse_script(std::string("\n") + wrong.line, "a.txt"); });

@@ -61,7 +61,8 @@ public:
     void finish(std::int64_t steps, bool quiet) {
         if (tape_) tape_->finish(steps);
         if (script_ && script_->unplayed() > 0)
-            remark(quiet, "{} lines of the script come after the last step", script_->unplayed());
+            remark(quiet, "lines of the script after the last step, not played: {}",
+                   script_->unplayed());
         if (!replay_) return;
         const bool whole = steps >= replay_->steps();
         remark(quiet, "the replay equals the recording: {} of {} steps{}",

@@ -155,12 +155,24 @@ ScriptLine parse_line(LineWords& words) {
     return line;
 }
 
+/// Refuses a button that goes down twice, or up without being down.
+void follow(const ScriptLine& line, HeldButtons& held, const LineWords& words) {
+    const bool releases = line.what == What::release;
+    if (!releases && line.what != What::hold && line.what != What::press) return;
+    const std::size_t id = line.button.id();
+    if (held[id] != releases)
+        words.refuse(fmt::format("{} is {} then", name_of(line.button),
+                                 releases ? "not down" : "down already"));
+    held[id] = line.what == What::hold;
+}
+
 }  // namespace
 
 std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
     std::vector<ScriptLine> lines;
     std::istringstream input(text);
     std::string line;
+    HeldButtons held;
     for (int number = 1; std::getline(input, line); ++number) {
         LineWords words(line, fmt::format("{}, line {}", name, number));
         if (words.empty()) continue;
@@ -168,6 +180,7 @@ std::vector<ScriptLine> parse_script(const std::string& text, const std::string&
         if (lines.size() > 1 && lines.back().step < lines[lines.size() - 2].step)
             words.refuse(fmt::format("step {} comes after step {}; give them in their order",
                                      lines.back().step, lines[lines.size() - 2].step));
+        follow(lines.back(), held, words);
     }
     return lines;
 }

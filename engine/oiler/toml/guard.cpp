@@ -83,6 +83,8 @@ void guard_toml(std::string_view text, std::string_view file) {
     if (text.size() > most_toml_bytes)
         refuse({file}, "more than {} bytes; use a [[grid]] or a [[scatter]] for many bodies",
                most_toml_bytes);
+    if (text.starts_with("\xef\xbb\xbf"))
+        refuse({file, 1}, "it begins with a byte order mark; save it as UTF-8 without one");
     int line = 1;
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (!is_text(text, at))
