@@ -200,12 +200,14 @@ TEST(WhatIf, NothingIsCountedOnceARestartIsMissing) {
 
 // The velocity is 25/rate m/s, so that 960 and 480 Hz are 25·t/960 m apart: 1 cm after 0.384 s.
 TEST(WhatIf, NothingIsCountedOnceTheReferenceIsUncertain) {
-    const WhatIf result = measure<Careless>(record<Careless>(), "120");
+    const WhatIf result = measure<Careless>(record<Careless>(), "120,240");
     const double until = 23 / 60.0;
     EXPECT_EQ(result.certain_until, until);
     EXPECT_NEAR(result.uncertainty, 25 * until / 960, 1e-12);
     EXPECT_NEAR(result.runs[0].distance, 25 * until * (1 / 60.0 - 1 / 960.0), 1e-12);
     EXPECT_NEAR(result.runs[1].distance, 25 * until * (1 / 120.0 - 1 / 960.0), 1e-12);
+    // 240 Hz: 25·t·3/960 is 1 cm more than 25·t/960 after 0.192 s, and 1 cm after 0.128 s.
+    EXPECT_EQ(result.runs[2].visible_from, 12 / 60.0);
 }
 
 TEST(WhatIf, ASettingThatFailsIsNamed) {

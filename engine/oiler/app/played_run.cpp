@@ -99,11 +99,12 @@ void PlayedRun::take_step() {
         if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
         result_.failure = error.what();
     }
-    if (times_.update.count() > 0) updates_.push_back(times_.update);
+    updates_.push_back(times_.update);
     if (times_.step.count() > 0) world_steps_.push_back(times_.step);
 }
 
-void PlayedRun::compare(std::int64_t recorded, double time, const Moment& reference, double pixel) {
+void PlayedRun::compare(std::int64_t recorded, double time, const Moment& reference,
+                        double visible) {
     if (failed() || result_.other_play_from || !ratio_.has(recorded)) return;
     const std::optional<double> apart = distance(reference, moment_of(*game_));
     if (!apart) {
@@ -113,7 +114,7 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
     }
     differs_from_.reset();
     result_.distance = std::max(result_.distance, *apart);
-    if (*apart > pixel && !result_.visible_from) result_.visible_from = time;
+    if (*apart > visible && !result_.visible_from) result_.visible_from = time;
 }
 
 void PlayedRun::time_picture() {

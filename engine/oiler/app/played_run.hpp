@@ -42,8 +42,8 @@ public:
     /// Takes all steps until a recorded one begins, unless one fails.
     void play_until(std::int64_t recorded);
     /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
-    /// this run begins then, too. `pixel` is in m.
-    void compare(std::int64_t recorded, double time, const Moment& reference, double pixel);
+    /// this run begins then, too. A larger distance than `visible`, m, can be seen.
+    void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
     void time_picture();
     void time_drawing(DrawTimer& draw);
 

@@ -88,7 +88,7 @@ private:
         if (!certain_ || half.differs()) return;
         certain_until_ = time;
         uncertainty_ = half.result().distance;
-        for (const auto& run : runs_) run->compare(step, time, moment, pixel);
+        for (const auto& run : runs_) run->compare(step, time, moment, pixel + uncertainty_);
     }
 
     const Recording& recording_;

@@ -27,7 +27,7 @@ struct WhatIfRun {
     Stepping stepping;
     /// The largest distance of a body from the same body of the reference, m.
     double distance = 0;
-    /// The time from which a body is further away than a pixel, s.
+    /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
     std::optional<double> other_play_from{};

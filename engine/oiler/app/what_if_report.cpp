@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* legend = R"(
 distance: largest distance of a body from the same body of the reference, at the recorded steps.
-1 px: the time from which it exceeds a pixel of the game's camera, at 720 lines.
+1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines.
 other play: the time from which bodies, restarts or counts differ; nothing later is counted.
 ns per frame: at 60 frames per second, means without the fastest and the slowest quarter.
 <: below 10 times the error of the reference.
