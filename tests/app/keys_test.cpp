@@ -94,19 +94,22 @@ struct WithoutControls : Game {
 
 class PlayedKeys : public testing::Test {
 protected:
-    /// Plays 60 steps and returns the state hash.
     template <class G = Game>
-    std::string play(std::vector<std::string> words) {
+    Exit run(std::vector<std::string> words) {
         words.insert(words.begin(), "game");
         words.insert(words.end(), {"--quiet", "--json", path("report")});
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
         const CommandLine line =
             parse_command_line(static_cast<int>(argv.size()), argv.data(), G::about);
-        const Exit exit = run_game(line.options, G::about, [](const Settings& settings) {
+        return run_game(line.options, G::about, [](const Settings& settings) {
             return std::make_unique<AnyGameOf<G>>(settings);
         });
-        EXPECT_EQ(exit, Exit::done);
+    }
+    /// Plays 60 steps and returns the state hash.
+    template <class G = Game>
+    std::string play(std::vector<std::string> words) {
+        EXPECT_EQ(run<G>(std::move(words)), Exit::done);
         const std::string report = text_of(path("report"));
         return report.substr(report.find("\"state_hash\""), 40);
     }
@@ -128,6 +131,7 @@ TEST_F(PlayedKeys, AreRecordedAndReplayed) {
     EXPECT_NE(play({"--steps", "60", "--script", path("chosen.txt")}), hash);
     EXPECT_EQ(play({"--steps", "60", "--replay", path("a")}), hash);
     EXPECT_EQ(play({"--steps", "60", "--replay", path("b")}), hash);
+    EXPECT_EQ(run({"--replay", path("a"), "--what-if", "200"}), Exit::done) << "reproduced";
     const RecordingHeader header = read_recording(path("a")).header;
     EXPECT_EQ(header.controls, (std::vector<RecordedControl>{{.name = "fire", .positive = Key::j},
                                                              {.name = "jump", .positive = Key::up},

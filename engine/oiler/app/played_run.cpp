@@ -78,7 +78,7 @@ std::optional<double> distance(const Moment& a, const Moment& b) {
 
 PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const MakeGame& make)
     : result_{.stepping = stepping},
-      inputs_(*options.replay, stepping.rate),
+      inputs_(*options.replay, stepping.rate, options.controls),
       ratio_(options.replay->header.stepping.rate, stepping.rate) {
     Settings settings = options.settings;
     settings.stepping = stepping;

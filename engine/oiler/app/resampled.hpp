@@ -38,8 +38,10 @@ private:
 /// in live play.
 class ResampledInput final : public InputSource {
 public:
-    ResampledInput(const Recording& recording, Rate rate)
-        : recording_(recording), ratio_(recording.header.stepping.rate, rate) {}
+    ResampledInput(const Recording& recording, Rate rate, ChosenControls controls = {})
+        : recording_(recording),
+          ratio_(recording.header.stepping.rate, rate),
+          player_(std::move(controls)) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
 
