@@ -25,9 +25,10 @@ struct Played {
 };
 
 /// Shows the game in a window in real time until the user quits, the display or a replay ends.
-/// Steps take their input from `inputs`, which may be `live`.
+/// Steps take their input from `inputs`, which may be `live`. `make` makes the games that play along
+/// for the verdict.
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about);
+                  const About& about, const MakeGame& make);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;

@@ -30,6 +30,15 @@ bool is_same_play(const Moment& a, const Moment& b) {
            std::ranges::equal(a.readings, b.readings, same_count);
 }
 
+/// Keeps a time, of many the last ones.
+void keep(Times& times, std::chrono::nanoseconds time, std::int64_t step) {
+    constexpr std::size_t most = 4096;
+    if (times.size() < most)
+        times.push_back(time);
+    else
+        times[static_cast<std::size_t>(step) % most] = time;
+}
+
 /// The mean without the fastest and the slowest quarter, ns; 0 of none. Clocks count in steps of
 /// some 10 ns, so a median of short times would be 0 or a step.
 double middle_mean(Times times) {
@@ -59,19 +68,21 @@ Moment moment_of(const AnyGame& game) {
     Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
     for (std::size_t row = 0; row < world.bodies().size(); ++row) {
         const Entity entity = world.entity_of_row(row);
-        moment.bodies.push_back({entity.id(), world.jumps(entity), world.bodies().position(row)});
+        moment.bodies.push_back({entity, world.jumps(entity), world.bodies().position(row)});
     }
-    std::ranges::sort(moment.bodies, {}, &Moment::Placed::entity);
+    std::ranges::sort(moment.bodies, {},
+                      [](const Moment::Placed& body) { return body.entity.id(); });
     moment.readings = game.readings();
     return moment;
 }
 
-std::optional<double> distance(const Moment& a, const Moment& b) {
+std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
     if (!is_same_play(a, b)) return std::nullopt;
-    double largest = 0;
+    Apart largest;
     for (std::size_t i = 0; i < a.bodies.size(); ++i) {
         const Vec3 apart = a.bodies[i].position - b.bodies[i].position;
-        largest = std::max(largest, std::hypot(apart[0], apart[1], apart[2]));
+        const double distance = std::hypot(apart[0], apart[1], apart[2]);
+        if (distance > largest.distance) largest = {distance, a.bodies[i].entity};
     }
     return largest;
 }
@@ -99,22 +110,25 @@ void PlayedRun::take_step() {
         if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
         result_.failure = error.what();
     }
-    updates_.push_back(times_.update);
-    if (times_.step.count() > 0) world_steps_.push_back(times_.step);
+    keep(updates_, times_.update, steps_);
+    if (times_.step.count() > 0) keep(world_steps_, times_.step, steps_);
 }
 
 void PlayedRun::compare(std::int64_t recorded, double time, const Moment& reference,
                         double visible) {
     if (failed() || result_.other_play_from || !ratio_.has(recorded)) return;
-    const std::optional<double> apart = distance(reference, moment_of(*game_));
+    const std::optional<Apart> apart = largest_distance(reference, moment_of(*game_));
     if (!apart) {
         differs_from_ = differs_from_.value_or(time);
         if (time - *differs_from_ >= longest_delay) result_.other_play_from = differs_from_;
         return;
     }
     differs_from_.reset();
-    result_.distance = std::max(result_.distance, *apart);
-    if (*apart > visible && !result_.visible_from) result_.visible_from = time;
+    if (apart->distance > result_.distance) {
+        result_.distance = apart->distance;
+        result_.furthest = apart->body;
+    }
+    if (apart->distance > visible && !result_.visible_from) result_.visible_from = time;
 }
 
 void PlayedRun::time_picture() {

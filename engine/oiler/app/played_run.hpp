@@ -15,7 +15,7 @@ namespace oiler {
 /// A play at one time.
 struct Moment {
     struct Placed {
-        std::uint64_t entity;
+        Entity entity;
         std::uint32_t jumps;
         Vec3 position;
     };
@@ -27,9 +27,14 @@ struct Moment {
 
 [[nodiscard]] Moment moment_of(const AnyGame& game);
 
-/// The largest distance of a body of one play from that of the other, m; empty if bodies,
-/// teleports, restarts or whole-number readings differ.
-[[nodiscard]] std::optional<double> distance(const Moment& a, const Moment& b);
+/// A body that is away from where it is in another play.
+struct Apart {
+    double distance = 0;  ///< m
+    Entity body{};
+};
+/// The body with the largest distance from that of the other play; empty if bodies, teleports,
+/// restarts or whole-number readings differ.
+[[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
 
 /// A recording that is played with one setting.
 class PlayedRun {

@@ -95,10 +95,10 @@ void run_steps(Playback& playback, InputSource& inputs, const Options& options) 
 }
 
 Played loop(Playback& playback, Player& player, const Options& options, const About& about,
-            Profile* profile) {
+            const MakeGame& make, Profile* profile) {
     InputSource& inputs = player.inputs();
     if (!options.headless && !options.steps)
-        return run_window(playback, player.live, inputs, options, about);
+        return run_window(playback, player.live, inputs, options, about, make);
     if (!options.steps) return {run_headless(playback, inputs, options, about, profile)};
     run_steps(playback, inputs, options);
     return {Interrupt::requested() ? Exit::interrupted : Exit::done};
@@ -139,11 +139,11 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
 
 /// Plays the game. Completes the report, also after a divergence.
 Exit play(Playback& playback, Player& player, const Options& options, const About& about,
-          RunReport& report, Profile* profile) {
+          const MakeGame& make, RunReport& report, Profile* profile) {
     const Clock::time_point start = Clock::now();
     Played played;
     try {
-        played = loop(playback, player, options, about, profile);
+        played = loop(playback, player, options, about, make, profile);
         report.last = playback.world().bodies().energy();
         report.state_hash = playback.game().state_hash();
         require_finite(*report.last);
@@ -179,7 +179,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     player.watch(playback);
-    Exit exit = play(playback, player, options, about, report, stages);
+    Exit exit = play(playback, player, options, about, make, report, stages);
     recorder.commit();
     player.finish(playback.steps(), options.quiet);
     if (profile) write_file(options.profile, profile->to_json());

@@ -27,6 +27,7 @@ struct WhatIfRun {
     Stepping stepping;
     /// The largest distance of a body from the same body of the reference, m.
     double distance = 0;
+    Entity furthest{};  ///< that body
     /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
@@ -41,6 +42,7 @@ struct WhatIf {
     double duration = 0;            ///< s
     double certain_until = 0;       ///< s, the time until which distances are counted
     double uncertainty = 0;         ///< m, the distance of `half` from the reference until then
+    double pixel = 0;               ///< m, at the end
     WhatIfRun reference;            ///< the finest run
     WhatIfRun half;                 ///< the reference at half its rate
     std::vector<WhatIfRun> runs{};  ///< the recorded setting first

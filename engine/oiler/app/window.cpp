@@ -14,9 +14,11 @@
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
+#include "oiler/app/play_along.hpp"
 #include "oiler/app/rewind.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
@@ -72,6 +74,32 @@ void add_status(Picture& picture, std::string status) {
                               .layer = overlay_layer});
 }
 
+void add_verdict(Picture& picture, const Verdict& verdict) {
+    constexpr float height = 10;
+    constexpr float left = 14;
+    constexpr float largest_size = 7;
+    constexpr float letter_width = 0.55F;  // of the size, of the font's usual letters
+    constexpr Colour colours[] = {palette::grey, palette::green, palette::orange,
+                                  palette::vermilion};
+    constexpr float middle = canvas_height - height / 2;
+    const auto add = [&](Point centre, Point size, Colour colour) {
+        picture.polygons.push_back({.points = rectangle(centre, size),
+                                    .colour = colour,
+                                    .space = Space::canvas,
+                                    .layer = overlay_layer});
+    };
+    add({canvas_width / 2, middle}, {10 * canvas_width, height},
+        palette::faded(palette::paper, 224));
+    add({8, middle}, {6, 6}, colours[static_cast<std::size_t>(verdict.grade)]);
+    const auto letters = static_cast<float>(verdict.text.size() + 1);
+    picture.labels.push_back(
+        {.at = {left, middle - 2.5F},
+         .text = verdict.text,
+         .size = std::min(largest_size, (canvas_width - left) / (letter_width * letters)),
+         .colour = palette::ink,
+         .layer = overlay_layer});
+}
+
 void show(const Picture& picture, Renderer& renderer, Window& window) {
     const Size size = window.size();
     if (size.width == 0 || size.height == 0) return;  // minimised
@@ -91,7 +119,7 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 class Session {
 public:
     Session(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-            const About& about)
+            const About& about, const MakeGame& make)
         : playback_(playback),
           live_(live),
           options_(options),
@@ -99,9 +127,11 @@ public:
           controls_(controls_of(options, about)),
           window_(open_window(options.size, std::string(about.title))),
           renderer_([this](const char* name) { return window_->procedure(name); }),
-          clock_(static_cast<int>(options.settings.stepping.rate.steps)) {
-        if (no_way_back(options).empty()) rewind_.emplace(playback.game(), inputs);
-        inputs_ = rewind_ ? &*rewind_ : &inputs;
+          clock_(static_cast<int>(options.settings.stepping.rate.steps)),
+          along_(inputs, options, about, make),
+          shows_verdict_(!options.quiet) {
+        if (no_way_back(options).empty()) rewind_.emplace(playback.game(), along_);
+        inputs_ = rewind_ ? static_cast<InputSource*>(&*rewind_) : &along_;
     }
 
     Played run() {
@@ -128,6 +158,7 @@ public:
 
 private:
     void control(const Input& keys) {
+        if (keys.presses(Key::f1) % 2 == 1) shows_verdict_ = !shows_verdict_;
         if (keys.presses(Key::f2) % 2 == 1) helps_ = !helps_;
         if (keys.presses(Key::f3) % 2 == 1) clock_.paused() ? clock_.resume() : clock_.pause();
         for (int i = 0; i < keys.presses(Key::f7); ++i) pace_.slower();
@@ -143,6 +174,7 @@ private:
         AnyGame& game = playback_.game();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
+        if (!options_.quiet) along_.start(playback_.steps());
         if (rewind_) rewind_->forget(playback_.steps());
     }
 
@@ -157,6 +189,10 @@ private:
         whole_ = back || (whole_ && clock_.paused());
         Picture picture =
             playback_.show(clock_.ticks() - undone_, whole_ ? 0 : clock_.alpha(), *inputs_);
+        if (shows_verdict_) {
+            along_.play_until(playback_.steps());
+            add_verdict(picture, along_.verdict(playback_.game()));
+        }
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
         if (helps_)
@@ -169,6 +205,7 @@ private:
     void go_back(std::int64_t steps) {
         const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
         live_.queue.continue_after(rewind_->go_back(step));
+        along_.stop("what the timestep costs is no longer measured: you went back");
         playback_.go_back(step);
         undone_ = clock_.ticks() - step;
     }
@@ -207,20 +244,22 @@ private:
     std::unique_ptr<Window> window_;
     Renderer renderer_;
     StepClock clock_;
+    PlayAlong along_;
     Pace pace_;
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
     std::int64_t undone_ = 0;  ///< steps of the clock that the game has not taken
     bool helps_ = false;
+    bool shows_verdict_;
     bool whole_ = false;
 };
 
 }  // namespace
 
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about) {
-    return Session(playback, live, inputs, options, about).run();
+                  const About& about, const MakeGame& make) {
+    return Session(playback, live, inputs, options, about, make).run();
 }
 
 }  // namespace oiler

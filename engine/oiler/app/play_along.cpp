@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/play_along.hpp"
+
+#include <fmt/core.h>
+
+#include "oiler/app/what_if_settings.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto time_of_frame = 1ms;
+constexpr auto time_of_verdict = 500ms;
+constexpr std::int64_t longest_delay = 2;  // s
+constexpr std::size_t most_bodies = 2000;
+
+}  // namespace
+
+PlayAlong::PlayAlong(InputSource& inputs, const Options& options, const About& about,
+                     const MakeGame& make)
+    : inputs_(inputs), make_(make), options_(options) {
+    options_.replay.emplace().header =
+        header_of(about.name, options.settings, controls_of(options, about));
+    if (options.quiet)
+        stop("what the timestep costs is not measured with --quiet");
+    else
+        start(0);
+}
+
+void PlayAlong::start(std::int64_t first) {
+    first_ = first;
+    played_ = 0;
+    before_ = {};
+    options_.replay->events.clear();
+    try {
+        const std::size_t bodies = make_(options_.settings)->world().bodies().size();
+        if (bodies > most_bodies)
+            return stop(
+                fmt::format("what the timestep costs is not measured for {} bodies", bodies));
+        runs_.emplace(options_, usual_what_if(options_.settings, make_), make_);
+    } catch (const Error& error) {
+        stop(error.what());
+    }
+}
+
+Input PlayAlong::next(std::int64_t step) {
+    Input input = inputs_.next(step);
+    if (runs_)
+        for (const InputEvent& event : events_between(before_, input))
+            options_.replay->events.push_back({step - first_, event});
+    before_ = input;
+    return input;
+}
+
+void PlayAlong::play_until(std::int64_t step) {
+    if (!runs_) return;
+    if (behind(step) > longest_delay * options_.settings.stepping.rate.steps)
+        return stop(
+            "too much to measure while it is played: --record it, and --replay it with --what-if");
+    options_.replay->steps = step - first_;
+    const Clock::time_point end = Clock::now() + time_of_frame;
+    try {
+        while (behind(step) > 0 && Clock::now() < end) runs_->play_until(played_++);
+    } catch (const Error& error) {
+        stop(error.what());
+    }
+}
+
+void PlayAlong::stop(std::string reason) {
+    runs_.reset();
+    verdict_ = {.text = std::move(reason)};
+}
+
+const Verdict& PlayAlong::verdict(const AnyGame& game) {
+    if (runs_ && Clock::now() >= next_verdict_) {
+        const WhatIf result = runs_->result();
+        verdict_ = verdict_of(result, readings_, [&](Entity body) { return game.name_of(body); });
+        readings_ = result.runs.front().readings;
+        next_verdict_ = Clock::now() + time_of_verdict;
+    }
+    return verdict_;
+}
+
+}  // namespace oiler

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "oiler/app/input_source.hpp"
+#include "oiler/app/verdict.hpp"
+#include "oiler/app/what_if_runs.hpp"
+
+namespace oiler {
+
+/// Measures what the timestep costs while a game is played: the reference and the usual other
+/// settings play along with the player's input, in the time that is left. The game never sees them.
+class PlayAlong final : public InputSource {
+public:
+    PlayAlong(InputSource& inputs, const Options& options, const About& about,
+              const MakeGame& make);
+    PlayAlong(const PlayAlong&) = delete;
+    PlayAlong& operator=(const PlayAlong&) = delete;
+
+    /// Begins with the game as it is made, before its step `first`.
+    void start(std::int64_t first);
+    [[nodiscard]] Input next(std::int64_t step) override;
+    /// Plays along until that step of the game begins, or for a short time.
+    void play_until(std::int64_t step);
+    /// Ends it: the game is no longer what the input made of it.
+    void stop(std::string reason);
+    /// The number of steps until the game's step `step` that are still to be played.
+    [[nodiscard]] std::int64_t behind(std::int64_t step) const {
+        return step + 1 - first_ - played_;
+    }
+    /// What is measured so far; nothing may have stopped it.
+    [[nodiscard]] WhatIf result() const { return runs_->result(); }
+    /// What is known so far, as a sentence; it is renewed twice a second.
+    [[nodiscard]] const Verdict& verdict(const AnyGame& game);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    InputSource& inputs_;
+    const MakeGame& make_;
+    Options options_;  ///< with a recording that grows
+    std::int64_t first_ = 0;
+    Input before_{};
+    std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
+    std::int64_t played_ = 0;
+    Clock::time_point next_verdict_{};
+    std::vector<Reading> readings_;  ///< at the last verdict
+    Verdict verdict_;
+};
+
+}  // namespace oiler

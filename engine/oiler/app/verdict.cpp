@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/verdict.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oiler {
+namespace {
+
+constexpr double pixels_of_bad = 7.2;  // a hundredth of 720 lines
+constexpr double least_difference = 0.01;
+
+std::string setting_text(const Stepping& stepping) {
+    return fmt::format("{} Hz {}", stepping.rate.steps, stepping.method->name);
+}
+
+/// What a run has that the played one has not.
+std::string change_text(const Stepping& change, const Stepping& played) {
+    if (change.method != played.method) return std::string(change.method->name);
+    if (change.rate != played.rate) return fmt::format("{} Hz", change.rate.steps);
+    return std::string(name_of(change.precision));
+}
+
+double cost(const WhatIfRun& run) { return run.costs.update + run.costs.step; }
+
+bool is_sound(const WhatIfRun& run) { return run.failure.empty() && !run.other_play_from; }
+
+/// The cheapest other run whose errors no player sees; null if there is none.
+const WhatIfRun* cure(const WhatIf& measured) {
+    const WhatIfRun* cheapest = nullptr;
+    for (std::size_t i = 1; i < measured.runs.size(); ++i) {
+        const WhatIfRun& run = measured.runs[i];
+        if (!is_sound(run) || run.distance > measured.pixel) continue;
+        if (!cheapest || cost(run) < cost(*cheapest)) cheapest = &run;
+    }
+    return cheapest;
+}
+
+std::string cure_text(const WhatIf& measured) {
+    const WhatIfRun* const run = cure(measured);
+    if (!run) return "";
+    const WhatIfRun& played = measured.runs.front();
+    const double more = cost(*run) - cost(played);
+    const std::string price =
+        std::abs(more) < std::max(50.0, 0.1 * cost(played))
+            ? "for the same time"
+            : fmt::format("{}{:.2g} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
+    const std::string error = run->distance < least_certain * measured.uncertainty
+                                  ? "exact"
+                                  : fmt::format("{} off", length_text(run->distance));
+    return fmt::format(" {}: {}, {}.", change_text(run->stepping, played.stepping), error, price);
+}
+
+/// The reading that is off the most, relative to its truth, of those at rest; null if none is off
+/// enough.
+const Reading* worst_reading(const WhatIf& measured, const std::vector<Reading>& before) {
+    const std::vector<Reading>& played = measured.runs.front().readings;
+    const std::vector<Reading>& truth = measured.reference.readings;
+    const std::vector<Reading>& half = measured.half.readings;
+    const std::size_t count = std::min({played.size(), truth.size(), half.size()});
+    const Reading* worst = nullptr;
+    double largest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (played[i].unit.empty() || played[i].name != truth[i].name) continue;
+        if (i >= before.size() || before[i] != played[i]) continue;
+        const double off = std::abs(played[i].value - truth[i].value);
+        const double unsure = least_certain * std::abs(half[i].value - truth[i].value);
+        const bool is_seen = played[i].unit == "m"
+                                 ? off > measured.pixel
+                                 : off > least_difference * std::abs(truth[i].value);
+        const double relative = off / std::max(std::abs(truth[i].value), 1e-300);
+        if (!is_seen || off < unsure || relative <= largest) continue;
+        largest = relative;
+        worst = &played[i];
+    }
+    return worst;
+}
+
+std::string reading_text(const WhatIf& measured, const Reading& played) {
+    const auto index = static_cast<std::size_t>(&played - measured.runs.front().readings.data());
+    const double truth = measured.reference.readings[index].value;
+    const double off = std::abs(played.value - truth);
+    const std::string by =
+        played.unit == "m" ? length_text(off) : fmt::format("{:.2g} {}", off, played.unit);
+    return fmt::format("{} {:.4g} {}, true {:.4g} {}: {} too {} at {}.", played.name, played.value,
+                       played.unit, truth, played.unit, by, played.value < truth ? "low" : "high",
+                       setting_text(measured.runs.front().stepping));
+}
+
+}  // namespace
+
+std::string length_text(double metres) {
+    if (metres < 1e-5) return fmt::format("{:.2g} µm", 1e6 * metres);
+    if (metres < 0.01) return fmt::format("{:.2g} mm", 1000 * metres);
+    if (metres < 1) return fmt::format("{:.2g} cm", 100 * metres);
+    return fmt::format("{:.3g} m", metres);
+}
+
+Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
+                   const std::function<std::string(Entity)>& name_of) {
+    using Grade = Verdict::Grade;
+    const WhatIfRun& played = measured.runs.front();
+    const std::string setting = setting_text(played.stepping);
+    if (!(measured.certain_until > 0))
+        return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
+    const std::string limit =
+        measured.certain_until < measured.duration - 1
+            ? fmt::format(" The true motion is known until {:.1f} s.", measured.certain_until)
+            : "";
+    if (played.other_play_from)
+        return {Grade::bad,
+                fmt::format("From {:.1f} s on, the true motion is another play than at {}.{}{}",
+                            *played.other_play_from, setting, cure_text(measured), limit)};
+    const double pixels = played.distance / measured.pixel;
+    const Grade grade = pixels > pixels_of_bad ? Grade::bad
+                        : pixels > 1           ? Grade::visible
+                                               : Grade::good;
+    if (const Reading* const reading = worst_reading(measured, before))
+        return {std::max(grade, Grade::visible),
+                reading_text(measured, *reading) + cure_text(measured) + limit};
+    const double known = std::max(played.distance, least_certain * measured.uncertainty);
+    if (known == 0) return {grade, fmt::format("No error so far at {}.{}", setting, limit)};
+    if (grade == Grade::good)
+        return {grade, fmt::format("Within {} of the true motion, less than a pixel, at {}.{}",
+                                   length_text(known), setting, limit)};
+    return {grade,
+            fmt::format("{} up to {} off, {:.0f} px, at {}.{}{}", name_of(played.furthest),
+                        length_text(played.distance), pixels, setting, cure_text(measured), limit)};
+}
+
+}  // namespace oiler

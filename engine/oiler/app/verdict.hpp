@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "oiler/app/what_if.hpp"
+
+namespace oiler {
+
+/// One sentence on what the timestep costs: the largest error that a player could see, and what
+/// mends it.
+struct Verdict {
+    enum class Grade {
+        unknown,
+        good,     ///< below a pixel
+        visible,  ///< below a hundredth of the picture's height
+        bad,
+    };
+    Grade grade = Grade::unknown;
+    std::string text{};
+};
+
+/// Judges the recorded setting, the first of the runs. A reading in m that is off by more than a
+/// pixel, or one in another unit that is off by more than a hundredth, comes first, if it is what
+/// it was `before`: one that still changes may differ by a step, which is no error. Then comes the
+/// body that is furthest off. The cure is the cheapest other run below a pixel. Differences of less
+/// than ten times the uncertainty of the reference are not named.
+[[nodiscard]] Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
+                                 const std::function<std::string(Entity)>& name_of);
+
+/// "0.3 µm", "2 mm", "7.5 cm", "3.1 m".
+[[nodiscard]] std::string length_text(double metres);
+
+}  // namespace oiler

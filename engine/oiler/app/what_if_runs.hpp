@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "oiler/app/draw_timer.hpp"
+#include "oiler/app/played_run.hpp"
+#include "oiler/app/tape.hpp"
+#include "oiler/app/what_if.hpp"
+
+namespace oiler {
+
+/// Plays a recording at its own setting, at others and as a reference, all together, so that no
+/// trajectory is kept. The recording may grow meanwhile.
+class WhatIfRuns {
+public:
+    /// Plays options.replay, which must outlive it. Throws as PlayedRun does.
+    WhatIfRuns(const Options& options, const std::vector<Stepping>& steppings,
+               const MakeGame& make);
+
+    /// Plays all runs until a recorded step begins, and compares them there. Throws Error{diverged}
+    /// if the reference fails, and Error{comparison_failed} if the recorded states differ.
+    void play_until(std::int64_t step);
+    void time_pictures(DrawTimer* draw);
+    [[nodiscard]] WhatIf result() const;
+    /// Whether later steps are compared, too.
+    [[nodiscard]] bool certain() const { return certain_; }
+
+private:
+    void play_reference(std::int64_t step);
+    void compare(std::int64_t step);
+
+    const Recording& recording_;
+    Replay replay_;
+    PlayedRun reference_;
+    PlayedRun half_;  ///< the reference at half its rate
+    std::vector<std::unique_ptr<PlayedRun>> runs_;
+    bool certain_ = true;
+    double certain_until_ = 0;  ///< s
+    double uncertainty_ = 0;    ///< m
+    double pixel_ = 0;          ///< m, at the last comparison
+};
+
+}  // namespace oiler

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The sentence that a window shows: what it names, what it calls good, and what it does not claim.
+#include "oiler/app/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include "oiler/app/play_along.hpp"
+#include "oiler/app/playback.hpp"
+
+namespace oiler::test {
+namespace {
+
+using Grade = Verdict::Grade;
+
+std::string name_of(Entity entity) { return "body " + std::to_string(entity.index); }
+
+WhatIfRun run_of(const char* method, int rate, double distance, double nanoseconds) {
+    WhatIfRun run;
+    run.stepping = {.method = &find_method(method), .rate = {rate}};
+    run.distance = distance;
+    run.furthest = Entity{3, 0};
+    run.costs.step = nanoseconds;
+    return run;
+}
+
+/// A pixel is 1 cm. Euler at 60 Hz is off by `distance`; velocity Verlet and 120 Hz are rivals.
+WhatIf measured(double distance, double of_verlet, double of_twice) {
+    WhatIf result;
+    result.duration = result.certain_until = 4;
+    result.uncertainty = 1e-6;
+    result.pixel = 0.01;
+    result.runs = {run_of("semi_implicit_euler", 60, distance, 1000),
+                   run_of("velocity_verlet", 60, of_verlet, 1300),
+                   run_of("semi_implicit_euler", 120, of_twice, 2000)};
+    return result;
+}
+Verdict judge(const WhatIf& result, const std::vector<Reading>& before = {}) {
+    return verdict_of(result, before, name_of);
+}
+
+TEST(Verdict, NamesTheBodyThePixelsAndTheCheapestCure) {
+    const Verdict verdict = judge(measured(0.04, 0.002, 0.001));
+    EXPECT_EQ(verdict.grade, Grade::visible);
+    EXPECT_EQ(verdict.text,
+              "body 3 up to 4 cm off, 4 px, at 60 Hz semi_implicit_euler. velocity_verlet: 2 mm "
+              "off, +0.3 µs a frame.");
+    EXPECT_EQ(judge(measured(0.073, 0.02, 0.001)).grade, Grade::bad) << "a hundredth of 720 lines";
+    EXPECT_NE(judge(measured(0.073, 0.02, 0.001)).text.find(". 120 Hz: 1 mm off, +1 µs a frame."),
+              std::string::npos);
+    EXPECT_TRUE(judge(measured(0.073, 0.02, 0.02)).text.ends_with("semi_implicit_euler."))
+        << "nothing mends it";
+    EXPECT_NE(judge(measured(0.073, 5e-6, 0.02)).text.find("velocity_verlet: exact"),
+              std::string::npos);
+}
+
+TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
+    const Verdict good = judge(measured(0.009, 0, 0));
+    EXPECT_EQ(good.grade, Grade::good);
+    EXPECT_EQ(good.text,
+              "Within 9 mm of the true motion, less than a pixel, at 60 Hz semi_implicit_euler.");
+    EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("Within 10 µm"), std::string::npos)
+        << "no more is known";
+    WhatIf still = measured(0, 0, 0);
+    still.uncertainty = 0;
+    EXPECT_EQ(judge(still).text, "No error so far at 60 Hz semi_implicit_euler.");
+    WhatIf unknown = measured(1, 0, 0);
+    unknown.certain_until = 0;
+    EXPECT_EQ(judge(unknown).grade, Grade::unknown);
+    EXPECT_EQ(judge(unknown).text.find("1 m"), std::string::npos) << "never a guess";
+    WhatIf early = measured(0.009, 0, 0);
+    early.certain_until = 2.25;
+    EXPECT_TRUE(judge(early).text.ends_with(" The true motion is known until 2.2 s."));
+}
+
+TEST(Verdict, NamesReadingsAtRestFirst) {
+    WhatIf result = measured(0.04, 0.002, 0.001);
+    result.runs[0].readings = {{"apex", 1.95, "m"}, {"score", 3}, {"speed", 5, "m/s"}};
+    result.reference.readings = {{"apex", 2.025, "m"}, {"score", 4}, {"speed", 5.001, "m/s"}};
+    result.half.readings = result.reference.readings;
+    EXPECT_EQ(judge(result).text.find("apex"), std::string::npos) << "it may still grow";
+    EXPECT_EQ(judge(result, result.runs[0].readings).text,
+              "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
+              "velocity_verlet: 2 mm off, +0.3 µs a frame.");
+    result.reference.readings[0].value = 1.9;
+    result.half.readings[0].value = 1.9;
+    EXPECT_NE(judge(result, result.runs[0].readings).text.find("5 cm too high"), std::string::npos);
+    result.half.readings[0].value = 1.906;
+    EXPECT_EQ(judge(result, result.runs[0].readings).text.find("apex"), std::string::npos)
+        << "the reference is unsure by 6 mm";
+    result.reference.readings[0].value = result.half.readings[0].value = 1.955;
+    EXPECT_EQ(judge(result, result.runs[0].readings).text.find("apex"), std::string::npos)
+        << "no more than a pixel";
+    result.reference.readings[2].value = result.half.readings[2].value = 4;
+    EXPECT_NE(
+        judge(result, result.runs[0].readings).text.find("speed 5 m/s, true 4 m/s: 1 m/s too"),
+        std::string::npos);
+}
+
+TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
+    WhatIf result = measured(0.001, 0.002, 0.001);
+    result.runs[0].other_play_from = 3.25;
+    result.runs[1].other_play_from = 1;
+    EXPECT_EQ(judge(result).grade, Grade::bad);
+    EXPECT_EQ(judge(result).text,
+              "From 3.2 s on, the true motion is another play than at 60 Hz semi_implicit_euler. "
+              "120 Hz: 1 mm off, +1 µs a frame.");
+}
+
+/// A fall from a height of 0 that Space pushes up.
+struct Fall {
+    static constexpr About about{.name = "fall", .title = "Fall", .rate = 60};
+    World world;
+    Entity body;
+    explicit Fall(const Settings& settings) : world(1, settings), body(world.spawn(Body{})) {
+        world.set_gravity({-20});
+    }
+    void update(const Input& input) {
+        if (input.pressed(Key::space)) world.set_velocity(body, {9});
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = 7.2F}}; }
+};
+
+std::unique_ptr<AnyGame> make_fall(const Settings& settings) {
+    return std::make_unique<AnyGameOf<Fall>>(settings);
+}
+
+/// Presses Space in step 30.
+struct OnePress final : InputSource {
+    InputQueue queue;
+    Input next(std::int64_t step) override {
+        queue.set(Key::space, step == 30);
+        return queue.take({});
+    }
+};
+
+// Semi-implicit Euler falls g·dt·t/2 too deep: 20/60·2/2 = 33 cm in 2 s, of which the push at 0.5 s
+// takes nothing back.
+TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    Options options;
+    options.settings = settings;
+    AnyGameOf<Fall> game(settings);
+    AnyGameOf<Fall> alone(settings);
+    OnePress player;
+    OnePress other;
+    const MakeGame make = make_fall;
+    PlayAlong along(player, options, Fall::about, make);
+    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+    for (const std::int64_t second : {0, 1}) {
+        game.step(60 * second, 60, along);
+        alone.step(60 * second, 60, other);
+        const std::int64_t now = 60 * (second + 1);
+        for (int i = 0; i < 10'000 && along.behind(now) > 0; ++i) along.play_until(now);
+        ASSERT_EQ(along.behind(now), 0);
+    }
+    EXPECT_EQ(game.state_hash(), alone.state_hash());
+    const WhatIf result = along.result();
+    EXPECT_NEAR(result.runs[0].distance, 20 * 2 / 60.0 / 2, 1e-12);
+    EXPECT_EQ(result.runs[0].readings.size(), 0U);
+    along.stop("went back");
+    EXPECT_EQ(along.verdict(game).text, "went back");
+    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+}
+
+}  // namespace
+}  // namespace oiler::test
