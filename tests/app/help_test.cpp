@@ -46,7 +46,7 @@ TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
     Picture picture;
     add_help(picture, "Menu", list, on_azerty, true);
     const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
-                                   [](const Label& label) { return label.text == "F2"; });
+                                   [](const Label& label) { return label.text == "F1"; });
     for (auto label = picture.labels.begin(); label != loop; ++label)
         EXPECT_LT(label->at.x + 0.6F * label->size * static_cast<float>(label->text.size()),
                   loop->at.x)

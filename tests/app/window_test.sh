@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it back,
-# F2 shows a help, Escape quits with exit code 0, and --frames N quits after N frames. A closed window leaves with 0, a killed server
-# with 3 and complete files. Usage: window_test.sh PROGRAM TITLE. Exit 77:
+# F1 hides the verdict, F2 shows a help, Escape quits with exit code 0, and --frames N quits after N
+# frames. A closed window leaves with 0, a killed server with 3 and complete files.
+# Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
 set -u
 program=$1
@@ -66,6 +67,10 @@ xdotool key F2
 until_true has_changed || fail "F2 shows no help"
 xdotool key F2
 until_true shows_before || fail "F2 does not close the help"
+xdotool key F1
+until_true has_changed || fail "F1 does not hide the verdict"
+xdotool key F1
+until_true shows_before || fail "F1 does not show the verdict again"
 xdotool key F3
 until_true moves || fail "F3 does not resume"
 xdotool keydown F4

@@ -31,7 +31,7 @@ PlayAlong::PlayAlong(InputSource& inputs, const Options& options, const About& a
 
 void PlayAlong::start(std::int64_t first) {
     first_ = first;
-    played_ = 0;
+    played_ = judged_ = 0;
     before_ = {};
     options_.replay->events.clear();
     try {
@@ -74,7 +74,8 @@ void PlayAlong::stop(std::string reason) {
 }
 
 const Verdict& PlayAlong::verdict(const AnyGame& game) {
-    if (runs_ && Clock::now() >= next_verdict_) {
+    if (runs_ && played_ != judged_ && Clock::now() >= next_verdict_) {
+        judged_ = played_;
         const WhatIf result = runs_->result();
         verdict_ = verdict_of(result, readings_, [&](Entity body) { return game.name_of(body); });
         readings_ = result.runs.front().readings;

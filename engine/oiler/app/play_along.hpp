@@ -32,7 +32,7 @@ public:
     }
     /// What is measured so far; nothing may have stopped it.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
-    /// What is known so far, as a sentence; it is renewed twice a second.
+    /// What is known so far, as a sentence; it is renewed at most twice a second.
     [[nodiscard]] const Verdict& verdict(const AnyGame& game);
 
 private:
@@ -45,6 +45,7 @@ private:
     Input before_{};
     std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
     std::int64_t played_ = 0;
+    std::int64_t judged_ = 0;  ///< played then
     Clock::time_point next_verdict_{};
     std::vector<Reading> readings_;  ///< at the last verdict
     Verdict verdict_;
