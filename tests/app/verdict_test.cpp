@@ -96,6 +96,15 @@ TEST(Verdict, NamesReadingsAtRestFirst) {
         std::string::npos);
 }
 
+TEST(Verdict, NamesTheFailureOfTheGameAndItsCure) {
+    WhatIf result = measured(0.001, 0.002, 0.001);
+    result.runs[0].failure = "diverged at step 8";
+    EXPECT_EQ(judge(result).grade, Grade::bad);
+    EXPECT_EQ(judge(result).text, "diverged at step 8 velocity_verlet: 2 mm off, +0.3 µs a frame.");
+    result.runs[1].failure = "diverged, too";
+    EXPECT_EQ(judge(result).text, "diverged at step 8 120 Hz: 1 mm off, +1 µs a frame.");
+}
+
 TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
     WhatIf result = measured(0.001, 0.002, 0.001);
     result.runs[0].other_play_from = 3.25;

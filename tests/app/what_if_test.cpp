@@ -210,6 +210,20 @@ TEST(WhatIf, NothingIsCountedOnceTheReferenceIsUncertain) {
     EXPECT_EQ(result.runs[2].visible_from, 12 / 60.0);
 }
 
+TEST(WhatIf, TheReferenceHasAtLeast960Steps) {
+    for (const auto& [recorded, reference] :
+         {std::pair(1, 960), std::pair(7, 966), std::pair(59, 1062), std::pair(60, 960),
+          std::pair(61, 976), std::pair(240, 3840)}) {
+        Options options;
+        options.replay.emplace().header.stepping = {.method = &find_method("rk4"),
+                                                    .rate = {recorded}};
+        options.settings.stepping = options.replay->header.stepping;
+        const WhatIf result = measure<Fall>(options, "rk4");
+        EXPECT_EQ(result.reference.stepping.rate.steps, reference) << recorded;
+        EXPECT_EQ(2 * result.half.stepping.rate.steps, reference) << recorded;
+    }
+}
+
 TEST(WhatIf, ASettingThatFailsIsNamed) {
     const WhatIf result = measure<Careless>(record<Careless>(), "30,120");
     EXPECT_TRUE(holds(result.runs[1].failure, "tick 10")) << result.runs[1].failure;

@@ -94,6 +94,23 @@ steps=$(steps_in_frames 1)
 steps=$(steps_in_frames 2)
 [ "$steps" -gt 0 ] && [ "$steps" -le 250 ] || fail "--frames 2 takes '$steps' steps"
 
+# A divergence keeps the window, F9 restarts, and Escape leaves with 5 where it was the end.
+"$program" --size 640x360 --rate 1 --method explicit_euler --precision float 2>"$folder/err" &
+game=$!
+until_true window_focused || fail "no window for a divergence"
+xdotool key F8 F8 F8 F8
+until_true moves || fail "nothing moves before the divergence"
+until_true stands_still || fail "a divergence does not stop the picture"
+kill -0 $game || fail "a divergence closes the window"
+xdotool key F9
+until_true moves || fail "F9 does not restart after a divergence"
+until_true stands_still || fail "the second divergence does not stop the picture"
+xdotool key Escape
+wait $game
+status=$?
+[ $status -eq 5 ] || fail "a divergence leaves with exit code $status"
+grep -q "diverged at step" "$folder/err" || fail "no word of the divergence"
+
 # The window is closed and a key is pressed between two polls.
 "$program" --size 640x360 --quiet &
 game=$!

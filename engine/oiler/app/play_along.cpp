@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
 
@@ -14,6 +16,7 @@ using namespace std::chrono_literals;
 constexpr auto time_of_frame = 1ms;
 constexpr auto time_of_verdict = 500ms;
 constexpr std::int64_t longest_delay = 2;  // s
+constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
 
 }  // namespace
@@ -56,7 +59,8 @@ Input PlayAlong::next(std::int64_t step) {
 
 void PlayAlong::play_until(std::int64_t step) {
     if (!runs_) return;
-    if (behind(step) > longest_delay * options_.settings.stepping.rate.steps)
+    const std::int64_t delay = longest_delay * options_.settings.stepping.rate.steps;
+    if (behind(step) > std::max(delay, longest_delay_in_steps))
         return stop(
             "too much to measure while it is played: --record it, and --replay it with --what-if");
     options_.replay->steps = step - first_;

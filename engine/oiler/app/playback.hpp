@@ -33,6 +33,8 @@ public:
     /// Returns the picture at `alpha` in [0, 1) between the states after `step` steps and the next.
     /// `step` must not decrease. Where the game replaced its world between them, it is the former.
     [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
+    /// The picture of the last whole step that was shown.
+    [[nodiscard]] const Picture& last_picture() const { return before_.picture; }
     /// Shows the game as it is now: it was put back to where it was after `step` steps.
     void go_back(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }

@@ -103,6 +103,7 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
     using Grade = Verdict::Grade;
     const WhatIfRun& played = measured.runs.front();
     const std::string setting = setting_text(played.stepping);
+    if (!played.failure.empty()) return {Grade::bad, played.failure + cure_text(measured)};
     if (!(measured.certain_until > 0))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
     const std::string limit =

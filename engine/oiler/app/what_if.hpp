@@ -52,7 +52,7 @@ struct WhatIf {
 inline constexpr double least_certain = 10;
 
 /// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
-/// its rate. All runs go through the recording together and are compared at each recorded step that
+/// its rate, at least at 960 Hz. All runs go through the recording together and are compared at each recorded step that
 /// a run has, too. Bodies are the same if their entities are. The play is another one once bodies,
 /// teleports, restarts or whole-number readings have differed for 0.25 s: a shorter difference is a
 /// delay. The reference is uncertain once a run at half its rate is another play, or further away

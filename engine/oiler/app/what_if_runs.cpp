@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/what_if_runs.hpp"
 
+#include <algorithm>
+
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
 namespace {
 
-constexpr std::int64_t reference_factor = 16;
+constexpr std::int64_t least_factor = 16;
+constexpr std::int64_t least_rate = 960;  // Hz
 constexpr double pixels_of_height = 720;
 
-Stepping reference_stepping(const Options& options, std::int64_t factor) {
+/// rk4 at `least_factor` times the recorded rate, and at least at `least_rate`, or half of that.
+Stepping reference_stepping(const Options& options, std::int64_t part) {
     Rate rate = options.replay->header.stepping.rate;
-    rate.steps *= factor;
+    const std::int64_t factor = (least_rate + rate.steps - 1) / rate.steps;
+    rate.steps *= std::max(least_factor, factor + factor % 2) / part;
     return {.method = &find_method("rk4"), .rate = rate};
 }
 
@@ -22,8 +27,8 @@ WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& step
                        const MakeGame& make)
     : recording_(*options.replay),
       replay_(recording_, options.replay_file.string()),
-      reference_(reference_stepping(options, reference_factor), options, make),
-      half_(reference_stepping(options, reference_factor / 2), options, make) {
+      reference_(reference_stepping(options, 1), options, make),
+      half_(reference_stepping(options, 2), options, make) {
     runs_.push_back(std::make_unique<PlayedRun>(recording_.header.stepping, options, make));
     for (const Stepping& stepping : steppings)
         runs_.push_back(std::make_unique<PlayedRun>(stepping, options, make));

@@ -14,11 +14,10 @@
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
+#include "oiler/app/overlays.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/rewind.hpp"
 #include "oiler/core/step_clock.hpp"
-#include "oiler/picture/palette.hpp"
-#include "oiler/picture/shapes.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
@@ -62,42 +61,6 @@ std::string_view no_way_back(const Options& options) {
     if (!options.replay_file.empty()) return "--replay";
     if (!options.trace.empty()) return "--trace";
     return options.energy.empty() ? "" : "--energy";
-}
-
-void add_status(Picture& picture, std::string status) {
-    if (status.empty()) return;
-    picture.labels.push_back({.at = {canvas_width - 8, 4},
-                              .text = std::move(status),
-                              .size = 11,
-                              .colour = palette::vermilion,
-                              .align = Align::right,
-                              .layer = overlay_layer});
-}
-
-void add_verdict(Picture& picture, const Verdict& verdict) {
-    constexpr float height = 10;
-    constexpr float left = 14;
-    constexpr float largest_size = 7;
-    constexpr float letter_width = 0.55F;  // of the size, of the font's usual letters
-    constexpr Colour colours[] = {palette::grey, palette::green, palette::orange,
-                                  palette::vermilion};
-    constexpr float middle = canvas_height - height / 2;
-    const auto add = [&](Point centre, Point size, Colour colour) {
-        picture.polygons.push_back({.points = rectangle(centre, size),
-                                    .colour = colour,
-                                    .space = Space::canvas,
-                                    .layer = overlay_layer});
-    };
-    add({canvas_width / 2, middle}, {10 * canvas_width, height},
-        palette::faded(palette::paper, 224));
-    add({8, middle}, {6, 6}, colours[static_cast<std::size_t>(verdict.grade)]);
-    const auto letters = static_cast<float>(verdict.text.size() + 1);
-    picture.labels.push_back(
-        {.at = {left, middle - 2.5F},
-         .text = verdict.text,
-         .size = std::min(largest_size, (canvas_width - left) / (letter_width * letters)),
-         .colour = palette::ink,
-         .layer = overlay_layer});
 }
 
 void show(const Picture& picture, Renderer& renderer, Window& window) {
@@ -146,13 +109,14 @@ public:
             const Input keys = keys_.take({});
             control(keys);
             draw_frame(keys, start);
-            const bool escaped = !uses_escape(controls_) && keys.pressed(Key::escape);
+            const bool escaped = (failure_ || !uses_escape(controls_)) && keys.pressed(Key::escape);
             const bool last = (options_.frames && frame + 1 >= *options_.frames) ||
                               (options_.replay && playback_.steps() >= options_.replay->steps);
             if (state == Window::State::closed || escaped || last || playback_.loop().quits())
                 break;
             limit_frame_rate(start, fps);
         }
+        if (failure_) throw Error(*failure_);
         return {.dropped = clock_.dropped_time()};
     }
 
@@ -160,21 +124,25 @@ private:
     void control(const Input& keys) {
         if (keys.presses(Key::f1) % 2 == 1) shows_verdict_ = !shows_verdict_;
         if (keys.presses(Key::f2) % 2 == 1) helps_ = !helps_;
-        if (keys.presses(Key::f3) % 2 == 1) clock_.paused() ? clock_.resume() : clock_.pause();
+        if (!failure_ && keys.presses(Key::f3) % 2 == 1)
+            clock_.paused() ? clock_.resume() : clock_.pause();
         for (int i = 0; i < keys.presses(Key::f7); ++i) pace_.slower();
         for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         if (keys.pressed(Key::f9)) restart();
-        const bool steps = keys.pressed(Key::f5) || (has_past() && keys.pressed(Key::f4));
+        const bool steps =
+            (!failure_ && keys.pressed(Key::f5)) || (has_past() && keys.pressed(Key::f4));
         if (clock_.paused() && steps) clock_.single_step();
     }
 
     void restart() {
         clock_.resume();
         AnyGame& game = playback_.game();
+        // An input that restarts reaches those who play along, unless they failed, too.
+        if ((failure_ || !game.takes_input()) && !options_.quiet) along_.start(playback_.steps());
+        failure_.reset();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
-        if (!options_.quiet) along_.start(playback_.steps());
         if (rewind_) rewind_->forget(playback_.steps());
     }
 
@@ -184,11 +152,10 @@ private:
         live_.queue.set_paused(clock_.paused() || back);
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
-        if (rewind_ && !back) rewind_->keep(playback_.steps());
+        if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
-        Picture picture =
-            playback_.show(clock_.ticks() - undone_, whole_ ? 0 : clock_.alpha(), *inputs_);
+        Picture picture = next_picture();
         if (shows_verdict_) {
             along_.play_until(playback_.steps());
             add_verdict(picture, along_.verdict(playback_.game()));
@@ -197,8 +164,23 @@ private:
         live_.shown = picture.camera;
         if (helps_)
             add_help(picture, about_.title, controls_, key_names(), !uses_escape(controls_));
+        if (failure_) add_failure(picture, failure_->what(), has_past());
         add_status(picture, status(keys, back));
         show(picture, renderer_, *window_);
+    }
+
+    /// The picture to show now; after a divergence, that of the last step before.
+    Picture next_picture() {
+        try {
+            if (!failure_)
+                return playback_.show(clock_.ticks() - undone_, whole_ ? 0 : clock_.alpha(),
+                                      *inputs_);
+        } catch (const Error& error) {
+            if (error.exit() != Exit::diverged) throw;
+            failure_ = error;
+            clock_.pause();
+        }
+        return playback_.last_picture();
     }
 
     [[nodiscard]] bool has_past() const { return rewind_ && rewind_->has_past(); }
@@ -207,6 +189,7 @@ private:
         live_.queue.continue_after(rewind_->go_back(step));
         along_.stop("what the timestep costs is no longer measured: you went back");
         playback_.go_back(step);
+        failure_.reset();
         undone_ = clock_.ticks() - step;
     }
 
@@ -215,6 +198,8 @@ private:
         if (keys.held(Key::f4) && !has_past())
             text = fmt::format("F4: no way back with {}",
                                rewind_ ? "so many bodies" : no_way_back(options_));
+        else if (failure_)
+            text = "stopped";
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
@@ -249,7 +234,8 @@ private:
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
-    std::int64_t undone_ = 0;  ///< steps of the clock that the game has not taken
+    std::int64_t undone_ = 0;       ///< steps of the clock that the game has not taken
+    std::optional<Error> failure_;  ///< a divergence that holds the run
     bool helps_ = false;
     bool shows_verdict_;
     bool whole_ = false;
