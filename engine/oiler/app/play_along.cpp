@@ -61,8 +61,7 @@ void PlayAlong::play_until(std::int64_t step) {
     if (!runs_) return;
     const std::int64_t delay = longest_delay * options_.settings.stepping.rate.steps;
     if (behind(step) > std::max(delay, longest_delay_in_steps))
-        return stop(
-            "too much to measure while it is played: --record it, and --replay it with --what-if");
+        return stop("what the timestep costs is not measured: this computer cannot keep up");
     options_.replay->steps = step - first_;
     const Clock::time_point end = Clock::now() + time_of_frame;
     try {

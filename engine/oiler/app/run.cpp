@@ -65,8 +65,12 @@ public:
                    script_->unplayed());
         if (!replay_) return;
         const bool whole = steps >= replay_->steps();
-        remark(quiet, "the replay equals the recording: {} of {} steps{}",
-               std::min(steps, replay_->steps()), replay_->steps(),
+        const std::int64_t played = std::min(steps, replay_->steps());
+        remark(quiet, "the replay equals the recording: {} of {} steps{}{}", played,
+               replay_->steps(),
+               replay_->compared() < played
+                   ? fmt::format(", of which {} were compared", replay_->compared())
+                   : "",
                whole && !replay_->complete() ? ", where the program that recorded was killed" : "");
     }
 

@@ -18,6 +18,7 @@ void Replay::after(std::int64_t step, const AnyGame& game) {
     const PartHashes now = part_hashes(game);
     if (now == recorded->second) {
         equal_until_ = step;
+        ++compared_;
         return;
     }
     const bool in_bodies = now.bodies != recorded->second.bodies;

@@ -45,6 +45,8 @@ public:
     /// Throws Error{comparison_failed} with the first step that differs, and in which part.
     void after(std::int64_t step, const AnyGame& game) override;
     [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
+    /// The number of steps whose states were compared: of many bodies, one per second.
+    [[nodiscard]] std::int64_t compared() const { return compared_; }
     [[nodiscard]] bool complete() const { return recording_.complete; }
 
 private:
@@ -53,6 +55,7 @@ private:
     EventPlayer player_;
     std::size_t played_ = 0;
     std::int64_t equal_until_ = -1;
+    std::int64_t compared_ = 0;
 };
 
 }  // namespace oiler
