@@ -5,14 +5,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "oiler/core/step_clock.hpp"
+#include "support/oscillator.hpp"
+#include "support/text.hpp"
 
 namespace oiler {
 namespace {
+
+using test::holds;
+using test::line_of_error;
 
 /// A free body at 1 m/s and 1 step/s, so that its position in m is the tick. `update` counts key
 /// presses.
@@ -227,30 +233,61 @@ TEST(Playback, AnExceptionOfAGameNamesTheTick) {
     }
 }
 
-struct Rerater : Walker {
-    using Walker::Walker;
+/// A game that does something wrong at tick 3.
+enum class Wrong { rate, gravity, time, mass, handle, hash, camera, radius };
+template <Wrong wrong>
+struct Wronger : Walker {
+    Entity gone;
+    explicit Wronger(const Settings& settings) : Walker(settings), gone(world.create()) {
+        world.destroy(gone);
+    }
     void update(const Input&) {
         if (world.tick() != 3) return;
         Settings settings = world.settings();
         settings.stepping.rate.steps += 1;
-        world = World(2, settings);
+        if (wrong == Wrong::rate) world = World(2, settings);
+        if (wrong == Wrong::gravity) world.set_gravity({std::nan("")});
+        if (wrong == Wrong::time) world.schedule(-1, 0);
+        if (wrong == Wrong::mass) (void)world.spawn(Body{.mass = 0});
+        if (wrong == Wrong::handle) world.destroy(gone);
+    }
+    void hash(StateHash&) const {
+        if (wrong == Wrong::hash && world.tick() == 4) throw std::out_of_range("no such target");
+    }
+    [[nodiscard]] Picture picture() const {
+        Picture picture;
+        if (wrong == Wrong::camera) picture.camera.height = 0;
+        if (wrong == Wrong::radius) picture.discs.push_back(Disc{.radius = -1});
+        return picture;
     }
 };
 
-TEST(Playback, AWorldOfAnotherRateIsRefused) {
-    AnyGameOf<Rerater> game(Settings{});
-    InputQueue queue;
-    Live live(queue);
-    EXPECT_EQ(game.step(0, 3, live), 3);
-    try {
-        (void)game.step(3, 1, live);
-        ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_STREQ(error.what(),
-                     "update at tick 3: the new world has another rate; make it with "
-                     "world.settings()");
-    }
+/// The line of the error of a game that is played to its end.
+template <Wrong wrong>
+std::string line_of_wrong() {
+    AnyGameOf<Wronger<wrong>> game(Settings{});
+    LiveInput input;
+    return line_of_error(Exit::diverged, [&] {
+        EXPECT_EQ(game.step(0, 3, input), 3);
+        (void)game.step(3, 1, input);
+        (void)game.state_hash();
+        (void)game.picture();
+    });
+}
+
+TEST(Playback, AWrongNumberOfAGameNamesCallAndTick) {
+    EXPECT_EQ(line_of_wrong<Wrong::rate>(),
+              "update at tick 3: the new world has another rate; make it with world.settings()");
+    EXPECT_TRUE(holds(line_of_wrong<Wrong::gravity>(), "set_gravity at tick 3: "));
+    EXPECT_TRUE(holds(line_of_wrong<Wrong::time>(), "update at tick 3: schedule of -1 s"));
+    EXPECT_TRUE(holds(line_of_wrong<Wrong::mass>(), "update at tick 3: spawn at tick 3: "));
+    EXPECT_EQ(line_of_wrong<Wrong::handle>(),
+              "update at tick 3: destroy of entity 1 at tick 3: it is gone");
+    EXPECT_EQ(line_of_wrong<Wrong::hash>(), "hash at tick 4: no such target");
+    EXPECT_EQ(line_of_wrong<Wrong::camera>(),
+              "picture at tick 4: a camera of 0 m height: give a height above 0");
+    EXPECT_EQ(line_of_wrong<Wrong::radius>(),
+              "picture at tick 4: a disc with a radius of -1: give 0 or more");
 }
 
 TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {

@@ -321,26 +321,50 @@ TEST(World, TryStepReturnsTheDivergence) {
     EXPECT_EQ(world.tick(), 100);
 }
 
+template <class F>
+std::string mistake(F f) {
+    try {
+        f();
+    } catch (const oiler::Mistake& mistake) {
+        return mistake.what();
+    }
+    return "";
+}
+
 // Checked in every build, because continuing would change the entity that uses the slot now.
-TEST(WorldDeathTest, MistakesEndTheProgramWithAMessage) {
+TEST(World, MistakesNameCallEntityAndTickAndChangeNothing) {
     World world(2);
+    const Entity first = world.spawn({});
     const Entity gone = world.spawn({});
     world.destroy(gone);
     const Entity now = world.spawn({});
     world.add(now, Health{});
+    world.step(3);
     ASSERT_EQ(gone.index, now.index);
-    EXPECT_DEATH((void)world.position(gone), "no body, or is gone");
-    EXPECT_DEATH(world.set_velocity(gone, {1}), "no body, or is gone");
-    EXPECT_DEATH(world.teleport(gone, {1}), "no body, or is gone");
-    EXPECT_DEATH(world.destroy(gone), "the entity is gone");
-    EXPECT_DEATH(world.add(gone, Name{}), "the entity is gone");
-    EXPECT_DEATH(world.add_body(gone, {}), "the entity is gone");
-    EXPECT_DEATH((void)world.get<Health>(gone), "no component of this type");
-    EXPECT_DEATH(world.remove<Health>(gone), "no component of this type");
-    EXPECT_DEATH(world.add(now, Health{}), "already");
-    EXPECT_DEATH(world.add_body(now, {}), "already");
-    EXPECT_DEATH((void)world.bodies().position(1), "no body in this row");
-    EXPECT_DEATH(World(4), "1, 2 or 3 axes");
+    ASSERT_NE(gone.index, first.index);
+    const std::uint64_t hash = world.state_hash();
+    const auto line = [](const char* call, const char* what) {
+        return std::string(call) + " of entity 1 at tick 3: " + what;
+    };
+    constexpr const char* no_body = "it has no body, or is gone";
+    constexpr const char* no_component = "it has no component of this type, or is gone";
+    EXPECT_EQ(mistake([&] { (void)world.position(gone); }), line("the body", no_body));
+    EXPECT_EQ(mistake([&] { world.set_velocity(gone, {1}); }), line("set_velocity", no_body));
+    EXPECT_EQ(mistake([&] { world.teleport(gone, {1}); }), line("teleport", no_body));
+    EXPECT_EQ(mistake([&] { world.destroy(gone); }), line("destroy", "it is gone"));
+    EXPECT_EQ(mistake([&] { world.add(gone, Name{}); }), line("add", "it is gone"));
+    EXPECT_EQ(mistake([&] { world.add_body(gone, {}); }), line("add_body", "it is gone"));
+    EXPECT_EQ(mistake([&] { (void)world.get<Health>(gone); }), line("get", no_component));
+    EXPECT_EQ(mistake([&] { world.remove<Health>(gone); }), line("remove", no_component));
+    EXPECT_EQ(mistake([&] { world.add(now, Health{}); }),
+              line("add", "it has a component of this type already"));
+    EXPECT_EQ(mistake([&] { world.add_body(now, {}); }), line("add_body", "it has a body already"));
+    EXPECT_NE(mistake([&] { (void)world.bodies().position(2); }).find("no body in this row"),
+              std::string::npos);
+    EXPECT_NE(mistake([] { World(4); }).find("1, 2 or 3 axes"), std::string::npos);
+    EXPECT_NE(mistake([&] { (void)world.random().below(0); }).find("give 1 or more"),
+              std::string::npos);
+    EXPECT_EQ(world.state_hash(), hash);
 }
 
 TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {

@@ -125,13 +125,15 @@ consteval bool check_game() {
     return true;
 }
 
-/// Calls f(). An exception of a game becomes an Error with the text of place().
+/// Calls f(). An exception of a game becomes an Error{diverged} with the text of place(). So does
+/// a wrong number that it gave, unless it is `in_setup`, where options can be the reason.
 template <class Place, class F>
-auto guarded(Place place, F f) {
+auto guarded(Place place, F f, bool in_setup = false) {
     try {
         return f();
-    } catch (const Error&) {
-        throw;
+    } catch (const Error& error) {
+        if (error.exit() != Exit::usage || in_setup) throw;
+        fail(Exit::diverged, "{}: {}", place(), error.what());
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
@@ -189,7 +191,8 @@ class AnyGameOf final : public AnyGame {
 
 public:
     explicit AnyGameOf(const Settings& settings)
-        : game_(guarded([] { return "the game's constructor"; }, [&] { return G(settings); })) {}
+        : game_(guarded([] { return "the game's constructor"; }, [&] { return G(settings); },
+                        true)) {}
 
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override {
         if constexpr (!Updates<G>) {
@@ -229,19 +232,15 @@ public:
     [[nodiscard]] bool takes_input() const override { return Updates<G>; }
     [[nodiscard]] const World& world() const override { return game_.world; }
     [[nodiscard]] Picture picture() const override {
-        return guarded([] { return "picture"; },
-                       [&] {
-                           if constexpr (Draws<G>)
-                               return game_.picture();
-                           else if constexpr (HasCamera<G>)
-                               return draw_looks(game_.world, game_.camera);
-                           else
-                               return draw_looks(game_.world, {});
-                       });
+        return guarded(place("picture"), [&] {
+            Picture picture = drawn();
+            require_drawable(picture);
+            return picture;
+        });
     }
     [[nodiscard]] std::vector<Reading> readings() const override {
         if constexpr (HasReadings<G>)
-            return guarded([] { return "readings"; }, [&] { return game_.readings(); });
+            return guarded(place("readings"), [&] { return game_.readings(); });
         else
             return {};
     }
@@ -249,7 +248,7 @@ public:
         if constexpr (HashesItself<G>) {
             StateHash hash;
             hash.add(game_.world.state_hash());
-            game_.hash(hash);
+            guarded(place("hash"), [&] { game_.hash(hash); });
             return hash.value();
         } else {
             return AnyGame::state_hash();
@@ -259,6 +258,18 @@ public:
 private:
     static const char* copying() { return "a copy of the game"; }
 
+    /// "picture at tick 7".
+    [[nodiscard]] auto place(const char* call) const {
+        return [this, call] { return call + (" at tick " + std::to_string(game_.world.tick())); };
+    }
+    [[nodiscard]] Picture drawn() const {
+        if constexpr (Draws<G>)
+            return game_.picture();
+        else if constexpr (HasCamera<G>)
+            return draw_looks(game_.world, game_.camera);
+        else
+            return draw_looks(game_.world, {});
+    }
     void take_world_step(std::int64_t count) {
         const Stopwatch stopwatch(times_, &StepTimes::step);
         game_.world.step(count);
@@ -280,8 +291,8 @@ private:
                 game_.update(input);
         });
         if (game_.world.settings().stepping.rate != rate)
-            fail(Exit::usage, "{}: the new world has another rate; make it with world.settings()",
-                 place());
+            fail(Exit::diverged,
+                 "{}: the new world has another rate; make it with world.settings()", place());
     }
     /// A world that was replaced is younger than it would have become.
     void find_cut() {

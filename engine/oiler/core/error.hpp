@@ -20,9 +20,9 @@ enum class Exit : int {
     interrupted = 130,
 };
 
-/// The one type that Oiler throws, for errors that a user can mend: in an option, in a file or on
+/// The type that Oiler throws for errors that a user can mend: in an option, in a file or on
 /// the machine. The message is one line with the place, the error and the remedy. `run` and `main`
-/// print it and return the exit code. A programmer's mistakes assert instead.
+/// print it and return the exit code. For a programmer's mistakes, see Mistake.
 class Error : public std::runtime_error {
 public:
     Error(Exit exit, const std::string& line) : std::runtime_error(line), exit_(exit) {}

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "oiler/core/require.hpp"
+
 namespace oiler {
 
 /// Random numbers, the same on every machine and with every standard library: SplitMix64 of Steele,
@@ -24,8 +26,9 @@ public:
     [[nodiscard]] constexpr double uniform(double low, double high) {
         return low + (high - low) * fraction();
     }
-    /// A whole number from 0 to `count` - 1; `count` is at least 1. Its bias is below count/2⁶⁴.
+    /// A whole number from 0 to `count` - 1. Its bias is below count/2⁶⁴. Throws Mistake for 0.
     [[nodiscard]] constexpr std::uint64_t below(std::uint64_t count) {
+        if (count == 0) throw_mistake("below(0): no whole number is below 0; give 1 or more");
         __extension__ using Wide = unsigned __int128;
         return static_cast<std::uint64_t>(Wide{next()} * count >> 64);
     }

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stdexcept>
+
 namespace oiler {
 
-/// Prints the programmer's mistake and aborts, so that a debugger shows the caller.
-[[noreturn]] void abort_on_mistake(const char* what);
+/// A use that breaks a rule of the API, such as the handle of a destroyed entity. Nothing has been
+/// changed. A program that does not catch it ends with its line, and a debugger shows the caller.
+class Mistake : public std::logic_error {
+    using std::logic_error::logic_error;
+};
+[[noreturn]] void throw_mistake(const char* what);
 
-/// Aborts unless `holds`. It guards the rules of the API, such as not using the handle of a
-/// destroyed entity. It is checked in every build, because continuing would change another entity.
+/// Throws Mistake unless `holds`. It is checked in every build, because continuing would change
+/// another entity.
 inline void require(bool holds, const char* what) {
     if (!holds) [[unlikely]]
-        abort_on_mistake(what);
+        throw_mistake(what);
 }
 
 }  // namespace oiler

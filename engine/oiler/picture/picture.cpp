@@ -7,6 +7,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "oiler/core/error.hpp"
+
 namespace oiler {
 namespace {
 
@@ -174,6 +176,21 @@ Picture between(const Picture& before, const Picture& after, float alpha) {
     move_all(picture.discs, after.discs, alpha);
     move_all(picture.labels, after.labels, alpha);
     return picture;
+}
+
+void require_drawable(const Picture& picture) {
+    const auto refuse_negative = [](float number, const char* what) {
+        if (number < 0) fail(Exit::usage, "{} of {}: give 0 or more", what, number);
+    };
+    if (!(picture.camera.height > 0))
+        fail(Exit::usage, "a camera of {} m height: give a height above 0",
+             picture.camera.height);
+    for (const Disc& disc : picture.discs) refuse_negative(disc.radius, "a disc with a radius");
+    for (const Polyline& line : picture.polylines)
+        refuse_negative(line.width, "a polyline with a width");
+    for (const Polygon& polygon : picture.polygons)
+        refuse_negative(polygon.outline, "a polygon with an outline");
+    for (const Label& label : picture.labels) refuse_negative(label.size, "a label with a size");
 }
 
 }  // namespace oiler

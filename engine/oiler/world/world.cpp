@@ -47,7 +47,7 @@ World& World::operator=(const World& other) {
     return *this;
 }
 
-World& World::operator=(World&& other) noexcept {
+World& World::operator=(World&& other) {
     require(visits_ == 0 && other.visits_ == 0,
             "a world is not replaced inside its own each; restart after it, or with Loop::restart");
     settings_ = other.settings_;
@@ -66,7 +66,7 @@ World& World::operator=(World&& other) noexcept {
 Entity World::create() { return slots_.take<Entity>(); }
 
 void World::destroy(Entity entity) {
-    require(alive(entity), gone);
+    require_of(entity, alive(entity), "destroy", gone);
     for (const TaggedPool& entry : pools_) erase(*entry.pool, entity.index);
     if (has_body(entity)) remove_body(entity);
     slots_.release(entity.index);
@@ -112,7 +112,7 @@ bool World::has_body(Entity entity) const {
 }
 
 std::size_t World::row(Entity entity) const {
-    require(has_body(entity), "the entity has no body, or is gone");
+    require_of(entity, has_body(entity), "the body", no_body);
     return rows_.place(entity.index);
 }
 
@@ -120,6 +120,10 @@ Entity World::entity_of_row(std::size_t row) const {
     require(row < rows_.size() && rows_[row] != SlotSet::absent,
             "there is no body in this row, or it was removed in this each");
     return {rows_[row], slots_.generation(rows_[row])};
+}
+
+void World::throw_mistake(const char* call, Entity entity, const char* what) const {
+    throw Mistake(fmt::format("{} of entity {} at tick {}: {}", call, entity.index, tick_, what));
 }
 
 void World::refuse(const char* call, const Error& error) const {

@@ -35,9 +35,9 @@ struct Settings {
 /// Entities, their components and their moving bodies. It is a value: a copy is a snapshot, and the
 /// copy and the original step to the same bits.
 ///
-/// `alive` and `find` accept handles of destroyed entities. Any other use of such a handle ends the
-/// program with a line that names the mistake. Handles belong to a value: after a snapshot is taken
-/// back, those made since it may name other entities and links.
+/// `alive` and `find` accept handles of destroyed entities. Any other use of such a handle throws
+/// Mistake with call, entity and tick, and changes nothing. Handles belong to a value: after a
+/// snapshot is taken back, those made since it may name other entities and links.
 class World {
 public:
     explicit World(int axes, const Settings& settings = {});
@@ -45,7 +45,7 @@ public:
     World(const World& other);
     World& operator=(const World& other);
     World(World&&) noexcept = default;
-    World& operator=(World&& other) noexcept;
+    World& operator=(World&& other);
     ~World() = default;
 
     [[nodiscard]] Entity create();
@@ -59,13 +59,13 @@ public:
     template <class T>
     T& add(Entity entity, T component) {
         static_assert(std::movable<T>, "a component must be movable");
-        require(alive(entity), gone);
-        require(!find<T>(entity), "the entity has a component of this type already");
+        require_of(entity, alive(entity), "add", gone);
+        require_of(entity, !find<T>(entity), "add", "it has a component of this type already");
         return pool<T>().add(entity.index, std::move(component));
     }
     template <class T>
     void remove(Entity entity) {
-        require(find<T>(entity), "the entity has no component of this type");
+        require_of(entity, find<T>(entity), "remove", no_component);
         erase(pool<T>(), entity.index);
     }
     /// Null if the entity has none, or is destroyed.
@@ -81,7 +81,7 @@ public:
     template <class T>
     [[nodiscard]] T& get(Entity entity) {
         T* const found = find<T>(entity);
-        require(found, "the entity has no component of this type, or is gone");
+        require_of(entity, found, "get", no_component);
         return *found;
     }
     template <class T>
@@ -143,8 +143,8 @@ public:
     /// Gives the entity a moving body with at most one force of each kind.
     template <BodyForce... Force>
     void add_body(Entity entity, const Body& body, const Force&... force) {
-        require(alive(entity), gone);
-        require(!has_body(entity), "the entity has a body already");
+        require_of(entity, alive(entity), "add_body", gone);
+        require_of(entity, !has_body(entity), "add_body", "it has a body already");
         placed("add_body", [&] { bodies_.add(body, force...); });
         rows_.add(entity.index);
     }
@@ -295,7 +295,15 @@ public:
     [[nodiscard]] std::vector<std::string> unhashed() const;
 
 private:
-    static constexpr const char* gone = "the entity is gone";
+    static constexpr const char* gone = "it is gone";
+    static constexpr const char* no_body = "it has no body, or is gone";
+    static constexpr const char* no_component = "it has no component of this type, or is gone";
+
+    void require_of(Entity entity, bool holds, const char* call, const char* what) const {
+        if (!holds) [[unlikely]]
+            throw_mistake(call, entity, what);
+    }
+    [[noreturn]] void throw_mistake(const char* call, Entity entity, const char* what) const;
 
     /// The address identifies the type.
     template <class T>
@@ -362,9 +370,9 @@ private:
     /// Calls f(row) and adds call, tick and entity to its errors.
     template <class F>
     void change(const char* call, Entity entity, F f) {
-        const std::size_t place = row(entity);
+        require_of(entity, has_body(entity), call, no_body);
         try {
-            f(place);
+            f(rows_.place(entity.index));
         } catch (const Error& error) {
             refuse(call, entity, error);
         }
