@@ -51,6 +51,8 @@ TEST(Keys, NameTheWrongLine) {
                 "aim = {negative = [\"A\"], positive = [\"D\"]}"},
           Wrong{"aim.postive = [\"A\"]", "did you mean `positive`?"},
           Wrong{"aim.positive = \"A\"", "positive: expected a list of buttons"},
+          Wrong{"aim = {negative = [\"A\"], positive = [\"D\", \"A\"]}",
+                "aim: A is negative and positive"},
           Wrong{"aim.stick = \"middle\"", "expected left_x, left_y"},
           Wrong{"fire = [\"F5\"]", "F5 belongs to the loop"},
           Wrong{"fire = [\"A\", \"a\"]", "A comes twice"},
@@ -174,7 +176,7 @@ TEST_F(PlayedKeys, OfADamagedHeaderAreRefused) {
                   std::string::npos);
     }
     std::string old = text;
-    put(path("b"), old.replace(old.find("OILERREC 2"), 10, "OILERREC 1"));
+    put(path("b"), old.replace(old.find("OILERREC 3"), 10, "OILERREC 2"));
     EXPECT_NE(
         line_of_error(Exit::usage, [&] { (void)read_recording(path("b")); }).find("another format"),
         std::string::npos);

@@ -109,6 +109,8 @@ TEST(Script, NamesTheWrongLine) {
                                Wrong{"1 text hello", "in quotes"},
                                Wrong{"1 text \"hello", "no quote at its end"},
                                Wrong{"1 text \"a\" b", "'b' is too much"},
+                               Wrong{R"(1 text "a\qb")", R"(write \\ for one \)"},
+                               Wrong{"1 text \"a\xFF\"", "it is not UTF-8"},
                                Wrong{"1 release A", "A is not down then"},
                                Wrong{"1 hold A\n2 release A\n2 release A", "A is not down then"},
                                Wrong{"1 press A\n2 hold A\n3 hold A", "A is down already then"},
@@ -120,6 +122,19 @@ TEST(Script, NamesTheWrongLine) {
         EXPECT_NE(line.find(wrong.said), std::string::npos) << line;
         EXPECT_TRUE(line.starts_with("a.txt, line ")) << line;
     }
+}
+
+TEST(Script, BeginsWithoutAByteOrderMark) {
+    EXPECT_EQ(line_of_error(Exit::usage,
+                            [] {
+                                (void)parse_script(
+                                    "\xEF\xBB\xBF"
+                                    "1 press A",
+                                    "a.txt");
+                            }),
+              "a.txt, line 1: it begins with a byte order mark; save it as UTF-8 without one");
+    EXPECT_EQ(parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt").at(0).text,
+              "\"\\\xEF\xBF\xBD");
 }
 
 // Space adds 15 m/s before a step, in numbers and in frames alike.

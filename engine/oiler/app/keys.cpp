@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::string_view no_stick = "none";
 
+bool has(const Buttons& buttons, Button button) {
+    return std::find(buttons.begin(), buttons.end(), button) != buttons.end();
+}
+
 /// Changes controls as the values of a document say.
 class KeysReader {
 public:
@@ -64,6 +68,10 @@ private:
                 refuse(at(part), "{}: an axis has negative, positive and stick{}",
                        printable(part.key), did_you_mean(part.key, parts));
         }
+        for (const Button button : axis.negative)
+            if (has(axis.positive, button))
+                refuse(at(item), "{}: {} is negative and positive; name it once", item.key,
+                       name_of(button));
     }
     [[nodiscard]] Buttons read_buttons(const Value& list) const {
         if (list.kind != ValueKind::list)
@@ -75,7 +83,7 @@ private:
         Buttons buttons;
         for (const Value& item : list.items) {
             const Button button = read_button(item);
-            if (std::find(buttons.begin(), buttons.end(), button) != buttons.end())
+            if (has(buttons, button))
                 refuse(at(item), "{}: {} comes twice; name it once", list.key, name_of(button));
             buttons.add(button);
         }

@@ -173,6 +173,8 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
             if (path.name != "SCENE" && app.get_option_no_throw(path.name) != nullptr &&
                 app.count(path.name) > 0 && path.path.empty())
                 fail(Exit::usage, "{}: give a path", path.name);
+    if (options.record == "-")
+        fail(Exit::usage, "--record -: a recording is written to a file; give a name");
     std::erase_if(inputs, [](const NamedPath& input) {
         return input.path.empty() || (input.name == "--script" && input.path == "-");
     });

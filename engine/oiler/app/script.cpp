@@ -10,6 +10,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
@@ -62,9 +63,11 @@ public:
         std::string text;
         std::size_t at = 1;
         for (; at < rest_.size() && rest_[at] != '"'; ++at) {
-            if (rest_[at] == '\\' && at + 1 < rest_.size() &&
-                (rest_[at + 1] == '"' || rest_[at + 1] == '\\'))
+            if (rest_[at] == '\\') {
                 ++at;
+                if (at >= rest_.size() || (rest_[at] != '"' && rest_[at] != '\\'))
+                    refuse("a \\ stands before \" or \\ only; write \\\\ for one \\");
+            }
             text.push_back(rest_[at]);
         }
         if (at >= rest_.size()) refuse("the text has no quote at its end");
@@ -170,11 +173,15 @@ void follow(const ScriptLine& line, HeldButtons& held, const LineWords& words) {
 
 std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
     std::vector<ScriptLine> lines;
+    if (text.starts_with("\xEF\xBB\xBF"))
+        fail(Exit::usage,
+             "{}, line 1: it begins with a byte order mark; save it as UTF-8 without one", name);
     std::istringstream input(text);
     std::string line;
     HeldButtons held;
     for (int number = 1; std::getline(input, line); ++number) {
         LineWords words(line, fmt::format("{}, line {}", name, number));
+        if (!is_utf8(line)) words.refuse("it is not UTF-8; save the file as UTF-8");
         if (words.empty()) continue;
         lines.push_back(parse_line(words));
         if (lines.size() > 1 && lines.back().step < lines[lines.size() - 2].step)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/what_if_settings.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 
@@ -33,6 +34,7 @@ void require_first(bool& named, const std::string& word) {
 
 void apply_word(const std::string& word, Stepping& stepping, Named& named) {
     const char* const end = word.data() + word.size();
+    if (word.empty()) fail(Exit::usage, "a word is empty");
     std::int64_t rate = 0;
     const auto [last, error] = std::from_chars(word.data(), end, rate);
     if (error == std::errc() && last == end) {
@@ -79,8 +81,11 @@ bool is_applicable(const Settings& settings, const MakeGame& make) {
 
 std::vector<Stepping> parse_what_if(const std::string& words, const Stepping& recorded) {
     std::vector<Stepping> steppings;
-    for (const std::string& setting : split(words, ','))
+    for (const std::string& setting : split(words, ',')) {
         steppings.push_back(parse_setting(setting, recorded));
+        if (std::ranges::count(steppings, steppings.back()) > 1)
+            fail(Exit::usage, "--what-if {}: it comes twice; name it once", setting);
+    }
     return steppings;
 }
 

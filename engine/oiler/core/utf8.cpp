@@ -54,4 +54,13 @@ std::u32string decode_utf8(std::string_view text) {
     return codes;
 }
 
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t before = text.size();
+        // A bad byte is replaced alone; the replacement itself has three bytes.
+        if (take(text) == replacement && before - text.size() == 1) return false;
+    }
+    return true;
+}
+
 }  // namespace oiler

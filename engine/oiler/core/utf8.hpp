@@ -10,4 +10,7 @@ namespace oiler {
 /// label shows where its bad bytes are.
 [[nodiscard]] std::u32string decode_utf8(std::string_view text);
 
+/// Whether all bytes are in well-formed sequences.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 }  // namespace oiler
