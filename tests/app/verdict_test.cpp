@@ -76,21 +76,21 @@ TEST(Verdict, NamesReadingsAtRestFirst) {
     WhatIf result = measured(0.04, 0.002, 0.001);
     result.runs[0].readings = {{"apex", 1.95, "m"}, {"score", 3}, {"speed", 5, "m/s"}};
     result.reference.readings = {{"apex", 2.025, "m"}, {"score", 4}, {"speed", 5.001, "m/s"}};
-    result.half.readings = result.reference.readings;
+    result.check.readings = result.reference.readings;
     EXPECT_EQ(judge(result).text.find("apex"), std::string::npos) << "it may still grow";
     EXPECT_EQ(judge(result, result.runs[0].readings).text,
               "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
               "velocity_verlet: 2 mm off, +0.3 µs a frame.");
     result.reference.readings[0].value = 1.9;
-    result.half.readings[0].value = 1.9;
+    result.check.readings[0].value = 1.9;
     EXPECT_NE(judge(result, result.runs[0].readings).text.find("5 cm too high"), std::string::npos);
-    result.half.readings[0].value = 1.906;
+    result.check.readings[0].value = 1.906;
     EXPECT_EQ(judge(result, result.runs[0].readings).text.find("apex"), std::string::npos)
         << "the reference is unsure by 6 mm";
-    result.reference.readings[0].value = result.half.readings[0].value = 1.955;
+    result.reference.readings[0].value = result.check.readings[0].value = 1.955;
     EXPECT_EQ(judge(result, result.runs[0].readings).text.find("apex"), std::string::npos)
         << "no more than a pixel";
-    result.reference.readings[2].value = result.half.readings[2].value = 4;
+    result.reference.readings[2].value = result.check.readings[2].value = 4;
     EXPECT_NE(
         judge(result, result.runs[0].readings).text.find("speed 5 m/s, true 4 m/s: 1 m/s too"),
         std::string::npos);

@@ -90,7 +90,8 @@ std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
 PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const MakeGame& make)
     : result_{.stepping = stepping},
       inputs_(*options.replay, stepping.rate, options.controls),
-      ratio_(options.replay->header.stepping.rate, stepping.rate) {
+      recorded_rate_(options.replay->header.stepping.rate),
+      ratio_(recorded_rate_, stepping.rate) {
     Settings settings = options.settings;
     settings.stepping = stepping;
     game_ = make(settings);
@@ -124,11 +125,18 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
         return;
     }
     differs_from_.reset();
-    if (apart->distance > result_.distance) {
+    if (recorded > 0 && !(apart->distance <= result_.distance)) {
         result_.distance = apart->distance;
         result_.furthest = apart->body;
     }
     if (apart->distance > visible && !result_.visible_from) result_.visible_from = time;
+}
+
+void PlayedRun::read(std::int64_t recorded, const std::vector<Reading>& truth) {
+    if (failed() || !ratio_.has(recorded)) return;
+    result_.readings = game_->readings();
+    result_.true_readings = truth;
+    result_.read_at = recorded_rate_.time(recorded);
 }
 
 void PlayedRun::time_picture() {
@@ -153,7 +161,6 @@ WhatIfRun PlayedRun::finish() const {
                     .step = steps_per_frame * typical(world_steps_),
                     .picture = typical(pictures_)};
     if (!drawings_.empty()) result.costs.draw = typical(drawings_);
-    result.readings = game_->readings();
     return result;
 }
 

@@ -49,10 +49,14 @@ public:
     /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
     /// this run begins then, too. A larger distance than `visible`, m, can be seen.
     void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
+    /// Reads the game as that recorded step begins, if a step of this run begins then, too.
+    /// `truth` are the readings of the reference.
+    void read(std::int64_t recorded, const std::vector<Reading>& truth);
     void time_picture();
     void time_drawing(DrawTimer& draw);
 
     [[nodiscard]] const AnyGame& game() const { return *game_; }
+    [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const WhatIfRun& result() const { return result_; }
     /// Whether the play was another one at the last time of comparison.
     [[nodiscard]] bool differs() const { return differs_from_.has_value(); }
@@ -65,6 +69,7 @@ private:
 
     WhatIfRun result_;
     ResampledInput inputs_;
+    Rate recorded_rate_;
     StepRatio ratio_;
     StepTimes times_;
     std::unique_ptr<AnyGame> game_;

@@ -17,13 +17,15 @@ namespace oiler {
 namespace {
 
 constexpr std::string_view magic = "OILERREC ";
-constexpr std::string_view format = "2\n";
+constexpr std::string_view format = "3\n";
 // After the kinds of events.
 constexpr std::uint8_t state_record = 16;
 constexpr std::uint8_t end_record = 17;
+constexpr std::uint8_t quit_record = 18;
 constexpr std::size_t largest_chunk = 64 * 1024;
-constexpr std::size_t chunk_head = 12;
-constexpr std::size_t most_bodies_hashed_each_step = 1000;
+constexpr std::size_t seal_size = 8;
+constexpr std::size_t chunk_head = 4 + seal_size;
+constexpr std::size_t bodies_hashed_per_step = 1000;
 
 void append_bytes(std::string& bytes, std::uint64_t number, unsigned count) {
     for (unsigned i = 0; i < count; ++i)
@@ -36,12 +38,6 @@ std::uint64_t take_bytes(std::string_view& bytes, unsigned count) {
     bytes.remove_prefix(count);
     return number;
 }
-std::uint64_t hash_of(std::string_view bytes) {
-    StateHash hash;
-    hash.add(std::as_bytes(std::span(bytes)));
-    return hash.value();
-}
-
 Json to_json(const Buttons& buttons) {
     Json names = Json::array();
     for (const Button button : buttons) names.push_back(name_of(button));
@@ -85,6 +81,12 @@ RecordedControl control_from(const nlohmann::json& json) {
     if (!stick.empty()) axis.stick = find_stick(stick).value();
     return axis;
 }
+template <class Value>
+Value named(const std::string& name, std::initializer_list<Value> values) {
+    for (const Value value : values)
+        if (name_of(value) == name) return value;
+    throw std::invalid_argument(name);
+}
 RecordingHeader header_from(const std::string& line) {
     const auto json = nlohmann::json::parse(line);
     RecordingHeader header{.game = json.at("game"),
@@ -98,10 +100,9 @@ RecordingHeader header_from(const std::string& line) {
     stepping.method = &find_method(std::string(json.at("method")));
     stepping.rate = {json.at("rate")};
     if (stepping.rate.steps < 1) throw std::invalid_argument("rate");
-    stepping.precision = json.at("precision") == "float" ? Precision::single : Precision::double_;
+    stepping.precision = named(json.at("precision"), {Precision::single, Precision::double_});
     const std::string damping = json.at("damping");
-    if (!damping.empty())
-        stepping.damping = damping == "kick" ? Damping::in_kick : Damping::in_drift;
+    if (!damping.empty()) stepping.damping = named(damping, {Damping::in_kick, Damping::in_drift});
     return header;
 }
 
@@ -121,10 +122,11 @@ std::string read_records(std::string_view bytes, Recording& recording, std::int6
         if (!since || *since > std::uint64_t{1} << 40U || bytes.empty()) return "a step is damaged";
         step += static_cast<std::int64_t>(*since);
         const auto kind = static_cast<std::uint8_t>(bytes.front());
-        if (kind == state_record || kind == end_record) {
+        if (kind >= state_record && kind <= quit_record) {
             bytes.remove_prefix(1);
-            if (kind == end_record) {
+            if (kind != state_record) {
                 recording.complete = true;
+                recording.quits = kind == quit_record;
                 recording.steps = step;
                 continue;
             }
@@ -142,16 +144,46 @@ std::string read_records(std::string_view bytes, Recording& recording, std::int6
     return "";
 }
 
-/// An empty file, with its folder.
-std::ofstream opened(const std::filesystem::path& path) {
-    if (path.has_parent_path()) make_folder(path.parent_path());
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+std::ofstream opened(const std::filesystem::path& path, std::ios::openmode mode) {
+    std::ofstream file(path, std::ios::binary | mode);
     const int reason = errno;
     if (!file)
         fail(exit_of_open(reason), "--record {}: cannot be written: {}; give another file",
              path.string(), system_reason(reason));
     return file;
 }
+
+/// Makes the folder of a file. The file stays as it is.
+void require_recordable(const std::filesystem::path& path) {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    const bool is_old = std::filesystem::exists(path);
+    (void)opened(path, std::ios::app);
+    if (!is_old) std::filesystem::remove(path);
+}
+
+/// A file that is read from its begin, with the hash of what was read.
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : rest_(bytes) {}
+
+    [[nodiscard]] std::string_view rest() const { return rest_; }
+    std::string_view take(std::size_t count) {
+        const std::string_view bytes = rest_.substr(0, count);
+        rest_.remove_prefix(bytes.size());
+        read_.add(std::as_bytes(std::span(bytes)));
+        return bytes;
+    }
+    /// Whether a seal is that of all before it.
+    bool take_seal() {
+        const std::uint64_t hash = read_.value();
+        std::string_view seal = take(seal_size);
+        return take_bytes(seal, seal_size) == hash;
+    }
+
+private:
+    std::string_view rest_;
+    StateHash read_;
+};
 
 }  // namespace
 
@@ -188,10 +220,17 @@ PartHashes part_hashes(const AnyGame& game) {
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header)
     : path_(path),
-      file_(opened(path)),
+      head_(fmt::format("{}{}{}\n", magic, format, to_json(header).dump(-1))),
       steps_per_second_(
           std::max<std::int64_t>(1, header.stepping.rate.steps / header.stepping.rate.seconds)) {
-    file_ << magic << format << to_json(header).dump(-1) << '\n' << std::flush;
+    require_recordable(path);
+}
+
+void RecordingWriter::begin_file() {
+    if (file_.is_open()) return;
+    file_ = opened(path_, std::ios::trunc);
+    write(head_);
+    file_ << std::flush;
 }
 
 void RecordingWriter::begin_record(std::int64_t step) {
@@ -200,6 +239,7 @@ void RecordingWriter::begin_record(std::int64_t step) {
 }
 
 void RecordingWriter::add(std::int64_t step, const Input& input) {
+    begin_file();
     for (const InputEvent& event : events_between(before_, input)) {
         begin_record(step);
         append(records_, event);
@@ -209,31 +249,54 @@ void RecordingWriter::add(std::int64_t step, const Input& input) {
 
 void RecordingWriter::add_state(std::int64_t step, const AnyGame& game) {
     const bool ends_second = (step + 1) % steps_per_second_ == 0;
-    if (ends_second || game.world().bodies().size() <= most_bodies_hashed_each_step) {
-        const PartHashes hashes = part_hashes(game);
-        begin_record(step);
-        records_.push_back(static_cast<char>(state_record));
-        append_bytes(records_, hashes.bodies, 2);
-        append_bytes(records_, hashes.whole, 2);
-    }
+    const auto stride =
+        static_cast<std::int64_t>(1 + game.world().bodies().size() / (bodies_hashed_per_step + 1));
+    if (ends_second || (step + 1) % stride == 0) add_hashes(step, game);
     if (ends_second || records_.size() > largest_chunk / 2) write_chunk();
 }
 
-void RecordingWriter::finish(std::int64_t steps) {
+void RecordingWriter::add_hashes(std::int64_t step, const AnyGame& game) {
+    const PartHashes hashes = part_hashes(game);
+    begin_record(step);
+    records_.push_back(static_cast<char>(state_record));
+    append_bytes(records_, hashes.bodies, 2);
+    append_bytes(records_, hashes.whole, 2);
+    hashed_step_ = step;
+}
+
+void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diverged) {
+    const bool quits = game.loop().quits();
+    // A game that quits has changed in the update that did it.
+    if (!quits && !diverged && hashed_step_ < steps - 1) add_hashes(steps - 1, game);
     begin_record(std::max(steps, last_step_));
-    records_.push_back(static_cast<char>(end_record));
+    records_.push_back(static_cast<char>(quits ? quit_record : end_record));
     write_chunk();
 }
 
 void RecordingWriter::write_chunk() {
-    std::string head;
-    append_bytes(head, records_.size(), 4);
-    append_bytes(head, hash_of(records_), 8);
-    file_ << head << records_ << std::flush;
+    begin_file();
+    std::string size;
+    append_bytes(size, records_.size(), 4);
+    write(size);
+    write_seal();
+    write(records_);
+    write_seal();
+    file_ << std::flush;
     if (!file_)
         fail(Exit::io, "--record {}: cannot be written; free disk space, or give another file",
              path_.string());
     records_.clear();
+}
+
+void RecordingWriter::write(std::string_view bytes) {
+    file_ << bytes;
+    written_.add(std::as_bytes(std::span(bytes)));
+}
+
+void RecordingWriter::write_seal() {
+    std::string seal;
+    append_bytes(seal, written_.value(), seal_size);
+    write(seal);
 }
 
 Recording read_recording(const std::filesystem::path& path) {
@@ -241,31 +304,36 @@ Recording read_recording(const std::filesystem::path& path) {
     const auto refuse = [&](std::string_view why) {
         fail(Exit::usage, "--replay {}: {}", path.string(), why);
     };
-    std::string_view bytes(text);
-    if (!bytes.starts_with(magic)) refuse("it is no recording; give a file of --record");
-    bytes.remove_prefix(magic.size());
-    if (!bytes.starts_with(format)) refuse("it has another format; use the Oiler that wrote it");
-    bytes.remove_prefix(format.size());
+    Reader reader(text);
+    if (reader.take(magic.size()) != magic) refuse("it is no recording; give a file of --record");
+    if (reader.take(format.size()) != format)
+        refuse("it has another format; use the Oiler that wrote it");
     Recording recording;
-    const std::size_t end_of_header = bytes.find('\n');
+    const std::size_t end_of_header = reader.rest().find('\n');
     try {
-        recording.header = header_from(std::string(bytes.substr(0, end_of_header)));
+        recording.header = header_from(std::string(reader.take(end_of_header)));
     } catch (const std::exception&) {
         refuse("its second line is damaged; record again");
     }
-    bytes.remove_prefix(std::min(end_of_header, bytes.size() - 1) + 1);
+    (void)reader.take(1);
     std::int64_t step = 0;
-    while (bytes.size() >= chunk_head) {
-        const std::uint64_t size = take_bytes(bytes, 4);
-        const std::uint64_t hash = take_bytes(bytes, 8);
-        if (size > bytes.size()) break;  // the program was killed here
-        if (hash_of(bytes.substr(0, size)) != hash)
+    while (!reader.rest().empty() && !recording.complete) {
+        const auto refuse_damage = [&] {
             refuse(fmt::format("it is damaged after step {}; record again", step));
-        const std::string wrong = read_records(bytes.substr(0, size), recording, step);
+        };
+        if (reader.rest().size() < chunk_head) break;  // the program was killed here
+        std::string_view size_bytes = reader.take(4);
+        const std::uint64_t size = take_bytes(size_bytes, 4);
+        if (!reader.take_seal()) refuse_damage();
+        if (reader.rest().size() < size + seal_size) break;
+        const std::string_view records = reader.take(size);
+        if (!reader.take_seal()) refuse_damage();
+        const std::string wrong = read_records(records, recording, step);
         if (!wrong.empty()) refuse(fmt::format("{} after step {}; record again", wrong, step));
-        bytes.remove_prefix(size);
-        if (recording.complete && !bytes.empty()) refuse("it goes on after its end; record again");
     }
+    if (recording.complete && !reader.rest().empty())
+        refuse("it goes on after its end; record again");
+    if (recording.steps == 0) refuse("it ends before its first step; record again");
     return recording;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "oiler/app/game.hpp"
+#include "oiler/core/state_hash.hpp"
 #include "oiler/input/input_event.hpp"
 #include "oiler/physics/stepping.hpp"
 
@@ -52,34 +53,41 @@ struct PartHashes {
 };
 [[nodiscard]] PartHashes part_hashes(const AnyGame& game);
 
-/// Writes a recording: a line "OILERREC 2", a line of JSON, and chunks of records. A chunk is
+/// Writes a recording: a line "OILERREC 3", a line of JSON, and chunks of records. A chunk is
 /// written at least once per second of play, so that a killed program leaves a recording up to
-/// there. A chunk has its size (4 bytes), the XXH3 hash of its records (8 bytes), and records: the
-/// steps since the last record, a byte that names the kind, and numbers. engine/README.md lists
-/// them.
+/// there. A chunk has its size (4 bytes), a seal, records, and a seal. A seal is the XXH3 hash of
+/// the file up to there (8 bytes). A record has the steps since the last one, a byte that names the
+/// kind, and numbers. engine/README.md lists them.
 class RecordingWriter {
 public:
-    /// Throws Error{io}.
+    /// An older file stays as it is until the game is stepped. Throws Error{io} or
+    /// Error{usage} if the file cannot be written.
     RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
 
     /// Records the input of a step, before it.
     void add(std::int64_t step, const Input& input);
-    /// Records the hashes after that step: of each step, or of the last in each second for a world
-    /// with more than 1000 bodies.
+    /// Records the hashes after that step, or after fewer steps of a world with more than 1000
+    /// bodies: 1000 bodies per step are hashed, and all at the end of each second.
     void add_state(std::int64_t step, const AnyGame& game);
-    /// Completes the file after `steps` steps.
-    void finish(std::int64_t steps);
+    /// Completes the file. The game is in its state after `steps` steps, unless it diverged.
+    void finish(std::int64_t steps, const AnyGame& game, bool diverged = false);
 
 private:
+    void begin_file();
     void begin_record(std::int64_t step);
+    void add_hashes(std::int64_t step, const AnyGame& game);
     void write_chunk();
+    void write(std::string_view bytes);
+    void write_seal();
 
     std::filesystem::path path_;
+    std::string head_;  ///< the first two lines
     std::ofstream file_;
+    StateHash written_;  ///< the hash of the file
     std::int64_t steps_per_second_;
+    std::int64_t hashed_step_ = -1;
     std::string records_;
     std::int64_t last_step_ = 0;
-    std::int64_t chunk_step_ = 0;
     Input before_;
 };
 
@@ -94,6 +102,7 @@ struct Recording {
     std::map<std::int64_t, PartHashes> states;  ///< after a step
     std::int64_t steps = 0;
     bool complete = false;  ///< false: the program that recorded was killed
+    bool quits = false;     ///< the game quits after these steps
 };
 
 /// Throws Error{usage} with the reason for a file that is no recording, or a damaged one.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/run.hpp"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -58,20 +58,14 @@ public:
         if (tape_) playback.watch(*tape_);
         if (replay_) playback.watch(*replay_);
     }
-    void finish(std::int64_t steps, bool quiet) {
-        if (tape_) tape_->finish(steps);
+    /// Completes the recording. Throws Error{comparison_failed} if the end of a replay is another
+    /// one, or if nothing was compared.
+    void finish(Playback& playback, const Options& options, bool diverged) {
+        if (tape_) tape_->finish(playback.steps(), playback.game(), diverged);
         if (script_ && script_->unplayed() > 0)
-            remark(quiet, "lines of the script after the last step, not played: {}",
+            remark(options.quiet, "lines of the script after the last step, not played: {}",
                    script_->unplayed());
-        if (!replay_) return;
-        const bool whole = steps >= replay_->steps();
-        const std::int64_t played = std::min(steps, replay_->steps());
-        remark(quiet, "the replay equals the recording: {} of {} steps{}{}", played,
-               replay_->steps(),
-               replay_->compared() < played
-                   ? fmt::format(", of which {} were compared", replay_->compared())
-                   : "",
-               whole && !replay_->complete() ? ", where the program that recorded was killed" : "");
+        if (replay_) finish_replay(playback, options, diverged);
     }
 
     LiveInput live;
@@ -81,6 +75,29 @@ private:
         if (replay_) return *replay_;
         if (script_) return *script_;
         return live;
+    }
+
+    void finish_replay(Playback& playback, const Options& options, bool diverged) {
+        const std::int64_t steps = std::min(playback.steps(), replay_->steps());
+        const bool whole = steps == replay_->steps();
+        // A game that quits does it in the update of a step that it does not take.
+        if (replay_->quits() && whole && !diverged) playback.step_to(steps + 1, *replay_);
+        replay_->compare_end(playback.steps(), playback.loop().quits());
+        if (steps > 0 && replay_->compared() == 0)
+            fail(Exit::comparison_failed,
+                 "{}: none of the {} steps was compared, because the recording has no state of "
+                 "them; replay more of it",
+                 options.replay_file.string(), steps);
+        remark(options.quiet, "the replay equals the recording: {} of {} steps{}{}", steps,
+               replay_->steps(),
+               replay_->compared() < steps
+                   ? fmt::format(", of which {} were compared", replay_->compared())
+                   : "",
+               whole && !replay_->complete() ? ", where the program that recorded was killed" : "");
+        const std::vector<std::string> unhashed = playback.world().unhashed();
+        if (!unhashed.empty())
+            remark(options.quiet, "not compared, because they have no hash(): {}",
+                   fmt::join(unhashed, ", "));
     }
 
     std::optional<ScriptInput> script_;
@@ -184,8 +201,8 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     player.watch(playback);
     Exit exit = play(playback, player, options, about, make, report, stages);
+    player.finish(playback, options, !report.divergence.empty());
     recorder.commit();
-    player.finish(playback.steps(), options.quiet);
     if (profile) write_file(options.profile, profile->to_json());
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",

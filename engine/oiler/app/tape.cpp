@@ -28,4 +28,17 @@ void Replay::after(std::int64_t step, const AnyGame& game) {
          step + 1, equal_until_ + 1);
 }
 
+void Replay::compare_end(std::int64_t steps, bool quits) const {
+    const std::int64_t end = recording_.steps;
+    if (quits && steps < end)
+        fail(Exit::comparison_failed,
+             "{}: the replay differs: the game quits after step {}, in the recording {}", name_,
+             steps, recording_.quits ? fmt::format("after step {}", end) : "it does not");
+    if (recording_.quits && steps > end)
+        fail(Exit::comparison_failed,
+             "{}: the replay differs: the game goes on after step {}, where it quits in the "
+             "recording",
+             name_, end);
+}
+
 }  // namespace oiler

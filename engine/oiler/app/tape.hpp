@@ -28,7 +28,9 @@ public:
         return input;
     }
     void after(std::int64_t step, const AnyGame& game) override { writer_.add_state(step, game); }
-    void finish(std::int64_t steps) { writer_.finish(steps); }
+    void finish(std::int64_t steps, const AnyGame& game, bool diverged = false) {
+        writer_.finish(steps, game, diverged);
+    }
 
 private:
     InputSource& inputs_;
@@ -44,7 +46,11 @@ public:
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Throws Error{comparison_failed} with the first step that differs, and in which part.
     void after(std::int64_t step, const AnyGame& game) override;
+    /// Throws Error{comparison_failed} if a game that has taken `steps` steps quits before it did
+    /// in the recording, or goes on where it quit there.
+    void compare_end(std::int64_t steps, bool quits) const;
     [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
+    [[nodiscard]] bool quits() const { return recording_.quits; }
     /// The number of steps whose states were compared: of many bodies, one per second.
     [[nodiscard]] std::int64_t compared() const { return compared_; }
     [[nodiscard]] bool complete() const { return recording_.complete; }

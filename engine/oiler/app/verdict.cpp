@@ -32,7 +32,7 @@ const WhatIfRun* cure(const WhatIf& measured) {
     const WhatIfRun* cheapest = nullptr;
     for (std::size_t i = 1; i < measured.runs.size(); ++i) {
         const WhatIfRun& run = measured.runs[i];
-        if (!is_sound(run) || run.distance > measured.pixel) continue;
+        if (!is_sound(run) || !(run.distance <= measured.pixel)) continue;
         if (!cheapest || cost(run) < cost(*cheapest)) cheapest = &run;
     }
     return cheapest;
@@ -58,15 +58,15 @@ std::string cure_text(const WhatIf& measured) {
 const Reading* worst_reading(const WhatIf& measured, const std::vector<Reading>& before) {
     const std::vector<Reading>& played = measured.runs.front().readings;
     const std::vector<Reading>& truth = measured.reference.readings;
-    const std::vector<Reading>& half = measured.half.readings;
-    const std::size_t count = std::min({played.size(), truth.size(), half.size()});
+    const std::vector<Reading>& check = measured.check.readings;
+    const std::size_t count = std::min({played.size(), truth.size(), check.size()});
     const Reading* worst = nullptr;
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i) {
         if (played[i].unit.empty() || played[i].name != truth[i].name) continue;
         if (i >= before.size() || before[i] != played[i]) continue;
         const double off = std::abs(played[i].value - truth[i].value);
-        const double unsure = least_certain * std::abs(half[i].value - truth[i].value);
+        const double unsure = least_certain * std::abs(check[i].value - truth[i].value);
         const bool is_seen = played[i].unit == "m"
                                  ? off > measured.pixel
                                  : off > least_difference * std::abs(truth[i].value);
@@ -104,7 +104,7 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
     const WhatIfRun& played = measured.runs.front();
     const std::string setting = setting_text(played.stepping);
     if (!played.failure.empty()) return {Grade::bad, played.failure + cure_text(measured)};
-    if (!(measured.certain_until > 0))
+    if (!(measured.certain_until > 0) || (std::isnan(played.distance) && !played.other_play_from))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
     const std::string limit =
         measured.certain_until < measured.duration - 1

@@ -14,7 +14,8 @@
 
 namespace oiler {
 
-/// The time that a frame takes at 60 frames per second, ns; means without the fastest and the slowest quarter.
+/// The time that a frame takes at 60 frames per second, ns; means without the fastest and the
+/// slowest quarter.
 struct FrameCosts {
     double update = 0;
     double step = 0;
@@ -25,15 +26,20 @@ struct FrameCosts {
 /// A recording played with another setting, compared with the reference.
 struct WhatIfRun {
     Stepping stepping;
-    /// The largest distance of a body from the same body of the reference, m.
-    double distance = 0;
+    /// The largest distance of a body from the same body of the reference, m; NaN if none was
+    /// compared after the beginning.
+    double distance = std::numeric_limits<double>::quiet_NaN();
     Entity furthest{};  ///< that body
     /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
     std::optional<double> other_play_from{};
     std::string failure{};  ///< the error that ended the run; empty: none
+    /// The readings at the end of the last recorded step that the run has, too, and those of the
+    /// reference then.
     std::vector<Reading> readings{};
+    std::vector<Reading> true_readings{};
+    double read_at = 0;  ///< s
     FrameCosts costs{};
 };
 
@@ -41,10 +47,10 @@ struct WhatIfRun {
 struct WhatIf {
     double duration = 0;            ///< s
     double certain_until = 0;       ///< s, the time until which distances are counted
-    double uncertainty = 0;         ///< m, the distance of `half` from the reference until then
+    double uncertainty = 0;         ///< m, the distance of `check` from the reference until then
     double pixel = 0;               ///< m, at the end
     WhatIfRun reference;            ///< the finest run
-    WhatIfRun half;                 ///< the reference at half its rate
+    WhatIfRun check;                ///< the reference at another rate
     std::vector<WhatIfRun> runs{};  ///< the recorded setting first
 };
 
@@ -52,11 +58,12 @@ struct WhatIf {
 inline constexpr double least_certain = 10;
 
 /// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
-/// its rate, at least at 960 Hz. All runs go through the recording together and are compared at each recorded step that
-/// a run has, too. Bodies are the same if their entities are. The play is another one once bodies,
-/// teleports, restarts or whole-number readings have differed for 0.25 s: a shorter difference is a
-/// delay. The reference is uncertain once a run at half its rate is another play, or further away
-/// than a pixel. A pixel is 1/720 of the height that the camera of the reference shows then.
+/// its rate, at least at 960 Hz. All runs go through the recording together and are compared at
+/// each recorded step that a run has, too. Bodies are the same if their entities are. The play is
+/// another one once bodies, teleports, restarts or whole-number readings have differed for 0.25 s:
+/// a shorter difference is a delay. The reference is uncertain once a run at 7/16 of its rate is
+/// another play, or further away than a pixel. A pixel is 1/720 of the height that the camera of
+/// the reference shows then.
 ///
 /// Empty if interrupted. Without `draw`, drawing is not timed. Throws Error{comparison_failed} if
 /// the recorded setting does not reproduce the recording, and Error{diverged} if the reference

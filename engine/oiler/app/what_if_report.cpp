@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* legend = R"(
 distance: largest distance of a body from the same body of the reference, at the recorded steps.
+readings: at the end, or at the last recorded step that a setting has, too, and what they are off there.
 1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines.
 other play: the time from which bodies, restarts or counts differ; nothing later is counted.
 ns per frame: at 60 frames per second, means without the fastest and the slowest quarter.
@@ -27,8 +28,9 @@ std::string time_cell(const std::optional<double>& time) {
     return time ? fmt::format("{:.3f}", *time) : "-";
 }
 std::string cost_cell(double cost) { return std::isnan(cost) ? "-" : fmt::format("{:.0f}", cost); }
-/// Formats an error, or its limit if it is too small to be certain.
+/// Formats an error, or its limit if it is too small to be certain; NaN was not compared.
 std::string error_cell(double error, double uncertainty, bool with_sign) {
+    if (std::isnan(error)) return "-";
     const double limit = least_certain * uncertainty;
     if (std::abs(error) < limit) return fmt::format("< {:.2g}", limit);
     return with_sign && error != 0 ? fmt::format("{:+.3g}", error) : fmt::format("{:.3g}", error);
@@ -39,10 +41,16 @@ const Reading* find_reading(const std::vector<Reading>& readings, const std::str
     return found == readings.end() ? nullptr : &*found;
 }
 
-/// The uncertainty of a reading of the reference; infinite if the half rate lacks it.
-double uncertainty_of(const Reading& reading, const WhatIf& result) {
-    const Reading* const half = find_reading(result.half.readings, reading.name);
-    return half ? std::abs(half->value - reading.value) : std::numeric_limits<double>::infinity();
+/// The error of a reading, NaN if the reference lacks it.
+double error_of(const Reading& reading, const WhatIfRun& run) {
+    const Reading* const truth = find_reading(run.true_readings, reading.name);
+    return reading.value - (truth ? truth->value : std::numeric_limits<double>::quiet_NaN());
+}
+/// The uncertainty of a reading of the reference; infinite if the run that checks it lacks it.
+double uncertainty_of(const std::string& reading, const WhatIf& result) {
+    const Reading* const check = find_reading(result.check.readings, reading);
+    return check ? std::abs(error_of(*check, result.check))
+                 : std::numeric_limits<double>::infinity();
 }
 
 std::string setting_cell(const WhatIfRun& run, const WhatIf& result) {
@@ -71,11 +79,12 @@ std::string table_of_reading(const Reading& reading, const WhatIf& result) {
                                    reading.unit.empty() ? "" : ", ", reading.unit, reading.value);
     for (const WhatIfRun& run : result.runs) {
         const Reading* const own = find_reading(run.readings, reading.name);
+        const std::string error =
+            own ? error_cell(error_of(*own, run), uncertainty_of(reading.name, result), true) : "-";
         text += fmt::format(
-            "  {:<38} {:>10} {:>10}\n", setting_cell(run, result),
-            own ? fmt::format("{:.6g}", own->value) : "-",
-            own ? error_cell(own->value - reading.value, uncertainty_of(reading, result), true)
-                : "-");
+            "  {:<38} {:>10} {:>10}{}\n", setting_cell(run, result),
+            own ? fmt::format("{:.6g}", own->value) : "-", error,
+            own && run.read_at < result.duration ? fmt::format("  at {:.3f} s", run.read_at) : "");
     }
     return text;
 }
@@ -84,7 +93,7 @@ std::string text_of(const WhatIf& result, std::string_view game) {
     std::string text =
         fmt::format("{}: {:g} s of play\nreference: {}; at {} Hz it differs by {:.2g} m\n", game,
                     result.duration, describe(result.reference.stepping),
-                    result.half.stepping.rate.steps, result.uncertainty);
+                    result.check.stepping.rate.steps, result.uncertainty);
     if (result.certain_until < result.duration)
         text += fmt::format("Distances are counted until {:.3f} s: there, these two part.\n",
                             result.certain_until);
@@ -102,16 +111,15 @@ Json to_json(const Stepping& stepping) {
             {"damping", stepping.damping ? Json(name_of(*stepping.damping)) : Json()}};
 }
 
-Json to_json(const std::vector<Reading>& readings, const WhatIf& result) {
+Json readings_to_json(const WhatIfRun& run, const WhatIf& result) {
     Json all = Json::array();
-    for (const Reading& reading : readings) {
-        const Reading* const best = find_reading(result.reference.readings, reading.name);
+    for (const Reading& reading : run.readings)
         all.push_back({{"name", reading.name},
                        {"unit", reading.unit},
+                       {"time", run.read_at},
                        {"value", reading.value},
-                       {"difference", best ? Json(reading.value - best->value) : Json()},
-                       {"uncertainty", best ? Json(uncertainty_of(*best, result)) : Json()}});
-    }
+                       {"difference", error_of(reading, run)},
+                       {"uncertainty", uncertainty_of(reading.name, result)}});
     return all;
 }
 
@@ -122,7 +130,7 @@ Json to_json(const WhatIfRun& run, const WhatIf& result) {
     json["visible_from"] = time(run.visible_from);
     json["other_play_from"] = time(run.other_play_from);
     json["failure"] = run.failure.empty() ? Json() : Json(run.failure);
-    json["readings"] = to_json(run.readings, result);
+    json["readings"] = readings_to_json(run, result);
     json["ns_per_frame"] = {{"update", run.costs.update},
                             {"step", run.costs.step},
                             {"picture", run.costs.picture},
@@ -134,7 +142,7 @@ Json to_json(const WhatIf& result, std::string_view game) {
     Json reference = to_json(result.reference.stepping);
     reference["uncertainty"] = result.uncertainty;
     reference["certain_until"] = result.certain_until;
-    reference["readings"] = to_json(result.reference.readings, result);
+    reference["readings"] = readings_to_json(result.reference, result);
     Json json{{"scene", game}, {"time", result.duration}, {"reference", reference}};
     json["settings"] = Json::array();
     for (const WhatIfRun& run : result.runs) json["settings"].push_back(to_json(run, result));

@@ -13,12 +13,26 @@ constexpr std::int64_t least_factor = 16;
 constexpr std::int64_t least_rate = 960;  // Hz
 constexpr double pixels_of_height = 720;
 
-/// rk4 at `least_factor` times the recorded rate, and at least at `least_rate`, or half of that.
-Stepping reference_stepping(const Options& options, std::int64_t part) {
+/// How many steps of the reference a recorded step has, a multiple of 4: at least `least_factor`,
+/// and so many that its rate is `least_rate`.
+std::int64_t reference_factor(const Options& options) {
+    const std::int64_t recorded = options.replay->header.stepping.rate.steps;
+    const std::int64_t factor = (least_rate + recorded - 1) / recorded;
+    return std::max(least_factor, (factor + 3) / 4 * 4);
+}
+Stepping reference_stepping(const Options& options) {
     Rate rate = options.replay->header.stepping.rate;
-    const std::int64_t factor = (least_rate + rate.steps - 1) / rate.steps;
-    rate.steps *= std::max(least_factor, factor + factor % 2) / part;
+    rate.steps *= reference_factor(options);
     return {.method = &find_method("rk4"), .rate = rate};
+}
+/// A little less than half the rate of the reference: both begin a step at the same time only
+/// where a recorded one begins, so that what a game does in its updates, such as a bounce, is late
+/// by different times.
+Stepping check_stepping(const Options& options) {
+    Stepping stepping = reference_stepping(options);
+    stepping.rate = options.replay->header.stepping.rate;
+    stepping.rate.steps *= reference_factor(options) / 2 - 1;
+    return stepping;
 }
 
 }  // namespace
@@ -27,8 +41,8 @@ WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& step
                        const MakeGame& make)
     : recording_(*options.replay),
       replay_(recording_, options.replay_file.string()),
-      reference_(reference_stepping(options, 1), options, make),
-      half_(reference_stepping(options, 2), options, make) {
+      reference_(reference_stepping(options), options, make),
+      check_(check_stepping(options), options, make) {
     runs_.push_back(std::make_unique<PlayedRun>(recording_.header.stepping, options, make));
     for (const Stepping& stepping : steppings)
         runs_.push_back(std::make_unique<PlayedRun>(stepping, options, make));
@@ -37,12 +51,17 @@ WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& step
 void WhatIfRuns::play_until(std::int64_t step) {
     play_reference(step);
     for (const auto& run : runs_) run->play_until(step);
+    const std::vector<Reading> truth = reference_.game().readings();
+    for (PlayedRun* const run : {&reference_, &check_}) run->read(step, truth);
+    for (const auto& run : runs_) run->read(step, truth);
+    if (const AnyGame& game = runs_.front()->game(); game.loop().quits())
+        replay_.compare_end(runs_.front()->steps(), true);
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
     if (certain_) compare(step);
 }
 
 void WhatIfRuns::play_reference(std::int64_t step) {
-    for (PlayedRun* const run : {&reference_, &half_}) {
+    for (PlayedRun* const run : {&reference_, &check_}) {
         run->play_until(step);
         if (run->failed())
             fail(Exit::diverged, "--what-if: the reference ({}) failed: {}",
@@ -62,7 +81,7 @@ WhatIf WhatIfRuns::result() const {
                   .uncertainty = uncertainty_,
                   .pixel = pixel_,
                   .reference = reference_.finish(),
-                  .half = half_.finish()};
+                  .check = check_.finish()};
     for (const auto& run : runs_) result.runs.push_back(run->finish());
     return result;
 }
@@ -71,11 +90,11 @@ void WhatIfRuns::compare(std::int64_t step) {
     const double time = recording_.header.stepping.rate.time(step);
     const Moment moment = moment_of(reference_.game());
     pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
-    half_.compare(step, time, moment, pixel_);
-    certain_ = !half_.result().other_play_from && !half_.result().visible_from;
-    if (!certain_ || half_.differs()) return;
+    check_.compare(step, time, moment, pixel_);
+    certain_ = !check_.result().other_play_from && !check_.result().visible_from;
+    if (!certain_ || check_.differs()) return;
     certain_until_ = time;
-    uncertainty_ = half_.result().distance;
+    if (step > 0) uncertainty_ = check_.result().distance;
     for (const auto& run : runs_) run->compare(step, time, moment, pixel_ + uncertainty_);
 }
 

@@ -35,7 +35,7 @@ private:
     const Recording& recording_;
     Replay replay_;
     PlayedRun reference_;
-    PlayedRun half_;  ///< the reference at half its rate
+    PlayedRun check_;  ///< the reference at another rate
     std::vector<std::unique_ptr<PlayedRun>> runs_;
     bool certain_ = true;
     double certain_until_ = 0;  ///< s

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A replay that ends as its recording does, or says what differs.
+#include <gtest/gtest.h>
+
+#include "oiler/app/game.hpp"
+#include "oiler/app/loops.hpp"
+#include "oiler/app/options.hpp"
+#include "oiler/app/recording.hpp"
+#include "support/folder.hpp"
+#include "support/oscillator.hpp"
+
+namespace oiler::test {
+namespace {
+
+/// What the game of a test does, so that it can be another one when it is replayed.
+std::int64_t quits_at;
+std::size_t bodies;
+std::int64_t pushed_at;
+
+struct Changing {
+    static constexpr About about{.name = "changing", .title = "Changing", .rate = 60};
+    World world;
+    explicit Changing(const Settings& settings) : world(1, settings) {
+        for (std::size_t i = 0; i < bodies; ++i) (void)world.spawn(Body{});
+    }
+    void update(const Input&, Loop& loop) {
+        if (world.tick() == quits_at) loop.quit();
+        if (world.tick() == pushed_at) world.apply_impulse(world.entity_of_row(0), {1});
+    }
+};
+
+class Replays : public ::testing::Test {
+protected:
+    Replays() {
+        quits_at = pushed_at = -1;
+        bodies = 1;
+    }
+    void record(std::int64_t steps) const {
+        Options options;
+        options.steps = steps;
+        options.record = folder_ / "a";
+        run(options);
+    }
+    /// Returns the remarks.
+    [[nodiscard]] std::string replay(std::int64_t steps) const {
+        Options options;
+        options.steps = steps;
+        options.replay = recording();
+        options.replay_file = "a";
+        testing::internal::CaptureStderr();
+        try {
+            run(options);
+        } catch (...) {
+            (void)testing::internal::GetCapturedStderr();
+            throw;
+        }
+        return testing::internal::GetCapturedStderr();
+    }
+    [[nodiscard]] std::string difference(std::int64_t steps) const {
+        return line_of_error(Exit::comparison_failed, [&] { (void)replay(steps); });
+    }
+    [[nodiscard]] Recording recording() const { return read_recording(folder_ / "a"); }
+
+private:
+    static void run(Options options) {
+        options.settings.stepping.rate = {60};
+        EXPECT_EQ(run_game(options, Changing::about,
+                           [](const Settings& settings) {
+                               return std::make_unique<AnyGameOf<Changing>>(settings);
+                           }),
+                  Exit::done);
+    }
+
+    Folder folder_;
+};
+
+TEST_F(Replays, EndWhereTheGameQuits) {
+    quits_at = 30;
+    record(100);
+    EXPECT_EQ(recording().steps, 30);
+    EXPECT_TRUE(recording().quits);
+    EXPECT_NE(replay(30).find("equals the recording: 30 of 30 steps\n"), std::string::npos);
+    EXPECT_NE(replay(100).find("equals the recording: 30 of 30 steps\n"), std::string::npos);
+    EXPECT_NE(replay(20).find("equals the recording: 20 of 30 steps\n"), std::string::npos);
+}
+
+TEST_F(Replays, NameAGameThatQuitsAtAnotherStep) {
+    quits_at = 30;
+    record(100);
+    const std::string goes_on =
+        "a: the replay differs: the game goes on after step 30, where it quits in the recording";
+    quits_at = 29;
+    EXPECT_EQ(
+        difference(30),
+        "a: the replay differs: the game quits after step 29, in the recording after step 30");
+    quits_at = 31;
+    EXPECT_EQ(difference(30), goes_on);
+    EXPECT_EQ(difference(100), goes_on);
+    quits_at = -1;
+    record(30);
+    EXPECT_FALSE(recording().quits);
+    quits_at = 29;
+    EXPECT_EQ(difference(30),
+              "a: the replay differs: the game quits after step 29, in the recording it does not");
+}
+
+// 2500 bodies are hashed after each third step, at the end of each second, and at the end.
+TEST_F(Replays, OfManyBodiesCompareTheEnd) {
+    bodies = 2500;
+    record(62);
+    EXPECT_EQ(recording().states.size(), 20U + 1U);
+    EXPECT_EQ(recording().states.count(61), 1U);
+    EXPECT_NE(replay(62).find("62 of 62 steps, of which 21 were compared"), std::string::npos);
+    EXPECT_EQ(difference(2),
+              "a: none of the 2 steps was compared, because the recording has no state of them; "
+              "replay more of it");
+    pushed_at = 61;
+    EXPECT_NE(difference(62).find("differs in the bodies after step 62; it is equal after 60"),
+              std::string::npos);
+    bodies = 100'000;
+    pushed_at = -1;
+    record(62);
+    EXPECT_EQ(recording().states.size(), 2U);
+}
+
+}  // namespace
+}  // namespace oiler::test
