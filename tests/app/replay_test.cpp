@@ -16,12 +16,18 @@ namespace {
 std::int64_t quits_at;
 std::size_t bodies;
 std::int64_t pushed_at;
+bool has_colours;
+
+struct Colouring {
+    float red = 0;
+};
 
 struct Changing {
     static constexpr About about{.name = "changing", .title = "Changing", .rate = 60};
     World world;
     explicit Changing(const Settings& settings) : world(1, settings) {
         for (std::size_t i = 0; i < bodies; ++i) (void)world.spawn(Body{});
+        if (has_colours) world.add(world.create(), Colouring{});
     }
     void update(const Input&, Loop& loop) {
         if (world.tick() == quits_at) loop.quit();
@@ -34,6 +40,7 @@ protected:
     Replays() {
         quits_at = pushed_at = -1;
         bodies = 1;
+        has_colours = false;
     }
     void record(std::int64_t steps) const {
         Options options;
@@ -102,6 +109,16 @@ TEST_F(Replays, NameAGameThatQuitsAtAnotherStep) {
     quits_at = 29;
     EXPECT_EQ(difference(30),
               "a: the replay differs: the game quits after step 29, in the recording it does not");
+}
+
+TEST_F(Replays, NameTheTypesThatAreNotCompared) {
+    has_colours = true;
+    record(9);
+    const std::string remarks = replay(9);
+    EXPECT_NE(remarks.find("not compared, because they have no hash(): "), std::string::npos);
+    EXPECT_NE(remarks.find("Colouring"), std::string::npos);
+    has_colours = false;
+    EXPECT_EQ(replay(9).find("not compared"), std::string::npos);
 }
 
 // 2500 bodies are hashed after each third step, at the end of each second, and at the end.
