@@ -86,14 +86,14 @@ endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 # The licences of what is compiled into the programs, as Debian's packages keep them.
 foreach(embedded fonts-dejavu-core libjs-chart.js libstb-dev python3-glad libcli11-dev
-                 nlohmann-json3-dev libeigen3-dev)
+                 nlohmann-json3-dev libeigen3-dev libimgui-dev)
   install(FILES /usr/share/doc/${embedded}/copyright
           DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences RENAME ${embedded} OPTIONAL)
 endforeach()
 
 # Packages to link a game, and packages that the programs load at run time: SDL2 and GL for a
 # window, OSMesa or EGL without one. dpkg-shlibdeps adds the shared libraries that they link.
-set(build_needs pkg-config libfmt-dev libxxhash-dev libdeflate-dev libtomlplusplus-dev)
+set(build_needs pkg-config libfmt-dev libimgui-dev libxxhash-dev libdeflate-dev libtomlplusplus-dev)
 set(run_needs libsdl2-2.0-0 libosmesa6 libegl1 libgl1 libgl1-mesa-dri)
 list(JOIN build_needs ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 list(JOIN run_needs ", " run_needs)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Runs a demo in a real window: pause freezes the picture, a single step changes it, F4 takes it back,
-# F1 hides the verdict, F2 shows a help, Escape quits with exit code 0, and --frames N quits after N
+# F1 opens the inspector, F2 shows a help, Escape quits with exit code 0, and --frames N quits after N
 # frames. A closed window leaves with 0, a killed server with 3 and complete files.
 # Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
@@ -68,9 +68,9 @@ until_true has_changed || fail "F2 shows no help"
 xdotool key F2
 until_true shows_before || fail "F2 does not close the help"
 xdotool key F1
-until_true has_changed || fail "F1 does not hide the verdict"
+until_true has_changed || fail "F1 does not open the inspector"
 xdotool key F1
-until_true shows_before || fail "F1 does not show the verdict again"
+until_true shows_before || fail "F1 does not close the inspector"
 xdotool key F3
 until_true moves || fail "F3 does not resume"
 xdotool keydown F4

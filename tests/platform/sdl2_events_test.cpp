@@ -52,6 +52,41 @@ protected:
     InputQueue loop_;
 };
 
+TEST_F(Sdl2Events, OfTheMouseReachTheGameUnlessItIsTheLoops) {
+    const auto button = [](bool down) {
+        SDL_Event event{};
+        event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+        event.button.button = SDL_BUTTON_LEFT;
+        event.button.x = 640;
+        event.button.y = 360;
+        event.button.state = down ? SDL_PRESSED : SDL_RELEASED;
+        return event;
+    };
+    SDL_Event wheel{};
+    wheel.type = SDL_MOUSEWHEEL;
+    wheel.wheel.y = 2;
+    const auto handle = [&](const SDL_Event& event, bool is_of_game) {
+        events_.handle(event, {1280, 720}, queue_, loop_, is_of_game);
+    };
+    handle(button(true), false);
+    handle(wheel, false);
+    Input game = queue_.take({});
+    Input loop = loop_.take({});
+    EXPECT_FALSE(game.held(Mouse::left));
+    EXPECT_FALSE(game.pointer());
+    EXPECT_EQ(game.wheel(), 0);
+    EXPECT_TRUE(loop.held(Mouse::left));
+    EXPECT_EQ(loop.wheel(), 2);
+    ASSERT_TRUE(loop.pointer_canvas());
+    EXPECT_EQ(loop.pointer_canvas()->x, 320.25F);
+    handle(button(true), true);
+    handle(button(false), false);
+    game = queue_.take({});
+    EXPECT_EQ(game.presses(Mouse::left), 1);
+    EXPECT_TRUE(game.pointer());
+    EXPECT_EQ(queue_.take({}).releases(Mouse::left), 1) << "a button does not stay down";
+}
+
 TEST_F(Sdl2Events, AreKeysByTheirPlace) {
     const Input input = step({key(SDL_SCANCODE_W, true), key(SDL_SCANCODE_W, true, true),
                               key(SDL_SCANCODE_KP_5, true), key(SDL_SCANCODE_F3, true)});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -315,6 +316,42 @@ TEST_F(Drawing, TextInMetresGrowsWithTheZoom) {
     const Ink near = ink(draw(picture));
     EXPECT_NEAR(near.top - near.bottom, 2 * (far.top - far.bottom), 2);
     EXPECT_NEAR(far.top - far.bottom, 0.729 * 40, 1) << "a capital of DejaVu is 0.729 em high";
+}
+
+// A square of 10 × 6 pixels at (100, 50) from the upper left, cut to 4 × 6; frames begin with their
+// bottom row. Its texels are half red, half blue.
+TEST_F(Drawing, AnOverlayIsDrawnOverAFrameWithinItsBox) {
+    const Picture blank;
+    (void)draw(blank);
+    constexpr Colour ink_of_overlay{255, 255, 255, 255};
+    const Overlay overlay{.vertices = {{{100, 50}, {0.25F, 0.5F}, ink_of_overlay},
+                                       {{110, 50}, {0.25F, 0.5F}, ink_of_overlay},
+                                       {{110, 56}, {0.25F, 0.5F}, ink_of_overlay},
+                                       {{100, 56}, {0.25F, 0.5F}, ink_of_overlay},
+                                       {{0, 0}, {0.75F, 0.5F}, {0, 0, 255, 51}},
+                                       {{4, 0}, {0.75F, 0.5F}, {0, 0, 255, 51}},
+                                       {{4, 4}, {0.75F, 0.5F}, {0, 0, 255, 51}}},
+                          .indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 5},
+                          .parts = {{0, 6, 100, 40, 104, 360}, {6, 3, 0, 0, 640, 360}},
+                          .bitmap = make_bitmap({2, 1}, {255, 0, 0, 255, 255, 255, 255, 255})};
+    studio_->renderer.draw_over(overlay);
+    Pixels pixels;
+    studio_->renderer.read(pixels);
+    const auto is = [&](int x, int y_from_top, int r, int g, int b) {
+        const std::size_t at =
+            3 * (640 * static_cast<std::size_t>(359 - y_from_top) + static_cast<std::size_t>(x));
+        return pixels.rgb[at] == r && pixels.rgb[at + 1] == g && pixels.rgb[at + 2] == b;
+    };
+    int reds = 0;
+    for (int y = 0; y < 360; ++y)
+        for (int x = 0; x < 640; ++x) reds += is(x, y, 255, 0, 0) ? 1 : 0;
+    EXPECT_EQ(reds, 4 * 6);
+    EXPECT_TRUE(is(100, 50, 255, 0, 0) && is(103, 55, 255, 0, 0));
+    EXPECT_TRUE(is(3, 0, 204, 204, 255)) << "a fifth of blue over white";
+    EXPECT_TRUE(is(200, 200, 255, 255, 255));
+    Pixels again = draw(blank);
+    EXPECT_TRUE(std::ranges::all_of(again.rgb, [](int part) { return part == 255; }))
+        << "nothing stays";
 }
 
 }  // namespace

@@ -47,16 +47,20 @@ void add_status(Picture& picture, std::string status) {
                               .layer = overlay_layer});
 }
 
+Colour colour_of(Verdict::Grade grade) {
+    constexpr Colour colours[] = {palette::grey, palette::green, palette::orange,
+                                  palette::vermilion};
+    return colours[static_cast<std::size_t>(grade)];
+}
+
 void add_verdict(Picture& picture, const Verdict& verdict) {
     constexpr float height = 10;
     constexpr float left = 14;
     constexpr float largest_size = 7;
-    constexpr Colour colours[] = {palette::grey, palette::green, palette::orange,
-                                  palette::vermilion};
     constexpr float middle = canvas_height - height / 2;
     add_sheet(picture, {canvas_width / 2, middle}, {10 * canvas_width, height},
               palette::faded(palette::paper, 224));
-    add_sheet(picture, {8, middle}, {6, 6}, colours[static_cast<std::size_t>(verdict.grade)]);
+    add_sheet(picture, {8, middle}, {6, 6}, colour_of(verdict.grade));
     const auto letters = static_cast<float>(verdict.text.size() + 1);
     picture.labels.push_back(
         {.at = {left, middle - 2.5F},

@@ -18,6 +18,7 @@ constexpr auto time_of_verdict = 500ms;
 constexpr std::int64_t longest_delay = 2;  // s
 constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
+constexpr std::size_t most_errors = 600;
 
 }  // namespace
 
@@ -32,7 +33,16 @@ PlayAlong::PlayAlong(InputSource& inputs, const Options& options, const About& a
         start(0);
 }
 
+void PlayAlong::start(std::int64_t first, const Stepping& stepping) {
+    options_.settings.stepping = stepping;
+    options_.replay->header.stepping = stepping;
+    start(first);
+}
+
 void PlayAlong::start(std::int64_t first) {
+    measured_.reset();
+    errors_.clear();
+    readings_.clear();
     first_ = first;
     played_ = judged_ = 0;
     before_ = {};
@@ -65,7 +75,12 @@ void PlayAlong::play_until(std::int64_t step) {
     options_.replay->steps = step - first_;
     const Clock::time_point end = Clock::now() + time_of_frame;
     try {
-        while (behind(step) > 0 && Clock::now() < end) runs_->play_until(played_++);
+        while (behind(step) > 0 && Clock::now() < end) {
+            runs_->play_until(played_++);
+            if (!runs_->certain()) continue;
+            if (errors_.size() >= most_errors) errors_.erase(errors_.begin());
+            errors_.push_back(static_cast<float>(runs_->recorded().distance_now));
+        }
     } catch (const Error& error) {
         stop(error.what());
     }
@@ -73,15 +88,17 @@ void PlayAlong::play_until(std::int64_t step) {
 
 void PlayAlong::stop(std::string reason) {
     runs_.reset();
+    measured_.reset();
     verdict_ = {.text = std::move(reason)};
 }
 
 const Verdict& PlayAlong::verdict(const AnyGame& game) {
     if (runs_ && played_ != judged_ && Clock::now() >= next_verdict_) {
         judged_ = played_;
-        const WhatIf result = runs_->result();
-        verdict_ = verdict_of(result, readings_, [&](Entity body) { return game.name_of(body); });
-        readings_ = result.runs.front().readings;
+        measured_ = runs_->result();
+        verdict_ =
+            verdict_of(*measured_, readings_, [&](Entity body) { return game.name_of(body); });
+        readings_ = measured_->runs.front().readings;
         next_verdict_ = Clock::now() + time_of_verdict;
     }
     return verdict_;

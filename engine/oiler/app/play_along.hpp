@@ -21,6 +21,8 @@ public:
 
     /// Begins with the game as it is made, before its step `first`.
     void start(std::int64_t first);
+    /// The same with another setting of the game.
+    void start(std::int64_t first, const Stepping& stepping);
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Plays along until that step of the game begins, or for a short time.
     void play_until(std::int64_t step);
@@ -34,6 +36,10 @@ public:
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
     /// What is known so far, as a sentence; it is renewed at most twice a second.
     [[nodiscard]] const Verdict& verdict(const AnyGame& game);
+    /// What the last verdict is made of; empty if nothing is measured.
+    [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
+    /// The distance of the body that is furthest off at the last steps, m.
+    [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -49,6 +55,8 @@ private:
     Clock::time_point next_verdict_{};
     std::vector<Reading> readings_;  ///< at the last verdict
     Verdict verdict_;
+    std::optional<WhatIf> measured_;
+    std::vector<float> errors_;
 };
 
 }  // namespace oiler

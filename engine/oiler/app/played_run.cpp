@@ -125,6 +125,7 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
         return;
     }
     differs_from_.reset();
+    result_.distance_now = apart->distance;
     if (recorded > 0 && !(apart->distance <= result_.distance)) {
         result_.distance = apart->distance;
         result_.furthest = apart->body;

@@ -29,7 +29,8 @@ struct WhatIfRun {
     /// The largest distance of a body from the same body of the reference, m; NaN if none was
     /// compared after the beginning.
     double distance = std::numeric_limits<double>::quiet_NaN();
-    Entity furthest{};  ///< that body
+    Entity furthest{};        ///< that body
+    double distance_now = 0;  ///< m, at the last comparison
     /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.

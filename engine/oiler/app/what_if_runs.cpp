@@ -40,7 +40,7 @@ Stepping check_stepping(const Options& options) {
 WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& steppings,
                        const MakeGame& make)
     : recording_(*options.replay),
-      replay_(recording_, options.replay_file.string()),
+      replay_(recording_, options.replay_file.string(), {}, options.replay_anyway),
       reference_(reference_stepping(options), options, make),
       check_(check_stepping(options), options, make) {
     runs_.push_back(std::make_unique<PlayedRun>(recording_.header.stepping, options, make));
@@ -58,6 +58,14 @@ void WhatIfRuns::play_until(std::int64_t step) {
         replay_.compare_end(runs_.front()->steps(), true);
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
     if (certain_) compare(step);
+}
+
+void WhatIfRuns::compare_end() {
+    PlayedRun& recorded = *runs_.front();
+    if (!recording_.quits || recorded.failed()) return;
+    // A game that quits does it in the update of a step that it does not take.
+    recorded.play_until(recording_.steps + 1);
+    replay_.compare_end(recorded.steps(), recorded.game().loop().quits());
 }
 
 void WhatIfRuns::play_reference(std::int64_t step) {

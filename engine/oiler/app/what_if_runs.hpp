@@ -23,8 +23,13 @@ public:
     /// Plays all runs until a recorded step begins, and compares them there. Throws Error{diverged}
     /// if the reference fails, and Error{comparison_failed} if the recorded states differ.
     void play_until(std::int64_t step);
+    /// After all recorded steps: throws Error{comparison_failed} if the recorded setting goes on
+    /// where the game quit.
+    void compare_end();
     void time_pictures(DrawTimer* draw);
     [[nodiscard]] WhatIf result() const;
+    /// The recorded setting, without its costs.
+    [[nodiscard]] const WhatIfRun& recorded() const { return runs_.front()->result(); }
     /// Whether later steps are compared, too.
     [[nodiscard]] bool certain() const { return certain_; }
 

@@ -17,6 +17,7 @@
 #include "oiler/app/overlays.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/rewind.hpp"
+#include "oiler/app/window_inspector.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/render/renderer.hpp"
 
@@ -63,12 +64,10 @@ std::string_view no_way_back(const Options& options) {
     return options.energy.empty() ? "" : "--energy";
 }
 
-void show(const Picture& picture, Renderer& renderer, Window& window) {
-    const Size size = window.size();
-    if (size.width == 0 || size.height == 0) return;  // minimised
-    renderer.draw(picture, size);
-    renderer.blit();
-    window.present();
+/// Why the setting of a run cannot be changed; empty: it can.
+std::string why_fixed(const Options& options) {
+    const std::string_view option = options.json.empty() ? no_way_back(options) : "--json";
+    return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
 
 /// Sleeps until the frame's period ends, unless the display has already waited.
@@ -84,6 +83,7 @@ public:
     Session(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
             const About& about, const MakeGame& make)
         : playback_(playback),
+          make_(make),
           live_(live),
           options_(options),
           about_(about),
@@ -92,20 +92,24 @@ public:
           renderer_([this](const char* name) { return window_->procedure(name); }),
           clock_(static_cast<int>(options.settings.stepping.rate.steps)),
           along_(inputs, options, about, make),
-          shows_verdict_(!options.quiet) {
+          inspector_(playback.game(), why_fixed(options), Renderer::font()) {
         if (no_way_back(options).empty()) rewind_.emplace(playback.game(), along_);
         inputs_ = rewind_ ? static_cast<InputSource*>(&*rewind_) : &along_;
     }
 
     Played run() {
-        remark(options_.quiet, "drawing with {} ({}): F2 help, F3 pause, F4 back{}",
+        remark(options_.quiet, "drawing with {} ({}): F1 inspector, F2 help, F3 pause, F4 back{}",
                window_->provider(), renderer_.gl_renderer(),
                uses_escape(controls_) ? "" : ", Escape quits");
         const int fps = options_.fps.value_or(window_->refresh_rate());
         for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
             const std::chrono::nanoseconds start = now();
-            const Window::State state = window_->poll(live_.queue, keys_);
-            if (state == Window::State::lost) return {Exit::no_display, clock_.dropped_time()};
+            const Size size = window_->size();
+            const Window::State state = window_->poll(
+                live_.queue, keys_,
+                {.width = static_cast<float>(view(size).width) / static_cast<float>(size.width),
+                 .mouse = !inspects_ || !inspector_.has_mouse()});
+            if (state == Window::State::lost) return {Exit::no_display, dropped_time()};
             const Input keys = keys_.take({});
             control(keys);
             draw_frame(keys, start);
@@ -117,22 +121,44 @@ public:
             limit_frame_rate(start, fps);
         }
         if (failure_) throw Error(*failure_);
-        return {.dropped = clock_.dropped_time()};
+        return {.dropped = dropped_time()};
     }
 
 private:
     void control(const Input& keys) {
-        if (keys.presses(Key::f1) % 2 == 1) shows_verdict_ = !shows_verdict_;
+        const Wishes wishes = std::exchange(wishes_, {});
+        if (keys.presses(Key::f1) % 2 == 1) inspects_ = !inspects_;
         if (keys.presses(Key::f2) % 2 == 1) helps_ = !helps_;
-        if (!failure_ && keys.presses(Key::f3) % 2 == 1)
+        if (!failure_ && (wishes.pauses || keys.presses(Key::f3) % 2 == 1))
             clock_.paused() ? clock_.resume() : clock_.pause();
         for (int i = 0; i < keys.presses(Key::f7); ++i) pace_.slower();
         for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
+        if (wishes.pace < 0) pace_.slower();
+        if (wishes.pace > 0) pace_.faster();
+        if (wishes.stepping) restart_with(*wishes.stepping);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        if (keys.pressed(Key::f9)) restart();
-        const bool steps =
-            (!failure_ && keys.pressed(Key::f5)) || (has_past() && keys.pressed(Key::f4));
-        if (clock_.paused() && steps) clock_.single_step();
+        if (wishes.restarts || keys.pressed(Key::f9)) restart();
+        goes_back_ = has_past() && (wishes.goes_back ||
+                                    (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4)));
+        const bool steps = !failure_ && (wishes.steps || keys.pressed(Key::f5));
+        if (clock_.paused() && (steps || goes_back_)) clock_.single_step();
+    }
+
+    /// Makes the game anew with another setting. Whatever the game did is gone.
+    void restart_with(const Stepping& stepping) {
+        Settings settings = playback_.world().settings();
+        settings.stepping = stepping;
+        playback_.game().assign(*make_(settings));
+        dropped_ += clock_.dropped_time();
+        clock_ = StepClock(static_cast<int>(stepping.rate.steps));
+        undone_ = -playback_.steps();
+        playback_.go_back(playback_.steps());
+        failure_.reset();
+        if (!options_.quiet) along_.start(playback_.steps(), stepping);
+        if (rewind_) rewind_->forget(playback_.steps());
+    }
+    [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
+        return dropped_ + clock_.dropped_time();
     }
 
     void restart() {
@@ -147,26 +173,50 @@ private:
     }
 
     void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
-        const bool back =
-            has_past() && (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4));
+        const bool back = goes_back_;
         live_.queue.set_paused(clock_.paused() || back);
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
+        const std::chrono::nanoseconds before_picture = now();
         Picture picture = next_picture();
-        if (shows_verdict_) {
-            along_.play_until(playback_.steps());
-            add_verdict(picture, along_.verdict(playback_.game()));
-        }
+        const std::chrono::nanoseconds show_time = now() - before_picture;
+        along_.play_until(playback_.steps());
+        if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
         if (helps_)
             add_help(picture, about_.title, controls_, key_names(), !uses_escape(controls_));
         if (failure_) add_failure(picture, failure_->what(), has_past());
         add_status(picture, status(keys, back));
-        show(picture, renderer_, *window_);
+        const std::chrono::nanoseconds before_drawing = now();
+        show(picture, keys, start);
+        if (!clock_.paused()) inspector_.add_times(show_time, now() - before_drawing);
+        last_start_ = start;
+    }
+
+    /// The part of the frame that the inspector leaves to the picture.
+    [[nodiscard]] Size view(Size size) const {
+        return inspects_ ? Size{size.width - Inspector::width(size), size.height} : size;
+    }
+    void show(const Picture& picture, const Input& keys, std::chrono::nanoseconds start) {
+        const Size size = window_->size();
+        if (size.width == 0 || size.height == 0) return;  // minimised
+        renderer_.draw(picture, size, view(size));
+        if (inspects_) {
+            wishes_ = inspector_.show(
+                along_, keys, size, view(size),
+                {.seconds = std::chrono::duration<double>(start - last_start_).count(),
+                 .dropped = std::chrono::duration<double>(dropped_time()).count(),
+                 .is_paused = clock_.paused(),
+                 .has_past = has_past(),
+                 .pace = pace_.text()});
+            renderer_.draw_over(inspector_.overlay());
+        }
+        renderer_.blit();
+        window_->present();
     }
 
     /// The picture to show now; after a divergence, that of the last step before.
@@ -222,6 +272,7 @@ private:
     }
 
     Playback& playback_;
+    const MakeGame& make_;
     LiveInput& live_;
     const Options& options_;
     const About& about_;
@@ -230,14 +281,19 @@ private:
     Renderer renderer_;
     StepClock clock_;
     PlayAlong along_;
+    WindowInspector inspector_;
+    Wishes wishes_;
     Pace pace_;
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
-    std::int64_t undone_ = 0;       ///< steps of the clock that the game has not taken
-    std::optional<Error> failure_;  ///< a divergence that holds the run
+    std::int64_t undone_ = 0;              ///< steps of the clock that the game has not taken
+    std::optional<Error> failure_;         ///< a divergence that holds the run
+    std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
+    std::chrono::nanoseconds last_start_ = now();
+    bool inspects_ = false;
     bool helps_ = false;
-    bool shows_verdict_;
+    bool goes_back_ = false;
     bool whole_ = false;
 };
 

@@ -9,6 +9,7 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/lab/budget.hpp"
+#include "oiler/picture/palette.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
@@ -19,16 +20,22 @@ namespace {
 
 class SceneGame final : public AnyGame {
 public:
-    /// The scene must outlive the game.
-    SceneGame(const Scene& scene, const Settings& settings)
-        : scene_(scene), world_(make_world(scene, settings)), camera_(camera_of(scene, world_)) {}
+    /// The scene must outlive the game. With `repeats`, it begins anew after its duration.
+    SceneGame(const Scene& scene, const Settings& settings, bool repeats)
+        : scene_(scene),
+          repeats_(repeats),
+          world_(make_world(scene, settings)),
+          camera_(camera_of(scene, world_)) {}
 
     std::int64_t step(std::int64_t, std::int64_t count, InputSource&) override {
-        world_.step(count);
-        return count;
+        if (repeats_ && world_.time() >= scene_.duration) restart();
+        const std::int64_t taken = repeats_ ? 1 : count;
+        const Stopwatch stopwatch(times_, &StepTimes::step);
+        world_.step(taken);
+        return taken;
     }
     void restart() override {
-        world_ = make_world(scene_, world_.settings());
+        world_ = make_world(scene_, Settings(world_.settings()));
         ++cuts_;
     }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
@@ -39,13 +46,22 @@ public:
         ++cuts_;
     }
     [[nodiscard]] const World& world() const override { return world_; }
-    [[nodiscard]] Picture picture() const override { return draw_scene(scene_, world_, camera_); }
+    [[nodiscard]] Picture picture() const override {
+        Picture picture = draw_scene(scene_, world_, camera_);
+        if (repeats_)
+            picture.labels.push_back({.at = {8, 6},
+                                      .text = fmt::format("repeats after {:g} s", scene_.duration),
+                                      .size = 9,
+                                      .colour = palette::grey});
+        return picture;
+    }
     [[nodiscard]] std::string name_of(Entity entity) const override {
         return scene_.name_of_body(entity.index);
     }
 
 private:
     const Scene& scene_;
+    bool repeats_;
     World world_;
     Camera camera_;
 };
@@ -59,6 +75,13 @@ About describe(const Scene& scene, const std::string& name, const std::string& t
             .duration = scene.duration,
             .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : "",
             .scene_text = text};
+}
+
+/// Whether somebody looks at the run, and nothing of it is written.
+bool is_watched(const Options& options) {
+    return !options.headless && !options.steps && options.json.empty() && options.trace.empty() &&
+           options.energy.empty() && options.record.empty() && !options.replay &&
+           options.script.empty();
 }
 
 struct SceneFile {
@@ -125,8 +148,9 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
         print(line.text);
         return Exit::done;
     }
+    const bool repeats = is_watched(line.options);
     const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(scene, settings);
+        return std::make_unique<SceneGame>(scene, settings, repeats);
     };
     const auto measure_budget = [&](double seconds) { return check(scene, line.options, seconds); };
     return run_game(line.options, line.about, make, measure_budget);

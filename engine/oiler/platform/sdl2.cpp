@@ -2,6 +2,7 @@
 #define SDL_MAIN_HANDLED
 #include <SDL2/SDL.h>
 #include <SDL2/SDL_syswm.h>
+#include <cmath>
 
 #include <cstdlib>
 #include <optional>
@@ -145,13 +146,15 @@ public:
         return known && mode.refresh_rate > 0 ? mode.refresh_rate : 60;
     }
 
-    State poll(InputQueue& game, InputQueue& loop) override {
+    State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) override {
         bool quit = false;
         SDL_Event event;
         while (!display_is_lost() && sdl_->poll_event(&event) != 0) {
             Size window;
             sdl_->window_size(window_, &window.width, &window.height);
-            events_->handle(event, window, game, loop);
+            const auto width = static_cast<float>(window.width) * of_game.width;
+            window.width = static_cast<int>(std::lround(width));
+            events_->handle(event, window, game, loop, of_game.mouse);
             const bool closed =
                 event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
             quit = quit || closed || event.type == SDL_QUIT;

@@ -38,6 +38,22 @@ Point canvas_point(int x, int y, Size window) {
             canvas_height / 2 - (static_cast<float>(y) + 0.5F - height / 2) / scale};
 }
 
+/// A mouse that the queue does not `take` only releases buttons.
+void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool take) {
+    if (event.type == SDL_MOUSEWHEEL) {
+        if (take) queue.turn_wheel(event.wheel.y);
+        return;
+    }
+    const bool moves = event.type == SDL_MOUSEMOTION;
+    if (take)
+        queue.point_at(canvas_point(moves ? event.motion.x : event.button.x,
+                                    moves ? event.motion.y : event.button.y, window));
+    if (moves) return;
+    const bool down = event.button.state == SDL_PRESSED;
+    const auto button = mouse_button(event.button.button);
+    if (button && (take || !down)) queue.set(*button, down);
+}
+
 }  // namespace
 
 SdlInputFunctions::SdlInputFunctions(const Library& library) {
@@ -58,7 +74,8 @@ SdlEvents::~SdlEvents() {
     for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);
 }
 
-void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop) {
+void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop,
+                       bool mouse_is_of_game) {
     switch (event.type) {
         case SDL_KEYDOWN:
         case SDL_KEYUP:
@@ -66,21 +83,20 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, In
         case SDL_TEXTINPUT:
             return game.enter(event.text.text);
         case SDL_MOUSEMOTION:
-            return game.point_at(canvas_point(event.motion.x, event.motion.y, window));
         case SDL_MOUSEBUTTONDOWN:
         case SDL_MOUSEBUTTONUP:
-            game.point_at(canvas_point(event.button.x, event.button.y, window));
-            if (const auto button = mouse_button(event.button.button))
-                game.set(*button, event.button.state == SDL_PRESSED);
-            return;
         case SDL_MOUSEWHEEL:
-            return game.turn_wheel(event.wheel.y);
+            handle_mouse(event, window, game, mouse_is_of_game);
+            return handle_mouse(event, window, loop, true);
         case SDL_WINDOWEVENT:
             if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
                 game.release_all();
                 loop.release_all();
             }
-            if (event.window.event == SDL_WINDOWEVENT_LEAVE) game.point_at(std::nullopt);
+            if (event.window.event == SDL_WINDOWEVENT_LEAVE) {
+                game.point_at(std::nullopt);
+                loop.point_at(std::nullopt);
+            }
             return;
         case SDL_CONTROLLERDEVICEADDED:
             return plug_in(event.cdevice.which);

@@ -36,7 +36,8 @@ public:
     SdlEvents& operator=(const SdlEvents&) = delete;
 
     /// `window` is the size in the units of the mouse.
-    void handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop);
+    void handle(const SDL_Event& event, Size window, InputQueue& game, InputQueue& loop,
+                bool mouse_is_of_game = true);
     void take_text(bool on);
     [[nodiscard]] std::string name_on_layout(Key key) const;
 

@@ -41,9 +41,14 @@ public:
         closed,  ///< by the user
         lost,    ///< the display has ended
     };
-    /// Hands events since the last call to the game, and those of F1 to F12 to the loop; Escape to
-    /// both.
-    [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop) = 0;
+    /// What of the window the game has.
+    struct OfGame {
+        float width = 1;  ///< the canvas is in this share, at the left
+        bool mouse = true;
+    };
+    /// Hands events since the last call to the game, and those of F1 to F12 to the loop; Escape and
+    /// the mouse to both. A mouse that is not the game's only releases buttons there.
+    [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) = 0;
     /// The name of a key on the user's keyboard; empty if it has none.
     [[nodiscard]] virtual std::string name_on_layout(Key key) const = 0;
     /// Whether keys enter text, but for those that edit it.

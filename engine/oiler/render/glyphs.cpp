@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+// Static, because Dear ImGui brings functions of the same names.
+#define STBTT_STATIC
+#define STB_TRUETYPE_IMPLEMENTATION
 #include "oiler/render/glyphs.hpp"
 
 #include <algorithm>

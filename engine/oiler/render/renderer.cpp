@@ -90,13 +90,16 @@ struct Renderer::Impl {
           lines(gl, embedded::line_vert(), embedded::line_frag()),
           discs(gl, embedded::disc_vert(), embedded::disc_frag()),
           text(gl, embedded::text_vert(), embedded::text_frag()),
+          overlays(gl, embedded::overlay_vert(), embedded::overlay_frag()),
           line_indices(gl.GenBuffers, gl.DeleteBuffers),
+          overlay_indices(gl.GenBuffers, gl.DeleteBuffers),
           atlas(gl.GenTextures, gl.DeleteTextures),
           textures(gl) {
         describe_sprites();
         describe_lines();
         describe_discs();
         describe_text();
+        describe_overlays();
         gl.BindTexture(GL_TEXTURE_2D, atlas);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -138,6 +141,16 @@ struct Renderer::Impl {
         describe_integers(gl, 0, 4, {offsetof(PlacedGlyph, box), stride, 1});
         describe_integers(gl, 1, 2, {offsetof(PlacedGlyph, atlas), stride, 1});
         describe_colour(gl, 2, {offsetof(PlacedGlyph, colour), stride, 1});
+    }
+
+    void describe_overlays() const {
+        constexpr std::size_t stride = sizeof(Overlay::Vertex);
+        gl.BindVertexArray(overlays.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, overlays.buffer);
+        gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, overlay_indices);
+        describe_floats(gl, 0, 2, {offsetof(Overlay::Vertex, at), stride, 0});
+        describe_floats(gl, 1, 2, {offsetof(Overlay::Vertex, texel), stride, 0});
+        describe_colour(gl, 2, {offsetof(Overlay::Vertex, colour), stride, 0});
     }
 
     void clear(Colour colour) const {
@@ -213,6 +226,26 @@ struct Renderer::Impl {
         draw_quads(text, std::span<const PlacedGlyph>(layout.glyphs), size);
     }
 
+    void draw_over(const Overlay& overlay) {
+        const Size size = framebuffer.size();
+        framebuffer.bind(size);
+        set_state();
+        overlays.program.use(size.width, size.height);
+        gl.BindVertexArray(overlays.array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, overlays.buffer);
+        upload(gl, GL_ARRAY_BUFFER, std::span(overlay.vertices));
+        upload(gl, GL_ELEMENT_ARRAY_BUFFER, std::span(overlay.indices));
+        textures.remember(overlay.bitmap);
+        textures.bind(*overlay.bitmap);
+        gl.Enable(GL_SCISSOR_TEST);
+        for (const Overlay::Part& part : overlay.parts) {
+            gl.Scissor(part.left, size.height - part.bottom, part.right - part.left,
+                       part.bottom - part.top);
+            gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.count), GL_UNSIGNED_INT,
+                            as_pointer(part.first * sizeof(std::uint32_t)));
+        }
+    }
+
     void bind_atlas() {
         gl.ActiveTexture(GL_TEXTURE0);
         gl.BindTexture(GL_TEXTURE_2D, atlas);
@@ -232,7 +265,9 @@ struct Renderer::Impl {
     Batch lines;
     Batch discs;
     Batch text;
+    Batch overlays;
     GlName line_indices;
+    GlName overlay_indices;
     GlName atlas;
     Textures textures;
     Glyphs glyphs;
@@ -243,14 +278,21 @@ struct Renderer::Impl {
 Renderer::Renderer(const LoadProcedure& load) : impl_(std::make_unique<Impl>(load)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::draw(const Picture& picture, Size size) {
+void Renderer::draw(const Picture& picture, Size size, Size view) {
     impl_->framebuffer.bind(size);
     impl_->set_state();
-    if (picture.has_bars) impl_->clear_bars(size);
+    if (picture.has_bars) impl_->clear_bars(view);
     impl_->clear(picture.background);
+    impl_->gl.Viewport(0, 0, view.width, view.height);
     impl_->textures.update(picture.sprites);
-    for (const int layer : layers_of(picture)) impl_->draw_layer(picture, layer, size);
+    for (const int layer : layers_of(picture)) impl_->draw_layer(picture, layer, view);
 }
+
+void Renderer::draw_over(const Overlay& overlay) {
+    if (!overlay.parts.empty()) impl_->draw_over(overlay);
+}
+
+std::span<const char> Renderer::font() { return embedded::font(); }
 
 void Renderer::read(Pixels& pixels) const {
     const Size size = impl_->framebuffer.size();
@@ -268,6 +310,7 @@ void Renderer::blit() const {
     const Gl& gl = impl_->gl;
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, impl_->framebuffer.name());
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl.Disable(GL_SCISSOR_TEST);  // it would cut the copy, too
     gl.BlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,
                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }

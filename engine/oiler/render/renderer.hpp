@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "oiler/core/size.hpp"
 #include "oiler/picture/picture.hpp"
+#include "oiler/render/overlay.hpp"
 
 namespace oiler {
 
@@ -31,11 +33,19 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     /// Throws Error{usage} if the provider cannot draw frames of that size.
-    void draw(const Picture& picture, Size size);
+    void draw(const Picture& picture, Size size) { draw(picture, size, size); }
+    /// The same, with the picture in `view`, the part at the lower left. The rest has the colour of
+    /// its background.
+    void draw(const Picture& picture, Size size, Size view);
+    /// Draws over the last frame.
+    void draw_over(const Overlay& overlay);
     /// Reads the last frame. The memory of `pixels` is reused.
     void read(Pixels& pixels) const;
     /// Copies the last frame to framebuffer 0, of a window of the same size.
     void blit() const;
+
+    /// The font of labels, a TrueType file.
+    [[nodiscard]] static std::span<const char> font();
 
     [[nodiscard]] std::string gl_renderer() const;
     [[nodiscard]] std::string gl_version() const;

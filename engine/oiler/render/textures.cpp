@@ -6,7 +6,11 @@ namespace oiler {
 void Textures::update(const std::vector<Sprite>& sprites) {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.bitmap.expired(); });
     for (const Sprite& sprite : sprites)
-        if (sprite.bitmap) entries_.try_emplace(sprite.bitmap.get(), Entry{sprite.bitmap});
+        if (sprite.bitmap) remember(sprite.bitmap);
+}
+
+void Textures::remember(const std::shared_ptr<const Bitmap>& bitmap) {
+    entries_.try_emplace(bitmap.get(), Entry{bitmap});
 }
 
 void Textures::bind(const Bitmap& bitmap) {

@@ -16,6 +16,7 @@ public:
 
     /// Remembers the bitmaps of a picture, and forgets those that are gone.
     void update(const std::vector<Sprite>& sprites);
+    void remember(const std::shared_ptr<const Bitmap>& bitmap);
     /// Makes the texture of a remembered bitmap current.
     void bind(const Bitmap& bitmap);
 

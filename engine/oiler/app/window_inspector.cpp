@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/window_inspector.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "oiler/app/overlays.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+namespace {
+
+/// The methods that can step the bodies of a world.
+std::vector<const Method*> applicable_methods(const World& world) {
+    std::vector<const Method*> all;
+    const Steps steps{world.settings().stepping.rate, world.tick(), 1, {}};
+    for (const Method& method : methods()) try {
+            world.bodies().require_applicable(method, steps);
+            all.push_back(&method);
+        } catch (const Error& error) {
+            if (error.exit() != Exit::usage) throw;
+        }
+    return all;
+}
+
+/// The mouse in pixels; the canvas is centred in `view`.
+Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
+    Inspector::Mouse mouse{.is_down = input.held(Mouse::left), .wheel = input.wheel()};
+    const auto at = input.pointer_canvas();
+    if (!at) return mouse;
+    const auto width = static_cast<float>(view.width);
+    const auto height = static_cast<float>(view.height);
+    const float scale = std::min(width / canvas_width, height / canvas_height);
+    mouse.at = Point{width / 2 + (at->x - canvas_width / 2) * scale,
+                     height / 2 - (at->y - canvas_height / 2) * scale};
+    return mouse;
+}
+
+Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
+    Inspected::Setting setting{.stepping = run.stepping,
+                               .error = "?",
+                               .pixels = std::numeric_limits<double>::quiet_NaN(),
+                               .cost = run.costs.update + run.costs.step};
+    const double unsure = least_certain * measured.uncertainty;
+    const double bad = std::numeric_limits<double>::infinity();
+    if (!run.failure.empty()) {
+        setting.error = "failed";
+        setting.pixels = bad;
+    } else if (run.other_play_from) {
+        setting.error = "another play";
+        setting.pixels = bad;
+    } else if (run.distance >= unsure) {
+        setting.error = length_text(run.distance);
+        setting.pixels = run.distance / measured.pixel;
+    } else if (run.distance < unsure) {
+        setting.error = "< " + length_text(unsure);
+        if (unsure <= measured.pixel) setting.pixels = unsure / measured.pixel;
+    }
+    return setting;
+}
+
+}  // namespace
+
+WindowInspector::WindowInspector(AnyGame& game, std::string fixed, std::span<const char> font)
+    : game_(game),
+      fixed_(std::move(fixed)),
+      inspector_(font),
+      methods_(applicable_methods(game.world())) {
+    game_.measure(times_);
+}
+
+void WindowInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
+    constexpr double weight = 1.0 / 32;
+    const auto mix = [](double& mean, std::chrono::nanoseconds time) {
+        mean += weight * (static_cast<double>(time.count()) - mean);
+    };
+    const StepTimes times = std::exchange(times_, {});
+    mix(costs_.update, times.update);
+    mix(costs_.step, times.step);
+    mix(costs_.picture, show - times.update - times.step);
+    mix(costs_.draw, draw);
+}
+
+Wishes WindowInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
+                             const Frame& frame) {
+    const World& world = game_.world();
+    const double energy = world.bodies().energy().total();
+    if (cuts_ != game_.cuts()) first_energy_ = energy;
+    cuts_ = game_.cuts();
+    Inspected run{.stepping = world.settings().stepping,
+                  .methods = methods_,
+                  .fixed = fixed_,
+                  .errors = along.errors(),
+                  .costs = costs_,
+                  .energy = energy,
+                  .first_energy = first_energy_,
+                  .time = world.time(),
+                  .dropped = frame.dropped,
+                  .bodies = world.bodies().size(),
+                  .is_paused = frame.is_paused,
+                  .has_past = frame.has_past,
+                  .pace = frame.pace};
+    const Verdict& verdict = along.verdict(game_);
+    run.verdict = verdict.text;
+    run.grade = colour_of(verdict.grade);
+    if (const auto& measured = along.measured())
+        for (const WhatIfRun& one : measured->runs)
+            run.settings.push_back(inspected(one, *measured));
+    return inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
+}
+
+}  // namespace oiler

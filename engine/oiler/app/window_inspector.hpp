@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "oiler/app/game.hpp"
+#include "oiler/app/play_along.hpp"
+#include "oiler/inspector/inspector.hpp"
+
+namespace oiler {
+
+/// Gathers what the inspector shows of a game in a window.
+class WindowInspector {
+public:
+    /// What the loop knows of a frame.
+    struct Frame {
+        double seconds = 0;  ///< since the last one
+        double dropped = 0;  ///< s, since the start
+        bool is_paused = false;
+        bool has_past = false;
+        std::string pace{};
+    };
+
+    /// `fixed` tells why the setting cannot be changed; empty: it can.
+    WindowInspector(AnyGame& game, std::string fixed, std::span<const char> font);
+
+    /// Counts the times of a frame in which steps were taken. `show` is the time of steps and
+    /// picture.
+    void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
+    [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
+                              const Frame& frame);
+    [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
+    [[nodiscard]] bool has_mouse() const { return inspector_.has_mouse(); }
+
+private:
+    AnyGame& game_;
+    std::string fixed_;
+    Inspector inspector_;
+    StepTimes times_;
+    Inspected::Costs costs_;
+    std::vector<const Method*> methods_;
+    std::int64_t cuts_ = -1;
+    double first_energy_ = 0;
+};
+
+}  // namespace oiler

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "oiler/core/size.hpp"
+#include "oiler/physics/stepping.hpp"
+#include "oiler/render/overlay.hpp"
+
+namespace oiler {
+
+/// What the inspector shows of a run that is played.
+struct Inspected {
+    /// A setting that plays along.
+    struct Setting {
+        Stepping stepping{};
+        std::string error{};  ///< the largest distance from the true motion, such as "7.5 cm"
+        double pixels = 0;    ///< the same in pixels; NaN: not known
+        double cost = 0;      ///< update and step, ns per frame at 60 frames per second
+    };
+    /// Times of a frame, ns.
+    struct Costs {
+        double update = 0;
+        double step = 0;
+        double picture = 0;
+        double draw = 0;
+    };
+
+    Stepping stepping{};
+    std::span<const Method* const> methods{};  ///< those that can step the bodies
+    std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
+    std::string verdict{};                     ///< what the timestep costs
+    Colour grade{};                            ///< of the verdict
+    std::vector<Setting> settings{};           ///< that of the run first; none: nothing is known
+    std::vector<float> errors{};               ///< of the run over time, m
+    Costs costs{};
+    double energy = 0;        ///< J
+    double first_energy = 0;  ///< J
+    double time = 0;          ///< s
+    double dropped = 0;       ///< s
+    std::size_t bodies = 0;
+    bool is_paused = false;
+    bool has_past = false;
+    std::string pace{};
+};
+
+/// What the user asks of the loop through the inspector.
+struct Wishes {
+    std::optional<Stepping> stepping{};  ///< restart with it
+    bool pauses = false;                 ///< or resumes
+    bool steps = false;
+    bool goes_back = false;
+    bool restarts = false;
+    int pace = 0;  ///< faster, or slower
+};
+
+/// A panel at the right of the window.
+class Inspector {
+public:
+    /// The mouse, in pixels from the upper left corner of the frame; empty: outside.
+    struct Mouse {
+        std::optional<Point> at{};
+        bool is_down = false;
+        int wheel = 0;
+    };
+
+    /// The width of the panel at the right of a frame, pixels.
+    [[nodiscard]] static int width(Size frame);
+
+    /// `font` is a TrueType file.
+    explicit Inspector(std::span<const char> font);
+    ~Inspector();
+    Inspector(const Inspector&) = delete;
+    Inspector& operator=(const Inspector&) = delete;
+
+    /// Lays out a frame, and returns what the user did in it. `seconds` have passed since the last.
+    [[nodiscard]] Wishes show(const Inspected& run, const Mouse& mouse, Size frame, double seconds);
+    /// The triangles of the last frame.
+    [[nodiscard]] const Overlay& overlay() const;
+    /// Whether the mouse belongs to the panel and not to the game.
+    [[nodiscard]] bool has_mouse() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace oiler

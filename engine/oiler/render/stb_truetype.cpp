@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: MIT
-#define STB_TRUETYPE_IMPLEMENTATION
-#include <stb_truetype.h>

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The panel is used as a user does: by clicking on every place of it.
+#include "oiler/inspector/inspector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "oiler/render/renderer.hpp"
+
+namespace oiler::test {
+namespace {
+
+constexpr Size frame{1280, 720};
+constexpr float panel_left = 930;
+
+Inspected run_at_60_hz() {
+    static const std::vector<const Method*> all{&find_method("semi_implicit_euler"),
+                                                &find_method("velocity_verlet")};
+    Inspected run{.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}},
+                  .methods = all,
+                  .errors = {0, 0.1F, 0.2F},
+                  .bodies = 1};
+    Inspected::Setting setting{.stepping = run.stepping, .error = "7.5 cm", .pixels = 5};
+    run.settings.push_back(setting);
+    setting.stepping.rate = {120};
+    run.settings.push_back(setting);
+    setting.stepping = {.method = &find_method("rk4"), .rate = {60}};
+    run.settings.push_back(setting);
+    return run;
+}
+
+/// All that happens on clicks on places of a grid, each in an inspector that is at rest.
+std::vector<Wishes> clicks_everywhere(const Inspected& run) {
+    std::vector<Wishes> all;
+    Inspector inspector(Renderer::font());
+    for (float y = 22; y < 720; y += 6)
+        for (float x = panel_left; x < 1280; x += 12) {
+            const Point at{x, y};
+            for (const bool down : {false, false, true, false, false}) {
+                const Wishes wishes = inspector.show(run, {at, down}, frame, 1.0 / 60);
+                EXPECT_TRUE(inspector.has_mouse() || x < 940) << x << ' ' << y;
+                all.push_back(wishes);
+            }
+            // A menu that the click opened closes by a click beside it.
+            for (const bool down : {false, true, false, false})
+                (void)inspector.show(run, {Point{100, 400}, down}, frame, 1.0 / 60);
+        }
+    return all;
+}
+
+bool any(const std::vector<Wishes>& all, const std::function<bool(const Wishes&)>& is) {
+    return std::ranges::any_of(all, is);
+}
+
+TEST(Inspector, AsksForWhatIsClicked) {
+    const std::vector<Wishes> all = clicks_everywhere(run_at_60_hz());
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pauses; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.restarts; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pace == -1; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pace == 1; }));
+    EXPECT_FALSE(any(all, [](const Wishes& one) { return one.steps || one.goes_back; }))
+        << "not paused";
+    std::set<std::int64_t> rates;
+    std::set<std::string_view> methods;
+    std::set<Precision> precisions;
+    for (const Wishes& one : all) {
+        if (!one.stepping) continue;
+        rates.insert(one.stepping->rate.steps);
+        methods.insert(one.stepping->method->name);
+        precisions.insert(one.stepping->precision);
+    }
+    EXPECT_GT(rates.size(), 10U) << "the slider";
+    EXPECT_GE(*rates.begin(), 10);
+    EXPECT_LE(*rates.rbegin(), 1000);
+    EXPECT_TRUE(rates.contains(120)) << "applied";
+    EXPECT_TRUE(methods.contains("rk4")) << "applied";
+    EXPECT_TRUE(precisions.contains(Precision::single));
+}
+
+TEST(Inspector, ChangesOneThingOfASetting) {
+    for (const Wishes& one : clicks_everywhere(run_at_60_hz())) {
+        if (!one.stepping) continue;
+        const Stepping now = run_at_60_hz().stepping;
+        EXPECT_EQ(int{one.stepping->rate != now.rate} + int{one.stepping->method != now.method} +
+                      int{one.stepping->precision != now.precision},
+                  1);
+    }
+}
+
+TEST(Inspector, StepsInAPauseAndKeepsAFixedSetting) {
+    Inspected run = run_at_60_hz();
+    run.is_paused = true;
+    run.has_past = true;
+    run.fixed = "--record keeps this setting.";
+    const std::vector<Wishes> all = clicks_everywhere(run);
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.steps; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.goes_back; }));
+    EXPECT_FALSE(any(all, [](const Wishes& one) { return one.stepping.has_value(); }));
+}
+
+TEST(Inspector, LeavesTheMouseBesideItToTheGame) {
+    Inspector inspector(Renderer::font());
+    for (const bool down : {false, false, true, true})
+        EXPECT_FALSE(inspector.show(run_at_60_hz(), {Point{400, 300}, down}, frame, 0.01).stepping);
+    EXPECT_FALSE(inspector.has_mouse());
+    (void)inspector.show(run_at_60_hz(), {std::nullopt, false}, frame, 0.01);
+    EXPECT_FALSE(inspector.has_mouse());
+}
+
+TEST(Inspector, DrawsWithinTheFrame) {
+    for (const Size size : {Size{1280, 720}, Size{640, 360}, Size{3840, 2160}}) {
+        Inspector inspector(Renderer::font());
+        for (int i = 0; i < 3; ++i)
+            (void)inspector.show(run_at_60_hz(), {Point{1, 1}, false}, size, 0.01);
+        const Overlay& overlay = inspector.overlay();
+        ASSERT_TRUE(overlay.bitmap);
+        std::size_t indices = 0;
+        for (const Overlay::Part& part : overlay.parts) {
+            EXPECT_EQ(part.first, indices);
+            indices += part.count;
+            EXPECT_GE(part.left, 0);
+            EXPECT_LE(part.right, size.width);
+            EXPECT_LE(part.bottom, size.height);
+        }
+        EXPECT_EQ(indices, overlay.indices.size());
+        EXPECT_LT(*std::ranges::max_element(overlay.indices), overlay.vertices.size());
+    }
+}
+
+}  // namespace
+}  // namespace oiler::test
