@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -234,7 +235,7 @@ TEST(Playback, AnExceptionOfAGameNamesTheTick) {
 }
 
 /// A game that does something wrong at tick 3.
-enum class Wrong { rate, gravity, time, mass, handle, hash, camera, radius };
+enum class Wrong { rate, gravity, time, mass, handle, hash, camera, radius, place, names };
 template <Wrong wrong>
 struct Wronger : Walker {
     Entity gone;
@@ -258,7 +259,12 @@ struct Wronger : Walker {
         Picture picture;
         if (wrong == Wrong::camera) picture.camera.height = 0;
         if (wrong == Wrong::radius) picture.discs.push_back(Disc{.radius = -1});
+        if (wrong == Wrong::place)
+            picture.discs.push_back(Disc{.centre = {1, std::nanf("")}, .radius = 2});
         return picture;
+    }
+    [[nodiscard]] std::vector<Reading> readings() const {
+        return {{"score", 1}, {wrong == Wrong::names ? "score" : "apex", 2}};
     }
 };
 
@@ -271,8 +277,24 @@ std::string line_of_wrong() {
         EXPECT_EQ(game.step(0, 3, input), 3);
         (void)game.step(3, 1, input);
         (void)game.state_hash();
+        (void)game.readings();
         (void)game.picture();
     });
+}
+
+/// A game that has no memory at tick 3.
+struct Hungry : Walker {
+    using Walker::Walker;
+    void update(const Input&) {
+        if (world.tick() == 3) throw std::bad_alloc();
+    }
+};
+
+TEST(Playback, WithoutMemoryNamesTheTick) {
+    AnyGameOf<Hungry> game(Settings{});
+    LiveInput input;
+    EXPECT_EQ(line_of_error(Exit::io, [&] { (void)game.step(0, 9, input); }),
+              "update at tick 3: not enough memory; take fewer bodies or a shorter time");
 }
 
 TEST(Playback, AWrongNumberOfAGameNamesCallAndTick) {
@@ -288,6 +310,10 @@ TEST(Playback, AWrongNumberOfAGameNamesCallAndTick) {
               "picture at tick 4: a camera of 0 m height: give a height above 0");
     EXPECT_EQ(line_of_wrong<Wrong::radius>(),
               "picture at tick 4: a disc with a radius of -1: give 0 or more");
+    EXPECT_EQ(line_of_wrong<Wrong::place>(),
+              "picture at tick 4: a disc of size 2 at (1, nan): give numbers");
+    EXPECT_EQ(line_of_wrong<Wrong::names>(),
+              "readings at tick 4: two readings are named score; rename one");
 }
 
 TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {

@@ -132,7 +132,8 @@ TEST(Recordings, NameTheStepFromWhichAChangedInputIsSeen) {
             const std::string line =
                 line_of_error(Exit::comparison_failed, [&] { (void)replay(recording); });
             EXPECT_EQ(line, fmt::format("file: the replay differs in the bodies after step {}; it "
-                                        "is equal after {}",
+                                        "is equal after {}; if the game was changed, "
+                                        "--replay-anyway plays on",
                                         step + 1, step));
             return;
         }
@@ -237,7 +238,7 @@ TEST(Recordings, AreRefusedIfAByteIsChanged) {
     }
 }
 
-TEST(Recordings, ReplaceAnOldFileAtTheFirstStepOnly) {
+TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
     const Folder folder;
     put(folder / "a", "an old one");
     const RecordingHeader header = header_of("game", settings_of(), Game::controls);
@@ -245,8 +246,19 @@ TEST(Recordings, ReplaceAnOldFileAtTheFirstStepOnly) {
     RecordingWriter fresh(folder / "b", header);
     EXPECT_EQ(text_of(folder / "a"), "an old one");
     EXPECT_FALSE(std::filesystem::exists(folder / "b"));
-    old.add(0, {});
+    AnyGameOf<Game> game(settings_of());
+    for (int step = 0; step < 60; ++step) {
+        EXPECT_EQ(text_of(folder / "a"), "an old one");
+        old.add(step, {});
+        old.add_state(step, game);
+    }
     EXPECT_TRUE(text_of(folder / "a").starts_with("OILERREC 3\n{"));
+    fresh.finish(0, game);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b")) << "nothing was played";
+    fresh.add(0, {});
+    fresh.add_state(0, game);
+    fresh.finish(1, game);
+    EXPECT_EQ(read_recording(folder / "b").steps, 1);
 }
 
 TEST(Recordings, OfAnotherGameAreRefused) {

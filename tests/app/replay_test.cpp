@@ -49,14 +49,15 @@ protected:
         run(options);
     }
     /// Returns the remarks.
-    [[nodiscard]] std::string replay(std::int64_t steps) const {
+    [[nodiscard]] std::string replay(std::int64_t steps, bool anyway = false) const {
         Options options;
+        options.replay_anyway = anyway;
         options.steps = steps;
         options.replay = recording();
         options.replay_file = "a";
         testing::internal::CaptureStderr();
         try {
-            run(options);
+            run(options, anyway ? Exit::comparison_failed : Exit::done);
         } catch (...) {
             (void)testing::internal::GetCapturedStderr();
             throw;
@@ -69,13 +70,13 @@ protected:
     [[nodiscard]] Recording recording() const { return read_recording(folder_ / "a"); }
 
 private:
-    static void run(Options options) {
+    static void run(Options options, Exit expected = Exit::done) {
         options.settings.stepping.rate = {60};
         EXPECT_EQ(run_game(options, Changing::about,
                            [](const Settings& settings) {
                                return std::make_unique<AnyGameOf<Changing>>(settings);
                            }),
-                  Exit::done);
+                  expected);
     }
 
     Folder folder_;
@@ -95,11 +96,13 @@ TEST_F(Replays, NameAGameThatQuitsAtAnotherStep) {
     quits_at = 30;
     record(100);
     const std::string goes_on =
-        "a: the replay differs: the game goes on after step 30, where it quits in the recording";
+        "a: the replay differs in that the game goes on after step 30, where it quits in the "
+        "recording; if the game was changed, --replay-anyway plays on";
     quits_at = 29;
-    EXPECT_EQ(
-        difference(30),
-        "a: the replay differs: the game quits after step 29, in the recording after step 30");
+    EXPECT_EQ(difference(30),
+              "a: the replay differs in that the game quits after step 29, in the recording after "
+              "step 30; if the "
+              "game was changed, --replay-anyway plays on");
     quits_at = 31;
     EXPECT_EQ(difference(30), goes_on);
     EXPECT_EQ(difference(100), goes_on);
@@ -108,7 +111,9 @@ TEST_F(Replays, NameAGameThatQuitsAtAnotherStep) {
     EXPECT_FALSE(recording().quits);
     quits_at = 29;
     EXPECT_EQ(difference(30),
-              "a: the replay differs: the game quits after step 29, in the recording it does not");
+              "a: the replay differs in that the game quits after step 29, in the recording it "
+              "does not; if the "
+              "game was changed, --replay-anyway plays on");
 }
 
 TEST_F(Replays, NameTheTypesThatAreNotCompared) {
@@ -119,6 +124,23 @@ TEST_F(Replays, NameTheTypesThatAreNotCompared) {
     EXPECT_NE(remarks.find("Colouring"), std::string::npos);
     has_colours = false;
     EXPECT_EQ(replay(9).find("not compared"), std::string::npos);
+}
+
+TEST_F(Replays, OfAChangedGamePlayOnIfAsked) {
+    record(60);
+    pushed_at = 20;
+    EXPECT_EQ(
+        difference(60),
+        "a: the replay differs in the bodies after step 21; it is equal after 20; if the game "
+        "was changed, --replay-anyway plays on");
+    const std::string remarks = replay(60, true);
+    EXPECT_NE(
+        remarks.find("a: the replay differs in the bodies after step 21; it is equal after 20\n"),
+        std::string::npos);
+    EXPECT_EQ(remarks.find("equals"), std::string::npos);
+    pushed_at = -1;
+    quits_at = 40;
+    EXPECT_NE(replay(60, true).find("quits after step 40"), std::string::npos);
 }
 
 // 2500 bodies are hashed after each third step, at the end of each second, and at the end.

@@ -43,7 +43,7 @@ struct Diary {
 
 std::string played(const std::string& script, std::int64_t steps) {
     AnyGameOf<Diary> game{Settings{}};
-    ScriptInput input(parse_script(script, "script"), game);
+    ScriptInput input(parse_script(script, "script", {60}), game);
     game.step(0, steps, input);
     return game.picture().labels[0].text;
 }
@@ -94,10 +94,15 @@ TEST(Script, NamesTheWrongLine) {
                                Wrong{"1 press Foo", "'Foo' is no button"},
                                Wrong{"1 press F3", "belongs to the loop"},
                                Wrong{"1 click Space", "left, middle or right"},
-                               Wrong{"1 mouse nan 1", "'nan' is no place in m"},
-                               Wrong{"1 mouse 1 -inf", "'-inf' is no place in m"},
+                               Wrong{"1 mouse nan 1", "'nan' is no place: give x and y in m"},
+                               Wrong{"1 mouse 1 -inf", "'-inf' is no place: give x and y in m"},
                                Wrong{"1 mouse 1 2e9", "farther"},
-                               Wrong{"1 mouse 1", "'' is no place in m"},
+                               Wrong{"1 mouse 1", "'' is no place: give x and y in m"},
+                               Wrong{"1s5 press A", "'1s5' is no step"},
+                               Wrong{"-1s press A", "0 or more"},
+                               Wrong{"1e300s press A", "too late"},
+                               Wrong{"nans press A", "'nans' is no step"},
+                               Wrong{"1 press aim", "'aim' is no button"},
                                Wrong{"1 mouse 1 2 3", "'3' is too much"},
                                Wrong{"1 wheel 0.5", "'0.5' is no number of notches"},
                                Wrong{"1 press Spcae", "did you mean `Space`?"},
@@ -117,11 +122,28 @@ TEST(Script, NamesTheWrongLine) {
                                Wrong{"1 hold A\n3 press A", "A is down already then"},
                                Wrong{"1 hold Mouse left\n3 click left", "Mouse left is down"},
                                Wrong{"1 press A\n0 press A", "step 0 comes after step 1"}}) {
-        const std::string line = line_of_error(
-            Exit::usage, [&] { (void)parse_script(std::string("\n") + wrong.line, "a.txt"); });
+        const std::string line = line_of_error(Exit::usage, [&] {
+            (void)parse_script(std::string("\n") + wrong.line, "a.txt", {60});
+        });
         EXPECT_NE(line.find(wrong.said), std::string::npos) << line;
         EXPECT_TRUE(line.starts_with("a.txt, line ")) << line;
     }
+}
+
+TEST(Script, HasTimesAndActions) {
+    constexpr Action fire{"fire", Key::j, Mouse::left};
+    constexpr Axis aim{"aim", Key::left, Key::right};
+    const std::array<Control, 2> controls{fire, aim};
+    const auto lines = parse_script(
+        "0.14s press fire\n0.141s press Space\n1s press fire\n"
+        "1.5s click left\n75 press J\n1e2s text \"s\"",
+        "a.txt", {50}, controls);
+    std::vector<std::int64_t> steps;
+    for (const ScriptLine& line : lines) steps.push_back(line.step);
+    EXPECT_EQ(steps, (std::vector<std::int64_t>{7, 8, 50, 75, 75, 5000}));
+    EXPECT_EQ(lines[0].button, Button(Key::j));
+    EXPECT_EQ(lines[1].button, Button(Key::space));
+    EXPECT_EQ(lines[3].button, Button(Mouse::left));
 }
 
 TEST(Script, BeginsWithoutAByteOrderMark) {
@@ -130,10 +152,10 @@ TEST(Script, BeginsWithoutAByteOrderMark) {
                                 (void)parse_script(
                                     "\xEF\xBB\xBF"
                                     "1 press A",
-                                    "a.txt");
+                                    "a.txt", {60});
                             }),
               "a.txt, line 1: it begins with a byte order mark; save it as UTF-8 without one");
-    EXPECT_EQ(parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt").at(0).text,
+    EXPECT_EQ(parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt", {60}).at(0).text,
               "\"\\\xEF\xBF\xBD");
 }
 

@@ -60,6 +60,12 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
               "Within 9 mm of the true motion, less than a pixel, at 60 Hz semi_implicit_euler.");
     EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("Within 10 µm"), std::string::npos)
         << "no more is known";
+    WhatIf unsure = measured(0.001, 0, 0);
+    unsure.uncertainty = 0.003;
+    EXPECT_EQ(judge(unsure).grade, Grade::unknown) << "it may be off by three pixels";
+    EXPECT_EQ(judge(unsure).text,
+              "Off by less than 3 cm at 60 Hz semi_implicit_euler. The true motion is not known "
+              "better.");
     WhatIf still = measured(0, 0, 0);
     still.uncertainty = 0;
     EXPECT_EQ(judge(still).text, "No error so far at 60 Hz semi_implicit_euler.");

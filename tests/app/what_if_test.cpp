@@ -306,8 +306,10 @@ TEST(WhatIf, ASettingThatFailsIsNamed) {
 TEST(WhatIf, RefusesARecordingThatIsNotReproduced) {
     Options options = record<Fall>();
     ++options.replay->states.at(70).bodies;
-    EXPECT_EQ(line_of_error(Exit::comparison_failed, [&] { (void)measure<Fall>(options, "30"); }),
-              "a.rec: the replay differs in the bodies after step 71; it is equal after 70");
+    EXPECT_EQ(
+        line_of_error(Exit::comparison_failed, [&] { (void)measure<Fall>(options, "30"); }),
+        "a.rec: the replay differs in the bodies after step 71; it is equal after 70; if the game "
+        "was changed, --replay-anyway plays on");
 }
 
 /// A game that takes at least 20 µs for each update and 40 µs for each picture.
@@ -327,6 +329,17 @@ struct Slow {
 };
 
 // Half an update per frame at 30 Hz, two at 120 Hz; a fifth is left to the stopwatch itself.
+TEST(WhatIf, RefusesAPlayThatGoesOnWhereItQuit) {
+    Options options = record<Fall>();
+    options.replay->quits = true;
+    EXPECT_EQ(
+        line_of_error(Exit::comparison_failed, [&] { (void)measure<Fall>(options, "30"); }),
+        "a.rec: the replay differs in that the game goes on after step 120, where it quits in "
+        "the recording; if the game was changed, --replay-anyway plays on");
+    options.replay_anyway = true;
+    EXPECT_EQ(measure<Fall>(options, "30").runs.size(), 2U);
+}
+
 TEST(WhatIf, CostsAreOfAFrame) {
     const WhatIf result = measure<Slow>(record<Slow>(), "30,120");
     EXPECT_GE(result.runs[0].costs.update, 16'000);

@@ -135,7 +135,7 @@ auto guarded(Place place, F f, bool in_setup = false) {
         if (error.exit() != Exit::usage || in_setup) throw;
         fail(Exit::diverged, "{}: {}", place(), error.what());
     } catch (const std::bad_alloc&) {
-        throw;
+        fail(Exit::io, "{}: not enough memory; take fewer bodies or a shorter time", place());
     } catch (const std::exception& error) {
         fail(Exit::diverged, "{}: {}", place(), error.what());
     } catch (...) {
@@ -240,7 +240,11 @@ public:
     }
     [[nodiscard]] std::vector<Reading> readings() const override {
         if constexpr (HasReadings<G>)
-            return guarded(place("readings"), [&] { return game_.readings(); });
+            return guarded(place("readings"), [&] {
+                std::vector<Reading> readings = game_.readings();
+                require_distinct_names(readings);
+                return readings;
+            });
         else
             return {};
     }

@@ -35,6 +35,9 @@ struct Look {
     return {static_cast<float>(v[0]), static_cast<float>(v[1])};
 }
 
+/// A point of a picture or of the mouse, m, as a vector.
+[[nodiscard]] inline Vec3 to_vec(Point point) { return {point.x, point.y}; }
+
 /// A picture of the bodies that have a Look, over the planes of the world.
 [[nodiscard]] Picture draw_looks(const World& world, const Camera& camera);
 

@@ -40,7 +40,6 @@ struct Words {
     std::string png = "all";
     std::filesystem::path from;
     std::int64_t frame = 0;
-    bool replay_anyway = false;
     std::string what_if;
     bool force = false;
 };
@@ -216,8 +215,11 @@ void check_what_if(const CLI::App& app, const Words& words) {
                                  "--quiet",  "--threads",       "--size",    "--surface"};
     for (const CLI::Option* const option : app.get_options())
         if (option->count() > 0 && std::ranges::count(allowed, option->get_name()) == 0)
-            fail(Exit::usage, "{}: --what-if prints a table of many runs; leave one of them out",
-                 option->get_name());
+            fail(Exit::usage, "{}: --what-if prints a table of many runs of a recording; {}",
+                 option->get_name(),
+                 option->get_name() == "--script"
+                     ? "record the script with --record FILE, then give --replay FILE"
+                     : "leave one of them out");
     if (words.surface == "window")
         fail(Exit::usage, "--surface window: --what-if draws off screen; give osmesa or egl");
     if (app.count("--replay") == 0)
@@ -275,7 +277,7 @@ void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
         line.options.what_if_settings = parse_what_if(words.what_if, stepping);
     require_same_game(line.options.replay->header,
                       header_of(line.about.name, settings, line.about.controls),
-                      words.replay_anyway);
+                      line.options.replay_anyway);
     line.options.controls = controls_of(line.options.replay->header, line.about.controls);
 }
 
@@ -363,8 +365,9 @@ void declare_play(CLI::App& app, Options& options, Words& words) {
                    "settings such as 30,rk4,velocity_verlet@120,float")
         ->type_name("[SETTINGS]")
         ->expected(0, 1);
-    app.add_flag("--replay-anyway", words.replay_anyway,
-                 "replay a recording of another version of Oiler")
+    app.add_flag("--replay-anyway", options.replay_anyway,
+                 "replay a recording of another version of Oiler, and play on where a changed game "
+                 "differs")
         ->disable_flag_override();
 }
 

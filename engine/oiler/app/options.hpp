@@ -46,6 +46,7 @@ struct Options {
     std::filesystem::path record;
     std::optional<Recording> replay;
     std::filesystem::path replay_file;
+    bool replay_anyway = false;              ///< also of another version or of a changed game
     bool what_if = false;                    ///< plays `replay` with other settings
     std::vector<Stepping> what_if_settings;  ///< empty: the usual ones
     bool quiet = false;

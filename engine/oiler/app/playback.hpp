@@ -38,6 +38,7 @@ public:
     /// Shows the game as it is now: it was put back to where it was after `step` steps.
     void go_back(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }
+    [[nodiscard]] const AnyGame& game() const { return game_; }
     /// Shows the game to a watcher after each step. It must outlive the playback.
     void watch(StepWatcher& watcher) { watcher_ = &watcher; }
     [[nodiscard]] const Loop& loop() const { return game_.loop(); }

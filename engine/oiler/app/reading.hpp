@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "oiler/core/error.hpp"
 
 namespace oiler {
 
@@ -14,5 +17,13 @@ struct Reading {
     std::string unit{};  ///< "m"; empty for a count
     friend bool operator==(const Reading&, const Reading&) = default;
 };
+
+/// Throws Error{usage} if two readings have one name.
+inline void require_distinct_names(const std::vector<Reading>& readings) {
+    for (std::size_t i = 0; i < readings.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (readings[i].name == readings[j].name)
+                fail(Exit::usage, "two readings are named {}; rename one", readings[i].name);
+}
 
 }  // namespace oiler

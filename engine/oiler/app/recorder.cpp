@@ -29,10 +29,23 @@ void append_number(std::string& row, double value, Precision precision) {
 
 }  // namespace
 
-void require_finite(const Energy& energy) {
-    if (!std::isfinite(energy.total()))
-        fail(Exit::diverged,
-             "the energy is no longer finite; take a higher rate or another method");
+void require_finite(const Energy& energy, const World& world) {
+    if (std::isfinite(energy.total())) return;
+    const Bodies& bodies = world.bodies();
+    std::size_t fastest = 0;
+    double most = -1;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        const Vec3 v = bodies.velocity(row);
+        const double speed = std::hypot(v[0], v[1], v[2]);
+        if (speed > most) {
+            most = speed;
+            fastest = row;
+        }
+    }
+    fail(Exit::diverged,
+         "the energy is no longer finite at tick {}: body {} moves at {:.3g} m/s; take a higher "
+         "rate or another method",
+         world.tick(), world.entity_of_row(fastest).index, most);
 }
 
 Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,
@@ -64,7 +77,7 @@ void Recorder::record_bodies(std::int64_t step, const World& world) {
 
 void Recorder::record_energy(std::int64_t step, const World& world) {
     const Energy energy = world.bodies().energy();
-    require_finite(energy);
+    require_finite(energy, world);
     energy_->write(fmt::format("{},{},{},{},{}\n", step, world.settings().stepping.rate.time(step),
                                energy.kinetic, energy.potential, energy.total()));
 }

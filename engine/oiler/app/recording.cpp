@@ -239,7 +239,6 @@ void RecordingWriter::begin_record(std::int64_t step) {
 }
 
 void RecordingWriter::add(std::int64_t step, const Input& input) {
-    begin_file();
     for (const InputEvent& event : events_between(before_, input)) {
         begin_record(step);
         append(records_, event);
@@ -265,6 +264,7 @@ void RecordingWriter::add_hashes(std::int64_t step, const AnyGame& game) {
 }
 
 void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diverged) {
+    if (steps == 0) return;
     const bool quits = game.loop().quits();
     // A game that quits has changed in the update that did it.
     if (!quits && !diverged && hashed_step_ < steps - 1) add_hashes(steps - 1, game);

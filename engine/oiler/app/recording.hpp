@@ -60,7 +60,7 @@ struct PartHashes {
 /// kind, and numbers. engine/README.md lists them.
 class RecordingWriter {
 public:
-    /// An older file stays as it is until the game is stepped. Throws Error{io} or
+    /// An older file stays as it is for the first second, or until `finish`. Throws Error{io} or
     /// Error{usage} if the file cannot be written.
     RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
 
@@ -69,7 +69,8 @@ public:
     /// Records the hashes after that step, or after fewer steps of a world with more than 1000
     /// bodies: 1000 bodies per step are hashed, and all at the end of each second.
     void add_state(std::int64_t step, const AnyGame& game);
-    /// Completes the file. The game is in its state after `steps` steps, unless it diverged.
+    /// Completes the file, or leaves it alone if no step was taken. The game is in its state after
+    /// `steps` steps, unless it diverged.
     void finish(std::int64_t steps, const AnyGame& game, bool diverged = false);
 
 private:

@@ -46,6 +46,7 @@ void write_report(File& file, const RunReport& report, const World& world) {
                 {"last", report.last ? to_json(*report.last) : Json()}}},
               {"dropped_time", seconds(report.dropped)},
               {"wall_seconds", seconds(report.wall)}};
+    for (const Reading& reading : report.readings) json["readings"][reading.name] = reading.value;
     for (const BudgetEntry& entry : report.budget)
         json["budget"][entry.name] = {
             {"budget", entry.most},

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/app/reading.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/world/world.hpp"
 
@@ -28,7 +29,8 @@ struct RunReport {
     Energy first;
     std::optional<Energy> last{};  ///< empty if the run diverged
     std::uint64_t state_hash = 0;
-    std::string divergence{};  ///< its message; empty if the run did not diverge
+    std::vector<Reading> readings{};  ///< of the game, at the end; empty if the run diverged
+    std::string divergence{};         ///< its message; empty if the run did not diverge
     std::chrono::nanoseconds dropped{0};
     std::chrono::nanoseconds wall{0};
     std::vector<BudgetEntry> budget{};

@@ -29,9 +29,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<ScriptLine> read_script(const std::filesystem::path& path) {
-    if (path != "-") return parse_script(read_text(path), path.string());
-    return parse_script({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
+std::vector<ScriptLine> read_script(const Options& options, std::span<const Control> controls) {
+    const bool is_stdin = options.script == "-";
+    const std::string text = is_stdin ? std::string(std::istreambuf_iterator<char>(std::cin), {})
+                                      : read_text(options.script);
+    return parse_script(text, is_stdin ? "standard input" : options.script.string(),
+                        options.settings.stepping.rate, controls);
 }
 
 /// Who plays: the user in a window, a script, a recording or nobody; and the recording of it.
@@ -40,9 +43,11 @@ public:
     Player(const Options& options, const About& about, const AnyGame& game)
         : live(options.controls) {
         if (options.replay)
-            replay_.emplace(*options.replay, options.replay_file.string(), options.controls);
+            replay_.emplace(*options.replay, options.replay_file.string(), options.controls,
+                            options.replay_anyway);
         else if (!options.script.empty())
-            script_.emplace(read_script(options.script), game, options.controls);
+            script_.emplace(read_script(options, controls_of(options, about)), game,
+                            options.controls);
         if (!options.record.empty())
             tape_.emplace(source(), options.record,
                           header_of(about.name, options.settings, controls_of(options, about)));
@@ -59,13 +64,20 @@ public:
         if (replay_) playback.watch(*replay_);
     }
     /// Completes the recording. Throws Error{comparison_failed} if the end of a replay is another
-    /// one, or if nothing was compared.
-    void finish(Playback& playback, const Options& options, bool diverged) {
-        if (tape_) tape_->finish(playback.steps(), playback.game(), diverged);
+    /// one, or if nothing was compared; returns it for a difference after which the game played on.
+    Exit finish(Playback& playback, const Options& options, bool diverged) {
+        finish_recording(playback, diverged);
+        if (tape_ && playback.steps() == 0)
+            remark(options.quiet, "no step was taken: {} is not written", options.record.string());
         if (script_ && script_->unplayed() > 0)
             remark(options.quiet, "lines of the script after the last step, not played: {}",
                    script_->unplayed());
-        if (replay_) finish_replay(playback, options, diverged);
+        return replay_ ? finish_replay(playback, options, diverged) : Exit::done;
+    }
+
+    /// After an error, the state of the game is not that of its last step.
+    void finish_recording(const Playback& playback, bool after_error) {
+        if (tape_) tape_->finish(playback.steps(), playback.game(), after_error);
     }
 
     LiveInput live;
@@ -77,7 +89,7 @@ private:
         return live;
     }
 
-    void finish_replay(Playback& playback, const Options& options, bool diverged) {
+    Exit finish_replay(Playback& playback, const Options& options, bool diverged) {
         const std::int64_t steps = std::min(playback.steps(), replay_->steps());
         const bool whole = steps == replay_->steps();
         // A game that quits does it in the update of a step that it does not take.
@@ -88,6 +100,10 @@ private:
                  "{}: none of the {} steps was compared, because the recording has no state of "
                  "them; replay more of it",
                  options.replay_file.string(), steps);
+        if (!replay_->difference().empty()) {
+            remark(false, "{}", replay_->difference());
+            return Exit::comparison_failed;
+        }
         remark(options.quiet, "the replay equals the recording: {} of {} steps{}{}", steps,
                replay_->steps(),
                replay_->compared() < steps
@@ -98,6 +114,7 @@ private:
         if (!unhashed.empty())
             remark(options.quiet, "not compared, because they have no hash(): {}",
                    fmt::join(unhashed, ", "));
+        return Exit::done;
     }
 
     std::optional<ScriptInput> script_;
@@ -120,7 +137,13 @@ Played loop(Playback& playback, Player& player, const Options& options, const Ab
     InputSource& inputs = player.inputs();
     if (!options.headless && !options.steps)
         return run_window(playback, player.live, inputs, options, about, make);
-    if (!options.steps) return {run_headless(playback, inputs, options, about, profile)};
+    if (!options.steps) {
+        const Exit exit = run_headless(playback, inputs, options, about, profile);
+        // The last frame of a replay comes before its end.
+        if (options.replay && !options.frames && !options.frame)
+            playback.step_to(options.replay->steps, inputs);
+        return {exit};
+    }
     run_steps(playback, inputs, options);
     return {Interrupt::requested() ? Exit::interrupted : Exit::done};
 }
@@ -167,9 +190,13 @@ Exit play(Playback& playback, Player& player, const Options& options, const Abou
         played = loop(playback, player, options, about, make, profile);
         report.last = playback.world().bodies().energy();
         report.state_hash = playback.game().state_hash();
-        require_finite(*report.last);
+        report.readings = playback.game().readings();
+        require_finite(*report.last, playback.world());
     } catch (const Error& error) {
-        if (error.exit() != Exit::diverged) throw;
+        if (error.exit() != Exit::diverged) {
+            player.finish_recording(playback, true);
+            throw;
+        }
         report.divergence = error.what();
     }
     report.steps = playback.steps();
@@ -193,17 +220,24 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     Recorder recorder(options.trace, options.energy, world);
     std::optional<File> json;  // opened before the run, so that a wrong path costs no time
     if (!options.json.empty()) json.emplace(options.json);
+    std::optional<File> profile_file;
     std::optional<Profile> profile;
-    if (!options.profile.empty()) profile.emplace();
+    if (!options.profile.empty()) {
+        profile_file.emplace(options.profile);
+        profile.emplace();
+    }
     Profile* const stages = profile ? &*profile : nullptr;
     Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     player.watch(playback);
     Exit exit = play(playback, player, options, about, make, report, stages);
-    player.finish(playback, options, !report.divergence.empty());
+    exit = std::max(exit, player.finish(playback, options, !report.divergence.empty()));
     recorder.commit();
-    if (profile) write_file(options.profile, profile->to_json());
+    if (profile) {
+        profile_file->write(profile->to_json());
+        profile_file->commit();
+    }
     if (report.dropped.count() > 0)
         remark(options.quiet, "late frames dropped {:.3f} s",
                std::chrono::duration<double>(report.dropped).count());

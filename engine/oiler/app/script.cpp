@@ -52,8 +52,20 @@ public:
             if (!std::isfinite(number)) refuse(fmt::format("'{}' is no {}", word, what));
         return number;
     }
+    /// The number before an s; empty if the next word does not end with one.
+    [[nodiscard]] std::optional<double> take_seconds() {
+        const std::size_t end = rest_.find_first_of(" \t\r");
+        const std::string_view word = rest_.substr(0, end);
+        double seconds = 0;
+        const char* const last = word.data() + word.size();
+        const auto [stop, error] = std::from_chars(word.data(), last, seconds);
+        if (error != std::errc() || stop + 1 != last || *stop != 's' || !std::isfinite(seconds))
+            return std::nullopt;
+        (void)take();
+        return seconds;
+    }
     [[nodiscard]] float take_metres() {
-        const auto number = take_number<float>("place in m");
+        const auto number = take_number<float>("place: give x and y in m");
         if (std::abs(number) > farthest)
             refuse(fmt::format("{} m is farther than {:g} m", number, farthest));
         return number;
@@ -102,9 +114,17 @@ private:
     std::string place_;
 };
 
-Button take_button(LineWords& words, const std::string& prefix) {
+std::optional<Button> first_button(std::string_view action, std::span<const Control> controls) {
+    for (const Control& control : controls)
+        if (!control.is_axis && control.name == action && !control.positive.empty())
+            return *control.positive.begin();
+    return std::nullopt;
+}
+
+Button take_button(LineWords& words, const std::string& prefix, std::span<const Control> controls) {
     const std::string name = words.take_rest();
-    const auto button = find_button(prefix + name);
+    auto button = prefix.empty() ? first_button(name, controls) : std::nullopt;
+    if (!button) button = find_button(prefix + name);
     if (!button)
         words.refuse(fmt::format(
             "'{}' is no button; give one such as {}{}", name,
@@ -129,15 +149,25 @@ void take_stick(LineWords& words, ScriptLine& line) {
     line.deflection = static_cast<Deflection>(std::lround(position * 127));
 }
 
-ScriptLine parse_line(LineWords& words) {
-    ScriptLine line{.step = words.take_number<std::int64_t>("step")};
+/// A step, or a time such as 1.5s.
+std::int64_t take_step(LineWords& words, Rate rate) {
+    const auto seconds = words.take_seconds();
+    if (!seconds) return words.take_number<std::int64_t>("step");
+    // 0.14 s at 50 Hz are 7 steps, though the product is a little more.
+    const double steps = std::ceil(*seconds / rate.dt() * (1 - 0x1p-50));
+    if (std::abs(steps) > 0x1p53) words.refuse("that is too late");
+    return static_cast<std::int64_t>(steps);
+}
+
+ScriptLine parse_line(LineWords& words, Rate rate, std::span<const Control> controls) {
+    ScriptLine line{.step = take_step(words, rate)};
     if (line.step < 0) words.refuse("a step is 0 or more");
     const std::string_view what = words.take();
     if (what == "press" || what == "hold" || what == "release") {
         line.what = what == "press" ? What::press : what == "hold" ? What::hold : What::release;
-        line.button = take_button(words, "");
+        line.button = take_button(words, "", controls);
     } else if (what == "click") {
-        line.button = take_button(words, "Mouse ");
+        line.button = take_button(words, "Mouse ", {});
     } else if (what == "mouse") {
         line.what = What::mouse;
         line.at.x = words.take_metres();
@@ -171,7 +201,8 @@ void follow(const ScriptLine& line, HeldButtons& held, const LineWords& words) {
 
 }  // namespace
 
-std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name) {
+std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name, Rate rate,
+                                     std::span<const Control> controls) {
     std::vector<ScriptLine> lines;
     if (text.starts_with("\xEF\xBB\xBF"))
         fail(Exit::usage,
@@ -183,7 +214,7 @@ std::vector<ScriptLine> parse_script(const std::string& text, const std::string&
         LineWords words(line, fmt::format("{}, line {}", name, number));
         if (!is_utf8(line)) words.refuse("it is not UTF-8; save the file as UTF-8");
         if (words.empty()) continue;
-        lines.push_back(parse_line(words));
+        lines.push_back(parse_line(words, rate, controls));
         if (lines.size() > 1 && lines.back().step < lines[lines.size() - 2].step)
             words.refuse(fmt::format("step {} comes after step {}; give them in their order",
                                      lines.back().step, lines[lines.size() - 2].step));

@@ -32,10 +32,12 @@ struct ScriptLine {
 ///     130 stick left_x 0.5   deflects a stick, -1 to 1, or a trigger, 0 to 1, until the next line
 ///     140 text "hello"       enters text; \" and \\ are a quote and a backslash
 ///
-/// Steps do not decrease. Names of keys and buttons are those of find_button. Throws Error{usage}
-/// with `name`, the number of the line and the remedy.
-[[nodiscard]] std::vector<ScriptLine> parse_script(const std::string& text,
-                                                   const std::string& name);
+/// 1.5s instead of a step is the first step that begins at 1.5 s or later. Steps do not decrease.
+/// Names of keys and buttons are those of find_button; an action is its first button. Throws
+/// Error{usage} with `name`, the number of the line and the remedy.
+[[nodiscard]] std::vector<ScriptLine> parse_script(const std::string& text, const std::string& name,
+                                                   Rate rate,
+                                                   std::span<const Control> controls = {});
 
 /// Plays a script. The mouse points through the camera of the game's picture at that step.
 class ScriptInput final : public InputSource {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/tape.hpp"
 
+#include <fmt/core.h>
+
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -13,6 +15,7 @@ Input Replay::next(std::int64_t step) {
 }
 
 void Replay::after(std::int64_t step, const AnyGame& game) {
+    if (!difference_.empty()) return;
     const auto recorded = recording_.states.find(step);
     if (recorded == recording_.states.end()) return;
     const PartHashes now = part_hashes(game);
@@ -22,23 +25,28 @@ void Replay::after(std::int64_t step, const AnyGame& game) {
         return;
     }
     const bool in_bodies = now.bodies != recorded->second.bodies;
-    fail(Exit::comparison_failed,
-         "{}: the replay differs in {} after step {}; it is equal after {}", name_,
-         in_bodies ? "the bodies" : "components, timers, random numbers or members of the game",
-         step + 1, equal_until_ + 1);
+    differ(fmt::format(
+        "in {} after step {}; it is equal after {}",
+        in_bodies ? "the bodies" : "components, timers, random numbers or members of the game",
+        step + 1, equal_until_ + 1));
 }
 
-void Replay::compare_end(std::int64_t steps, bool quits) const {
+void Replay::compare_end(std::int64_t steps, bool quits) {
     const std::int64_t end = recording_.steps;
     if (quits && steps < end)
-        fail(Exit::comparison_failed,
-             "{}: the replay differs: the game quits after step {}, in the recording {}", name_,
-             steps, recording_.quits ? fmt::format("after step {}", end) : "it does not");
+        differ(fmt::format("in that the game quits after step {}, in the recording {}", steps,
+                           recording_.quits ? fmt::format("after step {}", end) : "it does not"));
     if (recording_.quits && steps > end)
-        fail(Exit::comparison_failed,
-             "{}: the replay differs: the game goes on after step {}, where it quits in the "
-             "recording",
-             name_, end);
+        differ(fmt::format(
+            "in that the game goes on after step {}, where it quits in the recording", end));
+}
+
+void Replay::differ(std::string how) {
+    if (!difference_.empty()) return;
+    difference_ = fmt::format("{}: the replay differs {}", name_, how);
+    if (!plays_on_)
+        fail(Exit::comparison_failed, "{}; if the game was changed, --replay-anyway plays on",
+             difference_);
 }
 
 }  // namespace oiler

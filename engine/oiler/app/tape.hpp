@@ -40,15 +40,22 @@ private:
 /// Plays a recording, and compares the game with it after each step.
 class Replay final : public InputSource, public StepWatcher {
 public:
-    Replay(const Recording& recording, std::string name, ChosenControls controls = {})
-        : recording_(recording), name_(std::move(name)), player_(std::move(controls)) {}
+    /// With `plays_on`, differences are remembered and not thrown.
+    Replay(const Recording& recording, std::string name, ChosenControls controls = {},
+           bool plays_on = false)
+        : recording_(recording),
+          name_(std::move(name)),
+          player_(std::move(controls)),
+          plays_on_(plays_on) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Throws Error{comparison_failed} with the first step that differs, and in which part.
     void after(std::int64_t step, const AnyGame& game) override;
     /// Throws Error{comparison_failed} if a game that has taken `steps` steps quits before it did
     /// in the recording, or goes on where it quit there.
-    void compare_end(std::int64_t steps, bool quits) const;
+    void compare_end(std::int64_t steps, bool quits);
+    /// The first difference; empty if there is none.
+    [[nodiscard]] const std::string& difference() const { return difference_; }
     [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
     [[nodiscard]] bool quits() const { return recording_.quits; }
     /// The number of steps whose states were compared: of many bodies, one per second.
@@ -56,9 +63,13 @@ public:
     [[nodiscard]] bool complete() const { return recording_.complete; }
 
 private:
+    void differ(std::string how);
+
     const Recording& recording_;
     std::string name_;
     EventPlayer player_;
+    bool plays_on_;
+    std::string difference_;
     std::size_t played_ = 0;
     std::int64_t equal_until_ = -1;
     std::int64_t compared_ = 0;

@@ -115,17 +115,22 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                 fmt::format("From {:.1f} s on, the true motion is another play than at {}.{}{}",
                             *played.other_play_from, setting, cure_text(measured), limit)};
     const double pixels = played.distance / measured.pixel;
-    const Grade grade = pixels > pixels_of_bad ? Grade::bad
-                        : pixels > 1           ? Grade::visible
-                                               : Grade::good;
+    const double known = std::max(played.distance, least_certain * measured.uncertainty);
+    const Grade grade = pixels > pixels_of_bad   ? Grade::bad
+                        : pixels > 1             ? Grade::visible
+                        : known > measured.pixel ? Grade::unknown
+                                                 : Grade::good;
     if (const Reading* const reading = worst_reading(measured, before))
         return {std::max(grade, Grade::visible),
                 reading_text(measured, *reading) + cure_text(measured) + limit};
-    const double known = std::max(played.distance, least_certain * measured.uncertainty);
     if (known == 0) return {grade, fmt::format("No error so far at {}.{}", setting, limit)};
     if (grade == Grade::good)
         return {grade, fmt::format("Within {} of the true motion, less than a pixel, at {}.{}",
                                    length_text(known), setting, limit)};
+    if (grade == Grade::unknown)
+        return {grade,
+                fmt::format("Off by less than {} at {}. The true motion is not known better.{}",
+                            length_text(known), setting, limit)};
     return {grade,
             fmt::format("{} up to {} off, {:.0f} px, at {}.{}{}", name_of(played.furthest),
                         length_text(played.distance), pixels, setting, cure_text(measured), limit)};

@@ -27,7 +27,9 @@ std::optional<WhatIf> measure_what_if(const Options& options,
         if (step % stride == 0) runs.time_pictures(draw);
         progress.show(step);
     }
-    return runs.result();
+    WhatIf result = runs.result();
+    runs.compare_end();
+    return result;
 }
 
 }  // namespace oiler

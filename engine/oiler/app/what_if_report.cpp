@@ -20,7 +20,8 @@ readings: at the end, or at the last recorded step that a setting has, too, and 
 1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines.
 other play: the time from which bodies, restarts or counts differ; nothing later is counted.
 ns per frame: at 60 frames per second, means without the fastest and the slowest quarter.
-<: below 10 times the error of the reference.
+<: below 10 times the difference between the reference and the run that checks it. What a game does
+   in its own updates is late by up to a step of the reference in both, and may be missing there.
 )";
 
 /// Formats a time that may not come, s.
@@ -75,8 +76,11 @@ std::string table_of_runs(const WhatIf& result) {
 }
 
 std::string table_of_reading(const Reading& reading, const WhatIf& result) {
-    std::string text = fmt::format("\n{}{}{} at the end: {:.6g}\n", reading.name,
-                                   reading.unit.empty() ? "" : ", ", reading.unit, reading.value);
+    std::string text = fmt::format(
+        "\n{}{}{} at the end{}: {:.6g}\n", reading.name, reading.unit.empty() ? "" : ", ",
+        reading.unit,
+        result.certain_until < result.duration ? ", later than the reference is certain" : "",
+        reading.value);
     for (const WhatIfRun& run : result.runs) {
         const Reading* const own = find_reading(run.readings, reading.name);
         const std::string error =

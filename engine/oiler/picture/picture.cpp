@@ -183,14 +183,25 @@ void require_drawable(const Picture& picture) {
         if (number < 0) fail(Exit::usage, "{} of {}: give 0 or more", what, number);
     };
     if (!(picture.camera.height > 0))
-        fail(Exit::usage, "a camera of {} m height: give a height above 0",
-             picture.camera.height);
-    for (const Disc& disc : picture.discs) refuse_negative(disc.radius, "a disc with a radius");
+        fail(Exit::usage, "a camera of {} m height: give a height above 0", picture.camera.height);
+    const auto refuse_nan = [](Point at, float size, const char* what) {
+        if (std::isnan(at.x + at.y + size))
+            fail(Exit::usage, "{} of size {} at ({}, {}): give numbers", what, size, at.x, at.y);
+    };
+    for (const Sprite& sprite : picture.sprites)
+        refuse_nan(sprite.centre, sprite.size.x + sprite.size.y + sprite.angle, "a sprite");
+    for (const Disc& disc : picture.discs) {
+        refuse_nan(disc.centre, disc.radius, "a disc");
+        refuse_negative(disc.radius, "a disc with a radius");
+    }
     for (const Polyline& line : picture.polylines)
         refuse_negative(line.width, "a polyline with a width");
     for (const Polygon& polygon : picture.polygons)
         refuse_negative(polygon.outline, "a polygon with an outline");
-    for (const Label& label : picture.labels) refuse_negative(label.size, "a label with a size");
+    for (const Label& label : picture.labels) {
+        refuse_nan(label.at, label.size, "a label");
+        refuse_negative(label.size, "a label with a size");
+    }
 }
 
 }  // namespace oiler

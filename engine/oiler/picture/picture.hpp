@@ -145,8 +145,8 @@ struct Picture {
 /// of its last point; a polygon with another number of points changes at 1.
 [[nodiscard]] Picture between(const Picture& before, const Picture& after, float alpha);
 
-/// Throws Error{usage} for a camera whose height is not a positive number, and for a negative
-/// radius, width, outline or font size.
+/// Throws Error{usage} for a camera whose height is not a positive number, for a negative radius,
+/// width, outline or font size, and for a sprite, disc or label with a number that is NaN.
 void require_drawable(const Picture& picture);
 
 }  // namespace oiler
