@@ -173,7 +173,21 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     const WhatIf result = along.result();
     EXPECT_NEAR(result.runs[0].distance, 20 * 2 / 60.0 / 2, 1e-12);
     EXPECT_EQ(result.runs[0].readings.size(), 0U);
+    const auto off = [&](double alpha) {
+        const std::vector<Ghost> ghosts = along.ghosts(120, alpha);
+        EXPECT_EQ(ghosts.size(), 1U);
+        return ghosts.at(0).truth[0] - ghosts.at(0).at[0];
+    };
+    const double before = 20 * (119 / 60.0) / 60 / 2;
+    EXPECT_NEAR(off(1), 20 * 2 / 60.0 / 2, 1e-12);
+    EXPECT_NEAR(off(0), before, 1e-12);
+    EXPECT_NEAR(off(0.5), (20 * 2 / 60.0 / 2 + before) / 2, 1e-12);
+    EXPECT_EQ(along.ghosts(120, 1)[0].at[0], game.world().bodies().position(0)[0]);
+    EXPECT_TRUE(along.ghosts(121, 1).empty()) << "not played yet";
+    EXPECT_EQ(along.errors().size(), 121U) << "the beginning, and each step";
+    EXPECT_NEAR(along.errors().back(), 1 / 3.0, 1e-6);
     along.stop("went back");
+    EXPECT_TRUE(along.ghosts(120, 1).empty());
     EXPECT_EQ(along.verdict(game).text, "went back");
     EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
 }

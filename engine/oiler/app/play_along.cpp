@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
@@ -42,6 +43,8 @@ void PlayAlong::start(std::int64_t first, const Stepping& stepping) {
 void PlayAlong::start(std::int64_t first) {
     measured_.reset();
     errors_.clear();
+    ghosts_before_.clear();
+    ghosts_after_.clear();
     readings_.clear();
     first_ = first;
     played_ = judged_ = 0;
@@ -77,6 +80,8 @@ void PlayAlong::play_until(std::int64_t step) {
     try {
         while (behind(step) > 0 && Clock::now() < end) {
             runs_->play_until(played_++);
+            ghosts_before_ = std::exchange(ghosts_after_, ghosts_of(runs_->recorded_game().world(),
+                                                                    runs_->reference().world()));
             if (!runs_->certain()) continue;
             if (errors_.size() >= most_errors) errors_.erase(errors_.begin());
             errors_.push_back(static_cast<float>(runs_->recorded().distance_now));
@@ -84,6 +89,11 @@ void PlayAlong::play_until(std::int64_t step) {
     } catch (const Error& error) {
         stop(error.what());
     }
+}
+
+std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {
+    if (!runs_ || !runs_->certain() || behind(step) > 0) return {};
+    return between(ghosts_before_, ghosts_after_, alpha);
 }
 
 void PlayAlong::stop(std::string reason) {

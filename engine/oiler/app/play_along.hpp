@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "oiler/app/ghosts.hpp"
 #include "oiler/app/input_source.hpp"
 #include "oiler/app/verdict.hpp"
 #include "oiler/app/what_if_runs.hpp"
@@ -38,6 +39,9 @@ public:
     [[nodiscard]] const Verdict& verdict(const AnyGame& game);
     /// What the last verdict is made of; empty if nothing is measured.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
+    /// The bodies and where they truly are, `alpha` between the last step and that before; empty if
+    /// that is not known, or not yet of the game's step `step`.
+    [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;
     /// The distance of the body that is furthest off at the last steps, m.
     [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
 
@@ -57,6 +61,8 @@ private:
     Verdict verdict_;
     std::optional<WhatIf> measured_;
     std::vector<float> errors_;
+    std::vector<Ghost> ghosts_before_;
+    std::vector<Ghost> ghosts_after_;
 };
 
 }  // namespace oiler

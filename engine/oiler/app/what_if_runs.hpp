@@ -28,6 +28,8 @@ public:
     void compare_end();
     void time_pictures(DrawTimer* draw);
     [[nodiscard]] WhatIf result() const;
+    [[nodiscard]] const AnyGame& reference() const { return reference_.game(); }
+    [[nodiscard]] const AnyGame& recorded_game() const { return runs_.front()->game(); }
     /// The recorded setting, without its costs.
     [[nodiscard]] const WhatIfRun& recorded() const { return runs_.front()->result(); }
     /// Whether later steps are compared, too.

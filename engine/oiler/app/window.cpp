@@ -128,6 +128,7 @@ private:
     void control(const Input& keys) {
         const Wishes wishes = std::exchange(wishes_, {});
         if (keys.presses(Key::f1) % 2 == 1) inspects_ = !inspects_;
+        if (keys.presses(Key::f6) % 2 == 1) magnifies_ = !magnifies_;
         if (keys.presses(Key::f2) % 2 == 1) helps_ = !helps_;
         if (!failure_ && (wishes.pauses || keys.presses(Key::f3) % 2 == 1))
             clock_.paused() ? clock_.resume() : clock_.pause();
@@ -184,6 +185,12 @@ private:
         Picture picture = next_picture();
         const std::chrono::nanoseconds show_time = now() - before_picture;
         along_.play_until(playback_.steps());
+        if (inspects_) {
+            // A frame at the time of a step shows that step, others the way to it.
+            const bool at_step = playback_.steps() == clock_.ticks() - undone_;
+            add_ghosts(picture, along_.ghosts(playback_.steps(), at_step ? 1 : clock_.alpha()),
+                       magnifies_ ? 10 : 1);
+        }
         if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
@@ -256,6 +263,8 @@ private:
         else if (back)
             text = fmt::format("back at {:.2f} s{}", playback_.world().time(),
                                playback_.steps() == rewind_->first() ? ", no further" : "");
+        if (inspects_ && magnifies_)
+            text += (text.empty() ? "" : "   ") + std::string("errors ×10");
         if (!pace_.text().empty()) text += (text.empty() ? "" : "   ") + pace_.text();
         return text;
     }
@@ -292,6 +301,7 @@ private:
     std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
     std::chrono::nanoseconds last_start_ = now();
     bool inspects_ = false;
+    bool magnifies_ = false;
     bool helps_ = false;
     bool goes_back_ = false;
     bool whole_ = false;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "oiler/picture/picture.hpp"
+#include "oiler/world/world.hpp"
+
+namespace oiler {
+
+/// A body where a run has it, and where the reference has it at the same time, m.
+struct Ghost {
+    Entity body{};
+    Vec3 at{};
+    Vec3 truth{};
+};
+
+/// The bodies of a run that the reference has, too, unless they were teleported in one of the two.
+/// Of many bodies, the first hundred.
+[[nodiscard]] std::vector<Ghost> ghosts_of(const World& run, const World& reference);
+
+/// The ghosts at `alpha` between two steps, for the bodies that both have.
+[[nodiscard]] std::vector<Ghost> between(const std::vector<Ghost>& before,
+                                         const std::vector<Ghost>& after, double alpha);
+
+/// Adds a ring where each body truly is, and its distance if it can be seen. With a factor, the
+/// distances are drawn so many times as long.
+void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor);
+
+}  // namespace oiler

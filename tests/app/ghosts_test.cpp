@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The rings that show where bodies truly are.
+#include "oiler/app/ghosts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace oiler::test {
+namespace {
+
+const Settings at_1_hz{.stepping = {.rate = {1}}};
+
+TEST(Ghosts, AreTheBodiesThatBothHave) {
+    World run(1, at_1_hz);
+    const Entity kept = run.spawn({.position = {1}});
+    const Entity thrown = run.spawn({.position = {2}});
+    const Entity lost = run.spawn({.position = {3}});
+    World reference = run;
+    reference.set_position(kept, {1.5});
+    reference.destroy(lost);
+    run.teleport(thrown, {9});
+    const std::vector<Ghost> ghosts = ghosts_of(run, reference);
+    ASSERT_EQ(ghosts.size(), 1U);
+    EXPECT_EQ(ghosts[0].body, kept);
+    EXPECT_EQ(ghosts[0].at[0], 1);
+    EXPECT_EQ(ghosts[0].truth[0], 1.5);
+    reference.teleport(thrown, {8});
+    EXPECT_EQ(ghosts_of(run, reference).size(), 2U) << "thrown in both";
+    for (int i = 0; i < 200; ++i) (void)run.spawn({});
+    EXPECT_LE(ghosts_of(run, World(run)).size(), 100U);
+}
+
+TEST(Ghosts, MoveInStraightLinesBetweenSteps) {
+    const Entity one{1, 1};
+    const Entity two{2, 1};
+    const std::vector<Ghost> before{{one, {0, 2}, {4, 4}}};
+    const std::vector<Ghost> after{{two, {}, {}}, {one, {8, 2}, {8, 0}}};
+    const std::vector<Ghost> quarter = between(before, after, 0.25);
+    ASSERT_EQ(quarter.size(), 1U) << "two is new";
+    EXPECT_EQ(quarter[0].body, one);
+    EXPECT_EQ(quarter[0].at, (Vec3{2, 2}));
+    EXPECT_EQ(quarter[0].truth, (Vec3{5, 3}));
+}
+
+// At 3.6 m of height, a metre is 100 units of the canvas, and 3 units are seen.
+TEST(Ghosts, HaveARingAndADistanceThatCanBeSeen) {
+    const auto drawn = [](double off, double factor) {
+        Picture picture{.camera = {.height = 3.6F}};
+        add_ghosts(picture, {{{1, 1}, {0.5, 0}, {0.5, off}}}, factor);
+        return picture;
+    };
+    const auto centre = [](const Polyline& ring) {
+        const auto [low, high] = std::ranges::minmax(ring.points, {}, &Point::y);
+        return Point{(std::ranges::min(ring.points, {}, &Point::x).x +
+                      std::ranges::max(ring.points, {}, &Point::x).x) /
+                         2,
+                     (low.y + high.y) / 2};
+    };
+    const Picture small = drawn(0.02, 1);
+    ASSERT_EQ(small.polylines.size(), 1U);
+    EXPECT_TRUE(small.labels.empty());
+    const Picture seen = drawn(0.1, 1);
+    ASSERT_EQ(seen.polylines.size(), 2U);
+    EXPECT_NEAR(centre(seen.polylines[0]).x, 320 + 50, 1e-3);
+    EXPECT_NEAR(centre(seen.polylines[0]).y, 180 + 10, 1e-3);
+    EXPECT_NEAR(seen.polylines[1].points.front().y, 180, 1e-3);
+    EXPECT_NEAR(seen.polylines[1].points.back().y, 190, 1e-3);
+    EXPECT_EQ(seen.labels.at(0).text, "10 cm");
+    const Picture large = drawn(0.1, 10);
+    EXPECT_NEAR(centre(large.polylines[0]).y, 180 + 100, 1e-3);
+    EXPECT_EQ(large.labels.at(0).text, "10 cm") << "the true distance";
+}
+
+}  // namespace
+}  // namespace oiler::test
