@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/playback.hpp"
 
@@ -189,6 +192,29 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     along.stop("went back");
     EXPECT_TRUE(along.ghosts(120, 1).empty());
     EXPECT_EQ(along.verdict(game).text, "went back");
+    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+}
+
+/// A game whose update takes longer than the time that is left in a frame.
+struct Slow : Fall {
+    using Fall::Fall;
+    void update(const Input&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
+};
+
+TEST(PlayAlong, EndsAfterAFewStepsIfTheyTakeTooLong) {
+    Options options;
+    const Settings settings{.stepping = {.rate = {60}}};
+    options.settings = settings;
+    AnyGameOf<Fall> game(settings);
+    OnePress player;
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<Slow>>(own);
+    };
+    PlayAlong along(player, options, Fall::about, make);
+    int frames = 0;
+    while (frames < 60 && along.verdict(game).text.find("cannot keep up") == std::string::npos)
+        along.play_until(++frames);
+    EXPECT_LE(frames, 9) << "the first comparison takes no step, and may be late";
     EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
 }
 

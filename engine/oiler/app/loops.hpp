@@ -28,7 +28,7 @@ struct Played {
 /// Steps take their input from `inputs`, which may be `live`. `make` makes the games that play along
 /// for the verdict.
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make);
+                  const About& about, const MakeGame& make, Profile* profile);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;

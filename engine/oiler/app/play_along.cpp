@@ -19,6 +19,9 @@ constexpr auto time_of_verdict = 500ms;
 constexpr std::int64_t longest_delay = 2;  // s
 constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
+constexpr int most_slow_steps = 8;  // one after the other that take longer than time_of_frame
+constexpr const char* too_slow =
+    "what the timestep costs is not measured: this computer cannot keep up";
 constexpr std::size_t most_errors = 600;
 
 }  // namespace
@@ -48,6 +51,7 @@ void PlayAlong::start(std::int64_t first) {
     readings_.clear();
     first_ = first;
     played_ = judged_ = 0;
+    slow_ = 0;
     before_ = {};
     options_.replay->events.clear();
     try {
@@ -73,13 +77,14 @@ Input PlayAlong::next(std::int64_t step) {
 void PlayAlong::play_until(std::int64_t step) {
     if (!runs_) return;
     const std::int64_t delay = longest_delay * options_.settings.stepping.rate.steps;
-    if (behind(step) > std::max(delay, longest_delay_in_steps))
-        return stop("what the timestep costs is not measured: this computer cannot keep up");
+    if (behind(step) > std::max(delay, longest_delay_in_steps)) return stop(too_slow);
     options_.replay->steps = step - first_;
     const Clock::time_point end = Clock::now() + time_of_frame;
     try {
         while (behind(step) > 0 && Clock::now() < end) {
+            const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
+            slow_ = Clock::now() - begin > time_of_frame ? slow_ + 1 : 0;
             ghosts_before_ = std::exchange(ghosts_after_, ghosts_of(runs_->recorded_game().world(),
                                                                     runs_->reference().world()));
             if (!runs_->certain()) continue;
@@ -89,6 +94,7 @@ void PlayAlong::play_until(std::int64_t step) {
     } catch (const Error& error) {
         stop(error.what());
     }
+    if (slow_ >= most_slow_steps) stop(too_slow);
 }
 
 std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {

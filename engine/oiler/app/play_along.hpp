@@ -55,6 +55,7 @@ private:
     Input before_{};
     std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
     std::int64_t played_ = 0;
+    int slow_ = 0;             ///< the last steps that each took too long
     std::int64_t judged_ = 0;  ///< played then
     Clock::time_point next_verdict_{};
     std::vector<Reading> readings_;  ///< at the last verdict

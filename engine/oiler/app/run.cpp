@@ -136,7 +136,7 @@ Played loop(Playback& playback, Player& player, const Options& options, const Ab
             const MakeGame& make, Profile* profile) {
     InputSource& inputs = player.inputs();
     if (!options.headless && !options.steps)
-        return run_window(playback, player.live, inputs, options, about, make);
+        return run_window(playback, player.live, inputs, options, about, make, profile);
     if (!options.steps) {
         const Exit exit = run_headless(playback, inputs, options, about, profile);
         // The last frame of a replay comes before its end.

@@ -81,9 +81,10 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 class Session {
 public:
     Session(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-            const About& about, const MakeGame& make)
+            const About& about, const MakeGame& make, Profile* profile)
         : playback_(playback),
           make_(make),
+          profile_(profile),
           live_(live),
           options_(options),
           about_(about),
@@ -174,6 +175,7 @@ private:
     }
 
     void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
+        const Span span(profile_, "frame");
         const bool back = goes_back_;
         live_.queue.set_paused(clock_.paused() || back);
         const std::int64_t steps = clock_.advance(start).steps;
@@ -184,7 +186,7 @@ private:
         const std::chrono::nanoseconds before_picture = now();
         Picture picture = next_picture();
         const std::chrono::nanoseconds show_time = now() - before_picture;
-        along_.play_until(playback_.steps());
+        play_along();
         if (inspects_) {
             // A frame at the time of a step shows that step, others the way to it.
             const bool at_step = playback_.steps() == clock_.ticks() - undone_;
@@ -211,8 +213,12 @@ private:
     void show(const Picture& picture, const Input& keys, std::chrono::nanoseconds start) {
         const Size size = window_->size();
         if (size.width == 0 || size.height == 0) return;  // minimised
-        renderer_.draw(picture, size, view(size));
+        {
+            const Span span(profile_, "draw");
+            renderer_.draw(picture, size, view(size));
+        }
         if (inspects_) {
+            const Span span(profile_, "inspector");
             wishes_ = inspector_.show(
                 along_, keys, size, view(size),
                 {.seconds = std::chrono::duration<double>(start - last_start_).count(),
@@ -222,8 +228,14 @@ private:
                  .pace = pace_.text()});
             renderer_.draw_over(inspector_.overlay());
         }
+        const Span span(profile_, "present");
         renderer_.blit();
         window_->present();
+    }
+
+    void play_along() {
+        const Span span(profile_, "play along");
+        along_.play_until(playback_.steps());
     }
 
     /// The picture to show now; after a divergence, that of the last step before.
@@ -282,6 +294,7 @@ private:
 
     Playback& playback_;
     const MakeGame& make_;
+    Profile* profile_;
     LiveInput& live_;
     const Options& options_;
     const About& about_;
@@ -310,8 +323,8 @@ private:
 }  // namespace
 
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make) {
-    return Session(playback, live, inputs, options, about, make).run();
+                  const About& about, const MakeGame& make, Profile* profile) {
+    return Session(playback, live, inputs, options, about, make, profile).run();
 }
 
 }  // namespace oiler
