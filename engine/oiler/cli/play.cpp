@@ -8,63 +8,13 @@
 #include "oiler/app/loops.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
+#include "oiler/cli/scene_game.hpp"
 #include "oiler/lab/budget.hpp"
-#include "oiler/picture/palette.hpp"
-#include "oiler/scene/draw.hpp"
-#include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 #include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {
-
-class SceneGame final : public AnyGame {
-public:
-    /// The scene must outlive the game. With `repeats`, it begins anew after its duration.
-    SceneGame(const Scene& scene, const Settings& settings, bool repeats)
-        : scene_(scene),
-          repeats_(repeats),
-          world_(make_world(scene, settings)),
-          camera_(camera_of(scene, world_)) {}
-
-    std::int64_t step(std::int64_t, std::int64_t count, InputSource&) override {
-        if (repeats_ && world_.time() >= scene_.duration) restart();
-        const std::int64_t taken = repeats_ ? 1 : count;
-        const Stopwatch stopwatch(times_, &StepTimes::step);
-        world_.step(taken);
-        return taken;
-    }
-    void restart() override {
-        world_ = make_world(scene_, Settings(world_.settings()));
-        ++cuts_;
-    }
-    [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
-        return std::make_unique<SceneGame>(*this);
-    }
-    void assign(const AnyGame& other) override {
-        world_ = dynamic_cast<const SceneGame&>(other).world_;
-        ++cuts_;
-    }
-    [[nodiscard]] const World& world() const override { return world_; }
-    [[nodiscard]] Picture picture() const override {
-        Picture picture = draw_scene(scene_, world_, camera_);
-        if (repeats_)
-            picture.labels.push_back({.at = {8, 6},
-                                      .text = fmt::format("repeats after {:g} s", scene_.duration),
-                                      .size = 9,
-                                      .colour = palette::grey});
-        return picture;
-    }
-    [[nodiscard]] std::string name_of(Entity entity) const override {
-        return scene_.name_of_body(entity.index);
-    }
-
-private:
-    const Scene& scene_;
-    bool repeats_;
-    World world_;
-    Camera camera_;
-};
 
 About describe(const Scene& scene, const std::string& name, const std::string& text) {
     return {.name = name,
@@ -148,9 +98,9 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
         print(line.text);
         return Exit::done;
     }
-    const bool repeats = is_watched(line.options);
+    const bool watched = is_watched(line.options);
     const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(scene, settings, repeats);
+        return std::make_unique<SceneGame>(scene, settings, watched);
     };
     const auto measure_budget = [&](double seconds) { return check(scene, line.options, seconds); };
     return run_game(line.options, line.about, make, measure_budget);

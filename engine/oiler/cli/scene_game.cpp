@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/scene_game.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "oiler/picture/palette.hpp"
+#include "oiler/scene/draw.hpp"
+#include "oiler/scene/make_world.hpp"
+
+namespace oiler::cli {
+namespace {
+
+constexpr double reach = 0.06;           // of the camera's height
+constexpr double highest_frequency = 2;  // Hz, of the spring that drags
+constexpr double most_periods_per_step = 0.1;
+
+/// The body that is nearest to a point, within the mouse's reach.
+std::optional<Entity> nearest_body(const World& world, Point at, float height) {
+    std::optional<Entity> nearest;
+    double least = reach * static_cast<double>(height);
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+        const Vec3 x = world.bodies().position(row);
+        const double distance = std::hypot(x[0] - at.x, x[1] - at.y);
+        if (distance > least) continue;
+        least = distance;
+        nearest = world.entity_of_row(row);
+    }
+    return nearest;
+}
+
+}  // namespace
+
+SceneGame::SceneGame(const Scene& scene, const Settings& settings, bool watched)
+    : scene_(scene),
+      watched_(watched),
+      world_(make_world(scene, settings)),
+      camera_(camera_of(scene, world_)) {}
+
+std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource& inputs) {
+    if (watched_)
+        for (std::int64_t taken = 0; taken < count; ++taken) take_step(inputs.next(step + taken));
+    else {
+        const Stopwatch stopwatch(times_, &StepTimes::step);
+        world_.step(count);
+    }
+    return count;
+}
+
+void SceneGame::take_step(const Input& input) {
+    if (input.restarts() || world_.time() >= scene_.duration) restart();
+    drag(input);
+    const Stopwatch stopwatch(times_, &StepTimes::step);
+    world_.step();
+}
+
+/// The body hangs on a critically damped spring, slow enough for the timestep, whatever the method.
+void SceneGame::drag(const Input& input) {
+    const auto at = input.pointer();
+    if (!at || !input.held(Mouse::left)) return drag_.reset();
+    if (input.pressed(Mouse::left))
+        if (const auto body = nearest_body(world_, *at, camera_.height))
+            drag_ = Drag{.body = *body};
+    if (!drag_) return;
+    drag_->to = {at->x, at->y, world_.position(drag_->body)[2]};
+    const double frequency = std::min(highest_frequency, most_periods_per_step / world_.dt());
+    const double omega = 2 * std::numbers::pi * frequency;
+    const Vec3 pull = (drag_->to - world_.position(drag_->body)) * (omega * omega) -
+                      world_.velocity(drag_->body) * (2 * omega);
+    world_.apply_force(drag_->body, pull * world_.mass(drag_->body));
+}
+
+void SceneGame::restart() {
+    world_ = make_world(scene_, Settings(world_.settings()));
+    drag_.reset();
+    ++cuts_;
+}
+
+void SceneGame::assign(const AnyGame& other) {
+    const auto& source = dynamic_cast<const SceneGame&>(other);
+    world_ = source.world_;
+    drag_ = source.drag_;
+    ++cuts_;
+}
+
+Picture SceneGame::picture() const {
+    Picture picture = draw_scene(scene_, world_, camera_);
+    if (watched_)
+        picture.labels.push_back(
+            {.at = {8, 6},
+             .text = fmt::format("repeats after {:g} s; the mouse drags bodies", scene_.duration),
+             .size = 9,
+             .colour = palette::grey});
+    if (drag_)
+        picture.polylines.push_back(
+            {.points = {to_point(world_.position(drag_->body)), to_point(drag_->to)},
+             .width = 1,
+             .colour = palette::grey});
+    return picture;
+}
+
+}  // namespace oiler::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "oiler/app/game.hpp"
+#include "oiler/scene/scene.hpp"
+
+namespace oiler::cli {
+
+/// A scene as a game. One that is watched in a window begins anew after its duration, and the left
+/// mouse button drags its bodies.
+class SceneGame final : public AnyGame {
+public:
+    /// The scene must outlive the game.
+    SceneGame(const Scene& scene, const Settings& settings, bool watched);
+
+    std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override;
+    void restart() override;
+    [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
+        return std::make_unique<SceneGame>(*this);
+    }
+    void assign(const AnyGame& other) override;
+    [[nodiscard]] bool takes_input() const override { return watched_; }
+    [[nodiscard]] const World& world() const override { return world_; }
+    [[nodiscard]] Picture picture() const override;
+    [[nodiscard]] std::string name_of(Entity entity) const override {
+        return scene_.name_of_body(entity.index);
+    }
+
+private:
+    /// A body that the mouse holds.
+    struct Drag {
+        Entity body{};
+        Vec3 to{};  ///< m
+    };
+
+    void take_step(const Input& input);
+    void drag(const Input& input);
+
+    const Scene& scene_;
+    bool watched_;
+    World world_;
+    Camera camera_;
+    std::optional<Drag> drag_;
+};
+
+}  // namespace oiler::cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Scenes that are watched in a window: they repeat, and their bodies can be dragged.
+#include "oiler/cli/scene_game.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "oiler/input/input_queue.hpp"
+#include "oiler/scene/read.hpp"
+
+namespace oiler::test {
+namespace {
+
+using cli::SceneGame;
+
+/// A body without forces in a picture of 10 m, for half a second.
+Scene scene_of(double mass = 1) {
+    Scene scene = parse_scene(
+        "[scene]\naxes = 2\nduration = 0.5\n[camera]\ncentre = [0.0, 0.0]\nheight = 10.0\n"
+        "[[body]]\nname = \"ball\"\nposition = [0.0, 0.0]\nvelocity = [0.0, 0.0]\nmass = " +
+            std::to_string(mass) + "\n",
+        "ball.toml");
+    return scene;
+}
+
+/// A player whose mouse does in each step what `plays` says.
+struct Hand final : InputSource {
+    std::function<void(InputQueue&, std::int64_t)> plays = [](InputQueue&, std::int64_t) {};
+    InputQueue queue;
+    int asked = 0;
+    Input next(std::int64_t step) override {
+        ++asked;
+        plays(queue, step);
+        return queue.take({.height = 10});
+    }
+    /// Where the camera shows a point of the world.
+    static Point canvas(float x, float y) { return Camera{.height = 10}.to_canvas({x, y}); }
+};
+
+Settings at(std::int64_t rate) {
+    return {.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {rate}}};
+}
+
+TEST(SceneGame, RepeatsWhileItIsWatched) {
+    const Scene scene = scene_of();
+    Hand hand;
+    SceneGame watched(scene, at(10), true);
+    EXPECT_EQ(watched.step(0, 5, hand), 5);
+    EXPECT_EQ(watched.world().tick(), 5);
+    EXPECT_EQ(watched.cuts(), 0);
+    EXPECT_EQ(watched.step(5, 1, hand), 1);
+    EXPECT_EQ(watched.world().tick(), 1) << "of the next time";
+    EXPECT_EQ(watched.cuts(), 1);
+    EXPECT_EQ(hand.asked, 6);
+    SceneGame run(scene, at(10), false);
+    EXPECT_EQ(run.step(0, 100, hand), 100);
+    EXPECT_EQ(run.world().tick(), 100);
+    EXPECT_EQ(hand.asked, 6);
+    EXPECT_TRUE(run.picture().labels.size() < watched.picture().labels.size()) << "it says so";
+}
+
+/// Presses beside the ball at 0.3 m, and points at 2 m up from the next step on.
+void drag(InputQueue& queue, std::int64_t step) {
+    queue.point_at(step == 0 ? Hand::canvas(0.3F, 0) : Hand::canvas(0, 2));
+    queue.set(Mouse::left, true);
+}
+
+// A critically damped spring of 2 Hz: y = 2 m·(1 - (1 + ωt)·e^(-ωt)). A force that is held over
+// steps of 1 ms and semi-implicit Euler change it by some ω·dt = 1.3 % of the way.
+TEST(SceneGame, BodiesFollowTheMouseOnASpring) {
+    for (const double mass : {1.0, 50.0}) {
+        Scene scene = scene_of(mass);
+        scene.duration = 100;
+        SceneGame game(scene, at(1000), true);
+        Hand hand;
+        hand.plays = drag;
+        (void)game.step(0, 1, hand);
+        (void)game.step(1, 200, hand);
+        const double omega = 2 * std::numbers::pi * 2;
+        const double expected = 2 * (1 - (1 + omega * 0.2) * std::exp(-omega * 0.2));
+        EXPECT_NEAR(game.world().bodies().position(0)[1], expected, 0.013 * 2);
+        EXPECT_GT(game.picture().polylines.size(), 0U) << "a line to the mouse";
+        hand.plays = [](InputQueue& queue, std::int64_t) { queue.set(Mouse::left, false); };
+        (void)game.step(201, 2, hand);
+        const Vec3 speed = game.world().bodies().velocity(0);
+        (void)game.step(203, 50, hand);
+        EXPECT_EQ(game.world().bodies().velocity(0), speed) << "let go";
+        EXPECT_EQ(game.picture().polylines.size(), 0U);
+    }
+}
+
+TEST(SceneGame, ADragIsStableAtAnyRate) {
+    for (const std::int64_t rate : {1, 5, 20, 60}) {
+        Scene scene = scene_of();
+        scene.duration = 1e6;
+        SceneGame game(scene, at(rate), true);
+        Hand hand;
+        hand.plays = drag;
+        double furthest = 0;
+        for (std::int64_t step = 0; step < 100; ++step) {
+            (void)game.step(step, 1, hand);
+            furthest = std::max(furthest, game.world().bodies().position(0)[1]);
+        }
+        EXPECT_LT(furthest, 2.1) << rate;
+        EXPECT_NEAR(game.world().bodies().position(0)[1], 2, 0.01) << rate;
+    }
+}
+
+TEST(SceneGame, AMouseThatIsFarAwayDragsNothing) {
+    const Scene scene = scene_of();
+    SceneGame game(scene, at(10), true);
+    Hand hand;
+    hand.plays = [](InputQueue& queue, std::int64_t) {
+        queue.point_at(Hand::canvas(0.7F, 0));
+        queue.set(Mouse::left, true);
+    };
+    (void)game.step(0, 4, hand);
+    EXPECT_EQ(game.world().bodies().velocity(0), Vec3{});
+}
+
+TEST(SceneGame, ACopyDragsOn) {
+    Scene scene = scene_of();
+    scene.duration = 100;
+    SceneGame game(scene, at(100), true);
+    Hand hand;
+    hand.plays = drag;
+    (void)game.step(0, 10, hand);
+    const std::unique_ptr<AnyGame> copy = game.clone();
+    SceneGame assigned(scene, at(100), true);
+    assigned.assign(game);
+    Hand other;
+    other.queue = hand.queue;
+    other.plays = hand.plays;
+    Hand third;
+    third.queue = hand.queue;
+    third.plays = hand.plays;
+    (void)game.step(10, 20, hand);
+    (void)copy->step(10, 20, other);
+    (void)assigned.step(10, 20, third);
+    EXPECT_EQ(copy->state_hash(), game.state_hash());
+    EXPECT_EQ(assigned.state_hash(), game.state_hash());
+}
+
+}  // namespace
+}  // namespace oiler::test
