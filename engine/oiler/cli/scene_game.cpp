@@ -15,9 +15,9 @@
 namespace oiler::cli {
 namespace {
 
-constexpr double reach = 0.06;           // of the camera's height
-constexpr double highest_frequency = 2;  // Hz, of the spring that drags
-constexpr double most_periods_per_step = 0.1;
+constexpr double reach = 0.06;            // of the camera's height
+constexpr double highest_frequency = 10;  // Hz, of the spring that drags
+constexpr double most_periods_per_step = 0.05;
 
 /// The body that is nearest to a point, within the mouse's reach.
 std::optional<Entity> nearest_body(const World& world, Point at, float height) {
@@ -66,7 +66,9 @@ void SceneGame::drag(const Input& input) {
         if (const auto body = nearest_body(world_, *at, camera_.height))
             drag_ = Drag{.body = *body};
     if (!drag_) return;
-    drag_->to = {at->x, at->y, world_.position(drag_->body)[2]};
+    drag_->to = world_.position(drag_->body);
+    drag_->to[0] = at->x;
+    if (world_.bodies().axes() > 1) drag_->to[1] = at->y;
     const double frequency = std::min(highest_frequency, most_periods_per_step / world_.dt());
     const double omega = 2 * std::numbers::pi * frequency;
     const Vec3 pull = (drag_->to - world_.position(drag_->body)) * (omega * omega) -
