@@ -134,6 +134,39 @@ TEST(SceneGame, AMouseThatIsFarAwayDragsNothing) {
     EXPECT_EQ(game.world().bodies().velocity(0), Vec3{});
 }
 
+TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
+    Scene scene = scene_of();
+    scene.duration = 100;
+    SceneGame game(scene, at(60), true);
+    Hand hand;
+    hand.plays = [](InputQueue& queue, std::int64_t step) {
+        queue.point_at(Hand::canvas(2, 1));
+        if (step == 0) queue.turn_wheel(2);
+    };
+    (void)game.step(0, 2, hand);
+    const Camera zoomed = game.picture().camera;
+    EXPECT_FLOAT_EQ(zoomed.height, 10 * 0.81F);
+    EXPECT_NEAR(zoomed.to_canvas({2, 1}).x, Hand::canvas(2, 1).x, 1e-3);
+    EXPECT_NEAR(zoomed.to_canvas({2, 1}).y, Hand::canvas(2, 1).y, 1e-3);
+    hand.plays = [](InputQueue& queue, std::int64_t step) {
+        queue.point_at(step == 2 ? Hand::canvas(2, 1) : Hand::canvas(-1, 3));
+        queue.set(Mouse::right, step < 4);
+    };
+    (void)game.step(2, 3, hand);
+    const Camera moved = game.picture().camera;
+    EXPECT_NEAR(moved.to_canvas({2, 1}).x, Hand::canvas(-1, 3).x, 1e-3) << "held";
+    EXPECT_NEAR(moved.to_canvas({2, 1}).y, Hand::canvas(-1, 3).y, 1e-3);
+    hand.plays = [](InputQueue& queue, std::int64_t) { queue.point_at(Hand::canvas(0, 0)); };
+    (void)game.step(5, 2, hand);
+    EXPECT_EQ(game.picture().camera, moved) << "let go";
+    hand.plays = [](InputQueue& queue, std::int64_t) { queue.set(Key::r, true); };
+    (void)game.step(7, 1, hand);
+    EXPECT_EQ(game.world().tick(), 1);
+    EXPECT_EQ(game.picture().camera, moved);
+    game.assign(SceneGame(scene, at(30), true));
+    EXPECT_EQ(game.picture().camera, moved) << "with another setting, too";
+}
+
 TEST(SceneGame, ACopyDragsOn) {
     Scene scene = scene_of();
     scene.duration = 100;

@@ -24,7 +24,8 @@ About describe(const Scene& scene, const std::string& name, const std::string& t
             .precision = scene.stepping.precision,
             .duration = scene.duration,
             .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : "",
-            .scene_text = text};
+            .scene_text = text,
+            .controls = SceneGame::controls};
 }
 
 /// Whether somebody looks at the run, and nothing of it is written.

@@ -19,6 +19,8 @@ constexpr double reach = 0.06;            // of the camera's height
 constexpr double highest_frequency = 10;  // Hz, of the spring that drags
 constexpr double most_periods_per_step = 0.05;
 
+constexpr float zoom_of_notch = 0.9F;
+
 /// The body that is nearest to a point, within the mouse's reach.
 std::optional<Entity> nearest_body(const World& world, Point at, float height) {
     std::optional<Entity> nearest;
@@ -52,17 +54,31 @@ std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource&
 }
 
 void SceneGame::take_step(const Input& input) {
-    if (input.restarts() || world_.time() >= scene_.duration) restart();
+    const bool restarts = input.restarts() || input.pressed(again);
+    if (restarts || world_.time() >= scene_.duration) restart();
+    look(input);
     drag(input);
     const Stopwatch stopwatch(times_, &StepTimes::step);
     world_.step();
 }
 
+void SceneGame::look(const Input& input) {
+    const auto canvas = input.pointer_canvas();
+    if (!canvas || !input.held(move)) held_.reset();
+    if (!canvas) return;
+    const Point at = camera_.to_world(*canvas);
+    camera_.zoom(std::pow(zoom_of_notch, static_cast<float>(input.wheel())), at);
+    if (input.pressed(move)) held_ = at;
+    if (!held_) return;
+    camera_.centre.x += held_->x - at.x;
+    camera_.centre.y += held_->y - at.y;
+}
+
 /// The body hangs on a critically damped spring, slow enough for the timestep, whatever the method.
 void SceneGame::drag(const Input& input) {
     const auto at = input.pointer();
-    if (!at || !input.held(Mouse::left)) return drag_.reset();
-    if (input.pressed(Mouse::left))
+    if (!at || !input.held(pull)) return drag_.reset();
+    if (input.pressed(pull))
         if (const auto body = nearest_body(world_, *at, camera_.height))
             drag_ = Drag{.body = *body};
     if (!drag_) return;
@@ -71,9 +87,9 @@ void SceneGame::drag(const Input& input) {
     if (world_.bodies().axes() > 1) drag_->to[1] = at->y;
     const double frequency = std::min(highest_frequency, most_periods_per_step / world_.dt());
     const double omega = 2 * std::numbers::pi * frequency;
-    const Vec3 pull = (drag_->to - world_.position(drag_->body)) * (omega * omega) -
-                      world_.velocity(drag_->body) * (2 * omega);
-    world_.apply_force(drag_->body, pull * world_.mass(drag_->body));
+    const Vec3 acceleration = (drag_->to - world_.position(drag_->body)) * (omega * omega) -
+                              world_.velocity(drag_->body) * (2 * omega);
+    world_.apply_force(drag_->body, acceleration * world_.mass(drag_->body));
 }
 
 void SceneGame::restart() {
@@ -94,7 +110,8 @@ Picture SceneGame::picture() const {
     if (watched_)
         picture.labels.push_back(
             {.at = {8, 6},
-             .text = fmt::format("repeats after {:g} s; the mouse drags bodies", scene_.duration),
+             .text = fmt::format("repeats after {:g} s, R restarts; the mouse drags bodies",
+                                 scene_.duration),
              .size = 9,
              .colour = palette::grey});
     if (drag_)

@@ -8,10 +8,15 @@
 
 namespace oiler::cli {
 
-/// A scene as a game. One that is watched in a window begins anew after its duration, and the left
-/// mouse button drags its bodies.
+/// A scene as a game. One that is watched in a window begins anew after its duration and with R.
+/// The left mouse button drags its bodies, the right one its picture; the wheel zooms.
 class SceneGame final : public AnyGame {
 public:
+    static constexpr Action again{"restart", Key::r};
+    static constexpr Action pull{"drag a body", Mouse::left};
+    static constexpr Action move{"move the picture", Mouse::right};
+    static constexpr Control controls[] = {again, pull, move};
+
     /// The scene must outlive the game.
     SceneGame(const Scene& scene, const Settings& settings, bool watched);
 
@@ -36,12 +41,14 @@ private:
     };
 
     void take_step(const Input& input);
+    void look(const Input& input);
     void drag(const Input& input);
 
     const Scene& scene_;
     bool watched_;
     World world_;
-    Camera camera_;
+    Camera camera_;              ///< the user's: copies that are assigned leave it alone
+    std::optional<Point> held_;  ///< the place of the world that the right button holds
     std::optional<Drag> drag_;
 };
 
