@@ -27,6 +27,7 @@ public:
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Plays along until that step of the game begins, or for a short time.
     void play_until(std::int64_t step);
+    [[nodiscard]] bool measures() const { return runs_.has_value(); }
     /// Ends it: the game is no longer what the input made of it.
     void stop(std::string reason);
     /// The number of steps until the game's step `step` that are still to be played.

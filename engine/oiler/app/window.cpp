@@ -105,11 +105,9 @@ public:
         const int fps = options_.fps.value_or(window_->refresh_rate());
         for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
             const std::chrono::nanoseconds start = now();
-            const Size size = window_->size();
             const Window::State state = window_->poll(
                 live_.queue, keys_,
-                {.width = static_cast<float>(view(size).width) / static_cast<float>(size.width),
-                 .mouse = !inspects_ || !inspector_.has_mouse()});
+                {.width = share_of_picture(), .mouse = !inspects_ || !inspector_.has_mouse()});
             if (state == Window::State::lost) return {Exit::no_display, dropped_time()};
             const Input keys = keys_.take({});
             control(keys);
@@ -150,7 +148,16 @@ private:
     void restart_with(const Stepping& stepping) {
         Settings settings = playback_.world().settings();
         settings.stepping = stepping;
-        playback_.game().assign(*make_(settings));
+        complaint_.clear();
+        try {
+            const std::unique_ptr<AnyGame> fresh = make_(settings);
+            fresh->world().require_applicable();
+            playback_.game().assign(*fresh);
+        } catch (const Error& error) {
+            if (error.exit() != Exit::usage) throw;
+            complaint_ = error.what();
+            return;
+        }
         dropped_ += clock_.dropped_time();
         clock_ = StepClock(static_cast<int>(stepping.rate.steps));
         undone_ = -playback_.steps();
@@ -166,8 +173,9 @@ private:
     void restart() {
         clock_.resume();
         AnyGame& game = playback_.game();
-        // An input that restarts reaches those who play along, unless they failed, too.
-        if ((failure_ || !game.takes_input()) && !options_.quiet) along_.start(playback_.steps());
+        // An input that restarts reaches those who play along, unless they ended before.
+        const bool plays_on = !failure_ && game.takes_input() && along_.measures();
+        if (!plays_on && !options_.quiet) along_.start(playback_.steps());
         failure_.reset();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
@@ -209,6 +217,11 @@ private:
     /// The part of the frame that the inspector leaves to the picture.
     [[nodiscard]] Size view(Size size) const {
         return inspects_ ? Size{size.width - Inspector::width(size), size.height} : size;
+    }
+    [[nodiscard]] float share_of_picture() const {
+        const Size size = window_->size();
+        if (size.width == 0) return 1;
+        return static_cast<float>(view(size).width) / static_cast<float>(size.width);
     }
     void show(const Picture& picture, const Input& keys, std::chrono::nanoseconds start) {
         const Size size = window_->size();
@@ -269,6 +282,8 @@ private:
                                rewind_ ? "so many bodies" : no_way_back(options_));
         else if (failure_)
             text = "stopped";
+        else if (!complaint_.empty())
+            text = complaint_;
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
@@ -311,6 +326,7 @@ private:
     InputSource* inputs_ = nullptr;
     std::int64_t undone_ = 0;              ///< steps of the clock that the game has not taken
     std::optional<Error> failure_;         ///< a divergence that holds the run
+    std::string complaint_;                ///< why the game cannot have the setting that was chosen
     std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
     std::chrono::nanoseconds last_start_ = now();
     bool inspects_ = false;
