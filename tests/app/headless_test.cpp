@@ -42,7 +42,10 @@ protected:
         About about = Walker::about;
         about.duration = seconds;
         LiveInput nobody;
-        EXPECT_EQ(run_headless(playback, nobody, options, about, nullptr), Exit::done);
+        const MakeGame make = [](const Settings& settings) {
+            return std::make_unique<AnyGameOf<G>>(settings);
+        };
+        EXPECT_EQ(run_headless(playback, nobody, options, about, make, nullptr), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);
         return manifest;

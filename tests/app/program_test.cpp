@@ -105,6 +105,26 @@ TEST(Program, TakesDampingFromTheOption) {
     EXPECT_EQ(hash_of_rk4(""), hash_of_rk4(" --damping kick"));
 }
 
+// The states of the run are the same with and without it, and the picture keeps its shape.
+TEST(Program, FramesHaveTheInspectorIfAsked) {
+    const Folder folder;
+    const std::string film = "spring_damper --headless --quiet --rate 20 --fps 10 --frames 12 ";
+    EXPECT_EQ(shell(film + "--size 800x360 --out " + quoted(folder / "without")).exit, 0);
+    EXPECT_EQ(shell(film + "--size 800x360 --inspector --out " + quoted(folder / "with")).exit, 0);
+    const Json without = Json::parse(text_of(folder / "without/manifest.json"))["frames"];
+    const Json with = Json::parse(text_of(folder / "with/manifest.json"))["frames"];
+    ASSERT_EQ(without.size(), 12U);
+    ASSERT_EQ(with.size(), 12U);
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(with[i]["state_hash"], without[i]["state_hash"]);
+        EXPECT_NE(with[i]["pixel_hash"], without[i]["pixel_hash"]);
+    }
+    EXPECT_NE(with[11]["pixel_hash"], with[10]["pixel_hash"]);
+    for (const char* other : {"--sheet x.png", "--golden x", "--frame 3"})
+        EXPECT_EQ(shell(film + "--inspector " + other).exit, 2) << other;
+    EXPECT_EQ(shell("hello --inspector --steps 3").exit, 2);
+}
+
 TEST(Program, FramesAreValidPngFiles) {
     if (shell("command -v pngcheck").exit != 0) GTEST_SKIP() << "pngcheck is not installed";
     const Folder folder;

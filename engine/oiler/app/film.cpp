@@ -33,10 +33,12 @@ Shot Film::shot_of(const Picture& picture, const HeadlessFrame& at,
     return shot;
 }
 
-void Film::add(const Picture& picture, const HeadlessFrame& at, const Playback& playback) {
+void Film::add(const Picture& picture, const HeadlessFrame& at, const Playback& playback,
+               const Overlay& overlay, Size view) {
     {
         const Span span(profile_, "draw");
-        renderer_.draw(picture, header_.size);
+        renderer_.draw(picture, header_.size, view);
+        renderer_.draw_over(overlay);
     }
     {
         const Span span(profile_, "read");

@@ -21,8 +21,9 @@ public:
     /// `header` is the manifest without frames.
     Film(Renderer& renderer, const Manifest& header, const Options& options, Profile* profile);
 
-    /// Draws the picture as the next frame. Throws Error{io}.
-    void add(const Picture& picture, const HeadlessFrame& at, const Playback& playback);
+    /// Draws the picture as the next frame, in a part of it under an overlay. Throws Error{io}.
+    void add(const Picture& picture, const HeadlessFrame& at, const Playback& playback,
+             const Overlay& overlay, Size view);
     /// The game has quit: a capture of fewer frames than were planned is complete.
     void end_here() {
         if (capture_) capture_->end_here();

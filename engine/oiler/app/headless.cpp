@@ -9,6 +9,7 @@
 #include "oiler/app/film.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
+#include "oiler/app/window_inspector.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -58,25 +59,55 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .planned_frames = options.frames ? *options.frames : frames_in(duration, fps)};
 }
 
+/// The inspector of a run without a window: nobody clicks, and what plays along is never late.
+class FilmedInspector {
+public:
+    FilmedInspector(AnyGame& game, InputSource& inputs, const Options& options, const About& about,
+                    const MakeGame& make)
+        : along(inputs, options, about, make, PlayAlong::Pace::own),
+          inspector_(game, "F1 in a window changes them.", Renderer::font()) {}
+
+    /// Adds the true places of the bodies, and lays out the panel.
+    void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
+              const Manifest& header) {
+        along.play_until(steps);
+        add_ghosts(picture, along.ghosts(steps, steps == at.step ? 1 : at.alpha), 1);
+        (void)inspector_.show(along, {}, header.size, view(header.size),
+                              {.seconds = 1.0 / header.fps});
+    }
+    [[nodiscard]] static Size view(Size size) {
+        return {size.width - Inspector::width(size), size.height};
+    }
+    [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
+
+    PlayAlong along;
+
+private:
+    WindowInspector inspector_;
+};
+
 /// Draws the frames in their order until the last one or an interrupt.
 void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Manifest& header,
-                 bool quiet) {
+                 bool quiet, FilmedInspector* inspector) {
     Progress progress(quiet, "frames", header.planned_frames);
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-        const Picture picture = playback.show(at.step, at.alpha, inputs);
+        Picture picture = playback.show(at.step, at.alpha, inputs);
         const bool ended = playback.loop().quits() && at.step > playback.steps();
         if (ended || Interrupt::requested()) return;
-        film.add(picture, at, playback);
+        if (inspector) inspector->show(picture, at, playback.steps(), header);
+        film.add(picture, at, playback, inspector ? inspector->overlay() : Overlay{},
+                 inspector ? FilmedInspector::view(header.size) : header.size);
         progress.show(frame + 1);
     }
 }
 
 void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
-          const Options& options, Profile* profile) {
+          const Options& options, Profile* profile, FilmedInspector* inspector) {
     Film film(renderer, header, options, profile);
     try {
-        draw_frames(film, playback, inputs, header, options.quiet);
+        draw_frames(film, playback, inspector ? inspector->along : inputs, header, options.quiet,
+                    inspector);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged)
             film.finish();
@@ -141,13 +172,15 @@ Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, con
 }  // namespace
 
 Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
-                  const About& about, Profile* profile) {
+                  const About& about, const MakeGame& make, Profile* profile) {
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
     const Manifest header = describe(options, about, *surface, renderer);
     if (options.frame) return draw_still(playback, inputs, renderer, header, options);
-    film(playback, inputs, renderer, header, options, profile);
+    std::optional<FilmedInspector> inspector;
+    if (options.inspector) inspector.emplace(playback.game(), inputs, options, about, make);
+    film(playback, inputs, renderer, header, options, profile, inspector ? &*inspector : nullptr);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 

@@ -16,7 +16,7 @@ namespace oiler {
 /// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
 /// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
 Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
-                  const About& about, Profile* profile);
+                  const About& about, const MakeGame& make, Profile* profile);
 
 /// The end of a run in a loop.
 struct Played {

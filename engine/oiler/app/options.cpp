@@ -146,6 +146,9 @@ void declare_output(CLI::App& app, Options& options) {
     add_file("--trace", options.trace, "write each body after each step as CSV, - for stdout");
     add_file("--energy", options.energy, "write energies after each step as CSV, - for stdout");
     add_file("--json", options.json, "write a summary of the run as JSON, - for stdout");
+    app.add_flag("--inspector", options.inspector,
+                 "show what the timestep costs beside the picture, as F1 does in a window")
+        ->disable_flag_override();
     add_file("--profile", options.profile,
              "write the times of all stages in Chrome's trace format");
     app.add_flag("--quiet", options.quiet, "print no remarks and no progress on standard error")
@@ -204,6 +207,10 @@ void check_conflicts(const CLI::App& app, const Options& options, const Words& w
     for (const char* option : {"--update-golden", "--junit"})
         if (app.count(option) > 0 && options.golden.empty())
             refuse(option, "needs a golden; add --golden DIR");
+    if (options.inspector)
+        for (const char* other : {"--steps", "--frame", "--golden", "--sheet"})
+            if (app.count(other) > 0)
+                refuse("--inspector", fmt::format("{} has no place for it; leave one out", other));
     if (app.count("--frame") > 0)
         for (const char* other : {"--frames", "--video", "--sheet", "--golden", "--keyframes"})
             if (app.count(other) > 0) refuse(other, "draws more frames than --frame; give one");

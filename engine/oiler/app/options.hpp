@@ -40,6 +40,7 @@ struct Options {
     std::filesystem::path energy;
     std::filesystem::path json;
     std::filesystem::path profile;
+    bool inspector = false;        ///< frames show it; a window opens with it
     std::filesystem::path script;  ///< of a game: its input, - is stdin; empty: nobody plays
     std::filesystem::path keys;
     ChosenControls controls;  ///< of --keys or of the recording that is replayed

@@ -27,11 +27,11 @@ constexpr std::size_t most_errors = 600;
 }  // namespace
 
 PlayAlong::PlayAlong(InputSource& inputs, const Options& options, const About& about,
-                     const MakeGame& make)
-    : inputs_(inputs), make_(make), options_(options) {
+                     const MakeGame& make, Pace pace)
+    : inputs_(inputs), make_(make), pace_(pace), options_(options) {
     options_.replay.emplace().header =
         header_of(about.name, options.settings, controls_of(options, about));
-    if (options.quiet)
+    if (options.quiet && !options.inspector)
         stop("what the timestep costs is not measured with --quiet");
     else
         start(0);
@@ -77,11 +77,12 @@ Input PlayAlong::next(std::int64_t step) {
 void PlayAlong::play_until(std::int64_t step) {
     if (!runs_) return;
     const std::int64_t delay = longest_delay * options_.settings.stepping.rate.steps;
-    if (behind(step) > std::max(delay, longest_delay_in_steps)) return stop(too_slow);
+    const bool hurries = pace_ == Pace::of_frames;
+    if (hurries && behind(step) > std::max(delay, longest_delay_in_steps)) return stop(too_slow);
     options_.replay->steps = step - first_;
     const Clock::time_point end = Clock::now() + time_of_frame;
     try {
-        while (behind(step) > 0 && Clock::now() < end) {
+        while (behind(step) > 0 && (!hurries || Clock::now() < end)) {
             const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
             slow_ = Clock::now() - begin > time_of_frame ? slow_ + 1 : 0;
@@ -94,7 +95,7 @@ void PlayAlong::play_until(std::int64_t step) {
     } catch (const Error& error) {
         stop(error.what());
     }
-    if (slow_ >= most_slow_steps) stop(too_slow);
+    if (hurries && slow_ >= most_slow_steps) stop(too_slow);
 }
 
 std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {
@@ -109,7 +110,8 @@ void PlayAlong::stop(std::string reason) {
 }
 
 const Verdict& PlayAlong::verdict(const AnyGame& game) {
-    if (runs_ && played_ != judged_ && Clock::now() >= next_verdict_) {
+    const bool is_due = pace_ == Pace::own || Clock::now() >= next_verdict_;
+    if (runs_ && played_ != judged_ && is_due) {
         judged_ = played_;
         measured_ = runs_->result();
         verdict_ =

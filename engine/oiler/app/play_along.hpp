@@ -15,8 +15,11 @@ namespace oiler {
 /// settings play along with the player's input, in the time that is left. The game never sees them.
 class PlayAlong final : public InputSource {
 public:
-    PlayAlong(InputSource& inputs, const Options& options, const About& about,
-              const MakeGame& make);
+    /// Whether it plays in the time that a frame leaves, or takes the time that it needs.
+    enum class Pace { of_frames, own };
+
+    PlayAlong(InputSource& inputs, const Options& options, const About& about, const MakeGame& make,
+              Pace pace = Pace::of_frames);
     PlayAlong(const PlayAlong&) = delete;
     PlayAlong& operator=(const PlayAlong&) = delete;
 
@@ -25,7 +28,7 @@ public:
     /// The same with another setting of the game.
     void start(std::int64_t first, const Stepping& stepping);
     [[nodiscard]] Input next(std::int64_t step) override;
-    /// Plays along until that step of the game begins, or for a short time.
+    /// Plays along until that step of the game begins, or for a short time at the pace of frames.
     void play_until(std::int64_t step);
     [[nodiscard]] bool measures() const { return runs_.has_value(); }
     /// Ends it: the game is no longer what the input made of it.
@@ -36,7 +39,7 @@ public:
     }
     /// What is measured so far; nothing may have stopped it.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
-    /// What is known so far, as a sentence; it is renewed at most twice a second.
+    /// What is known so far, as a sentence; at the pace of frames, it is renewed twice a second.
     [[nodiscard]] const Verdict& verdict(const AnyGame& game);
     /// What the last verdict is made of; empty if nothing is measured.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
@@ -51,6 +54,7 @@ private:
 
     InputSource& inputs_;
     const MakeGame& make_;
+    Pace pace_;
     Options options_;  ///< with a recording that grows
     std::int64_t first_ = 0;
     Input before_{};

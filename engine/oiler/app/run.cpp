@@ -138,7 +138,7 @@ Played loop(Playback& playback, Player& player, const Options& options, const Ab
     if (!options.headless && !options.steps)
         return run_window(playback, player.live, inputs, options, about, make, profile);
     if (!options.steps) {
-        const Exit exit = run_headless(playback, inputs, options, about, profile);
+        const Exit exit = run_headless(playback, inputs, options, about, make, profile);
         // The last frame of a replay comes before its end.
         if (options.replay && !options.frames && !options.frame)
             playback.step_to(options.replay->steps, inputs);

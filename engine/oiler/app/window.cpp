@@ -93,7 +93,8 @@ public:
           renderer_([this](const char* name) { return window_->procedure(name); }),
           clock_(static_cast<int>(options.settings.stepping.rate.steps)),
           along_(inputs, options, about, make),
-          inspector_(playback.game(), why_fixed(options), Renderer::font()) {
+          inspector_(playback.game(), why_fixed(options), Renderer::font()),
+          inspects_(options.inspector) {
         if (no_way_back(options).empty()) rewind_.emplace(playback.game(), along_);
         inputs_ = rewind_ ? static_cast<InputSource*>(&*rewind_) : &along_;
     }
@@ -163,19 +164,22 @@ private:
         undone_ = -playback_.steps();
         playback_.go_back(playback_.steps());
         failure_.reset();
-        if (!options_.quiet) along_.start(playback_.steps(), stepping);
+        if (measures()) along_.start(playback_.steps(), stepping);
         if (rewind_) rewind_->forget(playback_.steps());
     }
     [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
         return dropped_ + clock_.dropped_time();
     }
 
+    /// Whether the user wants to know what the timestep costs.
+    [[nodiscard]] bool measures() const { return !options_.quiet || options_.inspector; }
+
     void restart() {
         clock_.resume();
         AnyGame& game = playback_.game();
         // An input that restarts reaches those who play along, unless they ended before.
         const bool plays_on = !failure_ && game.takes_input() && along_.measures();
-        if (!plays_on && !options_.quiet) along_.start(playback_.steps());
+        if (!plays_on && measures()) along_.start(playback_.steps());
         failure_.reset();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
@@ -329,7 +333,7 @@ private:
     std::string complaint_;                ///< why the game cannot have the setting that was chosen
     std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
     std::chrono::nanoseconds last_start_ = now();
-    bool inspects_ = false;
+    bool inspects_;
     bool magnifies_ = false;
     bool helps_ = false;
     bool goes_back_ = false;

@@ -142,9 +142,10 @@ struct Inspector::Impl {
     }
 
     static void show_costs(const Inspected& run) {
+        const double total = run.costs.update + run.costs.step + run.costs.picture + run.costs.draw;
+        if (total == 0) return;
         ImGui::Separator();
         text("A frame");
-        const double total = run.costs.update + run.costs.step + run.costs.picture + run.costs.draw;
         const auto row = [&](const char* name, double cost) {
             text(fmt::format("{}  {}", name, time_text(cost)));
         };

@@ -23,7 +23,7 @@ struct Inspected {
         double pixels = 0;    ///< the same in pixels; NaN: not known
         double cost = 0;      ///< update and step, ns per frame at 60 frames per second
     };
-    /// Times of a frame, ns.
+    /// Times of a frame, ns; all 0: not measured.
     struct Costs {
         double update = 0;
         double step = 0;
