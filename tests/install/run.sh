@@ -70,7 +70,7 @@ libraries=$(dirname "$(dirname "$config")")
 quietly "$prefix/bin/oiler" check "$prefix/share/oiler/scenes/article_spring.toml"
 draws "$prefix/libexec/oiler/hello"
 [ ! -e "$prefix/include/oiler/cli" ] || fail "the headers of the program are installed"
-[ "$(find "$prefix/share/doc/oiler/licences" -type f | wc -l)" = 7 ] || fail "licences are missing"
+[ "$(find "$prefix/share/doc/oiler/licences" -type f | wc -l)" = 8 ] || fail "licences are missing"
 
 echo "a project of oiler new: the commands that it prints"
 "$prefix/bin/oiler" new "$folder/my games/cannon" > "$folder/new"
