@@ -32,9 +32,9 @@ WhatIf measured(double distance, double of_verlet, double of_twice) {
     result.duration = result.certain_until = 4;
     result.uncertainty = 1e-6;
     result.pixel = 0.01;
-    result.runs = {run_of("semi_implicit_euler", 60, distance, 1000),
-                   run_of("velocity_verlet", 60, of_verlet, 1300),
-                   run_of("semi_implicit_euler", 120, of_twice, 2000)};
+    result.runs = {run_of("semi_implicit_euler", 60, distance, 1'000'000),
+                   run_of("velocity_verlet", 60, of_verlet, 1'300'000),
+                   run_of("semi_implicit_euler", 120, of_twice, 2'000'000)};
     return result;
 }
 Verdict judge(const WhatIf& result, const std::vector<Reading>& before = {}) {
@@ -46,11 +46,12 @@ TEST(Verdict, NamesTheBodyThePixelsAndTheCheapestCure) {
     EXPECT_EQ(verdict.grade, Grade::visible);
     EXPECT_EQ(verdict.text,
               "body 3 up to 4 cm off, 4 px, at 60 Hz semi_implicit_euler. velocity_verlet: 2 mm "
-              "off, +0.3 µs a frame.");
+              "off, +300 µs a frame.");
     EXPECT_EQ(judge(measured(0.073, 0.02, 0.001)).grade, Grade::bad) << "a hundredth of 720 lines";
-    EXPECT_NE(judge(measured(0.073, 0.02, 0.001)).text.find(". 120 Hz: 1 mm off, +1 µs a frame."),
-              std::string::npos);
-    EXPECT_TRUE(judge(measured(0.073, 0.02, 0.02)).text.ends_with("semi_implicit_euler."))
+    EXPECT_NE(
+        judge(measured(0.073, 0.02, 0.001)).text.find(". 120 Hz: 1 mm off, +1000 µs a frame."),
+        std::string::npos);
+    EXPECT_TRUE(judge(measured(0.073, 0.04, 0.04)).text.ends_with("semi_implicit_euler."))
         << "nothing mends it";
     EXPECT_NE(judge(measured(0.073, 5e-6, 0.02)).text.find("velocity_verlet: exact"),
               std::string::npos);
@@ -81,6 +82,29 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     EXPECT_TRUE(judge(early).text.ends_with(" The true motion is known until 2.2 s."));
 }
 
+TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
+    EXPECT_TRUE(
+        judge(measured(0.9, 0.5, 0.3)).text.ends_with(" 120 Hz: 30 cm off, +1000 µs a frame."));
+    EXPECT_TRUE(judge(measured(0.9, 0.5, 0.6)).text.ends_with(" semi_implicit_euler."))
+        << "less than half is no cure";
+    WhatIf cheap = measured(0.9, 0.001, 0.002);
+    cheap.runs[0].costs.step = 500;
+    cheap.runs[1].costs.step = 10'000;
+    EXPECT_TRUE(judge(cheap).text.ends_with("1 mm off, for the same time."));
+    EXPECT_NE(judge(measured(1e9, 1e9, 1e9)).text.find("1.0e+09 m off, more than 99999 px"),
+              std::string::npos);
+}
+
+TEST(Verdict, LengthsHaveUnitsOfTheirSize) {
+    EXPECT_EQ(length_text(1e-13), "1 nm");
+    EXPECT_EQ(length_text(2.5e-8), "25 nm");
+    EXPECT_EQ(length_text(2.5e-6), "2.5 µm");
+    EXPECT_EQ(length_text(0.0025), "2.5 mm");
+    EXPECT_EQ(length_text(0.075), "7.5 cm");
+    EXPECT_EQ(length_text(3.14159), "3.14 m");
+    EXPECT_EQ(length_text(5e96), "5.0e+96 m");
+}
+
 TEST(Verdict, NamesReadingsAtRestFirst) {
     WhatIf result = measured(0.04, 0.002, 0.001);
     result.runs[0].readings = {{"apex", 1.95, "m"}, {"score", 3}, {"speed", 5, "m/s"}};
@@ -89,7 +113,7 @@ TEST(Verdict, NamesReadingsAtRestFirst) {
     EXPECT_EQ(judge(result).text.find("apex"), std::string::npos) << "it may still grow";
     EXPECT_EQ(judge(result, result.runs[0].readings).text,
               "apex 1.95 m, true 2.025 m: 7.5 cm too low at 60 Hz semi_implicit_euler. "
-              "velocity_verlet: 2 mm off, +0.3 µs a frame.");
+              "velocity_verlet: 2 mm off, +300 µs a frame.");
     result.reference.readings[0].value = 1.9;
     result.check.readings[0].value = 1.9;
     EXPECT_NE(judge(result, result.runs[0].readings).text.find("5 cm too high"), std::string::npos);
@@ -109,9 +133,9 @@ TEST(Verdict, NamesTheFailureOfTheGameAndItsCure) {
     WhatIf result = measured(0.001, 0.002, 0.001);
     result.runs[0].failure = "diverged at step 8";
     EXPECT_EQ(judge(result).grade, Grade::bad);
-    EXPECT_EQ(judge(result).text, "diverged at step 8 velocity_verlet: 2 mm off, +0.3 µs a frame.");
+    EXPECT_EQ(judge(result).text, "diverged at step 8 velocity_verlet: 2 mm off, +300 µs a frame.");
     result.runs[1].failure = "diverged, too";
-    EXPECT_EQ(judge(result).text, "diverged at step 8 120 Hz: 1 mm off, +1 µs a frame.");
+    EXPECT_EQ(judge(result).text, "diverged at step 8 120 Hz: 1 mm off, +1000 µs a frame.");
 }
 
 TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
@@ -121,7 +145,7 @@ TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
     EXPECT_EQ(judge(result).grade, Grade::bad);
     EXPECT_EQ(judge(result).text,
               "From 3.2 s on, the true motion is another play than at 60 Hz semi_implicit_euler. "
-              "120 Hz: 1 mm off, +1 µs a frame.");
+              "120 Hz: 1 mm off, +1000 µs a frame.");
 }
 
 /// A fall from a height of 0 that Space pushes up.

@@ -44,21 +44,26 @@ Settings at(std::int64_t rate) {
     return {.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {rate}}};
 }
 
-TEST(SceneGame, RepeatsWhileItIsWatched) {
+TEST(SceneGame, IsOverAfterItsDurationWhileItIsWatched) {
     const Scene scene = scene_of();
     Hand hand;
     SceneGame watched(scene, at(10), true);
-    EXPECT_EQ(watched.step(0, 5, hand), 5);
-    EXPECT_EQ(watched.world().tick(), 5);
-    EXPECT_EQ(watched.cuts(), 0);
-    EXPECT_EQ(watched.step(5, 1, hand), 1);
-    EXPECT_EQ(watched.world().tick(), 1) << "of the next time";
+    EXPECT_EQ(watched.step(0, 4, hand), 4);
+    EXPECT_FALSE(watched.is_over());
+    EXPECT_EQ(watched.step(4, 2, hand), 2);
+    EXPECT_TRUE(watched.is_over());
+    EXPECT_EQ(watched.world().tick(), 6) << "until the window makes it anew";
+    hand.plays = [](InputQueue& queue, std::int64_t) { queue.restart(); };
+    (void)watched.step(6, 1, hand);
+    EXPECT_EQ(watched.world().tick(), 1);
     EXPECT_EQ(watched.cuts(), 1);
-    EXPECT_EQ(hand.asked, 6);
+    EXPECT_FALSE(watched.is_over());
+    EXPECT_EQ(hand.asked, 7);
     SceneGame run(scene, at(10), false);
     EXPECT_EQ(run.step(0, 100, hand), 100);
     EXPECT_EQ(run.world().tick(), 100);
-    EXPECT_EQ(hand.asked, 6);
+    EXPECT_FALSE(run.is_over());
+    EXPECT_EQ(hand.asked, 7);
     EXPECT_TRUE(run.picture().labels.size() < watched.picture().labels.size()) << "it says so";
 }
 
@@ -160,8 +165,11 @@ TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
     (void)game.step(5, 2, hand);
     EXPECT_EQ(game.picture().camera, moved) << "let go";
     hand.plays = [](InputQueue& queue, std::int64_t) { queue.set(Key::r, true); };
+    EXPECT_FALSE(game.is_over());
     (void)game.step(7, 1, hand);
-    EXPECT_EQ(game.world().tick(), 1);
+    EXPECT_TRUE(game.is_over()) << "R restarts";
+    game.restart();
+    EXPECT_FALSE(game.is_over());
     EXPECT_EQ(game.picture().camera, moved);
     game.assign(SceneGame(scene, at(30), true));
     EXPECT_EQ(game.picture().camera, moved) << "with another setting, too";

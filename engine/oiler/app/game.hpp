@@ -154,6 +154,8 @@ public:
     virtual std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
     /// Makes the game anew, with the settings of its world.
     virtual void restart() = 0;
+    /// Whether it has come to its end, so that a window makes it anew.
+    [[nodiscard]] virtual bool is_over() const { return false; }
     /// A copy, which goes on as the game does.
     [[nodiscard]] virtual std::unique_ptr<AnyGame> clone() const = 0;
     /// Becomes a copy of a game of the same type, as a clone is.

@@ -30,7 +30,6 @@ public:
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Plays along until that step of the game begins, or for a short time at the pace of frames.
     void play_until(std::int64_t step);
-    [[nodiscard]] bool measures() const { return runs_.has_value(); }
     /// Ends it: the game is no longer what the input made of it.
     void stop(std::string reason);
     /// The number of steps until the game's step `step` that are still to be played.
@@ -39,7 +38,8 @@ public:
     }
     /// What is measured so far; nothing may have stopped it.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
-    /// What is known so far, as a sentence; at the pace of frames, it is renewed twice a second.
+    /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
+    /// second.
     [[nodiscard]] const Verdict& verdict(const AnyGame& game);
     /// What the last verdict is made of; empty if nothing is measured.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double pixels_of_bad = 7.2;  // a hundredth of 720 lines
 constexpr double least_difference = 0.01;
+constexpr double least_cost = 10'000;  // ns a frame; less is not certain beside a game
+constexpr double most_pixels = 99'999;
 
 std::string setting_text(const Stepping& stepping) {
     return fmt::format("{} Hz {}", stepping.rate.steps, stepping.method->name);
@@ -27,7 +29,19 @@ double cost(const WhatIfRun& run) { return run.costs.update + run.costs.step; }
 
 bool is_sound(const WhatIfRun& run) { return run.failure.empty() && !run.other_play_from; }
 
-/// The cheapest other run whose errors no player sees; null if there is none.
+/// The other run with the smallest error, if that is at most half of the played one; else null.
+const WhatIfRun* best(const WhatIf& measured) {
+    const WhatIfRun* best = nullptr;
+    double least = measured.runs.front().distance / 2;
+    for (const WhatIfRun& run : measured.runs) {
+        if (!is_sound(run) || !(run.distance <= least)) continue;
+        least = run.distance;
+        best = &run;
+    }
+    return best;
+}
+
+/// The cheapest other run whose errors no player sees, or else the best; null if there is none.
 const WhatIfRun* cure(const WhatIf& measured) {
     const WhatIfRun* cheapest = nullptr;
     for (std::size_t i = 1; i < measured.runs.size(); ++i) {
@@ -35,7 +49,7 @@ const WhatIfRun* cure(const WhatIf& measured) {
         if (!is_sound(run) || !(run.distance <= measured.pixel)) continue;
         if (!cheapest || cost(run) < cost(*cheapest)) cheapest = &run;
     }
-    return cheapest;
+    return cheapest ? cheapest : best(measured);
 }
 
 std::string cure_text(const WhatIf& measured) {
@@ -44,9 +58,9 @@ std::string cure_text(const WhatIf& measured) {
     const WhatIfRun& played = measured.runs.front();
     const double more = cost(*run) - cost(played);
     const std::string price =
-        std::abs(more) < std::max(50.0, 0.1 * cost(played))
+        std::abs(more) < std::max(least_cost, 0.2 * cost(played))
             ? "for the same time"
-            : fmt::format("{}{:.2g} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
+            : fmt::format("{}{:.0f} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
     const std::string error = run->distance < least_certain * measured.uncertainty
                                   ? "exact"
                                   : fmt::format("{} off", length_text(run->distance));
@@ -92,10 +106,12 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
 }  // namespace
 
 std::string length_text(double metres) {
+    if (metres < 1e-6) return fmt::format("{:.2g} nm", 1e9 * std::max(metres, least_length));
     if (metres < 1e-5) return fmt::format("{:.2g} µm", 1e6 * metres);
     if (metres < 0.01) return fmt::format("{:.2g} mm", 1000 * metres);
     if (metres < 1) return fmt::format("{:.2g} cm", 100 * metres);
-    return fmt::format("{:.3g} m", metres);
+    if (metres < 1e6) return fmt::format("{:.3g} m", metres);
+    return fmt::format("{:.1e} m", metres);
 }
 
 Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
@@ -132,8 +148,9 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                 fmt::format("Off by less than {} at {}. The true motion is not known better.{}",
                             length_text(known), setting, limit)};
     return {grade,
-            fmt::format("{} up to {} off, {:.0f} px, at {}.{}{}", name_of(played.furthest),
-                        length_text(played.distance), pixels, setting, cure_text(measured), limit)};
+            fmt::format("{} up to {} off, {}{:.0f} px, at {}.{}{}", name_of(played.furthest),
+                        length_text(played.distance), pixels > most_pixels ? "more than " : "",
+                        std::min(pixels, most_pixels), setting, cure_text(measured), limit)};
 }
 
 }  // namespace oiler

@@ -25,12 +25,16 @@ struct Verdict {
 /// Judges the recorded setting, the first of the runs. A reading in m that is off by more than a
 /// pixel, or one in another unit that is off by more than a hundredth, comes first, if it is what
 /// it was `before`: one that still changes may differ by a step, which is no error. Then comes the
-/// body that is furthest off. The cure is the cheapest other run below a pixel. Differences of less
-/// than ten times the uncertainty of the reference are not named.
+/// body that is furthest off. The cure is the cheapest other run below a pixel, or else the best
+/// one. Differences of less than ten times the uncertainty of the reference are not named, nor
+/// prices below 10 µs a frame.
 [[nodiscard]] Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                                  const std::function<std::string(Entity)>& name_of);
 
-/// "0.3 µm", "2 mm", "7.5 cm", "3.1 m".
+/// Shorter lengths are not told apart, m.
+inline constexpr double least_length = 1e-9;
+
+/// "300 nm", "2 mm", "7.5 cm", "3.1 m".
 [[nodiscard]] std::string length_text(double metres);
 
 }  // namespace oiler

@@ -138,7 +138,12 @@ private:
         if (wishes.pace > 0) pace_.faster();
         if (wishes.stepping) restart_with(*wishes.stepping);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        if (wishes.restarts || keys.pressed(Key::f9)) restart();
+        if (wishes.restarts || keys.pressed(Key::f9)) {
+            clock_.resume();
+            restart();
+        } else if (playback_.game().is_over() && playback_.steps() != restarted_at_) {
+            restart();
+        }
         goes_back_ = has_past() && (wishes.goes_back ||
                                     (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4)));
         const bool steps = !failure_ && (wishes.steps || keys.pressed(Key::f5));
@@ -154,6 +159,7 @@ private:
             const std::unique_ptr<AnyGame> fresh = make_(settings);
             fresh->world().require_applicable();
             playback_.game().assign(*fresh);
+            inspector_.begin();
         } catch (const Error& error) {
             if (error.exit() != Exit::usage) throw;
             complaint_ = error.what();
@@ -175,11 +181,9 @@ private:
     [[nodiscard]] bool measures() const { return !options_.quiet || options_.inspector; }
 
     void restart() {
-        clock_.resume();
+        restarted_at_ = playback_.steps();
         AnyGame& game = playback_.game();
-        // An input that restarts reaches those who play along, unless they ended before.
-        const bool plays_on = !failure_ && game.takes_input() && along_.measures();
-        if (!plays_on && measures()) along_.start(playback_.steps());
+        if (measures()) along_.start(playback_.steps());
         failure_.reset();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
@@ -328,6 +332,7 @@ private:
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
+    std::int64_t restarted_at_ = -1;       ///< the steps before the last restart
     std::int64_t undone_ = 0;              ///< steps of the clock that the game has not taken
     std::optional<Error> failure_;         ///< a divergence that holds the run
     std::string complaint_;                ///< why the game cannot have the setting that was chosen

@@ -55,7 +55,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
         setting.error = length_text(run.distance);
         setting.pixels = run.distance / measured.pixel;
     } else if (run.distance < unsure) {
-        setting.error = "< " + length_text(unsure);
+        setting.error = unsure < least_length ? "exact" : "< " + length_text(unsure);
         if (unsure <= measured.pixel) setting.pixels = unsure / measured.pixel;
     }
     return setting;
@@ -69,6 +69,7 @@ WindowInspector::WindowInspector(AnyGame& game, std::string fixed, std::span<con
       inspector_(font),
       methods_(applicable_methods(game.world())) {
     game_.measure(times_);
+    begin();
 }
 
 void WindowInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
@@ -87,8 +88,6 @@ Wishes WindowInspector::show(PlayAlong& along, const Input& mouse, Size size, Si
                              const Frame& frame) {
     const World& world = game_.world();
     const double energy = world.bodies().energy().total();
-    if (cuts_ != game_.cuts()) first_energy_ = energy;
-    cuts_ = game_.cuts();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,

@@ -26,6 +26,8 @@ public:
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     WindowInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
+    /// The game is as it was made.
+    void begin() { first_energy_ = game_.world().bodies().energy().total(); }
     /// Counts the times of a frame in which steps were taken. `show` is the time of steps and
     /// picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
@@ -41,7 +43,6 @@ private:
     StepTimes times_;
     Inspected::Costs costs_;
     std::vector<const Method*> methods_;
-    std::int64_t cuts_ = -1;
     double first_energy_ = 0;
 };
 

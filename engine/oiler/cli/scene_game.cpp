@@ -54,8 +54,8 @@ std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource&
 }
 
 void SceneGame::take_step(const Input& input) {
-    const bool restarts = input.restarts() || input.pressed(again);
-    if (restarts || world_.time() >= scene_.duration) restart();
+    if (input.restarts()) restart();
+    if (input.pressed(again)) ends_ = true;
     look(input);
     drag(input);
     const Stopwatch stopwatch(times_, &StepTimes::step);
@@ -95,6 +95,7 @@ void SceneGame::drag(const Input& input) {
 void SceneGame::restart() {
     world_ = make_world(scene_, Settings(world_.settings()));
     drag_.reset();
+    ends_ = false;
     ++cuts_;
 }
 
@@ -102,6 +103,7 @@ void SceneGame::assign(const AnyGame& other) {
     const auto& source = dynamic_cast<const SceneGame&>(other);
     world_ = source.world_;
     drag_ = source.drag_;
+    ends_ = source.ends_;
     ++cuts_;
 }
 

@@ -8,8 +8,8 @@
 
 namespace oiler::cli {
 
-/// A scene as a game. One that is watched in a window begins anew after its duration and with R.
-/// The left mouse button drags its bodies, the right one its picture; the wheel zooms.
+/// A scene as a game. One that is watched in a window is over after its duration, and with R. The
+/// left mouse button drags its bodies, the right one its picture; the wheel zooms.
 class SceneGame final : public AnyGame {
 public:
     static constexpr Action again{"restart", Key::r};
@@ -26,6 +26,9 @@ public:
         return std::make_unique<SceneGame>(*this);
     }
     void assign(const AnyGame& other) override;
+    [[nodiscard]] bool is_over() const override {
+        return watched_ && (ends_ || world_.time() >= scene_.duration);
+    }
     [[nodiscard]] bool takes_input() const override { return watched_; }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override;
@@ -50,6 +53,7 @@ private:
     Camera camera_;              ///< the user's: copies that are assigned leave it alone
     std::optional<Point> held_;  ///< the place of the world that the right button holds
     std::optional<Drag> drag_;
+    bool ends_ = false;  ///< the user wants it
 };
 
 }  // namespace oiler::cli

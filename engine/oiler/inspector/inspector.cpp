@@ -15,6 +15,8 @@ namespace {
 constexpr float panel_width = 340;  // units
 constexpr int lowest_rate = 10;     // Hz
 constexpr int highest_rate = 1000;
+constexpr double least_cost = 10'000;  // ns; less is not certain beside a game
+constexpr int lines_of_verdict = 4;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
 constexpr float smallest_error = 1e-6F;      // m
 
@@ -50,10 +52,12 @@ struct Inspector::Impl {
     explicit Impl(std::span<const char> font) : gui(font) {}
 
     static void show_verdict(const Inspected& run) {
-        if (run.verdict.empty()) return;
+        // Of one height, so that nothing moves under the mouse.
+        ImGui::BeginChild("verdict", {0, lines_of_verdict * ImGui::GetTextLineHeightWithSpacing()});
         ImGui::PushStyleColor(ImGuiCol_Text, gui_colour(run.grade));
         wrapped(run.verdict);
         ImGui::PopStyleColor();
+        ImGui::EndChild();
         ImGui::Separator();
     }
 
@@ -105,7 +109,7 @@ struct Inspector::Impl {
         ImGui::Separator();
         text("The true motion and other settings");
         if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingFixedFit)) return;
-        for (const char* name : {"", "off by", "a frame", ""}) ImGui::TableSetupColumn(name);
+        for (const char* name : {"", "off by", "steps a frame", ""}) ImGui::TableSetupColumn(name);
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
@@ -118,7 +122,7 @@ struct Inspector::Impl {
                                                          : palette::vermilion;
             ImGui::TextColored(gui_colour(colour), "%s", one.error.c_str());
             ImGui::TableNextColumn();
-            text(time_text(one.cost));
+            text(one.cost < least_cost ? "< 10 µs" : time_text(one.cost));
             ImGui::TableNextColumn();
             ImGui::PushID(static_cast<int>(i));
             if (i > 0 && button("Apply", run.fixed.empty())) wishes.stepping = one.stepping;

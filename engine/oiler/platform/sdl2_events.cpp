@@ -38,6 +38,10 @@ Point canvas_point(int x, int y, Size window) {
             canvas_height / 2 - (static_cast<float>(y) + 0.5F - height / 2) / scale};
 }
 
+int x_of(const SDL_Event& event) {
+    return event.type == SDL_MOUSEMOTION ? event.motion.x : event.button.x;
+}
+
 /// A mouse that the queue does not `take` only releases buttons.
 void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool take) {
     if (event.type == SDL_MOUSEWHEEL) {
@@ -46,8 +50,7 @@ void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool t
     }
     const bool moves = event.type == SDL_MOUSEMOTION;
     if (take)
-        queue.point_at(canvas_point(moves ? event.motion.x : event.button.x,
-                                    moves ? event.motion.y : event.button.y, window));
+        queue.point_at(canvas_point(x_of(event), moves ? event.motion.y : event.button.y, window));
     if (moves) return;
     const bool down = event.button.state == SDL_PRESSED;
     const auto button = mouse_button(event.button.button);
@@ -86,7 +89,9 @@ void SdlEvents::handle(const SDL_Event& event, Size window, InputQueue& game, In
         case SDL_MOUSEBUTTONDOWN:
         case SDL_MOUSEBUTTONUP:
         case SDL_MOUSEWHEEL:
-            handle_mouse(event, window, game, mouse_is_of_game);
+            handle_mouse(
+                event, window, game,
+                mouse_is_of_game && (event.type == SDL_MOUSEWHEEL || x_of(event) < window.width));
             return handle_mouse(event, window, loop, true);
         case SDL_WINDOWEVENT:
             if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
