@@ -166,7 +166,9 @@ private:
             return;
         }
         dropped_ += clock_.dropped_time();
+        const bool was_paused = clock_.paused();
         clock_ = StepClock(static_cast<int>(stepping.rate.steps));
+        if (was_paused && !failure_) clock_.pause();
         undone_ = -playback_.steps();
         playback_.go_back(playback_.steps());
         failure_.reset();
