@@ -302,7 +302,7 @@ TEST(Recordings, AreMadeAndReplayedByPrograms) {
     EXPECT_NE(equal.err.find("the replay equals the recording: 120 of 120 steps"),
               std::string::npos)
         << equal.err;
-    const Outcome film = shell("hello --headless --size 64x36 --png none --out " + path("film") +
+    const Outcome film = shell("hello --headless --fps 10 --size 64x36 --png none --out " + path("film") +
                                "--replay " + path("a"));
     EXPECT_NE(film.err.find("120 of 120 steps"), std::string::npos) << film.err;
     EXPECT_EQ(shell("hello --steps 9 --rate 60 --replay " + path("a")).exit, 2);

@@ -23,7 +23,7 @@ Inspected run_at_60_hz() {
                   .methods = all,
                   .errors = {0, 0.1F, 0.2F},
                   .bodies = 1};
-    Inspected::Setting setting{.stepping = run.stepping, .error = "7.5 cm", .pixels = 5};
+    Inspected::Setting setting{.stepping = run.stepping, .error = "7.5 cm"};
     run.settings.push_back(setting);
     setting.stepping.rate = {120};
     run.settings.push_back(setting);

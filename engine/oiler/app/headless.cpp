@@ -7,9 +7,9 @@
 
 #include "oiler/app/console.hpp"
 #include "oiler/app/film.hpp"
+#include "oiler/app/game_inspector.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/app/window_inspector.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -72,18 +72,15 @@ public:
               const Manifest& header) {
         along.play_until(steps);
         add_ghosts(picture, along.ghosts(steps, steps == at.step ? 1 : at.alpha), 1);
-        (void)inspector_.show(along, {}, header.size, view(header.size),
+        (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
                               {.seconds = 1.0 / header.fps});
-    }
-    [[nodiscard]] static Size view(Size size) {
-        return {size.width - Inspector::width(size), size.height};
     }
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
 
     PlayAlong along;
 
 private:
-    WindowInspector inspector_;
+    GameInspector inspector_;
 };
 
 /// Draws the frames in their order until the last one or an interrupt.
@@ -97,7 +94,7 @@ void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Mani
         if (ended || Interrupt::requested()) return;
         if (inspector) inspector->show(picture, at, playback.steps(), header);
         film.add(picture, at, playback, inspector ? inspector->overlay() : Overlay{},
-                 inspector ? FilmedInspector::view(header.size) : header.size);
+                 inspector ? Inspector::view(header.size) : header.size);
         progress.show(frame + 1);
     }
 }

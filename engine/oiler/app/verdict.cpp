@@ -114,6 +114,12 @@ std::string length_text(double metres) {
     return fmt::format("{:.1e} m", metres);
 }
 
+Verdict::Grade grade_of(double pixels) {
+    using Grade = Verdict::Grade;
+    if (std::isnan(pixels)) return Grade::unknown;
+    return pixels > pixels_of_bad ? Grade::bad : pixels > 1 ? Grade::visible : Grade::good;
+}
+
 Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                    const std::function<std::string(Entity)>& name_of) {
     using Grade = Verdict::Grade;
@@ -132,10 +138,8 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                             *played.other_play_from, setting, cure_text(measured), limit)};
     const double pixels = played.distance / measured.pixel;
     const double known = std::max(played.distance, least_certain * measured.uncertainty);
-    const Grade grade = pixels > pixels_of_bad   ? Grade::bad
-                        : pixels > 1             ? Grade::visible
-                        : known > measured.pixel ? Grade::unknown
-                                                 : Grade::good;
+    const bool is_hidden = pixels <= 1 && known > measured.pixel;
+    const Grade grade = is_hidden ? Grade::unknown : grade_of(pixels);
     if (const Reading* const reading = worst_reading(measured, before))
         return {std::max(grade, Grade::visible),
                 reading_text(measured, *reading) + cure_text(measured) + limit};

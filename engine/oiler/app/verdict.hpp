@@ -22,6 +22,9 @@ struct Verdict {
     std::string text{};
 };
 
+/// The grade of an error in pixels; NaN is not known.
+[[nodiscard]] Verdict::Grade grade_of(double pixels);
+
 /// Judges the recorded setting, the first of the runs. A reading in m that is off by more than a
 /// pixel, or one in another unit that is off by more than a hundredth, comes first, if it is what
 /// it was `before`: one that still changes may differ by a step, which is no error. Then comes the

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "oiler/app/console.hpp"
+#include "oiler/app/game_inspector.hpp"
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/overlays.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/rewind.hpp"
-#include "oiler/app/window_inspector.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/render/renderer.hpp"
 
@@ -225,9 +225,7 @@ private:
     }
 
     /// The part of the frame that the inspector leaves to the picture.
-    [[nodiscard]] Size view(Size size) const {
-        return inspects_ ? Size{size.width - Inspector::width(size), size.height} : size;
-    }
+    [[nodiscard]] Size view(Size size) const { return inspects_ ? Inspector::view(size) : size; }
     [[nodiscard]] float share_of_picture() const {
         const Size size = window_->size();
         if (size.width == 0) return 1;
@@ -328,7 +326,7 @@ private:
     Renderer renderer_;
     StepClock clock_;
     PlayAlong along_;
-    WindowInspector inspector_;
+    GameInspector inspector_;
     Wishes wishes_;
     Pace pace_;
     InputQueue keys_;  ///< of the loop

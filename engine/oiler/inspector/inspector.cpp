@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "oiler/inspector/gui.hpp"
-#include "oiler/picture/palette.hpp"
 
 namespace oiler {
 namespace {
@@ -116,11 +115,7 @@ struct Inspector::Impl {
             ImGui::TableNextColumn();
             text(difference(one.stepping, run.stepping));
             ImGui::TableNextColumn();
-            const Colour colour = std::isnan(one.pixels) ? palette::grey
-                                  : one.pixels <= 1      ? palette::green
-                                  : one.pixels <= 7.2    ? palette::orange
-                                                         : palette::vermilion;
-            ImGui::TextColored(gui_colour(colour), "%s", one.error.c_str());
+            ImGui::TextColored(gui_colour(one.grade), "%s", one.error.c_str());
             ImGui::TableNextColumn();
             text(one.cost < least_cost ? "< 10 µs" : time_text(one.cost));
             ImGui::TableNextColumn();
@@ -193,8 +188,9 @@ struct Inspector::Impl {
     bool is_sliding = false;
 };
 
-int Inspector::width(Size frame) {
-    return std::min(static_cast<int>(panel_width * Gui::unit_of(frame)), frame.width / 2);
+Size Inspector::view(Size frame) {
+    const int panel = static_cast<int>(panel_width * Gui::unit_of(frame));
+    return {frame.width - std::min(panel, frame.width / 2), frame.height};
 }
 
 Inspector::Inspector(std::span<const char> font) : impl_(std::make_unique<Impl>(font)) {}
@@ -203,7 +199,7 @@ Inspector::~Inspector() = default;
 Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, double seconds) {
     Wishes wishes;
     impl_->gui.begin(mouse, frame, seconds);
-    const auto panel = static_cast<float>(width(frame));
+    const auto panel = static_cast<float>(frame.width - view(frame).width);
     ImGui::SetNextWindowPos({static_cast<float>(frame.width) - panel, 0});
     ImGui::SetNextWindowSize({panel, static_cast<float>(frame.height)});
     ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);

@@ -20,7 +20,7 @@ struct Inspected {
     struct Setting {
         Stepping stepping{};
         std::string error{};  ///< the largest distance from the true motion, such as "7.5 cm"
-        double pixels = 0;    ///< the same in pixels; NaN: not known
+        Colour grade{};       ///< of that error
         double cost = 0;      ///< update and step, ns per frame at 60 frames per second
     };
     /// Times of a frame, ns; all 0: not measured.
@@ -69,8 +69,8 @@ public:
         int wheel = 0;
     };
 
-    /// The width of the panel at the right of a frame, pixels.
-    [[nodiscard]] static int width(Size frame);
+    /// The part at the left of a frame that the panel leaves to the picture, pixels.
+    [[nodiscard]] static Size view(Size frame);
 
     /// `font` is a TrueType file.
     explicit Inspector(std::span<const char> font);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/app/window_inspector.hpp"
+#include "oiler/app/game_inspector.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "oiler/app/overlays.hpp"
 #include "oiler/core/error.hpp"
@@ -39,31 +39,32 @@ Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
 }
 
 Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
-    Inspected::Setting setting{.stepping = run.stepping,
-                               .error = "?",
-                               .pixels = std::numeric_limits<double>::quiet_NaN(),
-                               .cost = run.costs.update + run.costs.step};
+    using Grade = Verdict::Grade;
     const double unsure = least_certain * measured.uncertainty;
-    const double bad = std::numeric_limits<double>::infinity();
+    std::string error = "?";
+    Grade grade = Grade::unknown;
     if (!run.failure.empty()) {
-        setting.error = "failed";
-        setting.pixels = bad;
+        error = "failed";
+        grade = Grade::bad;
     } else if (run.other_play_from) {
-        setting.error = "another play";
-        setting.pixels = bad;
+        error = "another play";
+        grade = Grade::bad;
     } else if (run.distance >= unsure) {
-        setting.error = length_text(run.distance);
-        setting.pixels = run.distance / measured.pixel;
+        error = length_text(run.distance);
+        grade = grade_of(run.distance / measured.pixel);
     } else if (run.distance < unsure) {
-        setting.error = unsure < least_length ? "exact" : "< " + length_text(unsure);
-        if (unsure <= measured.pixel) setting.pixels = unsure / measured.pixel;
+        error = unsure < least_length ? "exact" : "< " + length_text(unsure);
+        if (unsure <= measured.pixel) grade = Grade::good;
     }
-    return setting;
+    return {.stepping = run.stepping,
+            .error = std::move(error),
+            .grade = colour_of(grade),
+            .cost = run.costs.update + run.costs.step};
 }
 
 }  // namespace
 
-WindowInspector::WindowInspector(AnyGame& game, std::string fixed, std::span<const char> font)
+GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
     : game_(game),
       fixed_(std::move(fixed)),
       inspector_(font),
@@ -72,7 +73,7 @@ WindowInspector::WindowInspector(AnyGame& game, std::string fixed, std::span<con
     begin();
 }
 
-void WindowInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
+void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
     constexpr double weight = 1.0 / 32;
     const auto mix = [](double& mean, std::chrono::nanoseconds time) {
         mean += weight * (static_cast<double>(time.count()) - mean);
@@ -84,8 +85,8 @@ void WindowInspector::add_times(std::chrono::nanoseconds show, std::chrono::nano
     mix(costs_.draw, draw);
 }
 
-Wishes WindowInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
-                             const Frame& frame) {
+Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
+                           const Frame& frame) {
     const World& world = game_.world();
     const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,

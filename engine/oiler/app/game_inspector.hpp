@@ -11,8 +11,8 @@
 
 namespace oiler {
 
-/// Gathers what the inspector shows of a game in a window.
-class WindowInspector {
+/// Gathers what the inspector shows of a game.
+class GameInspector {
 public:
     /// What the loop knows of a frame.
     struct Frame {
@@ -24,7 +24,7 @@ public:
     };
 
     /// `fixed` tells why the setting cannot be changed; empty: it can.
-    WindowInspector(AnyGame& game, std::string fixed, std::span<const char> font);
+    GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
     /// The game is as it was made.
     void begin() { first_energy_ = game_.world().bodies().energy().total(); }
