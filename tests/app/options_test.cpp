@@ -172,6 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--steps 5 --headless", "--headless"}, Wrong{"--steps 5 --frames 2", "--frames"},
         Wrong{"--steps 5 --size 10x10", "--size"}, Wrong{"--recorder f", "--recorder"},
         Wrong{"--golden d", "--golden"}, Wrong{"--video f", "--video"},
+        Wrong{"--headless --video -1e308", ".mp4, .gif or .apng"},
         Wrong{"--threads 0", "--threads"}, Wrong{"--threads 257", "--threads"},
         Wrong{"--frames 1000001", "--frames"}, Wrong{"--steps 1000000000001", "--steps"},
         Wrong{"--size 16385x1", "16385x1"}, Wrong{"--size 1x16385", "1x16385"},

@@ -17,6 +17,7 @@
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/paths.hpp"
+#include "oiler/capture/video.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
 
@@ -177,6 +178,7 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
                 fail(Exit::usage, "{}: give a path", path.name);
     if (options.record == "-")
         fail(Exit::usage, "--record -: a recording is written to a file; give a name");
+    if (!options.video.empty()) Video::require_format(options.video);
     std::erase_if(inputs, [](const NamedPath& input) {
         return input.path.empty() || (input.name == "--script" && input.path == "-");
     });

@@ -113,6 +113,8 @@ std::string last_line(int descriptor) {
 
 }  // namespace
 
+void Video::require_format(const fs::path& path) { (void)format_of(path); }
+
 Video::Video(const fs::path& path, Size size, int fps) : path_(path) {
     const Format& format = format_of(path);
     if (path.has_parent_path()) make_folder(path.parent_path());

@@ -18,6 +18,8 @@ namespace oiler {
 /// name when it is complete.
 class Video {
 public:
+    /// Throws Error{usage} unless the path's ending names a format.
+    static void require_format(const std::filesystem::path& path);
     /// Starts ffmpeg. Throws Error{usage} for another ending, and Error{io} if ffmpeg is missing.
     Video(const std::filesystem::path& path, Size size, int fps);
     /// Without finish(), ffmpeg is stopped and no file is left.
