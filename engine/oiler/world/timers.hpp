@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,8 @@ public:
     [[nodiscard]] virtual std::unique_ptr<AnyTimers> clone() const = 0;
     virtual bool hash_into(StateHash& hash) const = 0;
     [[nodiscard]] virtual bool empty() const = 0;
+    /// Moves each message from its tick t to the tick `moved(t)`.
+    virtual void move(const std::function<std::int64_t(std::int64_t)>& moved) = 0;
     [[nodiscard]] virtual std::string_view type() const = 0;
 
 protected:
@@ -45,6 +48,9 @@ public:
         return Hashed<T>;
     }
     [[nodiscard]] bool empty() const override { return entries_.empty(); }
+    void move(const std::function<std::int64_t(std::int64_t)>& moved) override {
+        for (Entry& entry : entries_) entry.tick = moved(entry.tick);
+    }
     [[nodiscard]] std::string_view type() const override { return type_name<T>(); }
 
     void add(std::int64_t tick, T message) { entries_.push_back({tick, std::move(message)}); }

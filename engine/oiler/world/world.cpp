@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "oiler/world/ball.hpp"
@@ -214,6 +215,38 @@ void World::list_impacts() {
         impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
                             one.before, one.after});
     }
+}
+
+std::optional<std::int64_t> World::tick_at(const Rate& rate) const {
+    // Ticks of the old and the new rate in the shortest time that has both.
+    const Rate& now = settings_.stepping.rate;
+    std::int64_t old_ticks = now.steps * rate.seconds;
+    std::int64_t new_ticks = rate.steps * now.seconds;
+    const std::int64_t common = std::gcd(old_ticks, new_ticks);
+    old_ticks /= common;
+    new_ticks /= common;
+    if (tick_ % old_ticks != 0) return std::nullopt;
+    return tick_ / old_ticks * new_ticks;
+}
+
+void World::set_stepping(const Stepping& stepping) {
+    placed("set_stepping", [&] {
+        const std::optional<std::int64_t> tick = tick_at(stepping.rate);
+        if (!tick)
+            fail(Exit::usage, "{:g} Hz has no tick at {} s; step to a time that both rates have",
+                 1 / stepping.rate.dt(), time());
+        if (stepping.precision != settings_.stepping.precision)
+            fail(Exit::usage, "another precision needs a new world");
+        bodies_.require_applicable(*stepping.method, {stepping.rate, *tick, 1, stepping.damping});
+        const std::int64_t old_tick = tick_;
+        const Rate old_rate = settings_.stepping.rate;
+        settings_.stepping = stepping;
+        tick_ = *tick;
+        for (const TaggedTimers& entry : timers_)
+            entry.timers->move([&](std::int64_t due) {
+                return tick_ + ticks_in(old_rate.time(std::max<std::int64_t>(0, due - old_tick)));
+            });
+    });
 }
 
 Steps World::next_steps(std::int64_t count) const {

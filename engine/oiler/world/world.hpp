@@ -272,6 +272,13 @@ public:
     /// others.
     [[nodiscard]] std::vector<std::string> preflight(std::size_t most = 5) const;
 
+    /// The tick of `rate` at the present time; empty if that rate has none then.
+    [[nodiscard]] std::optional<std::int64_t> tick_at(const Rate& rate) const;
+    /// Goes on from here with another method, rate or damping. What is scheduled keeps its time,
+    /// rounded up to a tick. Throws Error{usage}, and changes nothing, if the new rate has no tick
+    /// now, for another precision, and if the method cannot step these bodies.
+    void set_stepping(const Stepping& stepping);
+
     /// Steps all bodies `count` times. Results do not depend on the number of steps per call.
     /// Throws Error{diverged}.
     void step(std::int64_t count = 1);

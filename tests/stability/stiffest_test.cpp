@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The limits of the methods are those of the literature: semi-implicit Euler ω·dt = 2, rk4 2√2,
+// explicit Euler ω·dt = 2ζ up to ζ = 1.
+#include "oiler/stability/stiffest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oiler::test {
+namespace {
+
+Stiffest stiffest(const Bodies& bodies, const char* method, std::int64_t rate = 100) {
+    StiffestFinder finder;
+    const auto found = finder.find(bodies, find_method(method), {.rate = {rate}});
+    EXPECT_TRUE(found);
+    return found.value_or(Stiffest{});
+}
+
+// ω = √(1600/1) = 40/s and √(900/0.5) = 42.4/s.
+Bodies two_springs() {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.stiffness = 1600});
+    bodies.add(Body{.mass = 0.5}, Spring{.stiffness = 900});
+    return bodies;
+}
+
+TEST(Stiffest, IsTheFastestSpring) {
+    const Stiffest found = stiffest(two_springs(), "semi_implicit_euler");
+    EXPECT_EQ(found.row, 1U);
+    EXPECT_FALSE(found.linked);
+    EXPECT_NEAR(found.measure, std::sqrt(1800) / 100, 1e-12);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
+    EXPECT_NEAR(stiffest(two_springs(), "rk4").limit, 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(stiffest(two_springs(), "rk4", 50).measure, std::sqrt(1800) / 50, 1e-12);
+}
+
+TEST(Stiffest, HasNoLimitOrAlwaysExceedsIt) {
+    EXPECT_EQ(stiffest(two_springs(), "explicit_euler").limit, 0);
+    EXPECT_TRUE(std::isinf(stiffest(two_springs(), "implicit_midpoint").limit));
+    const Bodies alone(1, Precision::double_);
+    StiffestFinder finder;
+    EXPECT_FALSE(finder.find(alone, find_method("rk4"), {.rate = {100}}));
+}
+
+// ω = 10/s with ζ = 0.5 has c = 10/s: explicit Euler is stable up to ω·dt = 1. ζ = 0.25 has the
+// limit 0.5, and is closer to it with ω = 8/s.
+TEST(Stiffest, IsTheOneThatIsClosestToItsLimit) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.stiffness = 100, .damping = 10});
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").measure, 0.1, 1e-12);
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").limit, 1, 1e-9);
+    bodies.add(Body{}, Spring{.stiffness = 64, .damping = 4});
+    EXPECT_EQ(stiffest(bodies, "explicit_euler").row, 1U);
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").limit, 0.5, 1e-9);
+}
+
+// Two masses of 1 kg on a spring of 100 N/m swing against each other with ω² = 2·100.
+TEST(Stiffest, NamesBothEndsOfALink) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{.position = {0}});
+    bodies.add(Body{.position = {1}});
+    bodies.link(0, 1, Link{.stiffness = 100, .rest_length = 1});
+    const Stiffest found = stiffest(bodies, "semi_implicit_euler");
+    EXPECT_EQ(found.row + *found.linked, 1U);
+    EXPECT_NEAR(found.measure, std::sqrt(200) / 100, 1e-12);
+}
+
+}  // namespace
+}  // namespace oiler::test
