@@ -337,6 +337,7 @@ public:
         return count;
     }
     void restart() override {}
+    void set_stepping(const Stepping& stepping) override { world_.set_stepping(stepping); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return std::make_unique<Sluggish>(*this);
     }

@@ -73,11 +73,38 @@ TEST(Inspector, AsksForWhatIsClicked) {
         precisions.insert(one.stepping->precision);
     }
     EXPECT_GT(rates.size(), 10U) << "the slider";
+    EXPECT_TRUE(std::ranges::all_of(rates, [](std::int64_t rate) { return rate % 2 == 0; }));
     EXPECT_GE(*rates.begin(), 10);
     EXPECT_LE(*rates.rbegin(), 1000);
     EXPECT_TRUE(rates.contains(120)) << "applied";
     EXPECT_TRUE(methods.contains("rk4")) << "applied";
     EXPECT_TRUE(precisions.contains(Precision::single));
+}
+
+// Wherever the box is at the left: after a click on it, a click on a button at the right restarts.
+TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
+    const Inspected run = run_at_60_hz();
+    const auto click = [&](Inspector& inspector, Point at) {
+        bool restarts = false;
+        for (const bool down : {false, false, true, false, false}) {
+            const Wishes wishes = inspector.show(run, {at, down}, frame, 1.0 / 60);
+            restarts = restarts || (wishes.stepping && wishes.changes_from_start);
+        }
+        return restarts;
+    };
+    constexpr float step = 12;
+    int boxes = 0;
+    for (float y = 160; y < 220; y += step) {
+        Inspector inspector(Renderer::font());
+        EXPECT_FALSE(click(inspector, {panel_left + 28, y}));
+        bool restarts = false;
+        for (float of_button = 220; of_button < 500; of_button += step)
+            for (float x = 1050; x < 1260; x += 30)
+                restarts = click(inspector, {x, of_button}) || restarts;
+        boxes += restarts ? 1 : 0;
+    }
+    EXPECT_GE(boxes, 1);
+    EXPECT_LE(boxes, 2);
 }
 
 TEST(Inspector, ChangesOneThingOfASetting) {

@@ -154,6 +154,8 @@ public:
     virtual std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
     /// Makes the game anew, with the settings of its world.
     virtual void restart() = 0;
+    /// Goes on from here with another setting, see World::set_stepping.
+    virtual void set_stepping(const Stepping& stepping) = 0;
     /// Whether it has come to its end, so that a window makes it anew.
     [[nodiscard]] virtual bool is_over() const { return false; }
     /// A copy, which goes on as the game does.
@@ -221,6 +223,7 @@ public:
         age_ = -1;
         ++cuts_;
     }
+    void set_stepping(const Stepping& stepping) override { game_.world.set_stepping(stepping); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return guarded(copying, [&] { return std::make_unique<AnyGameOf>(*this); });
     }

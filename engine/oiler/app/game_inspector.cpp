@@ -70,7 +70,22 @@ GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const c
       inspector_(font),
       methods_(applicable_methods(game.world())) {
     game_.measure(times_);
-    begin();
+}
+
+void GameInspector::find_stiffest() {
+    constexpr std::size_t most_bodies = 2000;
+    const World& world = game_.world();
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_stiffest_ || world.bodies().size() > most_bodies) return;
+    next_stiffest_ = now + std::chrono::milliseconds(250);
+    const Stepping& stepping = world.settings().stepping;
+    const auto found =
+        finder_.find(world.bodies(), *stepping.method, {stepping.rate, 0, 1, stepping.damping});
+    stiffest_.reset();
+    if (!found) return;
+    std::string name = game_.name_of(world.entity_of_row(found->row));
+    if (found->linked) name += " to " + game_.name_of(world.entity_of_row(*found->linked));
+    stiffest_ = Inspected::Gauge{std::move(name), found->measure, found->limit};
 }
 
 void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
@@ -88,20 +103,25 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
 Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
                            const Frame& frame) {
     const World& world = game_.world();
+    find_stiffest();
     const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
                   .errors = along.errors(),
+                  .stiffest = stiffest_,
                   .costs = costs_,
                   .energy = energy,
-                  .first_energy = first_energy_,
                   .time = world.time(),
                   .dropped = frame.dropped,
                   .bodies = world.bodies().size(),
                   .is_paused = frame.is_paused,
                   .has_past = frame.has_past,
                   .pace = frame.pace};
+    if (const auto& begin = along.begin()) {
+        run.begin = begin->time;
+        run.first_energy = begin->energy;
+    }
     const Verdict& verdict = along.verdict(game_);
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);

@@ -8,6 +8,7 @@
 #include "oiler/app/game.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/inspector/inspector.hpp"
+#include "oiler/stability/stiffest.hpp"
 
 namespace oiler {
 
@@ -26,8 +27,6 @@ public:
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
-    /// The game is as it was made.
-    void begin() { first_energy_ = game_.world().bodies().energy().total(); }
     /// Counts the times of a frame in which steps were taken. `show` is the time of steps and
     /// picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
@@ -37,13 +36,18 @@ public:
     [[nodiscard]] bool has_mouse() const { return inspector_.has_mouse(); }
 
 private:
+    /// The spring closest to the method's limit, renewed some times a second.
+    void find_stiffest();
+
     AnyGame& game_;
     std::string fixed_;
     Inspector inspector_;
+    StiffestFinder finder_;
+    std::optional<Inspected::Gauge> stiffest_;
+    std::chrono::steady_clock::time_point next_stiffest_{};
     StepTimes times_;
     Inspected::Costs costs_;
     std::vector<const Method*> methods_;
-    double first_energy_ = 0;
 };
 
 }  // namespace oiler

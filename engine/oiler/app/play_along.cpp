@@ -43,7 +43,20 @@ void PlayAlong::start(std::int64_t first, const Stepping& stepping) {
     start(first);
 }
 
-void PlayAlong::start(std::int64_t first) {
+void PlayAlong::start(std::int64_t first) { measure(first, make_); }
+
+void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
+    options_.settings.stepping = game.world().settings().stepping;
+    options_.replay->header.stepping = options_.settings.stepping;
+    measure(first, [now = std::shared_ptr<const AnyGame>(game.clone())](const Settings& settings) {
+        std::unique_ptr<AnyGame> run = now->clone();
+        run->set_stepping(settings.stepping);
+        return run;
+    });
+}
+
+void PlayAlong::measure(std::int64_t first, MakeGame make) {
+    make_run_ = std::move(make);
     measured_.reset();
     errors_.clear();
     ghosts_before_.clear();
@@ -55,11 +68,13 @@ void PlayAlong::start(std::int64_t first) {
     before_ = {};
     options_.replay->events.clear();
     try {
-        const std::size_t bodies = make_(options_.settings)->world().bodies().size();
-        if (bodies > most_bodies)
-            return stop(
-                fmt::format("what the timestep costs is not measured for {} bodies", bodies));
-        runs_.emplace(options_, usual_what_if(options_.settings, make_), make_);
+        const std::unique_ptr<AnyGame> game = make_run_(options_.settings);
+        const Bodies& bodies = game->world().bodies();
+        begin_ = Begin{game->world().time(), bodies.energy().total()};
+        if (bodies.size() > most_bodies)
+            return stop(fmt::format("what the timestep costs is not measured for {} bodies",
+                                    bodies.size()));
+        runs_.emplace(options_, usual_what_if(options_.settings, make_run_), make_run_);
     } catch (const Error& error) {
         stop(error.what());
     }
@@ -114,8 +129,8 @@ const Verdict& PlayAlong::verdict(const AnyGame& game) {
     if (runs_ && played_ != judged_ && is_due) {
         judged_ = played_;
         measured_ = runs_->result();
-        verdict_ =
-            verdict_of(*measured_, readings_, [&](Entity body) { return game.name_of(body); });
+        verdict_ = verdict_of(*measured_, readings_, begin_->time,
+                              [&](Entity body) { return game.name_of(body); });
         readings_ = measured_->runs.front().readings;
         next_verdict_ = Clock::now() + time_of_verdict;
     }

@@ -27,6 +27,8 @@ public:
     void start(std::int64_t first);
     /// The same with another setting of the game.
     void start(std::int64_t first, const Stepping& stepping);
+    /// Begins with the game as it is now, before its step `first`.
+    void start_from(const AnyGame& game, std::int64_t first);
     [[nodiscard]] Input next(std::int64_t step) override;
     /// Plays along until that step of the game begins, or for a short time at the pace of frames.
     void play_until(std::int64_t step);
@@ -36,6 +38,13 @@ public:
     [[nodiscard]] std::int64_t behind(std::int64_t step) const {
         return step + 1 - first_ - played_;
     }
+    /// The game when measuring began.
+    struct Begin {
+        double time = 0;    ///< s
+        double energy = 0;  ///< J
+    };
+    /// Empty if nothing was ever measured.
+    [[nodiscard]] const std::optional<Begin>& begin() const { return begin_; }
     /// What is measured so far; nothing may have stopped it.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
     /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
@@ -52,10 +61,14 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void measure(std::int64_t first, MakeGame make);
+
     InputSource& inputs_;
     const MakeGame& make_;
     Pace pace_;
-    Options options_;  ///< with a recording that grows
+    Options options_;    ///< with a recording that grows
+    MakeGame make_run_;  ///< makes the game as it was at the beginning
+    std::optional<Begin> begin_;
     std::int64_t first_ = 0;
     Input before_{};
     std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along

@@ -106,7 +106,7 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
 }  // namespace
 
 std::string length_text(double metres) {
-    if (metres < 1e-6) return fmt::format("{:.2g} nm", 1e9 * std::max(metres, least_length));
+    if (metres < 99e-9) return fmt::format("{:.2g} nm", 1e9 * std::max(metres, least_length));
     if (metres < 1e-5) return fmt::format("{:.2g} µm", 1e6 * metres);
     if (metres < 0.01) return fmt::format("{:.2g} mm", 1000 * metres);
     if (metres < 1) return fmt::format("{:.2g} cm", 100 * metres);
@@ -120,7 +120,7 @@ Verdict::Grade grade_of(double pixels) {
     return pixels > pixels_of_bad ? Grade::bad : pixels > 1 ? Grade::visible : Grade::good;
 }
 
-Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
+Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, double begin,
                    const std::function<std::string(Entity)>& name_of) {
     using Grade = Verdict::Grade;
     const WhatIfRun& played = measured.runs.front();
@@ -128,14 +128,14 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
     if (!played.failure.empty()) return {Grade::bad, played.failure + cure_text(measured)};
     if (!(measured.certain_until > 0) || (std::isnan(played.distance) && !played.other_play_from))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
-    const std::string limit =
-        measured.certain_until < measured.duration - 1
-            ? fmt::format(" The true motion is known until {:.1f} s.", measured.certain_until)
-            : "";
+    const std::string limit = measured.certain_until < measured.duration - 1
+                                  ? fmt::format(" The true motion is known until {:.1f} s.",
+                                                begin + measured.certain_until)
+                                  : "";
     if (played.other_play_from)
         return {Grade::bad,
                 fmt::format("From {:.1f} s on, the true motion is another play than at {}.{}{}",
-                            *played.other_play_from, setting, cure_text(measured), limit)};
+                            begin + *played.other_play_from, setting, cure_text(measured), limit)};
     const double pixels = played.distance / measured.pixel;
     const double known = std::max(played.distance, least_certain * measured.uncertainty);
     const bool is_hidden = pixels <= 1 && known > measured.pixel;

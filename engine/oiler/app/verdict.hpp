@@ -30,14 +30,14 @@ struct Verdict {
 /// it was `before`: one that still changes may differ by a step, which is no error. Then comes the
 /// body that is furthest off. The cure is the cheapest other run below a pixel, or else the best
 /// one. Differences of less than ten times the uncertainty of the reference are not named, nor
-/// prices below 10 µs a frame.
+/// prices below 10 µs a frame. The measured run begins at `begin`, s.
 [[nodiscard]] Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
-                                 const std::function<std::string(Entity)>& name_of);
+                                 double begin, const std::function<std::string(Entity)>& name_of);
 
 /// Shorter lengths are not told apart, m.
 inline constexpr double least_length = 1e-9;
 
-/// "300 nm", "2 mm", "7.5 cm", "3.1 m".
+/// "30 nm", "2 mm", "7.5 cm", "3.1 m".
 [[nodiscard]] std::string length_text(double metres);
 
 }  // namespace oiler

@@ -70,6 +70,13 @@ std::string why_fixed(const Options& options) {
     return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
 
+/// Whether a world can go on at another rate now, so that half of that rate, which plays along, has
+/// a tick, too.
+bool has_common_tick(const World& world, const Rate& rate) {
+    const std::optional<std::int64_t> tick = world.tick_at(rate);
+    return tick && (*tick % 2 == 0 || rate.steps % 2 != 0);
+}
+
 /// Sleeps until the frame's period ends, unless the display has already waited.
 void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
     const std::chrono::nanoseconds period = std::chrono::nanoseconds(std::chrono::seconds(1)) / fps;
@@ -136,7 +143,7 @@ private:
         for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
         if (wishes.pace < 0) pace_.slower();
         if (wishes.pace > 0) pace_.faster();
-        if (wishes.stepping) restart_with(*wishes.stepping);
+        if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         if (wishes.restarts || keys.pressed(Key::f9)) {
             clock_.resume();
@@ -150,29 +157,66 @@ private:
         if (clock_.paused() && (steps || goes_back_)) clock_.single_step();
     }
 
+    void change_to(const Stepping& stepping, bool from_start) {
+        // Bodies have the precision that they were made with.
+        const bool needs_start =
+            failure_ || stepping.precision != playback_.world().settings().stepping.precision;
+        wanted_.reset();
+        complaint_.clear();
+        if (from_start || needs_start)
+            restart_with(stepping);
+        else
+            wanted_ = stepping;
+    }
     /// Makes the game anew with another setting. Whatever the game did is gone.
     void restart_with(const Stepping& stepping) {
         Settings settings = playback_.world().settings();
         settings.stepping = stepping;
-        complaint_.clear();
+        if (!is_possible([&] {
+                const std::unique_ptr<AnyGame> fresh = make_(settings);
+                fresh->world().require_applicable();
+                playback_.game().assign(*fresh);
+            }))
+            return;
+        begin_setting();
+        if (measures()) along_.start(playback_.steps(), stepping);
+    }
+    /// Goes on with the wanted setting from the next step that it has, too, up to `step`.
+    void change_until(std::int64_t step) {
+        while (wanted_ && !failure_) {
+            if (has_common_tick(playback_.world(), wanted_->rate)) {
+                const Stepping stepping = *std::exchange(wanted_, std::nullopt);
+                if (!is_possible([&] { playback_.game().set_stepping(stepping); })) return;
+                begin_setting();
+                if (measures()) along_.start_from(playback_.game(), playback_.steps());
+            } else if (playback_.steps() >= step || playback_.loop().quits()) {
+                return;
+            } else {
+                playback_.step_to(playback_.steps() + 1, *inputs_);
+            }
+        }
+    }
+    /// Whether the game can have a setting, which f() gives it. Else the window tells why.
+    template <class F>
+    bool is_possible(F f) {
         try {
-            const std::unique_ptr<AnyGame> fresh = make_(settings);
-            fresh->world().require_applicable();
-            playback_.game().assign(*fresh);
-            inspector_.begin();
+            f();
+            return true;
         } catch (const Error& error) {
             if (error.exit() != Exit::usage) throw;
             complaint_ = error.what();
-            return;
+            return false;
         }
+    }
+    /// The clock of the game's new setting; what was before it is out of reach.
+    void begin_setting() {
         dropped_ += clock_.dropped_time();
         const bool was_paused = clock_.paused();
-        clock_ = StepClock(static_cast<int>(stepping.rate.steps));
+        clock_ = StepClock(static_cast<int>(playback_.world().settings().stepping.rate.steps));
         if (was_paused && !failure_) clock_.pause();
         undone_ = -playback_.steps();
         playback_.go_back(playback_.steps());
         failure_.reset();
-        if (measures()) along_.start(playback_.steps(), stepping);
         if (rewind_) rewind_->forget(playback_.steps());
     }
     [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
@@ -184,6 +228,7 @@ private:
 
     void restart() {
         restarted_at_ = playback_.steps();
+        was_back_ = false;
         AnyGame& game = playback_.game();
         if (measures()) along_.start(playback_.steps());
         failure_.reset();
@@ -198,6 +243,8 @@ private:
         live_.queue.set_paused(clock_.paused() || back);
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
+        if (!back && steps > 0 && was_back_) measure_from_here();
+        if (!back) change_until(clock_.ticks() - undone_);
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
@@ -273,11 +320,18 @@ private:
         return playback_.last_picture();
     }
 
+    void measure_from_here() {
+        was_back_ = false;
+        if (!measures()) return;
+        along_.start_from(playback_.game(), playback_.steps());
+    }
+
     [[nodiscard]] bool has_past() const { return rewind_ && rewind_->has_past(); }
     void go_back(std::int64_t steps) {
         const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
         live_.queue.continue_after(rewind_->go_back(step));
-        along_.stop("what the timestep costs is no longer measured: you went back");
+        along_.stop("What the timestep costs is measured again when you play on.");
+        was_back_ = true;
         playback_.go_back(step);
         failure_.reset();
         undone_ = clock_.ticks() - step;
@@ -292,6 +346,8 @@ private:
             text = "stopped";
         else if (!complaint_.empty())
             text = complaint_;
+        else if (wanted_)
+            text = fmt::format("{} Hz begins when both rates have a step", wanted_->rate.steps);
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
@@ -335,6 +391,7 @@ private:
     std::int64_t restarted_at_ = -1;       ///< the steps before the last restart
     std::int64_t undone_ = 0;              ///< steps of the clock that the game has not taken
     std::optional<Error> failure_;         ///< a divergence that holds the run
+    std::optional<Stepping> wanted_;       ///< the setting to go on with
     std::string complaint_;                ///< why the game cannot have the setting that was chosen
     std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
     std::chrono::nanoseconds last_start_ = now();
@@ -343,6 +400,7 @@ private:
     bool helps_ = false;
     bool goes_back_ = false;
     bool whole_ = false;
+    bool was_back_ = false;  ///< nothing is measured since the player went back
 };
 
 }  // namespace

@@ -4,20 +4,31 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "oiler/inspector/gui.hpp"
+#include "oiler/picture/palette.hpp"
 
 namespace oiler {
 namespace {
 
 constexpr float panel_width = 340;  // units
-constexpr int lowest_rate = 10;     // Hz
-constexpr int highest_rate = 1000;
+/// The rates of the slider, Hz. They are even, so that half of each can play along.
+constexpr std::array<std::int64_t, 26> rates{10,  12,  16,  20,  24,  30,  36,  40,  48,
+                                             50,  60,  72,  80,  90,  100, 120, 144, 180,
+                                             200, 240, 300, 360, 480, 500, 600, 1000};
 constexpr double least_cost = 10'000;  // ns; less is not certain beside a game
 constexpr int lines_of_verdict = 4;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
 constexpr float smallest_error = 1e-6F;      // m
+
+/// The place of the closest rate on the slider.
+int place_of(std::int64_t rate) {
+    const auto off = [&](std::int64_t one) { return std::abs(one - rate); };
+    return static_cast<int>(std::ranges::min_element(rates, {}, off) - rates.begin());
+}
 
 ImVec4 gui_colour(Colour colour) {
     return {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
@@ -64,11 +75,14 @@ struct Inspector::Impl {
         Stepping chosen = run.stepping;
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
-        if (!is_sliding) rate = static_cast<int>(run.stepping.rate.steps);
-        ImGui::SliderInt("rate", &rate, std::min(lowest_rate, rate), std::max(highest_rate, rate),
-                         "%d Hz", ImGuiSliderFlags_Logarithmic);
+        if (!is_sliding) place = place_of(run.stepping.rate.steps);
+        const std::string shown = fmt::format(
+            "{} Hz", is_sliding ? rates[static_cast<std::size_t>(place)] : run.stepping.rate.steps);
+        ImGui::SliderInt("rate", &place, 0, static_cast<int>(rates.size()) - 1, shown.c_str(),
+                         ImGuiSliderFlags_NoInput);
         is_sliding = ImGui::IsItemActive();
-        if (ImGui::IsItemDeactivatedAfterEdit()) chosen.rate = {rate};
+        if (ImGui::IsItemDeactivatedAfterEdit())
+            chosen.rate = {rates[static_cast<std::size_t>(place)]};
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
         if (ImGui::BeginCombo("method", run.stepping.method->name.data())) {
             for (const Method* const method : run.methods)
@@ -83,7 +97,10 @@ struct Inspector::Impl {
         ImGui::RadioButton("double", &is_double, 1);
         ImGui::EndDisabled();
         chosen.precision = is_double == 1 ? Precision::double_ : Precision::single;
-        wrapped(run.fixed.empty() ? "A change restarts the run." : run.fixed);
+        if (run.fixed.empty())
+            ImGui::Checkbox("changes restart the run", &changes_from_start);
+        else
+            wrapped(run.fixed);
         if (chosen != run.stepping) wishes.stepping = chosen;
     }
 
@@ -106,9 +123,9 @@ struct Inspector::Impl {
     static void show_settings(const Inspected& run, Wishes& wishes) {
         if (run.settings.empty()) return;
         ImGui::Separator();
-        text("The true motion and other settings");
+        text(fmt::format("Off the true motion {}", since(run)));
         if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingFixedFit)) return;
-        for (const char* name : {"", "off by", "steps a frame", ""}) ImGui::TableSetupColumn(name);
+        for (const char* name : {"", "at most", "a frame", ""}) ImGui::TableSetupColumn(name);
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
@@ -140,6 +157,30 @@ struct Inspector::Impl {
                          {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()});
     }
 
+    /// How far the stiffest spring is from breaking.
+    static void show_gauge(const Inspected& run) {
+        if (!run.stiffest) return;
+        constexpr double near = 0.8;
+        const Inspected::Gauge& gauge = *run.stiffest;
+        const double share = gauge.measure / gauge.limit;
+        ImGui::Separator();
+        text("stiffest: " + gauge.name);
+        ImGui::PushStyleColor(ImGuiCol_PlotHistogram,
+                              gui_colour(share >= 1     ? palette::vermilion
+                                         : share > near ? palette::orange
+                                                        : palette::sky_blue));
+        const std::string of = std::isinf(gauge.limit) ? "stable at any rate"
+                               : gauge.limit == 0      ? "unstable at any rate"
+                                                       : fmt::format("ω·dt {:.3g}, limit {:.3g}",
+                                                                     gauge.measure, gauge.limit);
+        ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {-1, 0}, of.c_str());
+        ImGui::PopStyleColor();
+        if (share >= 1 && gauge.limit > 0)
+            wrapped(
+                fmt::format("{} needs {:.0f} Hz here, or it explodes.", run.stepping.method->name,
+                            std::floor(share * static_cast<double>(run.stepping.rate.steps)) + 1));
+    }
+
     static void show_costs(const Inspected& run) {
         const double total = run.costs.update + run.costs.step + run.costs.picture + run.costs.draw;
         if (total == 0) return;
@@ -164,11 +205,13 @@ struct Inspector::Impl {
     static void show_energy(const Inspected& run) {
         if (run.bodies == 0) return;
         ImGui::Separator();
-        const double change = run.energy - run.first_energy;
         text(fmt::format("energy {:.6g} J", run.energy));
-        text(run.first_energy == 0 ? fmt::format("since the start {:+.3g} J", change)
-                                   : fmt::format("since the start {:+.3g} J, {:+.3g} %", change,
-                                                 100 * change / std::abs(run.first_energy)));
+        if (!run.first_energy) return;
+        const double first = *run.first_energy;
+        std::string words = fmt::format("{} {:+.3g} J", since(run), run.energy - first);
+        if (first != 0)
+            words += fmt::format(", {:+.3g} %", 100 * (run.energy - first) / std::abs(first));
+        text(words);
     }
 
     /// "this", "120 Hz", "rk4", "float".
@@ -183,8 +226,13 @@ struct Inspector::Impl {
         return words.empty() ? "this run" : words;
     }
 
+    static std::string since(const Inspected& run) {
+        return run.begin == 0 ? "since the start" : fmt::format("since {:.2f} s", run.begin);
+    }
+
     Gui gui;
-    int rate = 0;
+    bool changes_from_start = false;
+    int place = 0;  ///< of the rate on the slider
     bool is_sliding = false;
 };
 
@@ -207,10 +255,12 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
     impl_->show_setting(run, wishes);
     Impl::show_controls(run, wishes);
     Impl::show_settings(run, wishes);
+    Impl::show_gauge(run);
     Impl::show_costs(run);
     Impl::show_energy(run);
     ImGui::End();
     impl_->gui.end();
+    wishes.changes_from_start = impl_->changes_from_start;
     return wishes;
 }
 

@@ -31,6 +31,13 @@ struct Inspected {
         double draw = 0;
     };
 
+    /// The spring or damper that is closest to the limit of the method.
+    struct Gauge {
+        std::string name{};
+        double measure = 0;  ///< the larger one of ω·dt and c·dt
+        double limit = 0;    ///< the largest stable measure; infinite: any is stable
+    };
+
     Stepping stepping{};
     std::span<const Method* const> methods{};  ///< those that can step the bodies
     std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
@@ -38,11 +45,13 @@ struct Inspected {
     Colour grade{};                            ///< of the verdict
     std::vector<Setting> settings{};           ///< that of the run first; none: nothing is known
     std::vector<float> errors{};               ///< of the run over time, m
+    std::optional<Gauge> stiffest{};
     Costs costs{};
-    double energy = 0;        ///< J
-    double first_energy = 0;  ///< J
-    double time = 0;          ///< s
-    double dropped = 0;       ///< s
+    double energy = 0;                     ///< J
+    double begin = 0;                      ///< s, since when errors and energies are compared
+    std::optional<double> first_energy{};  ///< J, then; empty: it is not known
+    double time = 0;                       ///< s
+    double dropped = 0;                    ///< s
     std::size_t bodies = 0;
     bool is_paused = false;
     bool has_past = false;
@@ -51,7 +60,8 @@ struct Inspected {
 
 /// What the user asks of the loop through the inspector.
 struct Wishes {
-    std::optional<Stepping> stepping{};  ///< restart with it
+    std::optional<Stepping> stepping{};  ///< the setting to have
+    bool changes_from_start = false;     ///< restart with it; else go on with it
     bool pauses = false;                 ///< or resumes
     bool steps = false;
     bool goes_back = false;
