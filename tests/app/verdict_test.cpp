@@ -230,7 +230,8 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
 }
 
 // Semi-implicit Euler falls g·dt/2·t too deep in the time t since its start. A run that begins at 1
-// s with velocity Verlet's state is off by the second after it only.
+// s with velocity Verlet's state is off by the second after it only. The reference rounds positions
+// below 64 m, to 2⁻⁴⁷ m at most, 1920 times: 14 pm.
 TEST(PlayAlong, BeginsAgainWithTheGameAsItIs) {
     const Settings settings{.stepping = {.method = &find_method("velocity_verlet"), .rate = {60}}};
     Options options;
@@ -249,9 +250,9 @@ TEST(PlayAlong, BeginsAgainWithTheGameAsItIs) {
     game.step(60, 120, along);
     along.play_until(180);
     const WhatIf result = along.result();
-    EXPECT_NEAR(result.runs[0].distance, 20 * 1 / 120.0 / 2, 1e-12);
+    EXPECT_NEAR(result.runs[0].distance, 20 * 1 / 120.0 / 2, 14e-12);
     ASSERT_EQ(result.runs[1].stepping.rate, Rate{60});
-    EXPECT_NEAR(result.runs[1].distance, 20 * 1 / 60.0 / 2, 1e-12);
+    EXPECT_NEAR(result.runs[1].distance, 20 * 1 / 60.0 / 2, 14e-12);
     ASSERT_EQ(result.runs[2].stepping.rate, Rate{240});
     EXPECT_EQ(along.ghosts(180, 1).at(0).at[0], game.world().bodies().position(0)[0]);
 }
