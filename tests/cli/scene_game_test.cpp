@@ -40,6 +40,10 @@ struct Hand final : InputSource {
     static Point canvas(float x, float y) { return Camera{.height = 10}.to_canvas({x, y}); }
 };
 
+std::shared_ptr<const Scene> held(const Scene& scene) {
+    return std::make_shared<const Scene>(scene);
+}
+
 Settings at(std::int64_t rate) {
     return {.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {rate}}};
 }
@@ -47,7 +51,7 @@ Settings at(std::int64_t rate) {
 TEST(SceneGame, IsOverAfterItsDurationWhileItIsWatched) {
     const Scene scene = scene_of();
     Hand hand;
-    SceneGame watched(scene, at(10), true);
+    SceneGame watched(held(scene), at(10), true);
     EXPECT_EQ(watched.step(0, 4, hand), 4);
     EXPECT_FALSE(watched.is_over());
     EXPECT_EQ(watched.step(4, 2, hand), 2);
@@ -59,7 +63,7 @@ TEST(SceneGame, IsOverAfterItsDurationWhileItIsWatched) {
     EXPECT_EQ(watched.cuts(), 1);
     EXPECT_FALSE(watched.is_over());
     EXPECT_EQ(hand.asked, 7);
-    SceneGame run(scene, at(10), false);
+    SceneGame run(held(scene), at(10), false);
     EXPECT_EQ(run.step(0, 100, hand), 100);
     EXPECT_EQ(run.world().tick(), 100);
     EXPECT_FALSE(run.is_over());
@@ -79,7 +83,7 @@ TEST(SceneGame, BodiesFollowTheMouseOnASpring) {
     for (const double mass : {1.0, 50.0}) {
         Scene scene = scene_of(mass);
         scene.duration = 100;
-        SceneGame game(scene, at(10'000), true);
+        SceneGame game(held(scene), at(10'000), true);
         Hand hand;
         hand.plays = drag;
         (void)game.step(0, 1, hand);
@@ -101,7 +105,7 @@ TEST(SceneGame, ADragIsStableAtAnyRate) {
     for (const std::int64_t rate : {1, 5, 20, 60}) {
         Scene scene = scene_of();
         scene.duration = 1e6;
-        SceneGame game(scene, at(rate), true);
+        SceneGame game(held(scene), at(rate), true);
         Hand hand;
         hand.plays = drag;
         double furthest = 0;
@@ -117,7 +121,7 @@ TEST(SceneGame, ADragIsStableAtAnyRate) {
 TEST(SceneGame, InOneAxisABodyFollowsTheMouseAlongIt) {
     const Scene scene =
         parse_scene("[scene]\naxes = 1\nduration = 100.0\n[[body]]\nposition = [0.0]\n", "a.toml");
-    SceneGame game(scene, at(60), true);
+    SceneGame game(held(scene), at(60), true);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t step) {
         queue.point_at(step == 0 ? Hand::canvas(0, 0) : Hand::canvas(1, 2));
@@ -129,7 +133,7 @@ TEST(SceneGame, InOneAxisABodyFollowsTheMouseAlongIt) {
 
 TEST(SceneGame, AMouseThatIsFarAwayDragsNothing) {
     const Scene scene = scene_of();
-    SceneGame game(scene, at(10), true);
+    SceneGame game(held(scene), at(10), true);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t) {
         queue.point_at(Hand::canvas(0.7F, 0));
@@ -142,7 +146,8 @@ TEST(SceneGame, AMouseThatIsFarAwayDragsNothing) {
 TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
     Scene scene = scene_of();
     scene.duration = 100;
-    SceneGame game(scene, at(60), true);
+    const auto shared = held(scene);
+    SceneGame game(shared, at(60), true);
     Hand hand;
     hand.plays = [](InputQueue& queue, std::int64_t step) {
         queue.point_at(Hand::canvas(2, 1));
@@ -171,19 +176,38 @@ TEST(SceneGame, TheMouseZoomsAndMovesThePicture) {
     game.restart();
     EXPECT_FALSE(game.is_over());
     EXPECT_EQ(game.picture().camera, moved);
-    game.assign(SceneGame(scene, at(30), true));
+    game.assign(SceneGame(shared, at(30), true));
     EXPECT_EQ(game.picture().camera, moved) << "with another setting, too";
+}
+
+TEST(SceneGame, BracketsAskForOtherScenesOnce) {
+    const Scene scene = scene_of();
+    SceneGame game(held(scene), at(10), true);
+    Hand hand;
+    hand.plays = [](InputQueue& queue, std::int64_t step) {
+        queue.set(Key::right_bracket, step == 0 || step == 2);
+    };
+    (void)game.step(0, 3, hand);
+    EXPECT_EQ(game.places_to_go(), 2);
+    hand.plays = [](InputQueue& queue, std::int64_t) { queue.set(Key::left_bracket, true); };
+    (void)game.step(3, 2, hand);
+    EXPECT_EQ(game.places_to_go(), 1);
+    Scene other = scene;
+    other.camera.height = 20;
+    game.assign(SceneGame(held(other), at(10), true));
+    EXPECT_EQ(game.places_to_go(), 0);
+    EXPECT_EQ(game.picture().camera.height, 20) << "another scene has its own camera";
 }
 
 TEST(SceneGame, ACopyDragsOn) {
     Scene scene = scene_of();
     scene.duration = 100;
-    SceneGame game(scene, at(100), true);
+    SceneGame game(held(scene), at(100), true);
     Hand hand;
     hand.plays = drag;
     (void)game.step(0, 10, hand);
     const std::unique_ptr<AnyGame> copy = game.clone();
-    SceneGame assigned(scene, at(100), true);
+    SceneGame assigned(held(scene), at(100), true);
     assigned.assign(game);
     Hand other;
     other.queue = hand.queue;

@@ -107,6 +107,21 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     EXPECT_LE(boxes, 2);
 }
 
+// A click on the method opens the menu; with Escape it is gone in the next frame.
+TEST(Inspector, EscapeClosesAnOpenMenu) {
+    const Inspected run = run_at_60_hz();
+    Inspector inspector(Renderer::font());
+    const Point method{1000, 123};
+    for (const bool down : {false, false, true, false, false}) {
+        EXPECT_FALSE(inspector.has_menu() && down);
+        (void)inspector.show(run, {method, down}, frame, 1.0 / 60);
+    }
+    ASSERT_TRUE(inspector.has_menu());
+    (void)inspector.show(run, {.at = method, .escapes = true}, frame, 1.0 / 60);
+    (void)inspector.show(run, {.at = method}, frame, 1.0 / 60);
+    EXPECT_FALSE(inspector.has_menu());
+}
+
 TEST(Inspector, ChangesOneThingOfASetting) {
     for (const Wishes& one : clicks_everywhere(run_at_60_hz())) {
         if (!one.stepping) continue;

@@ -25,9 +25,11 @@ std::vector<const Method*> applicable_methods(const World& world) {
     return all;
 }
 
-/// The mouse in pixels; the canvas is centred in `view`.
+/// The mouse and Escape; the mouse in pixels; the canvas is centred in `view`.
 Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
-    Inspector::Mouse mouse{.is_down = input.held(Mouse::left), .wheel = input.wheel()};
+    Inspector::Mouse mouse{.is_down = input.held(Mouse::left),
+                           .wheel = input.wheel(),
+                           .escapes = input.pressed(Key::escape)};
     const auto at = input.pointer_canvas();
     if (!at) return mouse;
     const auto width = static_cast<float>(view.width);

@@ -34,6 +34,7 @@ public:
                               const Frame& frame);
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
     [[nodiscard]] bool has_mouse() const { return inspector_.has_mouse(); }
+    [[nodiscard]] bool has_menu() const { return inspector_.has_menu(); }
 
 private:
     /// The spring closest to the method's limit, renewed some times a second.

@@ -76,9 +76,10 @@ std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& na
 }
 
 std::vector<Row> loop_keys(bool escape_quits) {
-    std::vector<Row> rows{{"F1", "inspector"}, {"F2", "close this help"}, {"F3", "pause, resume"},
-                          {"F4", "go back"},   {"F5", "step in a pause"}, {"F6", "errors ×10"},
-                          {"F7", "slower"},    {"F8", "faster"},          {"F9", "restart"}};
+    std::vector<Row> rows{{"F1", "inspector"},   {"F2", "close this help"}, {"F3", "pause, resume"},
+                          {"F4", "go back"},     {"F5", "step in a pause"}, {"F6", "errors ×10"},
+                          {"F7", "slower"},      {"F8", "faster"},          {"F9", "restart"},
+                          {"F11", "full screen"}};
     if (escape_quits) rows.push_back({"Escape", "quit"});
     return rows;
 }

@@ -70,12 +70,11 @@ void add_verdict(Picture& picture, const Verdict& verdict) {
          .layer = overlay_layer});
 }
 
-void add_failure(Picture& picture, const std::string& why, bool has_past) {
+void add_notice(Picture& picture, const std::string& text, const std::string& remedy) {
     constexpr float size = 10;
     constexpr float line_height = 14;
-    std::vector<std::string> lines = wrapped(why, 100);
-    lines.emplace_back(has_past ? "F4 goes back, F9 restarts, Escape quits"
-                                : "F9 restarts, Escape quits");
+    std::vector<std::string> lines = wrapped(text, 100);
+    lines.push_back(remedy);
     const float height = line_height * static_cast<float>(lines.size());
     add_sheet(picture, {canvas_width / 2, canvas_height / 2}, {10 * canvas_width, height + 16},
               palette::faded(palette::paper, 232));

@@ -16,7 +16,7 @@ void add_status(Picture& picture, std::string status);
 /// Adds a line across the top, with a mark in the colour of its grade.
 void add_verdict(Picture& picture, const Verdict& verdict);
 
-/// Adds a sheet that says why the run ended, and which keys are left.
-void add_failure(Picture& picture, const std::string& why, bool has_past);
+/// Adds a sheet that says what happened, and what is left to do.
+void add_notice(Picture& picture, const std::string& text, const std::string& remedy);
 
 }  // namespace oiler

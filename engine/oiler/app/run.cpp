@@ -133,10 +133,10 @@ void run_steps(Playback& playback, InputSource& inputs, const Options& options) 
 }
 
 Played loop(Playback& playback, Player& player, const Options& options, const About& about,
-            const MakeGame& make, Profile* profile) {
+            const MakeGame& make, Shelf* shelf, Profile* profile) {
     InputSource& inputs = player.inputs();
     if (!options.headless && !options.steps)
-        return run_window(playback, player.live, inputs, options, about, make, profile);
+        return run_window(playback, player.live, inputs, options, about, make, shelf, profile);
     if (!options.steps) {
         const Exit exit = run_headless(playback, inputs, options, about, make, profile);
         // The last frame of a replay comes before its end.
@@ -183,11 +183,11 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
 
 /// Plays the game. Completes the report, also after a divergence.
 Exit play(Playback& playback, Player& player, const Options& options, const About& about,
-          const MakeGame& make, RunReport& report, Profile* profile) {
+          const MakeGame& make, Shelf* shelf, RunReport& report, Profile* profile) {
     const Clock::time_point start = Clock::now();
     Played played;
     try {
-        played = loop(playback, player, options, about, make, profile);
+        played = loop(playback, player, options, about, make, shelf, profile);
         report.last = playback.world().bodies().energy();
         report.state_hash = playback.game().state_hash();
         report.readings = playback.game().readings();
@@ -208,7 +208,7 @@ Exit play(Playback& playback, Player& player, const Options& options, const Abou
 }  // namespace
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
-              const MeasureBudget& measure_budget) {
+              const MeasureBudget& measure_budget, Shelf* shelf) {
     if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
     Player player(options, about, *game);
@@ -231,7 +231,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     player.watch(playback);
-    Exit exit = play(playback, player, options, about, make, report, stages);
+    Exit exit = play(playback, player, options, about, make, shelf, report, stages);
     exit = std::max(exit, player.finish(playback, options, !report.divergence.empty()));
     recorder.commit();
     if (profile) {

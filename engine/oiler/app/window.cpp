@@ -88,13 +88,15 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 class Session {
 public:
     Session(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-            const About& about, const MakeGame& make, Profile* profile)
+            const About& about, const MakeGame& make, Shelf* shelf, Profile* profile)
         : playback_(playback),
           make_(make),
+          shelf_(shelf),
           profile_(profile),
           live_(live),
           options_(options),
           about_(about),
+          title_(about.title),
           controls_(controls_of(options, about)),
           window_(open_window(options.size, std::string(about.title))),
           renderer_([this](const char* name) { return window_->procedure(name); }),
@@ -118,9 +120,11 @@ public:
                 {.width = share_of_picture(), .mouse = !inspects_ || !inspector_.has_mouse()});
             if (state == Window::State::lost) return {Exit::no_display, dropped_time()};
             const Input keys = keys_.take({});
+            const bool closes_menu = inspects_ && inspector_.has_menu();
             control(keys);
             draw_frame(keys, start);
-            const bool escaped = (failure_ || !uses_escape(controls_)) && keys.pressed(Key::escape);
+            const bool escaped =
+                (failure_ || !uses_escape(controls_)) && keys.pressed(Key::escape) && !closes_menu;
             const bool last = (options_.frames && frame + 1 >= *options_.frames) ||
                               (options_.replay && playback_.steps() >= options_.replay->steps);
             if (state == Window::State::closed || escaped || last || playback_.loop().quits())
@@ -143,6 +147,8 @@ private:
         for (int i = 0; i < keys.presses(Key::f8); ++i) pace_.faster();
         if (wishes.pace < 0) pace_.slower();
         if (wishes.pace > 0) pace_.faster();
+        if (keys.presses(Key::f11) % 2 == 1) window_->fill_screen(fills_ = !fills_);
+        look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         if (wishes.restarts || keys.pressed(Key::f9)) {
@@ -155,6 +161,23 @@ private:
                                     (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4)));
         const bool steps = !failure_ && (wishes.steps || keys.pressed(Key::f5));
         if (clock_.paused() && (steps || goes_back_)) clock_.single_step();
+    }
+
+    /// Shows another game of the shelf, or why it cannot be shown.
+    void look_at_shelf() {
+        const std::optional<std::string> dropped = window_->take_dropped();
+        if (!shelf_) return;
+        try {
+            const std::optional<Shelf::Taken> taken = shelf_->take(playback_.game(), dropped);
+            if (!taken) return;
+            title_ = taken->title;
+            window_->set_title(title_);
+            wanted_.reset();
+            complaint_.clear();
+            restart_with(taken->stepping);
+        } catch (const Error& error) {
+            complaint_ = error.what();
+        }
     }
 
     void change_to(const Stepping& stepping, bool from_start) {
@@ -228,6 +251,7 @@ private:
 
     void restart() {
         restarted_at_ = playback_.steps();
+        complaint_.clear();
         was_back_ = false;
         AnyGame& game = playback_.game();
         if (measures()) along_.start(playback_.steps());
@@ -261,9 +285,13 @@ private:
         if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
-        if (helps_)
-            add_help(picture, about_.title, controls_, key_names(), !uses_escape(controls_));
-        if (failure_) add_failure(picture, failure_->what(), has_past());
+        if (helps_) add_help(picture, title_, controls_, key_names(), !uses_escape(controls_));
+        if (failure_)
+            add_notice(picture, failure_->what(),
+                       has_past() ? "F4 goes back, F9 restarts, Escape quits"
+                                  : "F9 restarts, Escape quits");
+        else if (!complaint_.empty())
+            add_notice(picture, complaint_, "What was shown goes on.");
         add_status(picture, status(keys, back));
         const std::chrono::nanoseconds before_drawing = now();
         show(picture, keys, start);
@@ -344,8 +372,6 @@ private:
                                rewind_ ? "so many bodies" : no_way_back(options_));
         else if (failure_)
             text = "stopped";
-        else if (!complaint_.empty())
-            text = complaint_;
         else if (wanted_)
             text = fmt::format("{} Hz begins when both rates have a step", wanted_->rate.steps);
         else if (clock_.paused())
@@ -373,10 +399,12 @@ private:
 
     Playback& playback_;
     const MakeGame& make_;
+    Shelf* shelf_;
     Profile* profile_;
     LiveInput& live_;
     const Options& options_;
     const About& about_;
+    std::string title_;
     std::span<const Control> controls_;
     std::unique_ptr<Window> window_;
     Renderer renderer_;
@@ -398,6 +426,7 @@ private:
     bool inspects_;
     bool magnifies_ = false;
     bool helps_ = false;
+    bool fills_ = false;  ///< the screen
     bool goes_back_ = false;
     bool whole_ = false;
     bool was_back_ = false;  ///< nothing is measured since the player went back
@@ -406,8 +435,8 @@ private:
 }  // namespace
 
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make, Profile* profile) {
-    return Session(playback, live, inputs, options, about, make, profile).run();
+                  const About& about, const MakeGame& make, Shelf* shelf, Profile* profile) {
+    return Session(playback, live, inputs, options, about, make, shelf, profile).run();
 }
 
 }  // namespace oiler

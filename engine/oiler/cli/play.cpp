@@ -9,6 +9,7 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"
+#include "oiler/cli/scene_shelf.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/scene/read.hpp"
 #include "oiler/scene/scene_text.hpp"
@@ -84,15 +85,15 @@ struct PlayCommand {
 
 Exit PlayCommand::parse_and_run(int argc, char** argv) {
     constexpr About program{.name = "oiler play", .title = "Play a scene file"};
-    Scene scene;
+    std::optional<SceneShelf> shelf;
     std::string name;
     std::string text;
     const auto read = [&](const std::string& path, const std::optional<Manifest>& from) {
         const SceneFile file = find_scene(path, from);
         text = file.text;
-        scene = parse_scene(text, file.name);
+        shelf.emplace(path, parse_scene(text, file.name));
         name = std::filesystem::path(file.name).stem().string();
-        return describe(scene, name, text);
+        return describe(*shelf->scene(), name, text);
     };
     const CommandLine line = parse_command_line(argc, argv, program, read);
     if (!line.text.empty()) {
@@ -101,10 +102,12 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
     }
     const bool watched = is_watched(line.options);
     const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(scene, settings, watched);
+        return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
     };
-    const auto measure_budget = [&](double seconds) { return check(scene, line.options, seconds); };
-    return run_game(line.options, line.about, make, measure_budget);
+    const auto measure_budget = [&](double seconds) {
+        return check(*shelf->scene(), line.options, seconds);
+    };
+    return run_game(line.options, line.about, make, measure_budget, watched ? &*shelf : nullptr);
 }
 
 template Command make_command<PlayCommand>();

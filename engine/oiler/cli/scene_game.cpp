@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/scene/draw.hpp"
@@ -37,11 +38,11 @@ std::optional<Entity> nearest_body(const World& world, Point at, float height) {
 
 }  // namespace
 
-SceneGame::SceneGame(const Scene& scene, const Settings& settings, bool watched)
-    : scene_(scene),
+SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched)
+    : scene_(std::move(scene)),
       watched_(watched),
-      world_(make_world(scene, settings)),
-      camera_(camera_of(scene, world_)) {}
+      world_(make_world(*scene_, settings)),
+      camera_(camera_of(*scene_, world_)) {}
 
 std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource& inputs) {
     if (watched_)
@@ -56,6 +57,7 @@ std::int64_t SceneGame::step(std::int64_t step, std::int64_t count, InputSource&
 void SceneGame::take_step(const Input& input) {
     if (input.restarts()) restart();
     if (input.pressed(again)) ends_ = true;
+    places_to_go_ += input.presses(next) - input.presses(previous);
     look(input);
     drag(input);
     const Stopwatch stopwatch(times_, &StepTimes::step);
@@ -93,29 +95,35 @@ void SceneGame::drag(const Input& input) {
 }
 
 void SceneGame::restart() {
-    world_ = make_world(scene_, Settings(world_.settings()));
+    world_ = make_world(*scene_, Settings(world_.settings()));
     drag_.reset();
     ends_ = false;
+    places_to_go_ = 0;
     ++cuts_;
 }
 
 void SceneGame::assign(const AnyGame& other) {
     const auto& source = dynamic_cast<const SceneGame&>(other);
+    if (std::exchange(scene_, source.scene_) != source.scene_) {
+        camera_ = source.camera_;
+        held_.reset();
+    }
     world_ = source.world_;
+    places_to_go_ = source.places_to_go_;
     drag_ = source.drag_;
     ends_ = source.ends_;
     ++cuts_;
 }
 
 Picture SceneGame::picture() const {
-    Picture picture = draw_scene(scene_, world_, camera_);
+    Picture picture = draw_scene(*scene_, world_, camera_);
     if (watched_)
-        picture.labels.push_back(
-            {.at = {8, 6},
-             .text = fmt::format("repeats after {:g} s, R restarts; the mouse drags bodies",
-                                 scene_.duration),
-             .size = 9,
-             .colour = palette::grey});
+        picture.labels.push_back({.at = {8, 6},
+                                  .text = fmt::format("repeats after {:g} s; R restarts, the mouse "
+                                                      "drags bodies, [ and ] change the scene",
+                                                      scene_->duration),
+                                  .size = 9,
+                                  .colour = palette::grey});
     if (drag_)
         picture.polylines.push_back(
             {.points = {to_point(world_.position(drag_->body)), to_point(drag_->to)},

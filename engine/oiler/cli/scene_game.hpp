@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "oiler/app/game.hpp"
@@ -15,10 +16,11 @@ public:
     static constexpr Action again{"restart", Key::r};
     static constexpr Action pull{"drag a body", Mouse::left};
     static constexpr Action move{"move the picture", Mouse::right};
-    static constexpr Control controls[] = {again, pull, move};
+    static constexpr Action previous{"previous scene", Key::left_bracket};
+    static constexpr Action next{"next scene", Key::right_bracket};
+    static constexpr Control controls[] = {again, pull, move, previous, next};
 
-    /// The scene must outlive the game.
-    SceneGame(const Scene& scene, const Settings& settings, bool watched);
+    SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched);
 
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override;
     void restart() override;
@@ -28,13 +30,15 @@ public:
     }
     void assign(const AnyGame& other) override;
     [[nodiscard]] bool is_over() const override {
-        return watched_ && (ends_ || world_.time() >= scene_.duration);
+        return watched_ && (ends_ || world_.time() >= scene_->duration);
     }
+    /// How many scenes further the user wants to go; negative: back.
+    [[nodiscard]] int places_to_go() const { return places_to_go_; }
     [[nodiscard]] bool takes_input() const override { return watched_; }
     [[nodiscard]] const World& world() const override { return world_; }
     [[nodiscard]] Picture picture() const override;
     [[nodiscard]] std::string name_of(Entity entity) const override {
-        return scene_.name_of_body(entity.index);
+        return scene_->name_of_body(entity.index);
     }
 
 private:
@@ -48,13 +52,14 @@ private:
     void look(const Input& input);
     void drag(const Input& input);
 
-    const Scene& scene_;
+    std::shared_ptr<const Scene> scene_;
     bool watched_;
     World world_;
     Camera camera_;              ///< the user's: copies that are assigned leave it alone
     std::optional<Point> held_;  ///< the place of the world that the right button holds
     std::optional<Drag> drag_;
     bool ends_ = false;  ///< the user wants it
+    int places_to_go_ = 0;
 };
 
 }  // namespace oiler::cli

@@ -71,7 +71,7 @@ struct Inspector::Impl {
         ImGui::Separator();
     }
 
-    void show_setting(const Inspected& run, Wishes& wishes) {
+    void show_setting(const Inspected& run, bool escapes, Wishes& wishes) {
         Stepping chosen = run.stepping;
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
@@ -84,7 +84,9 @@ struct Inspector::Impl {
         if (ImGui::IsItemDeactivatedAfterEdit())
             chosen.rate = {rates[static_cast<std::size_t>(place)]};
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
-        if (ImGui::BeginCombo("method", run.stepping.method->name.data())) {
+        has_menu = ImGui::BeginCombo("method", run.stepping.method->name.data());
+        if (has_menu) {
+            if (escapes) ImGui::CloseCurrentPopup();
             for (const Method* const method : run.methods)
                 if (ImGui::Selectable(std::string(method->name).c_str(),
                                       method == run.stepping.method))
@@ -231,6 +233,7 @@ struct Inspector::Impl {
     }
 
     Gui gui;
+    bool has_menu = false;
     bool changes_from_start = false;
     int place = 0;  ///< of the rate on the slider
     bool is_sliding = false;
@@ -252,7 +255,7 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
     ImGui::SetNextWindowSize({panel, static_cast<float>(frame.height)});
     ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
     Impl::show_verdict(run);
-    impl_->show_setting(run, wishes);
+    impl_->show_setting(run, mouse.escapes, wishes);
     Impl::show_controls(run, wishes);
     Impl::show_settings(run, wishes);
     Impl::show_gauge(run);
@@ -266,5 +269,6 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
 
 const Overlay& Inspector::overlay() const { return impl_->gui.overlay(); }
 bool Inspector::has_mouse() const { return impl_->gui.has_mouse(); }
+bool Inspector::has_menu() const { return impl_->has_menu; }
 
 }  // namespace oiler

@@ -72,11 +72,13 @@ struct Wishes {
 /// A panel at the right of the window.
 class Inspector {
 public:
-    /// The mouse, in pixels from the upper left corner of the frame; empty: outside.
+    /// The mouse and Escape; the mouse in pixels from the upper left corner of the frame; empty:
+    /// outside.
     struct Mouse {
         std::optional<Point> at{};
         bool is_down = false;
         int wheel = 0;
+        bool escapes = false;  ///< Escape was pressed
     };
 
     /// The part at the left of a frame that the panel leaves to the picture, pixels.
@@ -94,6 +96,8 @@ public:
     [[nodiscard]] const Overlay& overlay() const;
     /// Whether the mouse belongs to the panel and not to the game.
     [[nodiscard]] bool has_mouse() const;
+    /// Whether a menu is open, which Escape closes.
+    [[nodiscard]] bool has_menu() const;
 
 private:
     struct Impl;

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/library.hpp"
@@ -41,6 +42,9 @@ struct SdlFunctions {
         library.resolve(swap_window, "SDL_GL_SwapWindow");
         library.resolve(window_size, "SDL_GetWindowSize");
         library.resolve(window_info, "SDL_GetWindowWMInfo");
+        library.resolve(set_title, "SDL_SetWindowTitle");
+        library.resolve(set_fullscreen, "SDL_SetWindowFullscreen");
+        library.resolve(free, "SDL_free");
     }
 
     decltype(&SDL_SetHint) set_hint = nullptr;
@@ -64,6 +68,9 @@ struct SdlFunctions {
     decltype(&SDL_GL_SwapWindow) swap_window = nullptr;
     decltype(&SDL_GetWindowSize) window_size = nullptr;
     decltype(&SDL_GetWindowWMInfo) window_info = nullptr;
+    decltype(&SDL_SetWindowTitle) set_title = nullptr;
+    decltype(&SDL_SetWindowFullscreen) set_fullscreen = nullptr;
+    decltype(&SDL_free) free = nullptr;
 };
 
 /// SDL's library with its video and its controllers, for the lifetime of the object.
@@ -155,12 +162,23 @@ public:
             const auto width = static_cast<float>(window.width) * of_game.width;
             window.width = static_cast<int>(std::lround(width));
             events_->handle(event, window, game, loop, of_game.mouse);
+            if (event.type == SDL_DROPFILE) {
+                dropped_ = event.drop.file;
+                sdl_->free(event.drop.file);
+            }
             const bool closed =
                 event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
             quit = quit || closed || event.type == SDL_QUIT;
         }
         if (display_is_lost()) return State::lost;
         return quit ? State::closed : State::open;
+    }
+    std::optional<std::string> take_dropped() override {
+        return std::exchange(dropped_, std::nullopt);
+    }
+    void set_title(const std::string& title) override { sdl_->set_title(window_, title.c_str()); }
+    void fill_screen(bool on) override {
+        sdl_->set_fullscreen(window_, on ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
     }
     std::string name_on_layout(Key key) const override { return events_->name_on_layout(key); }
     void take_text(bool on) override { events_->take_text(on); }
@@ -205,6 +223,7 @@ private:
     SDL_Window* window_ = nullptr;
     SDL_GLContext context_ = nullptr;
     std::optional<SdlEvents> events_;
+    std::optional<std::string> dropped_;
 };
 
 }  // namespace

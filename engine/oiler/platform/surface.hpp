@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -49,6 +50,11 @@ public:
     /// Hands events since the last call to the game, and those of F1 to F12 to the loop; Escape and
     /// the mouse to both. A mouse that is not the game's only releases buttons there.
     [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) = 0;
+    /// The file that was dropped on the window since the last call; of several the last one.
+    [[nodiscard]] virtual std::optional<std::string> take_dropped() = 0;
+    virtual void set_title(const std::string& title) = 0;
+    /// Fills the screen, or goes back to a window.
+    virtual void fill_screen(bool on) = 0;
     /// The name of a key on the user's keyboard; empty if it has none.
     [[nodiscard]] virtual std::string name_on_layout(Key key) const = 0;
     /// Whether keys enter text, but for those that edit it.

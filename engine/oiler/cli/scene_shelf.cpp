@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/scene_shelf.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "oiler/cli/scene_game.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/scene/make_world.hpp"
+#include "oiler/scene/read.hpp"
+
+namespace oiler::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::file_time_type written(const fs::path& file) {
+    std::error_code error;
+    return file.empty() ? fs::file_time_type{} : fs::last_write_time(file, error);
+}
+
+bool is_possible(const Scene& scene, const Stepping& stepping) {
+    try {
+        make_world(scene, Settings{.stepping = stepping}).require_applicable();
+        return true;
+    } catch (const Error& error) {
+        if (error.exit() != Exit::usage) throw;
+        return false;
+    }
+}
+
+std::string title_of(const Scene& scene, const fs::path& file) {
+    return scene.title.empty() ? file.stem().string() : scene.title;
+}
+
+}  // namespace
+
+SceneShelf::SceneShelf(fs::path file, Scene scene)
+    : file_(std::move(file)),
+      scene_(std::make_shared<const Scene>(std::move(scene))),
+      written_(written(file_)) {}
+
+std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
+                                             const std::optional<std::string>& dropped) {
+    const int places = dynamic_cast<const SceneGame&>(shown).places_to_go();
+    if (dropped) return read(*dropped, std::nullopt);
+    if (places != 0 && !file_.empty()) return read(neighbour(places), std::nullopt);
+    if (has_changed()) return read(file_, shown.world().settings().stepping);
+    return std::nullopt;
+}
+
+/// A scene keeps the setting that the player chose, unless its file now says another one.
+Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping>& kept) {
+    Scene scene = read_scene(file.string());
+    const bool keeps = kept && scene.stepping == scene_->stepping && is_possible(scene, *kept);
+    const Stepping stepping = keeps ? *kept : scene.stepping;
+    make_world(scene, Settings{.stepping = stepping}).require_applicable();
+    file_ = file;
+    written_ = written(file);
+    scene_ = std::make_shared<const Scene>(std::move(scene));
+    return {title_of(*scene_, file_), stepping};
+}
+
+fs::path SceneShelf::neighbour(int places) const {
+    const fs::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    std::ranges::sort(files);
+    const auto is_shown = [&](const fs::path& one) { return one.filename() == file_.filename(); };
+    const auto at = std::ranges::find_if(files, is_shown) - files.begin();
+    const auto count = std::ssize(files);
+    return count == 0 ? file_ : files[static_cast<std::size_t>((at + places + count) % count)];
+}
+
+/// Looked at some times a second; a change is reported once, even if the file is then no scene.
+bool SceneShelf::has_changed() {
+    const Clock::time_point now = Clock::now();
+    if (now < next_look_) return false;
+    next_look_ = now + std::chrono::milliseconds(250);
+    const fs::file_time_type time = written(file_);
+    return time != fs::file_time_type{} && std::exchange(written_, time) != time;
+}
+
+}  // namespace oiler::cli
