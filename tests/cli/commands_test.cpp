@@ -241,7 +241,7 @@ TEST(Oiler, HelpFitsAScreenAndEachCommandHasAnExample) {
     const Outcome help = shell("oiler --help");
     EXPECT_LE(lines(help.out), 24);
     for (const std::string command :
-         {"play", "methods", "certify", "stability", "figures", "ledger", "new"}) {
+         {"play", "methods", "certify", "stability", "figures", "ledger", "demos", "new"}) {
         EXPECT_TRUE(holds(help.out, "  " + command + " ")) << command;
         EXPECT_TRUE(holds(shell("oiler " + command + " --help").out, "Example: oiler " + command));
     }
@@ -261,7 +261,7 @@ TEST_P(WrongUse, IsRefusedInOneLineThatNamesIt) {
 INSTANTIATE_TEST_SUITE_P(
     All, WrongUse,
     testing::Values(
-        std::pair{"", "give a command"},
+        std::pair{"", "`oiler demos` lists games and scenes to start"},
         std::pair{"certfy", "certfy: no such command; did you mean `certify`? (see oiler --help)"},
         std::pair{"certify rk5", "rk5"},
         std::pair{"certify --stps 3",

@@ -20,7 +20,9 @@ capture() {
         failed=1
 }
 
-for demo in hello jump spring_damper projectile bounce; do capture "$demo" "$programs/$demo"; done
+for demo in hello jump spring_damper projectile bounce integrator_race jump_rates; do
+    capture "$demo" "$programs/$demo"
+done
 capture cannon "$programs/cannon" --script "$here/../../demos/scripts/cannon.txt"
 for scene in article_spring article_spring_undamped chain cloth jump orbit salvo stiff_and_soft; do
     capture "scene_$scene" "$programs/oiler" play "$here/../../assets/scenes/$scene.toml"

@@ -69,6 +69,10 @@ libraries=$(dirname "$(dirname "$config")")
 "$prefix/bin/oiler" --version > /dev/null
 quietly "$prefix/bin/oiler" check "$prefix/share/oiler/scenes/article_spring.toml"
 draws "$prefix/libexec/oiler/hello"
+"$prefix/bin/oiler" demos > "$folder/demos"
+grep -q '^  jump  ' "$folder/demos" && grep -q '^  orbit.toml  ' "$folder/demos" ||
+    fail "oiler demos lists $(cat "$folder/demos")"
+quietly "$prefix/bin/oiler" demos hello --steps 3
 [ ! -e "$prefix/include/oiler/cli" ] || fail "the headers of the program are installed"
 [ "$(find "$prefix/share/doc/oiler/licences" -type f | wc -l)" = 8 ] || fail "licences are missing"
 

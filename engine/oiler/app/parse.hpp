@@ -85,6 +85,12 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
     return text;
 }
 
+/// The help of the command, with one end of line at its end.
+[[nodiscard]] inline std::string help_of(const CLI::App& app) {
+    const std::string text = app.help();
+    return text.substr(0, text.find_last_not_of('\n') + 1) + "\n";
+}
+
 /// Parses the command line. Returns the text of --help or --version, else an empty text. Throws
 /// Error{usage} in one line that ends with "(see PROGRAM COMMAND --help)".
 [[nodiscard]] inline std::string parse(CLI::App& app, int argc, char** argv) {
@@ -94,7 +100,7 @@ inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        return app.help();
+        return help_of(app);
     } catch (const CLI::CallForVersion&) {
         return app.version() + "\n";
     } catch (const CLI::ExtrasError&) {

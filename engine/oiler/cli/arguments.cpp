@@ -94,6 +94,15 @@ void Arguments::add_words(const std::string& name, std::vector<std::string>& tar
     command_.add_option(name, target, help);
 }
 
+void Arguments::add_rest(std::vector<std::string>& target) {
+    command_.prefix_command();
+    command_.parse_complete_callback([&command = command_, &target] {
+        target = command.remaining();
+        if (!target.empty() && target.front().starts_with("-"))
+            throw CLI::ExtrasError(command.get_name(), target);
+    });
+}
+
 void Arguments::add_flag(const std::string& name, bool& target, const std::string& help) {
     command_.add_flag(name, target, help)->disable_flag_override();
 }
@@ -166,7 +175,9 @@ Exit run_command(const std::vector<Command>& commands, int argc, char** argv) {
     }
     const auto chosen = app.get_subcommands();
     if (chosen.empty())
-        fail(Exit::usage, "give a command: {} (see oiler --help)", names_of(commands));
+        fail(Exit::usage,
+             "give a command: {} (see oiler --help); `oiler demos` lists games and scenes to start",
+             names_of(commands));
     return runs.at(chosen.front()->get_name())();
 }
 

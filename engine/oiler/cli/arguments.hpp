@@ -47,6 +47,9 @@ public:
     void add_words(const std::string& name, std::vector<std::string>& target,
                    const std::string& help);
 
+    /// The first word that is no option of the command, and all words after it, also options.
+    void add_rest(std::vector<std::string>& target);
+
     void add_flag(const std::string& name, bool& target, const std::string& help);
     void add_option(const std::string& name, std::string& target, const std::string& type,
                     const std::string& help);

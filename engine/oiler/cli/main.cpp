@@ -10,12 +10,11 @@ struct CommandList {
 };
 
 /// The commands in the order of `oiler --help`. Each class is in the file of its command.
-using AllCommands =
-    CommandList<struct PlayCommand, struct MethodsCommand, struct CertifyCommand,
-                struct StabilityCommand, struct FiguresCommand, struct LedgerCommand,
-                struct TradeoffCommand, struct MergeCommand, struct AdviseCommand,
-                struct RatesCommand, struct CheckCommand, struct ReportCommand,
-                struct CompareCommand, struct DivergeCommand, struct NewCommand>;
+using AllCommands = CommandList<
+    struct PlayCommand, struct MethodsCommand, struct CertifyCommand, struct StabilityCommand,
+    struct FiguresCommand, struct LedgerCommand, struct TradeoffCommand, struct MergeCommand,
+    struct AdviseCommand, struct RatesCommand, struct CheckCommand, struct ReportCommand,
+    struct CompareCommand, struct DivergeCommand, struct DemosCommand, struct NewCommand>;
 
 }  // namespace oiler::cli
 

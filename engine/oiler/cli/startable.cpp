@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/cli/startable.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "oiler/cli/project.hpp"
+#include "oiler/core/nearest.hpp"
+#include "oiler/scene/read.hpp"
+#include "oiler/scene/scene_text.hpp"
+
+namespace oiler::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Places {
+    fs::path list;
+    fs::path demos;
+    fs::path scenes;
+};
+
+Places places_of(const fs::path& program) {
+    const Home home = home_of(program);
+    if (home.kind == Home::Kind::source)
+        return {home.folder / "demos/demos.txt", program.parent_path(),
+                home.folder / "assets/scenes"};
+    const fs::path prefix = program.parent_path().parent_path();
+    return {prefix / "share/oiler/demos/demos.txt", prefix / "libexec/oiler",
+            prefix / "share/oiler/scenes"};
+}
+
+std::string title_of(const fs::path& scene) {
+    try {
+        return parse_scene(read_scene_text(scene.string()), scene.filename().string()).title;
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void add_demos(const Places& places, std::vector<Startable>& all) {
+    constexpr std::string_view separator = ": ";
+    std::ifstream list(places.list);
+    for (std::string line; std::getline(list, line);) {
+        const std::size_t end = line.find(separator);
+        if (end == line.npos) continue;
+        const std::string name = line.substr(0, end);
+        const fs::path program = places.demos / name;
+        std::error_code none;
+        if (!fs::exists(program, none)) continue;
+        all.push_back({.name = name,
+                       .sentence = line.substr(end + separator.size()),
+                       .command = {program.string()}});
+    }
+}
+
+void add_scenes(const Places& places, const fs::path& program, std::vector<Startable>& all) {
+    std::error_code none;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(places.scenes, none))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    std::ranges::sort(files);
+    for (const fs::path& file : files)
+        all.push_back({.name = file.filename().string(),
+                       .sentence = title_of(file),
+                       .is_scene = true,
+                       .command = {program.string(), "play", file.string()}});
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+[[noreturn]] void fail_to_start(const Startable& one, int error_number) {
+    fail(Exit::io, "cannot start {}: {}", one.command.front(), system_reason(error_number));
+}
+
+}  // namespace
+
+std::vector<Startable> startables_of(const fs::path& program) {
+    const Places places = places_of(program);
+    std::vector<Startable> all;
+    add_demos(places, all);
+    add_scenes(places, program, all);
+    return all;
+}
+
+std::vector<Startable> own_startables() {
+    std::error_code unknown;
+    std::vector<Startable> all = startables_of(fs::read_symlink("/proc/self/exe", unknown));
+    if (all.empty())
+        fail(Exit::usage,
+             "there are no demos beside this program, because it is neither installed nor in its "
+             "build folder; start it from there");
+    return all;
+}
+
+const Startable& find_startable(const std::vector<Startable>& all, const std::string& name) {
+    for (const std::string& wanted : {name, name + ".toml"})
+        for (const Startable& one : all)
+            if (one.name == wanted) return one;
+    std::vector<std::string_view> names;
+    for (const Startable& one : all) names.emplace_back(one.name);
+    fail(Exit::usage, "NAME {}: no such demo or scene{} (`oiler demos` lists all)", name,
+         did_you_mean(name, names));
+}
+
+void become(const Startable& one, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = one.command;
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    execv(words.front().c_str(), pointers_to(words).data());
+    fail_to_start(one, errno);
+}
+
+int run_and_wait(const Startable& one) {
+    std::vector<std::string> words = one.command;
+    pid_t child = 0;
+    if (const int error = posix_spawn(&child, words.front().c_str(), nullptr, nullptr,
+                                      pointers_to(words).data(), environ);
+        error != 0)
+        fail_to_start(one, error);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR) fail_to_start(one, errno);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace oiler::cli

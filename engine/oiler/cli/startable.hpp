@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+
+namespace oiler::cli {
+
+/// A demo or a scene that this Oiler brings along.
+struct Startable {
+    std::string name;      ///< "cannon" of a demo, "orbit.toml" of a scene
+    std::string sentence;  ///< what it shows
+    bool is_scene = false;
+    std::vector<std::string> command{};  ///< the path of the program, and its arguments
+};
+
+/// The demos and scenes of the Oiler that the program at this path belongs to, PREFIX/bin/oiler or
+/// BUILD/bin/oiler: the demos that are built, in the order of demos.txt, then the scenes by name.
+[[nodiscard]] std::vector<Startable> startables_of(const std::filesystem::path& program);
+/// Those of the running program. Throws Error{usage} if it finds none.
+[[nodiscard]] std::vector<Startable> own_startables();
+
+/// The one of that name; of a scene, ".toml" may be left out. Throws Error{usage} that names a
+/// similar one.
+[[nodiscard]] const Startable& find_startable(const std::vector<Startable>& all,
+                                              const std::string& name);
+
+/// Becomes that program, with further arguments. Throws Error{io} if it cannot.
+[[noreturn]] void become(const Startable& one, const std::vector<std::string>& arguments);
+/// Runs that program and returns its exit code. Throws Error{io} if it cannot.
+int run_and_wait(const Startable& one);
+
+}  // namespace oiler::cli
