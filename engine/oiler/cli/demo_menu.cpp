@@ -49,6 +49,7 @@ public:
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return std::make_unique<DemoMenu>(*this);
     }
+    void set_stepping(const Stepping& stepping) override { world_.set_stepping(stepping); }
     void assign(const AnyGame& other) override {
         const auto& source = dynamic_cast<const DemoMenu&>(other);
         world_ = source.world_;
