@@ -178,11 +178,11 @@ void check_paths(const CLI::App& app, const Options& options, const Words& words
                 fail(Exit::usage, "{}: give a path", path.name);
     if (options.record == "-")
         fail(Exit::usage, "--record -: a recording is written to a file; give a name");
-    if (!options.video.empty()) Video::require_format(options.video);
     std::erase_if(inputs, [](const NamedPath& input) {
         return input.path.empty() || (input.name == "--script" && input.path == "-");
     });
     require_distinct(inputs, outputs);
+    if (!options.video.empty()) Video::require_format(options.video);
 }
 
 /// Refuses options that contradict each other.
