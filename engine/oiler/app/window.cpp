@@ -153,6 +153,7 @@ private:
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         if (wishes.restarts || keys.pressed(Key::f9)) {
             clock_.resume();
+            complaint_.clear();
             restart();
         } else if (playback_.game().is_over() && playback_.steps() != restarted_at_) {
             restart();
@@ -251,7 +252,6 @@ private:
 
     void restart() {
         restarted_at_ = playback_.steps();
-        complaint_.clear();
         was_back_ = false;
         AnyGame& game = playback_.game();
         if (measures()) along_.start(playback_.steps());
@@ -291,7 +291,7 @@ private:
                        has_past() ? "F4 goes back, F9 restarts, Escape quits"
                                   : "F9 restarts, Escape quits");
         else if (!complaint_.empty())
-            add_notice(picture, complaint_, "What was shown goes on.");
+            add_notice(picture, complaint_, "What was shown goes on. F9 restarts it and closes this.");
         add_status(picture, status(keys, back));
         const std::chrono::nanoseconds before_drawing = now();
         show(picture, keys, start);
