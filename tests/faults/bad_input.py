@@ -197,7 +197,7 @@ def try_data(folder):
 _, listing, _ = faults.run([oiler, "methods", "--json", "-"])
 methods = [method["name"] for method in json.loads(listing)]
 _, overview, _ = faults.run([oiler, "--help"])
-commands = [name for name in re.findall(r"^  ([a-z]+) ", overview, re.M) if name not in ("figures", "certify")]
+commands = [name for name in re.findall(r"^  ([a-z]+) ", overview, re.M) if name not in ("figures", "certify", "demos")]
 
 with faults.new_folder() as name:
     work = Path(name)

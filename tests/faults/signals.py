@@ -50,6 +50,7 @@ COMMANDS = {
     "compare": [["{parts}/golden", "{parts}/actual", "--out", "{out}/differences",
                  "--junit", "{out}/compare.xml", "--json", "{out}/compare.json"]],
     "diverge": [["{parts}/a.csv", "{parts}/b.csv", "--json", "{out}/diverge.json"]],
+    "demos": [["orbit.toml", *STEPS]],
     "new": [["{out}/game"]],
 }
 CAPTURE_OWNER = ".oiler-capture"  # stays after a forced end, to tell the next capture
