@@ -115,7 +115,8 @@ struct IntegratorRace {
                                  .title = "Six methods race the exact motion",
                                  .rate = 240,
                                  .duration = duration,
-                                 .controls = controls};
+                                 .controls = controls,
+                                 .changes_in_play = false};
 
     World world;  // only its time counts: the lanes are runs of their own
     std::size_t rate = first_rate;

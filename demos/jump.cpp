@@ -90,8 +90,11 @@ Settings with_rate(Settings settings, std::int64_t rate) {
 }  // namespace
 
 struct Jump {
-    static constexpr About about{
-        .name = "jump", .title = "A jump at two rates", .rate = 240, .duration = interval};
+    static constexpr About about{.name = "jump",
+                                 .title = "A jump at two rates",
+                                 .rate = 240,
+                                 .duration = interval,
+                                 .changes_in_play = false};
 
     World world;
     World slow_world;  // at most one step ahead of `world`

@@ -107,7 +107,8 @@ struct JumpRates {
                                  .title = "The same jump at five rates",
                                  .rate = 240,
                                  .duration = show,
-                                 .controls = controls};
+                                 .controls = controls,
+                                 .changes_in_play = false};
 
     World world;
     Player player;

@@ -6,6 +6,7 @@
 # Usage: window_test.sh PROGRAM TITLE. Exit 77:
 # Xvfb or xdotool is not installed.
 set -u
+. "$(dirname "$0")/../support/until_true.sh"
 program=$1
 title=$2
 command -v Xvfb >/dev/null && command -v xdotool >/dev/null && command -v python3 >/dev/null || exit 77
@@ -16,14 +17,6 @@ game=
 trap 'kill $game $server 2>/dev/null; rm -rf "$folder"' EXIT
 fail() { echo "window_test: $1"; exit 1; }
 
-# until_true COMMAND...: repeats the command for up to 20 s.
-until_true() {
-    for _ in $(seq 200); do
-        "$@" && return 0
-        sleep 0.1
-    done
-    return 1
-}
 screenshot() { cp "$folder/Xvfb_screen0" "$folder/$1"; }
 stands_still() {
     screenshot paused

@@ -4,6 +4,7 @@
 # runs, and the window comes back. Escape leaves it with exit code 0.
 # Usage: menu_test.sh OILER. Exit 77: Xvfb or xdotool is not installed.
 set -u
+. "$(dirname "$0")/../support/until_true.sh"
 command -v Xvfb >/dev/null && command -v xdotool >/dev/null || exit 77
 
 folder=$(mktemp -d)
@@ -12,14 +13,6 @@ menu=
 trap 'kill $menu $server 2>/dev/null; rm -rf "$folder"' EXIT
 fail() { echo "menu_test: $1"; cat "$folder/err"; exit 1; }
 
-# until_true COMMAND...: repeats the command for up to 20 s.
-until_true() {
-    for _ in $(seq 200); do
-        "$@" && return 0
-        sleep 0.1
-    done
-    return 1
-}
 window_focused() { xdotool search --name '^Oiler$' windowfocus >/dev/null 2>&1; }
 has_started() { grep -qx "$1" "$folder/started"; }
 

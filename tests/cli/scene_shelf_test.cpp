@@ -73,6 +73,7 @@ TEST_F(SceneShelfTest, BracketsGoThroughTheFolder) {
     EXPECT_EQ(take(shelf, 1)->title, "a") << "after the last comes the first";
     EXPECT_EQ(take(shelf, -1)->title, "c");
     EXPECT_EQ(take(shelf, -2)->title, "a");
+    EXPECT_EQ(take(shelf, -5)->title, "The second") << "five places back in a round of three";
 }
 
 TEST_F(SceneShelfTest, TakesADroppedFileWhereverItIs) {
@@ -116,6 +117,21 @@ TEST_F(SceneShelfTest, ABrokenFileIsNamedAndTheOldSceneStays) {
     EXPECT_EQ(shelf.scene(), old);
     EXPECT_THROW((void)shelf.take(*shown_by(shelf), (folder / "none.toml").string()), Error);
     EXPECT_EQ(shelf.scene(), old);
+}
+
+TEST_F(SceneShelfTest, ABrokenNeighbourIsTriedOnceAndLeftBehind) {
+    SceneShelf shelf = shelf_of("a.toml");
+    write("b.toml", "rate = \"fast\"");
+    EXPECT_THROW((void)take(shelf, 1), Error);
+    EXPECT_FALSE(take(shelf, 1)) << "the same wish in the next frame";
+    EXPECT_EQ(take(shelf, 2)->title, "c") << "a second press";
+    EXPECT_EQ(take(shelf, 1)->title, "a");
+}
+
+TEST_F(SceneShelfTest, AFolderThatIsGoneLeavesTheScene) {
+    SceneShelf shelf = shelf_of("a.toml");
+    fs::remove_all(folder.path());
+    EXPECT_THROW((void)take(shelf, 1), Error);
 }
 
 TEST_F(SceneShelfTest, ASceneOfAManifestHasNoFolder) {

@@ -12,7 +12,8 @@ namespace {
 
 Stiffest stiffest(const Bodies& bodies, const char* method, std::int64_t rate = 100) {
     StiffestFinder finder;
-    const auto found = finder.find(bodies, find_method(method), {.rate = {rate}});
+    const Stepping stepping{.method = &find_method(method), .rate = {rate}};
+    const auto found = finder.find(StiffestFinder::oscillations_of(bodies, stepping), stepping);
     EXPECT_TRUE(found);
     return found.value_or(Stiffest{});
 }
@@ -40,7 +41,7 @@ TEST(Stiffest, HasNoLimitOrAlwaysExceedsIt) {
     EXPECT_TRUE(std::isinf(stiffest(two_springs(), "implicit_midpoint").limit));
     const Bodies alone(1, Precision::double_);
     StiffestFinder finder;
-    EXPECT_FALSE(finder.find(alone, find_method("rk4"), {.rate = {100}}));
+    EXPECT_FALSE(finder.find(StiffestFinder::oscillations_of(alone, {}), {}));
 }
 
 // ω = 10/s with ζ = 0.5 has c = 10/s: explicit Euler is stable up to ω·dt = 1. ζ = 0.25 has the

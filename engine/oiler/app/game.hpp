@@ -34,6 +34,9 @@ struct About {
     std::string_view damping = "";        ///< "kick" or "drift"; empty: the method's default
     std::string_view scene_text = "";     ///< the scene file; empty for a game
     std::span<const Control> controls{};  ///< the actions and axes of the game
+    /// Whether the setting of the game's world may change while it is played. A game with several
+    /// worlds, or with members that depend on the setting, says false and is made anew.
+    bool changes_in_play = true;
 };
 
 template <class G>

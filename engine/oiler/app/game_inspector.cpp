@@ -67,24 +67,35 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
 }  // namespace
 
 GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
-    : game_(game),
-      fixed_(std::move(fixed)),
-      inspector_(font),
-      methods_(applicable_methods(game.world())) {
+    : game_(game), fixed_(std::move(fixed)), inspector_(font) {
     game_.measure(times_);
+    list_methods();
 }
 
-void GameInspector::find_stiffest() {
+void GameInspector::list_methods() { methods_ = applicable_methods(game_.world()); }
+
+/// Limits take too long for a frame, so they are found aside.
+void GameInspector::find_stiffest(bool waits) {
     constexpr std::size_t most_bodies = 2000;
+    constexpr std::chrono::milliseconds period{250};
     const World& world = game_.world();
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_stiffest_ || world.bodies().size() > most_bodies) return;
-    next_stiffest_ = now + std::chrono::milliseconds(250);
     const Stepping& stepping = world.settings().stepping;
-    const auto found =
-        finder_.find(world.bodies(), *stepping.method, {stepping.rate, 0, 1, stepping.damping});
+    const auto now = std::chrono::steady_clock::now();
+    if (!finding_.valid() && (waits || now >= next_stiffest_) &&
+        world.bodies().size() <= most_bodies) {
+        next_stiffest_ = now + period;
+        finding_ = std::async(
+            std::launch::async,
+            [this, stepping, all = StiffestFinder::oscillations_of(world.bodies(), stepping)] {
+                return finder_.find(all, stepping);
+            });
+    }
+    if (!finding_.valid()) return;
+    if (!waits && finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    const std::optional<Stiffest> found = finding_.get();
     stiffest_.reset();
-    if (!found) return;
+    const auto is_here = [&](std::size_t row) { return row < world.bodies().size(); };
+    if (!found || !is_here(found->row) || (found->linked && !is_here(*found->linked))) return;
     std::string name = game_.name_of(world.entity_of_row(found->row));
     if (found->linked) name += " to " + game_.name_of(world.entity_of_row(*found->linked));
     stiffest_ = Inspected::Gauge{std::move(name), found->measure, found->limit};
@@ -105,7 +116,7 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
 Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
                            const Frame& frame) {
     const World& world = game_.world();
-    find_stiffest();
+    find_stiffest(frame.waits);
     const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,

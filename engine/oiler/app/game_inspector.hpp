@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +24,14 @@ public:
         bool is_paused = false;
         bool has_past = false;
         std::string pace{};
+        bool waits = false;  ///< until all that it shows is known
     };
 
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
+    /// Lists the methods anew: the game has other bodies.
+    void list_methods();
     /// Counts the times of a frame in which steps were taken. `show` is the time of steps and
     /// picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
@@ -37,13 +42,14 @@ public:
     [[nodiscard]] bool has_menu() const { return inspector_.has_menu(); }
 
 private:
-    /// The spring closest to the method's limit, renewed some times a second.
-    void find_stiffest();
+    /// Renews the spring that is closest to the method's limit, some times a second.
+    void find_stiffest(bool waits);
 
     AnyGame& game_;
     std::string fixed_;
     Inspector inspector_;
-    StiffestFinder finder_;
+    StiffestFinder finder_;  ///< of the thread that finds
+    std::future<std::optional<Stiffest>> finding_;
     std::optional<Inspected::Gauge> stiffest_;
     std::chrono::steady_clock::time_point next_stiffest_{};
     StepTimes times_;

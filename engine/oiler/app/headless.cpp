@@ -73,7 +73,7 @@ public:
         along.play_until(steps);
         add_ghosts(picture, along.ghosts(steps, steps == at.step ? 1 : at.alpha), 1);
         (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
-                              {.seconds = 1.0 / header.fps});
+                              {.seconds = 1.0 / header.fps, .waits = true});
     }
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
 

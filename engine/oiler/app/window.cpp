@@ -14,8 +14,10 @@
 #include "oiler/app/game_inspector.hpp"
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
+#include "oiler/app/live_change.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/overlays.hpp"
+#include "oiler/app/pace.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/rewind.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -27,23 +29,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::chrono::nanoseconds now() { return Clock::now().time_since_epoch(); }
-
-/// Factor of simulated time over real time: a power of two from 1/16 to 16.
-class Pace {
-public:
-    void slower() { exponent_ = std::max(exponent_ - 1, -4); }
-    void faster() { exponent_ = std::min(exponent_ + 1, 4); }
-    [[nodiscard]] int numerator() const { return 1 << std::max(exponent_, 0); }
-    [[nodiscard]] int denominator() const { return 1 << std::max(-exponent_, 0); }
-    [[nodiscard]] std::string text() const {
-        if (exponent_ == 0) return {};
-        return exponent_ > 0 ? fmt::format("{}× (F7 slower)", numerator())
-                             : fmt::format("1/{}× (F8 faster)", denominator());
-    }
-
-private:
-    int exponent_ = 0;
-};
 
 /// Escape quits a game that has no use for it.
 bool uses_escape(std::span<const Control> controls) {
@@ -68,13 +53,6 @@ std::string_view no_way_back(const Options& options) {
 std::string why_fixed(const Options& options) {
     const std::string_view option = options.json.empty() ? no_way_back(options) : "--json";
     return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
-}
-
-/// Whether a world can go on at another rate now, so that half of that rate, which plays along, has
-/// a tick, too.
-bool has_common_tick(const World& world, const Rate& rate) {
-    const std::optional<std::int64_t> tick = world.tick_at(rate);
-    return tick && (*tick % 2 == 0 || rate.steps % 2 != 0);
 }
 
 /// Sleeps until the frame's period ends, unless the display has already waited.
@@ -167,15 +145,19 @@ private:
     /// Shows another game of the shelf, or why it cannot be shown.
     void look_at_shelf() {
         const std::optional<std::string> dropped = window_->take_dropped();
+        if (!shelf_ && dropped)
+            complaint_ = fmt::format("{}: this run shows no other scene; start `oiler play {}`",
+                                     *dropped, *dropped);
         if (!shelf_) return;
         try {
             const std::optional<Shelf::Taken> taken = shelf_->take(playback_.game(), dropped);
             if (!taken) return;
             title_ = taken->title;
             window_->set_title(title_);
-            wanted_.reset();
+            change_.forget();
             complaint_.clear();
             restart_with(taken->stepping);
+            inspector_.list_methods();
         } catch (const Error& error) {
             complaint_ = error.what();
         }
@@ -184,13 +166,14 @@ private:
     void change_to(const Stepping& stepping, bool from_start) {
         // Bodies have the precision that they were made with.
         const bool needs_start =
-            failure_ || stepping.precision != playback_.world().settings().stepping.precision;
-        wanted_.reset();
+            failure_ || !about_.changes_in_play ||
+            stepping.precision != playback_.world().settings().stepping.precision;
+        change_.forget();
         complaint_.clear();
         if (from_start || needs_start)
             restart_with(stepping);
         else
-            wanted_ = stepping;
+            change_.want(stepping);
     }
     /// Makes the game anew with another setting. Whatever the game did is gone.
     void restart_with(const Stepping& stepping) {
@@ -205,20 +188,13 @@ private:
         begin_setting();
         if (measures()) along_.start(playback_.steps(), stepping);
     }
-    /// Goes on with the wanted setting from the next step that it has, too, up to `step`.
+    /// Goes on with the wanted setting, if that has a tick until `step`.
     void change_until(std::int64_t step) {
-        while (wanted_ && !failure_) {
-            if (has_common_tick(playback_.world(), wanted_->rate)) {
-                const Stepping stepping = *std::exchange(wanted_, std::nullopt);
-                if (!is_possible([&] { playback_.game().set_stepping(stepping); })) return;
-                begin_setting();
-                if (measures()) along_.start_from(playback_.game(), playback_.steps());
-            } else if (playback_.steps() >= step || playback_.loop().quits()) {
-                return;
-            } else {
-                playback_.step_to(playback_.steps() + 1, *inputs_);
-            }
-        }
+        bool has_changed = false;
+        if (!is_possible([&] { has_changed = change_.make(playback_, step, *inputs_); })) return;
+        if (!has_changed) return;
+        begin_setting();
+        if (measures()) along_.start_from(playback_.game(), playback_.steps());
     }
     /// Whether the game can have a setting, which f() gives it. Else the window tells why.
     template <class F>
@@ -268,7 +244,7 @@ private:
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
         if (!back && steps > 0 && was_back_) measure_from_here();
-        if (!back) change_until(clock_.ticks() - undone_);
+        if (!back && !failure_) change_until(clock_.ticks() - undone_);
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
@@ -291,7 +267,8 @@ private:
                        has_past() ? "F4 goes back, F9 restarts, Escape quits"
                                   : "F9 restarts, Escape quits");
         else if (!complaint_.empty())
-            add_notice(picture, complaint_, "What was shown goes on. F9 restarts it and closes this.");
+            add_notice(picture, complaint_,
+                       "What was shown goes on. F9 restarts it and closes this.");
         add_status(picture, status(keys, back));
         const std::chrono::nanoseconds before_drawing = now();
         show(picture, keys, start);
@@ -358,8 +335,9 @@ private:
     void go_back(std::int64_t steps) {
         const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
         live_.queue.continue_after(rewind_->go_back(step));
-        along_.stop("What the timestep costs is measured again when you play on.");
-        was_back_ = true;
+        was_back_ = about_.changes_in_play;
+        along_.stop(was_back_ ? "what the timestep costs is measured again when you play on"
+                              : "what the timestep costs is no longer measured: you went back");
         playback_.go_back(step);
         failure_.reset();
         undone_ = clock_.ticks() - step;
@@ -372,8 +350,9 @@ private:
                                rewind_ ? "so many bodies" : no_way_back(options_));
         else if (failure_)
             text = "stopped";
-        else if (wanted_)
-            text = fmt::format("{} Hz begins when both rates have a step", wanted_->rate.steps);
+        else if (change_.wanted())
+            text = fmt::format("{} Hz begins when both rates have a step",
+                               change_.wanted()->rate.steps);
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
@@ -416,10 +395,10 @@ private:
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
-    std::int64_t restarted_at_ = -1;       ///< the steps before the last restart
-    std::int64_t undone_ = 0;              ///< steps of the clock that the game has not taken
-    std::optional<Error> failure_;         ///< a divergence that holds the run
-    std::optional<Stepping> wanted_;       ///< the setting to go on with
+    std::int64_t restarted_at_ = -1;  ///< the steps before the last restart
+    std::int64_t undone_ = 0;         ///< steps of the clock that the game has not taken
+    std::optional<Error> failure_;    ///< a divergence that holds the run
+    LiveChange change_;
     std::string complaint_;                ///< why the game cannot have the setting that was chosen
     std::chrono::nanoseconds dropped_{0};  ///< with earlier settings
     std::chrono::nanoseconds last_start_ = now();

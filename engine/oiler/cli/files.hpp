@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "oiler/capture/file.hpp"
 #include "oiler/core/json.hpp"
@@ -14,6 +15,9 @@ namespace oiler::cli {
 void write_text(const std::filesystem::path& path, const std::string& text,
                 Links links = Links::followed);
 void write_json(const std::filesystem::path& path, const Json& json);
+
+/// The scene files of a folder, sorted; none if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> scene_files(const std::filesystem::path& folder);
 
 /// Writes to standard output.
 void print(const std::string& text);

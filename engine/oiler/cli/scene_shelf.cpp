@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/scene/make_world.hpp"
@@ -45,7 +46,9 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
                                              const std::optional<std::string>& dropped) {
     const int places = dynamic_cast<const SceneGame&>(shown).places_to_go();
     if (dropped) return read(*dropped, std::nullopt);
-    if (places != 0 && !file_.empty()) return read(neighbour(places), std::nullopt);
+    // A file that is no scene is tried once. The next press goes on behind it.
+    if (std::exchange(places_, places) != places && places != 0 && !file_.empty())
+        return read(neighbour(places), std::nullopt);
     if (has_changed()) return read(file_, shown.world().settings().stepping);
     return std::nullopt;
 }
@@ -56,6 +59,7 @@ Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping
     const bool keeps = kept && scene.stepping == scene_->stepping && is_possible(scene, *kept);
     const Stepping stepping = keeps ? *kept : scene.stepping;
     make_world(scene, Settings{.stepping = stepping}).require_applicable();
+    places_ = 0;
     file_ = file;
     written_ = written(file);
     scene_ = std::make_shared<const Scene>(std::move(scene));
@@ -64,14 +68,13 @@ Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping
 
 fs::path SceneShelf::neighbour(int places) const {
     const fs::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".toml") files.push_back(entry.path());
-    std::ranges::sort(files);
+    const std::vector<fs::path> files = scene_files(folder);
+    if (files.empty()) return file_;
     const auto is_shown = [&](const fs::path& one) { return one.filename() == file_.filename(); };
     const auto at = std::ranges::find_if(files, is_shown) - files.begin();
     const auto count = std::ssize(files);
-    return count == 0 ? file_ : files[static_cast<std::size_t>((at + places + count) % count)];
+    const auto place = ((at + places) % count + count) % count;
+    return files[static_cast<std::size_t>(place)];
 }
 
 /// Looked at some times a second; a change is reported once, even if the file is then no scene.

@@ -31,6 +31,7 @@ private:
     std::filesystem::path file_;
     std::shared_ptr<const Scene> scene_;
     std::filesystem::file_time_type written_{};
+    int places_ = 0;  ///< that were tried last
     Clock::time_point next_look_{};
 };
 

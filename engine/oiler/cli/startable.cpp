@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "oiler/cli/files.hpp"
 #include "oiler/cli/project.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/read.hpp"
@@ -62,12 +63,7 @@ void add_demos(const Places& places, std::vector<Startable>& all) {
 }
 
 void add_scenes(const Places& places, const fs::path& program, std::vector<Startable>& all) {
-    std::error_code none;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(places.scenes, none))
-        if (entry.path().extension() == ".toml") files.push_back(entry.path());
-    std::ranges::sort(files);
-    for (const fs::path& file : files)
+    for (const fs::path& file : scene_files(places.scenes))
         all.push_back({.name = file.filename().string(),
                        .sentence = title_of(file),
                        .is_scene = true,

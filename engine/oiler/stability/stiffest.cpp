@@ -4,23 +4,35 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/stability/oscillations.hpp"
 #include "oiler/stability/region.hpp"
 
 namespace oiler {
 
-std::optional<Stiffest> StiffestFinder::find(const Bodies& bodies, const Method& method,
-                                             const Steps& steps) {
-    const Damping damping = steps.damping.value_or(method.damping);
+namespace {
+
+Damping damping_of(const Stepping& stepping) {
+    return stepping.damping.value_or(stepping.method->damping);
+}
+
+}  // namespace
+
+std::vector<BodyOscillation> StiffestFinder::oscillations_of(const Bodies& bodies,
+                                                             const Stepping& stepping) {
+    return oscillations(bodies, splits_dampers(*stepping.method, damping_of(stepping)));
+}
+
+std::optional<Stiffest> StiffestFinder::find(const std::vector<BodyOscillation>& oscillations,
+                                             const Stepping& stepping) {
     std::optional<Stiffest> stiffest;
-    for (const BodyOscillation& one : oscillations(bodies, splits_dampers(method, damping))) {
+    for (const BodyOscillation& one : oscillations) {
         // Negative stiffness or damping diverges by itself with any method.
         const double omega = std::sqrt(std::max(one.of.k, 0.0));
         const double c = std::max(one.of.c, 0.0);
         const double fastest = std::max(omega, c);
         if (!(fastest > 0) || !std::isfinite(fastest)) continue;
-        const double measure = fastest * steps.rate.dt();
-        const double most = limit(method, damping, omega / fastest, c / fastest);
+        const double measure = fastest * stepping.rate.dt();
+        const double most =
+            limit(*stepping.method, damping_of(stepping), omega / fastest, c / fastest);
         if (!stiffest || measure * stiffest->limit > stiffest->measure * most)
             stiffest = Stiffest{one.row, one.linked, measure, most};
     }

@@ -5,9 +5,10 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <vector>
 
-#include "oiler/sim/bodies.hpp"
-#include "oiler/sim/steps.hpp"
+#include "oiler/physics/stepping.hpp"
+#include "oiler/stability/oscillations.hpp"
 
 namespace oiler {
 
@@ -24,9 +25,12 @@ struct Stiffest {
 /// each for the damping ratios that agree in two digits.
 class StiffestFinder {
 public:
+    /// What find() judges, of bodies as they are now.
+    [[nodiscard]] static std::vector<BodyOscillation> oscillations_of(const Bodies& bodies,
+                                                                      const Stepping& stepping);
     /// Empty if nothing oscillates or is damped.
-    [[nodiscard]] std::optional<Stiffest> find(const Bodies& bodies, const Method& method,
-                                               const Steps& steps);
+    [[nodiscard]] std::optional<Stiffest> find(const std::vector<BodyOscillation>& oscillations,
+                                               const Stepping& stepping);
 
 private:
     [[nodiscard]] double limit(const Method& method, Damping damping, double omega, double c);
