@@ -217,6 +217,7 @@ private:
         undone_ = -playback_.steps();
         playback_.go_back(playback_.steps());
         failure_.reset();
+        was_back_ = false;
         if (rewind_) rewind_->forget(playback_.steps());
     }
     [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
@@ -244,12 +245,11 @@ private:
         const std::int64_t steps = clock_.advance(start).steps;
         if (back && steps > 0) go_back(steps);
         if (!back && steps > 0 && was_back_) measure_from_here();
-        if (!back && !failure_) change_until(clock_.ticks() - undone_);
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
         const std::chrono::nanoseconds before_picture = now();
-        Picture picture = next_picture();
+        Picture picture = next_picture(back);
         const std::chrono::nanoseconds show_time = now() - before_picture;
         play_along();
         if (inspects_) {
@@ -312,8 +312,9 @@ private:
     }
 
     /// The picture to show now; after a divergence, that of the last step before.
-    Picture next_picture() {
+    Picture next_picture(bool back) {
         try {
+            if (!back && !failure_) change_until(clock_.ticks() - undone_);
             if (!failure_)
                 return playback_.show(clock_.ticks() - undone_, whole_ ? 0 : clock_.alpha(),
                                       *inputs_);
