@@ -22,6 +22,7 @@ if(sources)
   add_library(oiler_${room} STATIC ${sources})
   target_link_libraries(oiler_${room} PUBLIC oiler::options ${room_links} ${links}
                                       PRIVATE $<BUILD_INTERFACE:oiler_warnings> ${private_links})
+  set_target_properties(oiler_${room} PROPERTIES UNITY_BUILD ${OILER_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   if(NOT room STREQUAL sim)
     target_link_libraries(oiler_${room} PRIVATE $<BUILD_INTERFACE:oiler_hardening>)
   endif()

@@ -14,9 +14,9 @@
 namespace oiler {
 namespace {
 
-constexpr float left = 32;
+constexpr float left_margin = 32;
 constexpr float loop_keys_left = 456;
-constexpr float top = 296;
+constexpr float first_row = 296;
 constexpr float bottom = 40;
 constexpr float largest_size = 11;    ///< of the font
 constexpr float line_height = 1.4F;   ///< of the size
@@ -86,7 +86,7 @@ std::vector<Row> loop_keys(bool escape_quits) {
 
 void add_rows(Picture& picture, std::span<const Row> rows, float x, float text_x, float size) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const float y = top - static_cast<float>(i) * line_height * size;
+        const float y = first_row - static_cast<float>(i) * line_height * size;
         picture.labels.push_back(label({x, y}, rows[i].name, size, palette::blue));
         picture.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
     }
@@ -110,13 +110,13 @@ void add_help(Picture& picture, std::string_view title, std::span<const Control>
     for (const Control& control : controls)
         longest = std::max(longest, std::min(control.name.size(), longest_name) + 2);
     const float letter = letter_width * largest_size;
-    const float text_x = left + letter * static_cast<float>(longest);
+    const float text_x = left_margin + letter * static_cast<float>(longest);
     const auto letters = static_cast<std::size_t>((loop_keys_left - text_x) / letter) - 1;
     const std::vector<Row> rows = rows_of(controls, name, letters);
-    const float size =
-        std::min(largest_size, (top - bottom) / line_height / static_cast<float>(rows.size()));
-    picture.labels.push_back(label({left, 324}, std::string(title), 15, palette::ink));
-    add_rows(picture, rows, left, text_x, size);
+    const float size = std::min(
+        largest_size, (first_row - bottom) / line_height / static_cast<float>(rows.size()));
+    picture.labels.push_back(label({left_margin, 324}, std::string(title), 15, palette::ink));
+    add_rows(picture, rows, left_margin, text_x, size);
     add_rows(picture, loop_keys(escape_quits), loop_keys_left, loop_keys_left + 48, largest_size);
 }
 

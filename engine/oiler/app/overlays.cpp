@@ -13,7 +13,7 @@
 namespace oiler {
 namespace {
 
-constexpr float letter_width = 0.55F;  // of the size, of the font's usual letters
+constexpr float overlay_letter_width = 0.55F;  // of the size, of the font's usual letters
 
 void add_sheet(Picture& picture, Point centre, Point size, Colour colour) {
     picture.polygons.push_back({.points = rectangle(centre, size),
@@ -65,7 +65,7 @@ void add_verdict(Picture& picture, const Verdict& verdict) {
     picture.labels.push_back(
         {.at = {left, middle - 2.5F},
          .text = verdict.text,
-         .size = std::min(largest_size, (canvas_width - left) / (letter_width * letters)),
+         .size = std::min(largest_size, (canvas_width - left) / (overlay_letter_width * letters)),
          .colour = palette::ink,
          .layer = overlay_layer});
 }

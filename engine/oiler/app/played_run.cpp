@@ -12,7 +12,7 @@ namespace {
 
 using Times = std::vector<std::chrono::nanoseconds>;
 
-constexpr double longest_delay = 0.25;  // s
+constexpr double lasting_difference = 0.25;  // s
 constexpr double frames_per_second = 60;
 
 bool is_whole(double value) { return std::trunc(value) == value; }
@@ -121,7 +121,7 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
     const std::optional<Apart> apart = largest_distance(reference, moment_of(*game_));
     if (!apart) {
         differs_from_ = differs_from_.value_or(time);
-        if (time - *differs_from_ >= longest_delay) result_.other_play_from = differs_from_;
+        if (time - *differs_from_ >= lasting_difference) result_.other_play_from = differs_from_;
         return;
     }
     differs_from_.reset();

@@ -20,7 +20,7 @@ double seconds(std::chrono::nanoseconds time) {
 }
 
 /// Null for methods without a choice.
-Json damping_of(const Stepping& stepping) {
+Json damping_json(const Stepping& stepping) {
     if (!std::holds_alternative<Splitting>(stepping.method->rule)) return nullptr;
     return name_of(stepping.damping.value_or(stepping.method->damping));
 }
@@ -31,7 +31,7 @@ void write_report(File& file, const RunReport& report, const World& world) {
     const Settings& settings = world.settings();
     Json json{{"scene", report.scene},
               {"method", settings.stepping.method->name},
-              {"damping", damping_of(settings.stepping)},
+              {"damping", damping_json(settings.stepping)},
               {"rate", settings.stepping.rate.steps},
               {"precision", name_of(settings.stepping.precision)},
               {"threads", settings.threads},

@@ -18,20 +18,19 @@
 namespace oiler::certify {
 namespace {
 
-// The article's spring.
-constexpr double mass = 1;        // kg
-constexpr double stiffness = 15;  // N/m
-constexpr double damping = 0.1;   // N·s/m
-constexpr double start = 1000;    // m
+constexpr double mass = 1;                // kg
+constexpr double article_stiffness = 15;  // N/m
+constexpr double article_damping = 0.1;   // N·s/m
+constexpr double article_start = 1000;    // m
 
 Motion<double> exact(double b, double t) {
-    return damped_oscillator(mass, stiffness, b, {start, 0.0}, t);
+    return damped_oscillator(mass, article_stiffness, b, {article_start, 0.0}, t);
 }
 
 /// The period, s.
 double period(double b) {
     const double decay = b / (2 * mass);
-    return 2 * std::numbers::pi / std::sqrt(stiffness / mass - decay * decay);
+    return 2 * std::numbers::pi / std::sqrt(article_stiffness / mass - decay * decay);
 }
 
 struct Sample {
@@ -56,7 +55,7 @@ struct Run {
     }
     /// The spring per unit mass, in units of time of `unit` s.
     Oscillation spring(double unit) const {
-        return {.k = stiffness / mass * unit * unit, .c = b / mass * unit};
+        return {.k = article_stiffness / mass * unit * unit, .c = b / mass * unit};
     }
     /// The matrix of a step, which rotates the motion and scales it by √determinant.
     StepMatrix step() const {
@@ -71,7 +70,8 @@ using Runs = std::vector<Run>;
 Run simulate(std::string_view method, double b, Rate rate, double until) {
     Run run{find_method(method), b, rate};
     Bodies bodies(1, Precision::double_);
-    bodies.add({.mass = mass, .position = {start}}, Spring{.stiffness = stiffness, .damping = b});
+    bodies.add({.mass = mass, .position = {article_start}},
+               Spring{.stiffness = article_stiffness, .damping = b});
     for (std::int64_t tick = 0;; ++tick) {
         const double t = rate.time(tick);
         const double x = bodies.position(0)[0];
@@ -90,7 +90,9 @@ double cycles_gained(const Run& run) {
 }
 
 /// ω·dt, the h of theory.
-double radians_a_step(const Run& run) { return std::sqrt(stiffness / mass) * run.rate.dt(); }
+double radians_a_step(const Run& run) {
+    return std::sqrt(article_stiffness / mass) * run.rate.dt();
+}
 
 /// The mean relative excess of semi-implicit Euler's energy without damping: the mean over the
 /// ellipse v² + ω²·x² − ω²·dt·x·v on which its steps stay.
@@ -151,7 +153,7 @@ Series series_of(const Run& run, const Graph& graph) {
 }
 
 std::string conditions(const Graph& graph) {
-    std::string text = fmt::format("k = {:g} N/m, b = {:g} N·s/m", stiffness, graph.b);
+    std::string text = fmt::format("k = {:g} N/m, b = {:g} N·s/m", article_stiffness, graph.b);
     if (!graph.methods.empty()) text += fmt::format(", dt = {:g} s", graph.rate.dt());
     return text;
 }
@@ -181,7 +183,8 @@ std::string exact_damped(const Runs&) {
     return fmt::format(
         "A mass of {:g} kg, released at {:g} m, oscillates with a period of {:.3f} s. Every {:g} s "
         "its amplitude falls to {:.1f} %.",
-        mass, start, period(damping), 2 * mass / damping, 100 * std::exp(-1.0));
+        mass, article_start, period(article_damping), 2 * mass / article_damping,
+        100 * std::exp(-1.0));
 }
 
 std::string explicit_euler(const Runs& runs) {
@@ -216,7 +219,7 @@ std::string zoomed_in(const Runs& runs) {
         "At t = {:.2f} s semi-implicit Euler has its largest error: it is {:.1f} m or {:.1f} ms "
         "ahead of the exact motion. The largest error of RK4 is {:.4f} m, with {} force "
         "evaluations per step instead of {}.",
-        worst.t, std::abs(worst.error), 1000 * worst.error / exact(damping, worst.t).v,
+        worst.t, std::abs(worst.error), 1000 * worst.error / exact(article_damping, worst.t).v,
         std::abs(runs[1].worst().error), runs[1].method.evaluations, runs[0].method.evaluations);
 }
 
@@ -224,7 +227,7 @@ std::string exact_undamped(const Runs&) {
     return fmt::format(
         "The mass oscillates forever with an amplitude of {:g} m and a period of {:.3f} s. Its "
         "energy stays k·x²/2 = {:.1f} MJ.",
-        start, period(0), stiffness * start * start / 2 / 1e6);
+        article_start, period(0), article_stiffness * article_start * article_start / 2 / 1e6);
 }
 
 std::string after_90_s(const Runs& runs) {
@@ -270,16 +273,16 @@ std::vector<Figure> article_figures() {
     constexpr Rate fine{100}, coarse{10}, coarser{4};
     std::vector<Figure> figures;
     for (const Graph& graph : {
-             Graph{"01_exact_damped", "Spring and damper: the exact motion", damping, fine, none, 0,
-                   20, 1250, exact_damped},
-             Graph{"02_explicit_euler", "Explicit Euler gains energy", damping, fine, oldest, 0, 90,
-                   12'500, explicit_euler},
-             Graph{"03_semi_implicit_euler", "Semi-implicit Euler is stable", damping, fine, euler,
-                   0, 10, 1250, semi_implicit_euler},
-             Graph{"04_rk4_and_semi_implicit_euler", "RK4 and semi-implicit Euler", damping, fine,
-                   both, 0, 10, 1250, rk4_and_semi_implicit_euler},
-             Graph{"05_zoomed_in", "RK4 and semi-implicit Euler, zoomed in", damping, fine, both,
-                   3.6, 3.7, 250, zoomed_in},
+             Graph{"01_exact_damped", "Spring and damper: the exact motion", article_damping, fine,
+                   none, 0, 20, 1250, exact_damped},
+             Graph{"02_explicit_euler", "Explicit Euler gains energy", article_damping, fine,
+                   oldest, 0, 90, 12'500, explicit_euler},
+             Graph{"03_semi_implicit_euler", "Semi-implicit Euler is stable", article_damping, fine,
+                   euler, 0, 10, 1250, semi_implicit_euler},
+             Graph{"04_rk4_and_semi_implicit_euler", "RK4 and semi-implicit Euler", article_damping,
+                   fine, both, 0, 10, 1250, rk4_and_semi_implicit_euler},
+             Graph{"05_zoomed_in", "RK4 and semi-implicit Euler, zoomed in", article_damping, fine,
+                   both, 3.6, 3.7, 250, zoomed_in},
              Graph{"06_exact_undamped", "Without damping: the exact motion", 0, coarse, none, 0, 20,
                    1250, exact_undamped},
              Graph{"07_undamped_after_90_s", "Without damping, near 90 s", 0, coarse, both, 86, 90,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double epsilon(Precision precision) {
+double round_off(Precision precision) {
     return precision == Precision::extended
                ? static_cast<double>(std::numeric_limits<long double>::epsilon())
                : std::numeric_limits<double>::epsilon();
@@ -24,7 +24,7 @@ struct Errors {
 
 Errors errors_after_a_second(const Method& method, Damping damping, const Problem& problem,
                              Precision precision, std::int64_t steps) {
-    Bodies bodies = start(problem, precision);
+    Bodies bodies = bodies_of(problem, precision);
     if (bodies.try_step(method, {.rate = {steps}, .count = steps, .damping = damping}))
         return {nan, nan};
     Errors largest;
@@ -68,7 +68,7 @@ MeasuredOrder measure_order(const Method& method, Damping damping, const Problem
     std::vector<double> velocities;
     for (std::int64_t steps = 4; steps <= most_steps; steps *= 2) {
         const Errors errors = errors_after_a_second(method, damping, problem, precision, steps);
-        const double floor = 100 * epsilon(precision) * std::sqrt(static_cast<double>(4 * steps));
+        const double floor = 100 * round_off(precision) * std::sqrt(static_cast<double>(4 * steps));
         if (errors.position < floor || errors.velocity < floor) break;
         positions.push_back(errors.position);
         velocities.push_back(errors.velocity);

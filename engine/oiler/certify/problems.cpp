@@ -11,8 +11,8 @@ namespace {
 
 using Real = long double;
 
-constexpr double stiffness = 25;  // N/m
-constexpr double damping = 1;     // N·s/m
+constexpr double spring_stiffness = 25;  // N/m
+constexpr double spring_damping = 1;     // N·s/m
 /// Two independent starts, so that no error vanishes by a lucky phase.
 constexpr std::array<Motion<Real>, 2> starts{{{1, 0}, {0, 5}}};
 
@@ -20,13 +20,13 @@ void fill_springs(Bodies& bodies, double b) {
     for (const Motion<Real>& start : starts)
         bodies.add({.position = {static_cast<double>(start.x)},
                     .velocity = {static_cast<double>(start.v)}},
-                   Spring{.stiffness = stiffness, .damping = b});
+                   Spring{.stiffness = spring_stiffness, .damping = b});
 }
 
 State<Real, 3> along_x(const Motion<Real>& motion) { return {{motion.x}, {motion.v}}; }
 
 State<Real, 3> spring_end(std::size_t row, Real b) {
-    return along_x(damped_oscillator<Real>(1, stiffness, b, starts[row], 1));
+    return along_x(damped_oscillator<Real>(1, spring_stiffness, b, starts[row], 1));
 }
 
 /// An ellipse of eccentricity 0.44 with a period of 4.3 s, from its nearest point. No method's
@@ -60,8 +60,8 @@ constexpr std::array list{
     Problem{"spring", 1, true, [](Bodies& bodies) { fill_springs(bodies, 0); },
             [](std::size_t row) { return spring_end(row, 0); }, plain_order},
     Problem{"orbit", 2, false, fill_orbit, orbit_end, plain_order},
-    Problem{"damped spring", 1, true, [](Bodies& bodies) { fill_springs(bodies, damping); },
-            [](std::size_t row) { return spring_end(row, damping); }, damped_order},
+    Problem{"damped spring", 1, true, [](Bodies& bodies) { fill_springs(bodies, spring_damping); },
+            [](std::size_t row) { return spring_end(row, spring_damping); }, damped_order},
     Problem{"fall with drag", 1, false, fill_fall, fall_end, dragged_order},
 };
 
@@ -69,7 +69,7 @@ constexpr std::array list{
 
 std::span<const Problem> problems() { return list; }
 
-Bodies start(const Problem& problem, Precision precision) {
+Bodies bodies_of(const Problem& problem, Precision precision) {
     Bodies bodies(problem.axes, precision);
     problem.fill(bodies);
     return bodies;

@@ -23,6 +23,6 @@ struct Problem {
 [[nodiscard]] std::span<const Problem> problems();
 
 /// The bodies of a problem at t = 0.
-[[nodiscard]] Bodies start(const Problem& problem, Precision precision);
+[[nodiscard]] Bodies bodies_of(const Problem& problem, Precision precision);
 
 }  // namespace oiler::certify

@@ -53,7 +53,7 @@ std::string row_of(const Certificate& certificate) {
                certificate.failures.empty() ? "ok" : "FAILS");
 }
 
-std::string legend(std::int64_t steps) {
+std::string certify_legend(std::int64_t steps) {
     return fmt::format(R"(
 spring, orbit, damped, dragged: measured convergence orders of positions/velocities in long double.
 forces: evaluations per step in a run; alone: evaluations of a step without reuse. MᵀJM−J:
@@ -152,7 +152,7 @@ struct CertifyCommand {
         if (has_table()) print(header());
         Results results = measure(methods);
         if (Interrupt::requested()) return Exit::interrupted;
-        if (has_table()) print(legend(steps));
+        if (has_table()) print(certify_legend(steps));
         if (!json.empty()) write_json(json, results.certificates);
         if (results.failures.empty()) return Exit::done;
         results.failures.pop_back();

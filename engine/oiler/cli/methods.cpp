@@ -14,7 +14,7 @@ namespace {
 
 constexpr Oscillation undamped{1, 0};
 
-constexpr const char* legend = R"(
+constexpr const char* methods_legend = R"(
 order: convergence order of positions and velocities when forces depend on position alone.
 damped: order with linear damping. dragged: order with quadratic drag, or damping along a spring.
 forces: evaluations per step; a reused last evaluation counts once. stable ω·dt: undamped springs
@@ -39,7 +39,7 @@ std::string table() {
             evaluations(method), yes_or_no(method.symplectic), yes_or_no(method.symmetric),
             limit_text(limit), method.source);
     }
-    return text + legend;
+    return text + methods_legend;
 }
 
 Json to_json() {

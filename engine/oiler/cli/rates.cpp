@@ -20,7 +20,7 @@ using namespace lab;
 
 namespace {
 
-constexpr const char* legend = R"(
+constexpr const char* rates_legend = R"(
 The exact value is beside each name. spread: from the smallest to the largest value, relative to it.
 -: missing or unstable. All values are those of the drawn motion: straight lines between steps.
 )";
@@ -47,7 +47,7 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
         text += "  spread\n";
         for (const RatesLine& line : quantity.lines) text += line_of(line);
     }
-    return text + legend;
+    return text + rates_legend;
 }
 
 /// Parses rates in Hz with commas between them. Throws Error{usage}.

@@ -23,7 +23,7 @@ constexpr const char* table_file = "tradeoff.csv";
 constexpr const char* time_picture = "error_over_time.png";
 constexpr const char* evaluations_picture = "error_over_evaluations.png";
 
-constexpr auto legend = R"(
+constexpr auto tradeoff_legend = R"(
 * Pareto front: no cheaper setting is more accurate; > current setting. drawn m: the largest error of
 any body at any time, on straight lines between steps; steps m: at the steps; phase: at the end, +
 leads; energy: relative error at the steps; forces: evaluations in the run; µs per s: computing time
@@ -117,7 +117,7 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
         const char mark = row->stepping == tradeoff.current ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
-    text += fmt::format(legend, shown.size(), tradeoff.rows().size(),
+    text += fmt::format(tradeoff_legend, shown.size(), tradeoff.rows().size(),
                         all ? "." : "; --all and tradeoff.csv have all of them.");
     for (const Ladder& ladder : tradeoff.ladders)
         if (ladder.done && ladder.rows.empty() && ladder.precision == Precision::double_)

@@ -2,7 +2,6 @@
 #include "oiler/compare/divergence.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -17,10 +16,6 @@
 
 namespace oiler {
 namespace {
-
-bool has_same_bits(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
 
 std::span<const std::uint32_t> bodies_of(const StateLog& log, Rows rows) {
     return std::span(log.bodies).subspan(rows.row, rows.size());
@@ -53,9 +48,9 @@ std::vector<std::int64_t> growth_ticks(std::int64_t first, std::int64_t last) {
     return ticks;
 }
 
-class Comparison {
+class LogComparison {
 public:
-    Comparison(const StateLog& a, const StateLog& b)
+    LogComparison(const StateLog& a, const StateLog& b)
         : a_(a), b_(b), floats_(a.floats && b.floats) {}
 
     [[nodiscard]] RunDivergence run() {
@@ -207,7 +202,7 @@ RunDivergence find_divergence(const StateLog& a, const StateLog& b) {
     if (a.axes != b.axes)
         fail(Exit::usage, "{} has {} {} and {} has {}; give runs of the same scene", a.name, a.axes,
              axis_or_axes(a.axes), b.name, b.axes);
-    return Comparison(a, b).run();
+    return LogComparison(a, b).run();
 }
 
 std::string field_name(int axes, int field) {

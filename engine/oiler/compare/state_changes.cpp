@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -21,11 +20,7 @@ double field(const BodyState& body, std::size_t index) {
     return index < 3 ? body.position[index] : body.velocity[index - 3];
 }
 
-bool has_same_bits(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-bool has_same_bits(const BodyState& a, const BodyState& b) {
+bool is_unchanged(const BodyState& a, const BodyState& b) {
     for (std::size_t i = 0; i < field_names.size(); ++i)
         if (!has_same_bits(field(a, i), field(b, i))) return false;
     return true;
@@ -56,11 +51,11 @@ std::vector<std::string_view> names_missing_in(const ByName& there, const ByName
 std::string describe_swap(const ByName& golden, const ByName& actual) {
     std::vector<std::string_view> changed;
     for (const auto& [name, body] : golden)
-        if (!has_same_bits(*body, *actual.at(name))) changed.push_back(name);
+        if (!is_unchanged(*body, *actual.at(name))) changed.push_back(name);
     if (changed.size() != 2) return {};
     const auto& [a, b] = std::pair(changed[0], changed[1]);
     const bool swapped =
-        has_same_bits(*golden.at(a), *actual.at(b)) && has_same_bits(*golden.at(b), *actual.at(a));
+        is_unchanged(*golden.at(a), *actual.at(b)) && is_unchanged(*golden.at(b), *actual.at(a));
     return swapped ? fmt::format("bodies '{}' and '{}' are swapped", a, b) : "";
 }
 

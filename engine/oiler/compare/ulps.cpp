@@ -29,4 +29,8 @@ std::uint64_t ulps_between(double a, double b) {
                          std::uint64_t{1} << 63);
 }
 
+bool has_same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
 }  // namespace oiler

@@ -15,4 +15,7 @@ inline constexpr std::uint64_t not_in_ulps = std::numeric_limits<std::uint64_t>:
 [[nodiscard]] std::uint64_t ulps_between(float a, float b);
 [[nodiscard]] std::uint64_t ulps_between(double a, double b);
 
+/// Whether two numbers are the same to the sign of 0 and the payload of a NaN.
+[[nodiscard]] bool has_same_bits(double a, double b);
+
 }  // namespace oiler

@@ -10,8 +10,8 @@ namespace oiler::lab {
 namespace {
 
 constexpr double settled = 0.05;  ///< of the distance from rest at the start
-/// Bounces of this part of the largest height are over.
-constexpr double over = 0.01;
+/// Bounces of this part of the largest height are finished.
+constexpr double finished = 0.01;
 /// Largest ratio of the longest to the shortest cycle of a motion that has a period.
 constexpr double most_uneven = 1.1;
 
@@ -105,9 +105,9 @@ void observe_bounces(Observed& observed, const Observer& observer, const Paths& 
     for (std::size_t i = 0; i < shown_bounces.size(); ++i)
         if (shown_bounces[i] <= heights.size()) observed.bounces[i] = heights[shown_bounces[i] - 1];
     std::size_t last = height.size() - 1;
-    while (last > 0 && height.x[last] <= over * most) --last;
+    while (last > 0 && height.x[last] <= finished * most) --last;
     if (last + 1 < height.size())
-        observed.rest_time = height.time(last + 1, height.crossing(last + 1, over * most));
+        observed.rest_time = height.time(last + 1, height.crossing(last + 1, finished * most));
 }
 
 void observe_oscillation(Observed& observed, const Observer& observer, const Paths& paths) {

@@ -12,7 +12,7 @@
 namespace oiler {
 namespace {
 
-constexpr const char* remedy = "install the Debian packages libegl1 and libgl1-mesa-dri";
+constexpr const char* egl_remedy = "install the Debian packages libegl1 and libgl1-mesa-dri";
 
 /// The functions of libEGL that a context without a surface needs.
 struct EglFunctions {
@@ -40,13 +40,13 @@ struct EglFunctions {
 /// EGL on Mesa's surfaceless platform: no display server, no default framebuffer.
 class Egl final : public Surface {
 public:
-    Egl() : library_("libEGL.so.1", remedy), egl_(library_), display_(open_display()) {
+    Egl() : library_("libEGL.so.1", egl_remedy), egl_(library_), display_(open_display()) {
         context_ = create_context();
         if (context_ == EGL_NO_CONTEXT ||
             egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
             egl_.terminate(display_);
             fail(Exit::no_display, "EGL offers no OpenGL 3.3 core context without a screen; {}",
-                 remedy);
+                 egl_remedy);
         }
     }
 
@@ -68,7 +68,7 @@ private:
             display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
         }
         if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE) {
-            fail(Exit::no_display, "EGL has no surfaceless platform; {}", remedy);
+            fail(Exit::no_display, "EGL has no surfaceless platform; {}", egl_remedy);
         }
         return display;
     }

@@ -10,12 +10,12 @@
 namespace oiler {
 namespace {
 
-constexpr const char* remedy = "install the Debian package libosmesa6, or use --surface egl";
+constexpr const char* osmesa_remedy = "install the Debian package libosmesa6, or use --surface egl";
 
 /// Mesa's off-screen rendering into memory. Mesa 25.1 removed it; EGL replaces it.
 class OsMesa final : public Surface {
 public:
-    OsMesa() : library_("libOSMesa.so.8", remedy) {
+    OsMesa() : library_("libOSMesa.so.8", osmesa_remedy) {
         library_.resolve(create_, "OSMesaCreateContextAttribs");
         library_.resolve(destroy_, "OSMesaDestroyContext");
         library_.resolve(make_current_, "OSMesaMakeCurrent");
@@ -44,11 +44,11 @@ private:
                                     0};
         context_ = create_(attributes.data(), nullptr);
         if (context_ == nullptr) {
-            fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", remedy);
+            fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", osmesa_remedy);
         }
         if (make_current_(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
             destroy_(context_);
-            fail(Exit::no_display, "OSMesa cannot make its context current; {}", remedy);
+            fail(Exit::no_display, "OSMesa cannot make its context current; {}", osmesa_remedy);
         }
     }
 

@@ -17,7 +17,8 @@
 namespace oiler {
 namespace {
 
-constexpr const char* remedy = "install the Debian package libsdl2-2.0-0, or run with --headless";
+constexpr const char* sdl_remedy =
+    "install the Debian package libsdl2-2.0-0, or run with --headless";
 
 struct SdlFunctions {
     explicit SdlFunctions(const Library& library) {
@@ -76,7 +77,7 @@ struct SdlFunctions {
 /// SDL's library with its video and its controllers, for the lifetime of the object.
 class Sdl {
 public:
-    Sdl() : library_("libSDL2-2.0.so.0", remedy), sdl_(library_) {
+    Sdl() : library_("libSDL2-2.0.so.0", sdl_remedy), sdl_(library_) {
         sdl_.set_main_ready();
         // The program handles Ctrl-C itself, to complete its files.
         sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");

@@ -14,16 +14,16 @@
 namespace oiler {
 namespace {
 
-Value word(std::string_view key, std::string_view text) {
+Value word_value(std::string_view key, std::string_view text) {
     return {.key = std::string(key), .kind = ValueKind::text, .text = std::string(text)};
 }
 
 std::vector<Value> values_of(const Stepping& stepping) {
     std::vector<Value> values{
         {.key = "rate", .kind = ValueKind::whole, .whole = stepping.rate.steps},
-        word("method", stepping.method->name),
-        word("precision", name_of(stepping.precision))};
-    if (stepping.damping) values.push_back(word("damping", name_of(*stepping.damping)));
+        word_value("method", stepping.method->name),
+        word_value("precision", name_of(stepping.precision))};
+    if (stepping.damping) values.push_back(word_value("damping", name_of(*stepping.damping)));
     return values;
 }
 

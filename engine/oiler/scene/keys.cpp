@@ -41,7 +41,7 @@ constexpr double most = double{most_bodies};
 /// Largest whole number that both TOML and a double hold, 2⁵³.
 constexpr double largest_whole = 9007199254740992.0;
 
-constexpr std::array keys{
+constexpr std::array known_keys{
     SceneKey{"scene", "title", text, "", any, "\"\"", "", "title of the window, at most 200 bytes"},
     SceneKey{"scene", "axes", whole, "", from_to(1, 3), "2", required,
              "numbers in a vector; pictures show x and y"},
@@ -190,17 +190,17 @@ std::string kind_text(const SceneKey& key, int axes) {
 
 }  // namespace
 
-std::span<const SceneKey> scene_keys() { return keys; }
+std::span<const SceneKey> scene_keys() { return known_keys; }
 
 const SceneKey* find_scene_key(std::string_view table, std::string_view name) {
     const auto found = std::ranges::find_if(
-        keys, [&](const SceneKey& key) { return key.table == table && key.name == name; });
-    return found == keys.end() ? nullptr : &*found;
+        known_keys, [&](const SceneKey& key) { return key.table == table && key.name == name; });
+    return found == known_keys.end() ? nullptr : &*found;
 }
 
 std::vector<std::string_view> scene_tables() {
     std::vector<std::string_view> tables;
-    for (const SceneKey& key : keys)
+    for (const SceneKey& key : known_keys)
         if (tables.empty() || tables.back() != key.table) tables.push_back(key.table);
     return tables;
 }

@@ -14,6 +14,14 @@ template <class T, int Axes, class V>
     return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
 }
 
+/// The opposite: a vector with three axes.
+template <class V, class T, int Axes>
+[[nodiscard]] Vec<V, 3> widen(const Vec<T, Axes>& vector) {
+    Vec<V, 3> wide{};
+    for (std::size_t i = 0; i < Axes; ++i) wide.axis[i] = static_cast<V>(vector.axis[i]);
+    return wide;
+}
+
 /// The columns of all bodies, for each precision and number of axes. Only the files that define
 /// Bodies include this, because it takes seconds to compile.
 struct AnyColumns {

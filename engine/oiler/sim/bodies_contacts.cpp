@@ -17,13 +17,6 @@ PlaneOf<T, Axes> unit_plane(const Plane& given) {
     return plane;
 }
 
-template <class T, int Axes>
-Vec3 to_three(const Vec<T, Axes>& vector) {
-    Vec3 three{};
-    for (std::size_t i = 0; i < Axes; ++i) three.axis[i] = static_cast<double>(vector.axis[i]);
-    return three;
-}
-
 }  // namespace
 
 std::size_t Bodies::add_plane(const Plane& plane) {
@@ -84,9 +77,9 @@ BodyImpact Bodies::impact_at(std::size_t i, const Rate& rate) const {
                 row,
                 impact.plane,
                 rate.time(tick) + static_cast<double>(impact.after_start),
-                to_three(impact.x - columns.contacts.planes[impact.plane].normal * radius),
-                to_three(impact.before),
-                to_three(impact.after)};
+                widen<double>(impact.x - columns.contacts.planes[impact.plane].normal * radius),
+                widen<double>(impact.before),
+                widen<double>(impact.after)};
         },
         columns_->of);
 }

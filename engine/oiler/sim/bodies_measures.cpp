@@ -9,20 +9,13 @@
 namespace oiler {
 namespace {
 
-template <class V, class T, int Axes>
-Vec<V, 3> to_three(const Vec<T, Axes>& vector) {
-    Vec<V, 3> three{};
-    for (std::size_t i = 0; i < Axes; ++i) three.axis[i] = static_cast<V>(vector.axis[i]);
-    return three;
-}
-
 template <int Axes>
 double to_double(double number) {
     return number;
 }
 template <int Axes>
 Vec3 to_double(const Vec<double, Axes>& vector) {
-    return to_three<double>(vector);
+    return widen<double>(vector);
 }
 
 /// The force with three axes, as in the public API.
@@ -70,8 +63,7 @@ State<long double, 3> Bodies::state(std::size_t row) const {
     return std::visit(
         [&](const auto& columns) {
             const auto state = state_of<long double>(columns, row);
-            return State<long double, 3>{to_three<long double>(state.x),
-                                         to_three<long double>(state.v)};
+            return State<long double, 3>{widen<long double>(state.x), widen<long double>(state.v)};
         },
         columns_->of);
 }

@@ -8,7 +8,7 @@ namespace oiler {
 namespace {
 
 /// Outside the region of every conditionally stable method.
-constexpr double farthest = 1000;
+constexpr double outside_all = 1000;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Oscillation unit_oscillation(const ScaledOscillation& of) {
 bool Region::contains(const ScaledOscillation& of) {
     if (!(size(of) > 0)) return true;
     if (!std::isfinite(size(of))) return false;
-    const double reached = std::min(size(of), farthest);
+    const double reached = std::min(size(of), outside_all);
     const auto [k, c] = unit_oscillation(of);
     const Oscillation at{k * reached * reached, c * reached};
     const auto [known, is_new] = known_.try_emplace(std::pair(at.k, at.c), false);

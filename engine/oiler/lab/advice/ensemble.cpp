@@ -10,7 +10,7 @@
 namespace oiler::lab {
 namespace {
 
-constexpr double share = 1e-3;
+constexpr double perturbation = 1e-3;
 /// The fraction of an advised rate at which the pre-flight must not warn, either.
 constexpr double reserve = 0.95;
 
@@ -57,11 +57,11 @@ void Ensemble::make_members() {
     for (std::uint64_t seed = 1; seed <= count && !stopped_(); ++seed) {
         Member member{.reference = {}, .requirements = requirements_};
         try {
-            member.reference =
-                make_reference(scene_, effort, {seed, share * size, share * reference_.speed});
+            member.reference = make_reference(
+                scene_, effort, {seed, perturbation * size, perturbation * reference_.speed});
             if (member.requirements.position_error && rests(reference_))
                 member.requirements.position_error =
-                    std::max(*member.requirements.position_error, 2 * share * size);
+                    std::max(*member.requirements.position_error, 2 * perturbation * size);
             if (stopped_()) return;
             require_judgeable(scene_, member.reference, member.requirements);
             members_.push_back(std::move(member));

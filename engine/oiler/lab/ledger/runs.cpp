@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
 #include "oiler/lab/ledger/parts.hpp"
+#include "oiler/lab/seconds_since.hpp"
 #include "oiler/scene/make_world.hpp"
 
 namespace oiler::lab {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The limit of bodies × steps of all worlds together. A step of fewer bodies than `block` counts
 /// as one of `block`.

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
 #include "oiler/lab/ledger/parts.hpp"
+#include "oiler/lab/seconds_since.hpp"
 #include "oiler/scene/make_world.hpp"
 
 namespace oiler::lab {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double timing_seconds = 2.5;
 constexpr int most_rounds = 1000;
@@ -22,10 +20,6 @@ constexpr int fewest_rounds = 9;
 constexpr double most_body_steps_per_turn = 1e6;
 /// Limits turns of links and of implicit methods.
 constexpr double most_seconds_per_turn = 5e-3;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double thread_cpu_seconds() {
     timespec time{};

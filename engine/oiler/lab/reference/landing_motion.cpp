@@ -67,9 +67,9 @@ std::optional<Real> first_negative(F f, Slope slope, Real from, Real to) {
 }
 
 /// Follows a body from piece to piece.
-class Follower {
+class LandingFollower {
 public:
-    Follower(const LinearMotion& free, std::vector<Surface> surfaces, Real until)
+    LandingFollower(const LinearMotion& free, std::vector<Surface> surfaces, Real until)
         : free_(free), surfaces_(std::move(surfaces)), until_(until), state_(free.start) {}
 
     std::optional<LandingMotion> run() {
@@ -250,7 +250,7 @@ std::optional<LandingMotion> landing_motion(const LinearMotion& free, std::span<
                                             Real radius, Real until) {
     std::vector<Surface> surfaces;
     for (const Plane& plane : planes) surfaces.push_back(surface_of(plane, radius));
-    return Follower(free, std::move(surfaces), until).run();
+    return LandingFollower(free, std::move(surfaces), until).run();
 }
 
 }  // namespace oiler::lab

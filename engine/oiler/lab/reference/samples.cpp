@@ -12,7 +12,7 @@ namespace oiler::lab {
 namespace {
 
 constexpr std::int64_t most_followed_bodies = 100'000;
-constexpr double longest = 100'000;  // s
+constexpr double longest_scene = 100'000;  // s
 constexpr double fewest_per_second = 60;
 constexpr double fewest_samples = 20;
 /// The limit of bodies × samples, which are kept in memory several times.
@@ -27,9 +27,9 @@ void require_measurable(const Scene& scene) {
              "{} bodies: at most {} can be compared with a reference; take a scene with fewer "
              "bodies of the same kind",
              bodies, most_followed_bodies);
-    if (!(scene.duration > 0) || scene.duration > longest)
+    if (!(scene.duration > 0) || scene.duration > longest_scene)
         fail(Exit::usage, "a duration of {} s cannot be measured: give --duration from 0 to {:g} s",
-             scene.duration, longest);
+             scene.duration, longest_scene);
 }
 
 SampleTimes sample_times_of(const Scene& scene, const Bodies& start, const Density& density) {

@@ -16,7 +16,7 @@ namespace {
 /// A run whose error exceeds this multiple of the extent counts as unstable.
 constexpr double lost = 10;
 
-constexpr std::int64_t highest_rate = 1'000'000;  // Hz
+constexpr std::int64_t short_steps_rate = 1'000'000;  // Hz
 /// Below this fraction of the largest coordinate, an error is never a loss of stability.
 constexpr double negligible = 1e-9;
 
@@ -178,7 +178,7 @@ Judgement judge(const Scene& scene, const Settings& settings, const Reference& r
 } catch (const Error& error) {
     // A method that cannot step the scene at any rate cannot at the highest.
     Settings short_steps = settings;
-    short_steps.stepping.rate = {highest_rate};
+    short_steps.stepping.rate = {short_steps_rate};
     if (error.exit() != Exit::usage || !why_not(scene, short_steps).empty()) throw;
     return {.stable = false};
 }

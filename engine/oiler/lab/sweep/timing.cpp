@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/seconds_since.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double frames_per_second = 60;
 /// The largest number of steps in a frame and in a call. More cost no less per step.
 constexpr std::int64_t most_steps = 256;
 /// The shortest and the longest measurement, s; a clock's resolution is tens of ns.
-constexpr double shortest = 200e-6;
-constexpr double longest = 50e-3;
-constexpr std::size_t fewest_pieces = 5;
-constexpr std::size_t most_pieces = 300;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+constexpr double shortest_timing = 200e-6;
+constexpr double longest_timing = 50e-3;
+constexpr std::size_t fewest_timings = 5;
+constexpr std::size_t most_timings = 300;
 
 /// The time that two readings of the clock take, s.
 double clock_time() {
@@ -71,8 +65,8 @@ void repeat_scene(const World& start, double duration, std::int64_t steps, Measu
     double seconds = 0;
     std::size_t pieces = 0;
     const auto is_enough = [&] {
-        return seconds > longest || pieces >= most_pieces ||
-               (seconds >= shortest && pieces >= fewest_pieces);
+        return seconds > longest_timing || pieces >= most_timings ||
+               (seconds >= shortest_timing && pieces >= fewest_timings);
     };
     while (!is_enough()) {
         World world = start;
@@ -115,8 +109,8 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
     if (start.bodies().size() == 0 || start.try_step()) return unknown;
     World probe = start;
     const double first = seconds_of_frame(probe, 1);
-    const std::int64_t steps =
-        std::clamp<std::int64_t>(std::llround(longest / std::max(first, 1e-9)), 1, most_steps);
+    const std::int64_t steps = std::clamp<std::int64_t>(
+        std::llround(longest_timing / std::max(first, 1e-9)), 1, most_steps);
     std::vector<double> calls;
     repeat_scene(start, scene.duration, steps, [&](World& world) {
         const Clock::time_point begin = Clock::now();
