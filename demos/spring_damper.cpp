@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 
 #include "oiler/app/run.hpp"
 #include "oiler/physics/closed_forms.hpp"
@@ -39,6 +40,11 @@ double round_up(double value) {
     return 10 * power;
 }
 
+/// One digit behind the point, or three digits of a large number.
+std::string metres(double x) {
+    return std::abs(x) < 1e5 ? fmt::format("{:.1f} m", x) : fmt::format("{:.3g} m", x);
+}
+
 /// A `jump` for ElementKey: curves of different scales are not interpolated.
 std::uint32_t scale_of(double scale) {
     return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(scale) >> 32U);
@@ -53,6 +59,7 @@ struct SpringDamper {
     Entity mass;
     std::vector<Sample> samples;  // of the current page
     double largest_error = 0;
+    double largest_distance = start;  // from the position of rest, m
 
     explicit SpringDamper(const Settings& settings)
         : world(1, settings),
@@ -65,36 +72,54 @@ struct SpringDamper {
             samples.clear();
         if (samples.empty() || now.t - samples.back().t >= spacing) samples.push_back(now);
         largest_error = std::max(largest_error, std::abs(now.simulated - now.exact));
+        largest_distance = std::max(largest_distance, std::abs(now.simulated));
     }
 
     Sample sample() const {
         return {world.time(), world.position(mass)[0], exact_position(world.time())};
     }
 
+    /// Half of the room for the motion, m. It grows with an unstable run.
+    double reach() const {
+        const double largest = std::max(largest_distance, std::abs(world.position(mass)[0]));
+        return 1.1 * round_up(largest / 1.1);
+    }
+
     Picture picture() const {
-        Picture picture{.camera = {.centre = {0, -560}, .height = 1800}};
+        // A camera has floats: beyond 1e37 m the mass leaves it.
+        const auto height = static_cast<float>(1.7 * std::min(reach(), 1e37));
+        Picture picture{.camera = {.centre = {0, -0.31F * height}, .height = height}};
         draw_spring(picture);
         draw_curves(picture);
         draw_labels(picture);
         return picture;
     }
 
+    /// Draws the wall beyond the reach of the mass. The spring has no length of its own: only the
+    /// distance from the position of rest, the pale line, pulls.
     void draw_spring(Picture& picture) const {
-        const Sample now = sample();
+        const float radius = picture.camera.height / 30;
+        const float wall = -0.7F * picture.camera.height;
         const Point at = to_point(world.position(mass));
         const ElementKey key = key_of(world, mass);
-        picture.polylines.push_back(
-            {.points = {{0, -90}, {0, 90}}, .width = 3, .colour = palette::ink});
+        const auto upright = [&](float x, float width, Colour colour) {
+            picture.polylines.push_back({.points = {{x, -1.5F * radius}, {x, 1.5F * radius}},
+                                         .width = width,
+                                         .colour = colour});
+        };
+        upright(wall, 3, palette::ink);
+        upright(0, 1, palette::pale);
         picture.polylines.push_back({.key = key,
-                                     .points = coil({0, 0}, at, 12, 45),
+                                     .points = coil({wall, 0}, at, 12, 0.75F * radius),
                                      .width = 1.5F,
                                      .colour = palette::grey});
         picture.discs.push_back(
-            {.key = key, .centre = at, .radius = 60, .colour = palette::vermilion});
-        picture.polylines.push_back({.key = key_of(world, mass, 1),
-                                     .points = circle({static_cast<float>(now.exact), 0}, 75),
-                                     .width = 2,
-                                     .colour = palette::sky_blue});
+            {.key = key, .centre = at, .radius = radius, .colour = palette::vermilion});
+        picture.polylines.push_back(
+            {.key = key_of(world, mass, 1),
+             .points = circle({static_cast<float>(sample().exact), 0}, 1.25F * radius),
+             .width = 2,
+             .colour = palette::sky_blue});
     }
 
     void draw_curves(Picture& picture) const {
@@ -114,24 +139,24 @@ struct SpringDamper {
         }
         for (double t = from; t <= from + page; t += page / 1000)
             exact.points.push_back({t, exact_position(t)});
-        const ElementKey key{.object = mass.id(), .part = 10, .jump = scale_of(from)};
+        const ElementKey key{.object = mass.id(), .part = 10, .jump = scale_of(from + reach())};
         Plot{.box = {{56, 152}, {624, 256}},
              .title = "",
              .x_label = "",
              .y_label = "position, m",
              .x = time,
-             .y = {-1000, 1000},
+             .y = {-reach(), reach()},
              .series = {exact, simulated}}
             .draw(picture, key);
-        const double reach = round_up(largest);
+        const double most = round_up(largest);
         Plot{.box = {{56, 36}, {624, 112}},
              .title = "",
              .x_label = "time, s",
              .y_label = "error: simulated − exact, m",
              .x = time,
-             .y = {-reach, reach},
+             .y = {-most, most},
              .series = {error}}
-            .draw(picture, {key.object, 20, scale_of(from + reach)});
+            .draw(picture, {key.object, 20, scale_of(from + most)});
     }
 
     void draw_labels(Picture& picture) const {
@@ -151,10 +176,9 @@ struct SpringDamper {
                                   .align = Align::right});
         picture.labels.push_back(
             {.at = {16, 324},
-             .text = fmt::format(
-                 "t = {:.2f} s   x = {:.1f} m   exact {:.1f} m   largest error {:.3g} m", now.t,
-                 now.simulated, now.exact,
-                 std::max(largest_error, std::abs(now.simulated - now.exact))),
+             .text = fmt::format("t = {:.2f} s   x = {}   exact {}   largest error {:.3g} m", now.t,
+                                 metres(now.simulated), metres(now.exact),
+                                 std::max(largest_error, std::abs(now.simulated - now.exact))),
              .size = 11,
              .colour = palette::ink});
     }

@@ -93,22 +93,89 @@ TEST(Region, IsWrittenAsALineForEachCell) {
     EXPECT_NEAR(radius, std::sqrt(1 - std::pow(0.75, 6) / 72 + std::pow(0.75, 8) / 576), 1e-9);
 }
 
-TEST(Atlas, NamesEveryMethodAndStaysOnTheCanvas) {
-    const StabilityGrid small{.columns = 6, .rows = 4};
-    std::vector<StabilityRegion> regions;
-    for (const oiler::Method& method : oiler::methods())
-        regions.push_back(measure_region(method, method.damping, small));
-    const oiler::Picture picture = oiler::certify::atlas(regions, small);
-    for (const oiler::Method& method : oiler::methods())
-        EXPECT_EQ(std::count_if(picture.labels.begin(), picture.labels.end(),
-                                [&](const auto& label) { return label.text == method.name; }),
-                  1)
-            << method.name;
-    for (const auto& label : picture.labels) {
-        EXPECT_GE(label.at.y, 1) << label.text;
-        EXPECT_LE(label.at.y + label.size, oiler::canvas_height) << label.text;
-        EXPECT_LE(label.at.x, oiler::canvas_width) << label.text;
+const StabilityGrid small{.columns = 6, .rows = 4};
+
+oiler::Picture atlas_of(std::size_t panels) {
+    static const std::vector<StabilityRegion> all = [] {
+        std::vector<StabilityRegion> regions;
+        for (const oiler::Method& method : oiler::methods())
+            regions.push_back(measure_region(method, method.damping, small));
+        return regions;
+    }();
+    return oiler::certify::atlas({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(panels)},
+                                 small);
+}
+
+struct Area {
+    float left, right, low, high;
+    [[nodiscard]] bool meets(const Area& other) const {
+        return left < other.right && other.left < right && low < other.high && other.low < high;
     }
+};
+
+Area area_of(const oiler::Sprite& panel) {
+    return {panel.centre.x - panel.size.x / 2, panel.centre.x + panel.size.x / 2,
+            panel.centre.y - panel.size.y / 2, panel.centre.y + panel.size.y / 2};
+}
+
+/// Its letters of DejaVu Sans are 0.49 em wide on average, as those of the longest name and the
+/// longest line of the legend, and 0.76 em high.
+Area area_of(const oiler::Label& label) {
+    const auto letters = static_cast<float>(std::count_if(
+        label.text.begin(), label.text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+    const float width = 0.49F * label.size * letters;
+    const float part = label.align == oiler::Align::left    ? 0
+                       : label.align == oiler::Align::right ? 1
+                                                            : 0.5F;
+    return {label.at.x - part * width, label.at.x + (1 - part) * width, label.at.y,
+            label.at.y + 0.76F * label.size};
+}
+
+TEST(Atlas, HasAPanelWithANameForEachMethod) {
+    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
+        const oiler::Picture picture = atlas_of(panels);
+        EXPECT_EQ(picture.sprites.size(), panels);
+        std::size_t named = 0;
+        for (const auto& label : picture.labels)
+            named += static_cast<std::size_t>(
+                std::ranges::count(oiler::methods(), label.text, &oiler::Method::name));
+        EXPECT_EQ(named, panels);
+    }
+}
+
+TEST(Atlas, HasPanelsAndLabelsThatDoNotMeetOnTheCanvas) {
+    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
+        const oiler::Picture picture = atlas_of(panels);
+        std::vector<Area> areas;
+        for (const auto& sprite : picture.sprites) areas.push_back(area_of(sprite));
+        for (const auto& label : picture.labels) areas.push_back(area_of(label));
+        for (std::size_t i = 0; i < areas.size(); ++i) {
+            EXPECT_GE(areas[i].left, 0) << panels << " panels, " << i;
+            EXPECT_LE(areas[i].right, oiler::canvas_width) << panels << " panels, " << i;
+            EXPECT_GE(areas[i].low, 2) << panels << " panels, " << i;
+            EXPECT_LE(areas[i].high, oiler::canvas_height) << panels << " panels, " << i;
+            for (std::size_t k = 0; k < i; ++k)
+                EXPECT_FALSE(areas[i].meets(areas[k]))
+                    << panels << " panels, " << i << " and " << k;
+        }
+    }
+}
+
+// The panels of a few methods cover what those of all methods do, at least: no place is lost.
+TEST(Atlas, FillsTheCanvasWithAnyNumberOfPanels) {
+    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
+        float covered = 0;
+        for (const auto& sprite : atlas_of(panels).sprites)
+            covered += sprite.size.x * sprite.size.y;
+        EXPECT_GT(covered, 0.36F * oiler::canvas_width * oiler::canvas_height) << panels;
+    }
+}
+
+// A texel for each cell, so that there is no seam between cells.
+TEST(Atlas, ShowsCellsAsOneImage) {
+    const oiler::Picture picture = atlas_of(1);
+    ASSERT_TRUE(picture.sprites.at(0).bitmap);
+    EXPECT_FALSE(picture.sprites[0].is_smooth);
 }
 
 }  // namespace

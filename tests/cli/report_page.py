@@ -172,6 +172,21 @@ class Check:
         xs, ys = zip(*points) if points else ((), ())
         self.expect(list(xs) == sorted(xs) and list(ys) == sorted(ys, reverse=True),
                     "the Pareto front goes up")
+        self.expect(not self.browser.value("""oilerReport.charts.tradeoff.data.datasets
+            .find(d => d.label === 'Pareto front').stepped"""),
+                    "the Pareto front leaves the points of the runs")
+        self.room()
+
+    def room(self):
+        """Errors from 1 m to 1 mm have a quarter of the axis, if the marks do not need more."""
+        limits = [self.data["advice"]["requirements"].get("position_error")]
+        limits += [row["position_error"] for row in self.rows
+                   if same(row, self.tradeoff["current"]) and self.place(row, "time")]
+        low, high = (self.browser.value(f"oilerReport.charts.tradeoff.scales.y.{edge}")
+                     for edge in ("min", "max"))
+        needed = min([limit for limit in limits if limit] + [1e-4])
+        self.expect(low <= needed, f"the errors begin at {low}, above {needed}")
+        self.expect(high / low < 1e12 or needed < 1e-8, f"the errors go from {low} to {high}")
 
     def filter(self):
         browser = self.browser

@@ -361,9 +361,11 @@ TEST(Plot, ListsItsNamesBesideTheBoxFromTheTop) {
     Plot plot = square;
     plot.legend_beside = true;
     for (int i = 0; i < 12; ++i)
-        plot.series.push_back({.name = "curve " + std::to_string(i), .mark = Mark::disc});
+        plot.series.push_back({.name = "curve " + std::to_string(i),
+                               .points = {{static_cast<double>(i) / 2, 0}},
+                               .mark = Mark::disc});
     const Picture picture = drawn(plot);
-    ASSERT_EQ(picture.discs.size(), 12U);
+    ASSERT_EQ(picture.discs.size(), 24U);
     float above = plot.box.high.y + 4;
     for (std::size_t i = 0; i < 12; ++i) {
         const Label& name = find(picture, "curve " + std::to_string(i));
@@ -374,6 +376,60 @@ TEST(Plot, ListsItsNamesBesideTheBoxFromTheTop) {
         above = name.at.y;
         EXPECT_GT(picture.discs[i].centre.x, plot.box.high.x);
         EXPECT_NEAR(picture.discs[i].centre.y, name.at.y + 3.5F, 1e-3F);
+    }
+}
+
+// The first curve has no point, the second none within the ranges, the third only crosses them.
+TEST(Plot, NamesOnlyCurvesThatAreDrawn) {
+    for (const bool beside : {false, true}) {
+        Plot plot = square;
+        plot.legend_beside = beside;
+        plot.series = {{.name = "none"},
+                       {.name = "outside", .points = {{0, 3}, {10, 3}}},
+                       {.name = "across", .points = {{-5, 0}, {15, 0}}}};
+        const Picture picture = drawn(plot);
+        const auto has = [&](const char* name) {
+            return std::ranges::find(picture.labels, name, &Label::text) != picture.labels.end();
+        };
+        EXPECT_FALSE(has("none"));
+        EXPECT_FALSE(has("outside"));
+        EXPECT_TRUE(has("across"));
+    }
+}
+
+TEST(Plot, WritesNotesBelowTheNamesBesideTheBox) {
+    Plot plot = with_curve({{5, 0}});
+    plot.legend_beside = true;
+    plot.series[0].name = "one\ntwo";
+    plot.notes = {"first", "second"};
+    const Picture picture = drawn(plot);
+    float above = plot.box.high.y;
+    for (const char* line : {"one", "two", "first", "second"}) {
+        const Label& label = find(picture, line);
+        EXPECT_LE(label.at.y + label.size, above + 3) << line;
+        above = label.at.y;
+    }
+}
+
+// A ring of 5.2 units around the point, on the layer above the marks, and no line.
+TEST(Marks, AroundOtherMarksHideNothing) {
+    for (const Mark mark : {Mark::halo, Mark::frame}) {
+        Plot plot = with_curve({{5, 0}, {6, 0}});
+        plot.series[0].name = "";
+        plot.series[0].width = 0;
+        plot.series[0].mark = mark;
+        const Picture picture = drawn(plot);
+        EXPECT_TRUE(picture.discs.empty());
+        std::vector<Polyline> red;
+        for (const Polyline& line : picture.polylines)
+            if (line.colour == Colour{255, 0, 0}) red.push_back(line);
+        ASSERT_EQ(red.size(), 2U);
+        for (const Polyline& line : red) {
+            EXPECT_EQ(line.layer, 1);
+            const auto [low, high] = std::ranges::minmax(line.points, {}, &Point::x);
+            EXPECT_NEAR(high.x - low.x, 10.4F, 0.1F);
+        }
+        EXPECT_NEAR(std::ranges::max(red[0].points, {}, &Point::x).x, 205.2F, 0.1F);
     }
 }
 

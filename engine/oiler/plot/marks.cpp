@@ -3,11 +3,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "oiler/picture/shapes.hpp"
 
 namespace oiler {
 namespace {
 
 constexpr float mark_radius = 2.6F;
+constexpr float large_radius = 5.2F;
 constexpr float outline = 1.1F;
 constexpr float dash = 6;
 constexpr float gap = 5;  // the round ends of the dashes narrow it by the line's width
@@ -43,9 +47,18 @@ Polygon polygon_of(Mark mark) {
 
 /// Fills the polygon with a wide outline at half its size, because pictures have no filled
 /// polygons.
-void draw_polygon(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
+void draw_filled(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
     picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.inradius()));
     picture.polylines.push_back(polygon.scaled(1, at, colour, outline));
+}
+
+/// Draws a large outline above all other marks.
+void draw_around(std::vector<Point> points, Colour colour, Picture& picture) {
+    picture.polylines.push_back({.points = std::move(points),
+                                 .width = 1.5F,
+                                 .colour = colour,
+                                 .space = Space::canvas,
+                                 .layer = 1});
 }
 
 Point point_between(Point from, Point to, float part) {
@@ -81,8 +94,16 @@ void draw_dashes(const Polyline& whole, Picture& picture) {
 
 void draw_mark(const Series& series, Point at, Picture& picture) {
     if (series.mark == Mark::none) return;
+    if (series.mark == Mark::halo)
+        return draw_around(circle(at, large_radius), series.colour, picture);
+    if (series.mark == Mark::frame) {
+        const float side = 2 * large_radius;
+        std::vector<Point> corners = rectangle(at, {side, side});
+        corners.push_back(corners.front());
+        return draw_around(std::move(corners), series.colour, picture);
+    }
     if (series.mark != Mark::disc && series.mark != Mark::ring)
-        return draw_polygon(polygon_of(series.mark), at, series.colour, picture);
+        return draw_filled(polygon_of(series.mark), at, series.colour, picture);
     const auto disc = [&](float radius, Colour colour) {
         picture.discs.push_back(
             {.centre = at, .radius = radius, .colour = colour, .space = Space::canvas});
@@ -92,6 +113,7 @@ void draw_mark(const Series& series, Point at, Picture& picture) {
 }
 
 void draw_line(const Series& series, const Polyline& whole, Picture& picture) {
+    if (series.width <= 0) return;
     if (series.dashed) return draw_dashes(whole, picture);
     picture.polylines.push_back(whole);
 }

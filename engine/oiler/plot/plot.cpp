@@ -12,6 +12,7 @@
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/marks.hpp"
+#include "oiler/plot/text_width.hpp"
 #include "oiler/plot/ticks.hpp"
 
 namespace oiler {
@@ -22,8 +23,9 @@ constexpr float label_size = 10;
 constexpr float title_size = 13;
 constexpr float caption_line = 14;
 constexpr float swatch = 16;
+constexpr float legend_line = 13;
+constexpr float note_line = 11;
 constexpr float long_swatch = 28;  // three dashes; a mark hides only the middle one
-constexpr float legend_line = 14;
 
 Polyline line(Point from, Point to, Colour colour, float width) {
     return {.points = {from, to}, .width = width, .colour = colour, .space = Space::canvas};
@@ -103,24 +105,6 @@ void draw_grid(const Plot& plot, Picture& picture) {
     picture.polylines.push_back(line(box.low, {box.low.x, box.high.y}, palette::ink, 1));
 }
 
-/// Width of a letter in ems, rounded from DejaVu Sans: a picture does not know its font.
-/// Continuation bytes of UTF-8 have width 0.
-float width_of(char letter) {
-    const auto is_in = [&](std::string_view set) { return set.find(letter) != set.npos; };
-    if ((letter & 0xC0) == 0x80) return 0;
-    if (is_in("ijlI.,:;'!- ")) return 0.32F;
-    if (is_in("frt()/")) return 0.4F;
-    if (is_in("mMwW%")) return 1;
-    if ((letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z')) return 0.66F;
-    return 0.6F;
-}
-
-float width_of(std::string_view words, float size) {
-    float width = 0;
-    for (const char letter : words) width += size * width_of(letter);
-    return width;
-}
-
 /// Splits a text into words, but keeps "t = 3.65 s" and "40 %" together.
 std::vector<std::string> unbreakable(const std::string& text) {
     const auto binds = [](char c) { return c == '=' || (c >= '0' && c <= '9'); };
@@ -138,7 +122,7 @@ std::vector<std::string> unbreakable(const std::string& text) {
 std::vector<std::string> lines_of(const std::vector<std::string>& parts, float size, float width) {
     std::vector<std::string> lines;
     for (const std::string& part : parts) {
-        if (lines.empty() || width_of(lines.back() + ' ' + part, size) > width)
+        if (lines.empty() || text_width(lines.back() + ' ' + part, size) > width)
             lines.push_back(part);
         else
             lines.back() += ' ' + part;
@@ -180,13 +164,32 @@ void draw_swatch(const Series& series, Point left, float width, Picture& picture
     draw_mark(series, {left.x + width / 2, left.y}, picture);
 }
 
+bool is_within(const Plot& plot, const DataPoint& at) {
+    const auto is_in = [](double value, Range range) {
+        return value >= range.low && value <= range.high;
+    };
+    return is_in(at.x, plot.x) && is_in(at.y, plot.y);
+}
+
+/// Whether a series has an entry in the legend: a name, and a point or a segment in the box.
+bool is_named(const Plot& plot, const Series& series) {
+    if (series.name.empty()) return false;
+    const auto is_in = [&](const DataPoint& at) { return is_within(plot, at); };
+    if (std::ranges::any_of(series.points, is_in)) return true;
+    for (std::size_t i = 1; i < series.points.size(); ++i)
+        if (clip(on_canvas(plot, series.points[i - 1]), on_canvas(plot, series.points[i]),
+                 plot.box))
+            return true;
+    return false;
+}
+
 /// Draws names and swatches on the line of the y label, from its right end to the left.
 void draw_legend_above(const Plot& plot, Picture& picture) {
     float right = plot.box.high.x;
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series) {
-        if (series->name.empty()) continue;
+        if (!is_named(plot, *series)) continue;
         Label name = text({right, plot.box.high.y + 6}, series->name, label_size, Align::right);
-        const float left = right - width_of(series->name, label_size) - 4;
+        const float left = right - text_width(series->name, label_size) - 4;
         picture.labels.push_back(std::move(name));
         const float width = series->dashed ? long_swatch : swatch;
         draw_swatch(*series, {left - width, plot.box.high.y + 9.5F}, width, picture);
@@ -194,19 +197,26 @@ void draw_legend_above(const Plot& plot, Picture& picture) {
     }
 }
 
-/// Draws names and swatches beside the box, from its top down. Many names are closer together.
+/// Draws names and swatches beside the box, from its top down, and the notes below them. Many names
+/// are closer together.
 void draw_legend_beside(const Plot& plot, Picture& picture) {
     const Box& box = plot.box;
-    const auto names = std::ranges::count_if(
-        plot.series, [](const Series& series) { return !series.name.empty(); });
+    std::ptrdiff_t names = 0;
+    for (const Series& series : plot.series)
+        if (is_named(plot, series)) names += 1 + std::ranges::count(series.name, '\n');
     const float pitch = std::min(legend_line, (box.high.y - box.low.y) / static_cast<float>(names));
-    float y = box.high.y - pitch / 2;
+    float y = box.high.y - pitch / 2 - 3.5F;
     for (const Series& series : plot.series) {
-        if (series.name.empty()) continue;
-        draw_swatch(series, {box.high.x + 10, y}, long_swatch, picture);
-        picture.labels.push_back(
-            text({box.high.x + long_swatch + 16, y - 3.5F}, series.name, label_size, Align::left));
-        y -= pitch;
+        if (!is_named(plot, series)) continue;
+        draw_swatch(series, {box.high.x + 10, y + 3.5F}, long_swatch, picture);
+        std::istringstream lines(series.name);
+        for (std::string words; std::getline(lines, words); y -= pitch)
+            picture.labels.push_back(
+                text({box.high.x + long_swatch + 16, y}, words, label_size, Align::left));
+    }
+    for (const std::string& words : plot.notes) {
+        picture.labels.push_back(text({box.high.x + 10, y}, words, tick_size, Align::left));
+        y -= note_line;
     }
 }
 
@@ -235,12 +245,8 @@ void draw_curve(const Plot& plot, const Series& series, ElementKey key, Picture&
 }
 
 void draw_marks(const Plot& plot, const Series& series, Picture& picture) {
-    const auto within = [](double value, Range range) {
-        return value >= range.low && value <= range.high;
-    };
     for (const DataPoint& at : series.points)
-        if (within(at.x, plot.x) && within(at.y, plot.y))
-            draw_mark(series, plot.to_canvas(at), picture);
+        if (is_within(plot, at)) draw_mark(series, plot.to_canvas(at), picture);
 }
 
 }  // namespace

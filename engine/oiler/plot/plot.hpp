@@ -22,15 +22,16 @@ struct DataPoint {
 };
 
 /// The shape at each point of a curve. Shapes are distinct without colours. All but the disc are
-/// hollow.
-enum class Mark : std::uint8_t { none, disc, ring, square, diamond, triangle };
+/// hollow. `halo` and `frame` are a large ring and a large square, for single points of other
+/// curves: they lie above all marks and hide none.
+enum class Mark : std::uint8_t { none, disc, ring, square, diamond, triangle, halo, frame };
 
-/// One curve of a plot, with its entry in the legend.
+/// One curve of a plot, with its entry in the legend. A curve without a visible point has none.
 struct Series {
-    std::string name{};
+    std::string name{};  ///< in a legend beside the box, also several lines
     Colour colour{};
     std::vector<DataPoint> points{};
-    float width = 1.5F;
+    float width = 1.5F;  ///< 0: only marks
     Mark mark = Mark::none;
     bool dashed = false;  ///< dashed curves are never interpolated
 };
@@ -53,7 +54,8 @@ struct Plot {
     std::vector<Series> series{};
     int x_ticks = 8;  ///< approximate number
     int y_ticks = 4;
-    bool legend_beside = false;  ///< beside the box, not above it: for many or long names
+    bool legend_beside = false;        ///< beside the box, not above it: for many or long names
+    std::vector<std::string> notes{};  ///< small lines below a legend beside the box
 
     /// Adds the plot to `picture`. `key.object` identifies the plot. A change of `key.jump`, for
     /// example with new ranges, stops the interpolation of its curves. Marks are never

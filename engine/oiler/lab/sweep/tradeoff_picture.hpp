@@ -9,7 +9,7 @@
 
 namespace oiler::lab {
 
-/// The methods shown in diagrams, at most eight: the scene's own, the obvious methods, and those
+/// The methods shown in diagrams, at most six: the scene's own, the obvious methods, and those
 /// with the most rows on the Pareto front.
 [[nodiscard]] std::vector<const Method*> notable_methods(const Tradeoff& tradeoff);
 
@@ -21,8 +21,9 @@ struct CostAxis {
     std::string unit_name{};
 };
 
-/// Draws error over cost, both logarithmic: a curve for each notable method in double, the Pareto
-/// front of all methods in both precisions, and the cheapest setting for each power of ten.
+/// Draws error over cost, both logarithmic: a curve for each notable method in double, above a band
+/// that is the Pareto front of all methods in both precisions; the current setting; and the
+/// cheapest settings for up to four tolerances.
 [[nodiscard]] Picture work_precision(const Tradeoff& tradeoff, const CostAxis& axis);
 
 /// Draws the largest energy drift so far over time, relative to Reference::energy_scale, for at
