@@ -13,7 +13,7 @@
 namespace oiler::certify {
 namespace {
 
-constexpr Box area{{16, 8}, {632, 328}};  // of all panels and the legend
+constexpr Box panels_box{{16, 8}, {632, 328}};  // of all panels and the legend
 constexpr float text_size = 8;
 constexpr float numbers = text_size + 2;  // height of those below the lowest panels
 constexpr Point margin{14, 4};            // of a panel: for its numbers on the left, for air below
@@ -29,13 +29,14 @@ constexpr Colour differs = palette::vermilion;
 struct Layout {
     int panels;
     int across;
-    Point cell{};                 ///< a panel with its margins and its title
-    Point legend{area.low.x, 0};  ///< upper left corner
+    Point cell{};                       ///< a panel with its margins and its title
+    Point legend{panels_box.low.x, 0};  ///< upper left corner
     int legend_columns = 2;
 
     Layout(int count, int in_a_row) : panels(count), across(in_a_row) {
-        const float width = (area.high.x - area.low.x) / static_cast<float>(across);
-        float height = (area.high.y - area.low.y - numbers) / static_cast<float>(rows());
+        const float width = (panels_box.high.x - panels_box.low.x) / static_cast<float>(across);
+        float height =
+            (panels_box.high.y - panels_box.low.y - numbers) / static_cast<float>(rows());
         const float empty = static_cast<float>(empty_places()) * width;
         constexpr float half = half_legend * legend_line;
         const bool is_column = empty < 2 * legend_column && height > 2 * half + text_size;
@@ -43,7 +44,7 @@ struct Layout {
         if (!is_beside) height -= (half + text_size) / static_cast<float>(rows());
         cell.y = std::min(height, 1.35F * width);
         cell.x = std::min(width, 2.2F * cell.y);
-        legend.y = area.low.y + half;
+        legend.y = panels_box.low.y + half;
         if (!is_beside) return;
         legend.x += static_cast<float>(across - empty_places()) * cell.x + margin.x;
         if (!is_column) return;
@@ -52,12 +53,12 @@ struct Layout {
     }
     [[nodiscard]] int rows() const { return (panels + across - 1) / across; }
     [[nodiscard]] int empty_places() const { return rows() * across - panels; }
-    [[nodiscard]] bool has_legend_beside() const { return legend.x > area.low.x; }
+    [[nodiscard]] bool has_legend_beside() const { return legend.x > panels_box.low.x; }
     [[nodiscard]] float title_size() const { return std::clamp(0.08F * cell.y, 7.5F, 12.0F); }
     [[nodiscard]] Box plane(int place) const {
         const auto column = static_cast<float>(place % across);
         const auto row = static_cast<float>(place / across);
-        const Point corner{area.low.x + column * cell.x, area.high.y - row * cell.y};
+        const Point corner{panels_box.low.x + column * cell.x, panels_box.high.y - row * cell.y};
         return {{corner.x + margin.x, corner.y - cell.y + margin.y},
                 {corner.x + cell.x - 4, corner.y - 1.5F * title_size()}};
     }

@@ -17,7 +17,7 @@ using Offset = Vec<double, 3>;
 /// A part of a step is divided while the cubic through its ends may deviate by more than this
 /// fraction of the largest distance.
 constexpr double tolerable_bend = 0.01;
-constexpr int points = 16;
+constexpr int points_of_line = 16;
 
 Offset narrowed(const Real3& a) {
     return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
@@ -89,8 +89,8 @@ bool DrawnError::may_exceed(const DrawnStep& step, const Part& part, double most
 }
 
 void DrawnError::sample(const Part& part, const Offset& p, const Offset& q) {
-    for (int point = 1; point < points; ++point) {
-        const double s = static_cast<double>(point) / points;
+    for (int point = 1; point < points_of_line; ++point) {
+        const double s = static_cast<double>(point) / points_of_line;
         const Offset bent = (p * (1 - s) - q * s) * (s * (1 - s));
         const Offset offset = part.offset_from * (1 - s) + part.offset_to * s - bent;
         most_ = larger(most_, length(offset));
