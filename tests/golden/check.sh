@@ -23,7 +23,9 @@ capture() {
 for demo in hello jump spring_damper projectile bounce integrator_race jump_rates; do
     capture "$demo" "$programs/$demo"
 done
-capture cannon "$programs/cannon" --script "$here/../../demos/scripts/cannon.txt"
+for demo in cannon cloth stability_map; do
+    capture "$demo" "$programs/$demo" --script "$here/../../demos/scripts/$demo.txt"
+done
 for scene in article_spring article_spring_undamped chain cloth jump orbit salvo stiff_and_soft; do
     capture "scene_$scene" "$programs/oiler" play "$here/../../assets/scenes/$scene.toml"
 done

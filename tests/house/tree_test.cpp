@@ -50,11 +50,21 @@ const Texts& all_files() {
     return texts;
 }
 
-/// The source files that CMake compiles, by their paths in the source tree.
+/// The source files that CMake compiles, alone or in a file that includes several, by their paths
+/// in the source tree.
 std::set<fs::path> compiled_files() {
     std::set<fs::path> files;
-    for (const auto& command : nlohmann::json::parse(read(compile_commands)))
-        files.insert(fs::path(command.at("file").get<std::string>()).lexically_relative(source));
+    const auto add = [&](const fs::path& file) { files.insert(file.lexically_relative(source)); };
+    for (const auto& command : nlohmann::json::parse(read(compile_commands))) {
+        const fs::path file = command.at("file").get<std::string>();
+        if (file.parent_path().filename() != "Unity") {
+            add(file);
+            continue;
+        }
+        std::istringstream lines(read(file));
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with("#include \"")) add(line.substr(10, line.size() - 11));
+    }
     return files;
 }
 

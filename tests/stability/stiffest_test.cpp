@@ -13,7 +13,7 @@ namespace {
 Stiffest stiffest(const Bodies& bodies, const char* method, std::int64_t rate = 100) {
     StiffestFinder finder;
     const Stepping stepping{.method = &find_method(method), .rate = {rate}};
-    const auto found = finder.find(StiffestFinder::oscillations_of(bodies, stepping), stepping);
+    const auto found = finder.find(StiffestFinder::suspects_of(bodies, stepping), stepping);
     EXPECT_TRUE(found);
     return found.value_or(Stiffest{});
 }
@@ -41,7 +41,7 @@ TEST(Stiffest, HasNoLimitOrAlwaysExceedsIt) {
     EXPECT_TRUE(std::isinf(stiffest(two_springs(), "implicit_midpoint").limit));
     const Bodies alone(1, Precision::double_);
     StiffestFinder finder;
-    EXPECT_FALSE(finder.find(StiffestFinder::oscillations_of(alone, {}), {}));
+    EXPECT_FALSE(finder.find(StiffestFinder::suspects_of(alone, {}), {}));
 }
 
 // ω = 10/s with ζ = 0.5 has c = 10/s: explicit Euler is stable up to ω·dt = 1. ζ = 0.25 has the
@@ -65,6 +65,36 @@ TEST(Stiffest, NamesBothEndsOfALink) {
     const Stiffest found = stiffest(bodies, "semi_implicit_euler");
     EXPECT_EQ(found.row + *found.linked, 1U);
     EXPECT_NEAR(found.measure, std::sqrt(200) / 100, 1e-12);
+}
+
+// Three masses of 1 kg on three springs of 100 N/m: a triangle breathes with ω² = 3·100, in
+// whatever direction it lies. The sum of the springs at two ends would be 4·100. The other
+// oscillations have ω² = 1.5·100 twice and 0 three times. The told value may be up to 1 % above.
+TEST(Stiffest, IsTheFastestOscillationOfWhatLinksConnect) {
+    Bodies bodies(2, Precision::double_);
+    for (const double angle : {0.3, 0.3 + 2.0943951023931953, 0.3 + 4.1887902047863905})
+        bodies.add(Body{.position = {std::cos(angle), std::sin(angle)}});
+    for (const auto& [a, b] : {std::pair{0U, 1U}, {1U, 2U}, {2U, 0U}})
+        bodies.link(a, b, Link{.stiffness = 100, .rest_length = std::sqrt(3.0)});
+    bodies.add(Body{.position = {9}}, Spring{.stiffness = 250});
+    const Stiffest found = stiffest(bodies, "semi_implicit_euler");
+    EXPECT_TRUE(found.linked);
+    EXPECT_GE(found.measure, std::sqrt(300) / 100 * (1 - 1e-9));
+    EXPECT_LE(found.measure, std::sqrt(300) / 100 * 1.01);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
+}
+
+// Two masses of 1 kg on a damper of 80 N·s/m alone: their distance decays with c = 2·80, and
+// explicit Euler is stable up to c·dt = 2.
+TEST(Stiffest, IsADamperWithoutASpring) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{.position = {0}});
+    bodies.add(Body{.position = {1}});
+    bodies.link(0, 1, Link{.damping = 80, .rest_length = 1});
+    const Stiffest found = stiffest(bodies, "explicit_euler");
+    EXPECT_EQ(found.row + *found.linked, 1U);
+    EXPECT_NEAR(found.measure, 1.6, 1e-9);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <cstdio>
 
+#include "oiler/core/seconds_since.hpp"
+
 namespace oiler {
 
 void fill_closed_streams() {
@@ -28,8 +30,7 @@ Progress::~Progress() {
 }
 
 std::string Progress::time_left(double share) const {
-    const double passed =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double passed = seconds_since(start_);
     const double left = passed * (1 - share) / share;
     // Too short to be of interest, or too early for an estimate.
     if (share < 0.02 || passed < 1 || left < 1) return "";

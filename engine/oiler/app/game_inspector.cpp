@@ -86,8 +86,8 @@ void GameInspector::find_stiffest(bool waits) {
         next_stiffest_ = now + period;
         finding_ = std::async(
             std::launch::async,
-            [this, stepping, all = StiffestFinder::oscillations_of(world.bodies(), stepping)] {
-                return finder_.find(all, stepping);
+            [this, stepping, suspects = StiffestFinder::suspects_of(world.bodies(), stepping)] {
+                return finder_.find(suspects, stepping);
             });
     }
     if (!finding_.valid()) return;

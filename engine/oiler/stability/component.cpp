@@ -88,6 +88,18 @@ double Component::energy(const Coupling& coupling, const WeightedVectors& u) con
     return coupling.along * along * along + coupling.all * squared_length(d);
 }
 
+const Coupling* Component::most_strained(const WeightedVectors& u) const {
+    const Coupling* strained = nullptr;
+    double most = 0;
+    for (const auto* couplings : {&springs, &dampers})
+        for (const Coupling& coupling : *couplings)
+            if (const double held = energy(coupling, u); held > most) {
+                most = held;
+                strained = &coupling;
+            }
+    return strained;
+}
+
 std::vector<std::size_t> component_labels(const Bodies& bodies) {
     std::vector<std::size_t> label(bodies.size());
     std::iota(label.begin(), label.end(), std::size_t{0});

@@ -46,6 +46,8 @@ struct Component {
                      WeightedVectors& to) const;
     /// The energy of a coupling at the mass-weighted displacements, times 2.
     [[nodiscard]] double energy(const Coupling& coupling, const WeightedVectors& u) const;
+    /// The spring that holds the most energy; a damper if no spring holds any. Null without either.
+    [[nodiscard]] const Coupling* most_strained(const WeightedVectors& u) const;
 };
 
 /// Labels the rows by their component: the smallest row that links connect with a row.

@@ -163,19 +163,11 @@ private:
                   .omega_dt = oscillations_[i].omega_dt,
                   .damping_dt = oscillations_[i].damping_dt,
                   .oscillations = oscillations_};
-        double most = 0;
-        for (const auto* couplings : {&component_->springs, &component_->dampers})
-            for (const Coupling& coupling : *couplings)
-                blame(coupling, component_->energy(coupling, vectors_[i]), most, risk);
+        if (const Coupling* const most = component_->most_strained(vectors_[i])) {
+            risk.row = component_->rows[most->a];
+            if (most->b != Coupling::ground) risk.linked = component_->rows[most->b];
+        }
         return risk;
-    }
-    /// Names the spring that holds the most energy; a damper only if no spring holds any.
-    void blame(const Coupling& coupling, double energy, double& most, Risk& risk) const {
-        if (!(energy > most)) return;
-        most = energy;
-        risk.row = component_->rows[coupling.a];
-        risk.linked.reset();
-        if (coupling.b != Coupling::ground) risk.linked = component_->rows[coupling.b];
     }
 
     std::shared_ptr<const Component> component_;

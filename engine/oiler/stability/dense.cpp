@@ -145,9 +145,12 @@ Mode fastest_damping(const Component& component, bool dampers_split) {
 
 Mode highest_mode(const std::vector<double>& diagonal, const std::vector<double>& beside) {
     const auto size = static_cast<Index>(diagonal.size());
-    Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
-    solver.computeFromTridiagonal(Eigen::Map<const VectorXd>(diagonal.data(), size),
-                                  Eigen::Map<const VectorXd>(beside.data(), size - 1));
+    MatrixXd matrix = MatrixXd::Zero(size, size);
+    matrix.diagonal() = Eigen::Map<const VectorXd>(diagonal.data(), size);
+    matrix.diagonal(-1) = Eigen::Map<const VectorXd>(beside.data(), size - 1);
+    // computeFromTridiagonal does not converge, and does not sort, if a number beside the diagonal
+    // is of the size of round-off.
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(matrix);
     return mode_of(solver, size - 1);
 }
 

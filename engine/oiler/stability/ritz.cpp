@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t fewest_iterations = 32;
 constexpr std::size_t most_iterations_of_lanczos = 128;
 constexpr double wanted_residual = 0.02;
+constexpr double breakdown = 1e-12;
 
 double inner(const WeightedVectors& a, const WeightedVectors& b) {
     double sum = 0;
@@ -115,7 +116,9 @@ RitzPair highest_ritz_pair(const Component& component, const MatrixSum& sum) {
         recurrence.multiply();
         diagonal.push_back(recurrence.diagonal());
         beside.push_back(recurrence.beside());
-        const bool is_last = diagonal.size() == most || !(beside.back() > 0);
+        // The vectors so far are all that the matrix makes of the start.
+        const bool is_whole = !(beside.back() > breakdown * std::abs(diagonal.front()));
+        const bool is_last = diagonal.size() == most || is_whole;
         if (!is_last && diagonal.size() % fewest_iterations != 0) continue;
         highest = highest_mode(diagonal, beside);
         residual = std::abs(beside.back() * highest.vector.back());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oiler/stability/region.hpp"
+#include "oiler/stability/ritz.hpp"
 
 namespace oiler {
 
@@ -14,29 +15,67 @@ Damping damping_of(const Stepping& stepping) {
     return stepping.damping.value_or(stepping.method->damping);
 }
 
-}  // namespace
-
-std::vector<BodyOscillation> StiffestFinder::oscillations_of(const Bodies& bodies,
-                                                             const Stepping& stepping) {
-    return oscillations(bodies, splits_dampers(*stepping.method, damping_of(stepping)));
+bool splits_dampers(const Stepping& stepping) {
+    return splits_dampers(*stepping.method, damping_of(stepping));
 }
 
-std::optional<Stiffest> StiffestFinder::find(const std::vector<BodyOscillation>& oscillations,
-                                             const Stepping& stepping) {
-    std::optional<Stiffest> stiffest;
-    for (const BodyOscillation& one : oscillations) {
-        // Negative stiffness or damping diverges by itself with any method.
-        const double omega = std::sqrt(std::max(one.of.k, 0.0));
-        const double c = std::max(one.of.c, 0.0);
-        const double fastest = std::max(omega, c);
-        if (!(fastest > 0) || !std::isfinite(fastest)) continue;
-        const double measure = fastest * stepping.rate.dt();
-        const double most =
-            limit(*stepping.method, damping_of(stepping), omega / fastest, c / fastest);
-        if (!stiffest || measure * stiffest->limit > stiffest->measure * most)
-            stiffest = Stiffest{one.row, one.linked, measure, most};
+/// The fastest oscillations of a component by its stiffness and by its damping.
+std::vector<BodyOscillation> fastest(const Component& component, bool dampers_split) {
+    const MatrixSum stiffness{1, 0, dampers_split}, damping{0, 1, dampers_split};
+    std::vector<BodyOscillation> found;
+    for (const MatrixSum& sum : {stiffness, damping}) {
+        const RitzPair pair = highest_ritz_pair(component, sum);
+        if (!(pair.value > 0)) continue;
+        BodyOscillation one{component.rows.front(),
+                            std::nullopt,
+                            {quotient(component, stiffness, pair.vector),
+                             quotient(component, damping, pair.vector)}};
+        (sum.stiffness > 0 ? one.of.k : one.of.c) = pair.value + pair.residual;
+        if (const Coupling* const most = component.most_strained(pair.vector)) {
+            one.row = component.rows[most->a];
+            if (most->b != Coupling::ground) one.linked = component.rows[most->b];
+        }
+        found.push_back(one);
     }
+    return found;
+}
+
+}  // namespace
+
+StiffestFinder::Suspects StiffestFinder::suspects_of(const Bodies& bodies,
+                                                     const Stepping& stepping) {
+    Suspects suspects{oscillations(bodies, splits_dampers(stepping))};
+    if (bodies.link_count() == 0) return suspects;
+    const std::vector<bool> linked = bodies.linked_rows();
+    std::erase_if(suspects.alone, [&](const BodyOscillation& one) { return linked[one.row]; });
+    suspects.linked = linked_components(bodies, component_labels(bodies));
+    return suspects;
+}
+
+std::optional<Stiffest> StiffestFinder::find(const Suspects& suspects, const Stepping& stepping) {
+    std::optional<Stiffest> stiffest;
+    const auto consider = [&](const BodyOscillation& one) {
+        const Stiffest found = judge(one, stepping);
+        if (!(found.measure > 0) || !std::isfinite(found.measure)) return;
+        if (!stiffest || found.measure * stiffest->limit > stiffest->measure * found.limit)
+            stiffest = found;
+    };
+    for (const BodyOscillation& one : suspects.alone) consider(one);
+    for (const Component& component : suspects.linked)
+        for (const BodyOscillation& one : fastest(component, splits_dampers(stepping)))
+            consider(one);
     return stiffest;
+}
+
+Stiffest StiffestFinder::judge(const BodyOscillation& one, const Stepping& stepping) {
+    // Negative stiffness or damping diverges by itself with any method.
+    const double omega = std::sqrt(std::max(one.of.k, 0.0));
+    const double c = std::max(one.of.c, 0.0);
+    const double fastest = std::max(omega, c);
+    Stiffest found{one.row, one.linked, fastest * stepping.rate.dt()};
+    if (fastest > 0 && std::isfinite(fastest))
+        found.limit = limit(*stepping.method, damping_of(stepping), omega / fastest, c / fastest);
+    return found;
 }
 
 double StiffestFinder::limit(const Method& method, Damping damping, double omega, double c) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oiler/physics/stepping.hpp"
+#include "oiler/stability/component.hpp"
 #include "oiler/stability/oscillations.hpp"
 
 namespace oiler {
@@ -20,19 +21,23 @@ struct Stiffest {
     double limit = 0;                     ///< the largest stable measure; infinite: any is stable
 };
 
-/// Finds the stiffest spring or damper again and again while a run goes on. What links connect gets
-/// an upper bound, see oscillations(). Limits take some tens of milliseconds, so they are kept,
-/// each for the damping ratios that agree in two digits.
+/// Finds the stiffest spring or damper again and again while a run goes on. Of what links connect,
+/// it is the fastest oscillation at the present positions, which is at most 1 % slower than told.
+/// Limits take some tens of milliseconds, so they are kept, each for the damping ratios that agree
+/// in two digits.
 class StiffestFinder {
 public:
     /// What find() judges, of bodies as they are now.
-    [[nodiscard]] static std::vector<BodyOscillation> oscillations_of(const Bodies& bodies,
-                                                                      const Stepping& stepping);
+    struct Suspects {
+        std::vector<BodyOscillation> alone{};
+        std::vector<Component> linked{};
+    };
+    [[nodiscard]] static Suspects suspects_of(const Bodies& bodies, const Stepping& stepping);
     /// Empty if nothing oscillates or is damped.
-    [[nodiscard]] std::optional<Stiffest> find(const std::vector<BodyOscillation>& oscillations,
-                                               const Stepping& stepping);
+    [[nodiscard]] std::optional<Stiffest> find(const Suspects& suspects, const Stepping& stepping);
 
 private:
+    [[nodiscard]] Stiffest judge(const BodyOscillation& one, const Stepping& stepping);
     [[nodiscard]] double limit(const Method& method, Damping damping, double omega, double c);
 
     std::map<std::tuple<const Method*, Damping, int, int>, double> limits_;

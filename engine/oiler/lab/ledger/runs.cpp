@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/seconds_since.hpp"
 #include "oiler/lab/ledger/parts.hpp"
-#include "oiler/lab/seconds_since.hpp"
 #include "oiler/scene/make_world.hpp"
 
 namespace oiler::lab {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 /// The limit of bodies × steps of all worlds together. A step of fewer bodies than `block` counts
 /// as one of `block`.

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 
+#include "oiler/core/seconds_since.hpp"
 #include "oiler/lab/ledger/parts.hpp"
-#include "oiler/lab/seconds_since.hpp"
 #include "oiler/scene/make_world.hpp"
 
 namespace oiler::lab {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 constexpr double timing_seconds = 2.5;
 constexpr int most_rounds = 1000;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/seconds_since.hpp"
+#include "oiler/core/seconds_since.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 constexpr double frames_per_second = 60;
 /// The largest number of steps in a frame and in a call. More cost no less per step.
