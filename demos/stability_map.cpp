@@ -263,15 +263,10 @@ struct StabilityMap {
         curve(std::move(border), 2);
         curve({{omega_dt(), 0}, {omega_dt(), most_damped}}, 1);
         curve({{0, zeta()}, {widest, zeta()}}, 1);
-        plot.draw(picture, {});
-        Point at_name{160, map_box.high.y + 10};
         for (const auto& [colour, name] :
-             {std::pair{rests, "rests"}, {rings, "rings"}, {palette::vermilion, "explodes"}}) {
-            picture.polygons.push_back(
-                {.points = rectangle(at_name, {9, 9}), .colour = colour, .space = Space::canvas});
-            text(picture, {at_name.x + 8, at_name.y - 3}, 9, name);
-            at_name.x += 53;
-        }
+             {std::pair{rests, "rests"}, {rings, "rings"}, {palette::vermilion, "explodes"}})
+            plot.series.push_back({.name = name, .colour = colour, .points = {{0, 0}}, .width = 8});
+        plot.draw(picture, {});
         const Point at = plot.to_canvas({omega_dt(), zeta()});
         disc(picture, at, 6, palette::ink);
         disc(picture, at, 4, palette::paper);

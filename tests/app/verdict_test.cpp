@@ -70,8 +70,8 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     const Verdict good = judge(measured(0.009, 0, 0));
     EXPECT_EQ(good.grade, Grade::good);
     EXPECT_EQ(good.text,
-              "Within 9 mm of the true motion, less than a pixel, at 60 Hz semi_implicit_euler.");
-    EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("Within 10 µm"), std::string::npos)
+              "Each step is within 9 mm of the true motion, less than a pixel, at 60 Hz semi_implicit_euler.");
+    EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("within 10 µm"), std::string::npos)
         << "no more is known";
     WhatIf unsure = measured(0.001, 0, 0);
     unsure.uncertainty = 0.003;
@@ -277,6 +277,30 @@ TEST(PlayAlong, EndsAfterAFewStepsIfTheyTakeTooLong) {
     while (frames < 60 && along.verdict(game).text.find("cannot keep up") == std::string::npos)
         along.play_until(++frames);
     EXPECT_LE(frames, 9) << "the first comparison takes no step, and may be late";
+    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+}
+
+/// A game without bodies.
+struct Empty {
+    static constexpr About about{.name = "empty", .title = "Empty", .rate = 60};
+    World world;
+    explicit Empty(const Settings& settings) : world(1, settings) {}
+    void update(const Input&) {}
+};
+
+TEST(PlayAlong, ClaimsNoErrorOfAGameWithoutBodies) {
+    Options options;
+    options.settings.stepping.rate = {60};
+    AnyGameOf<Empty> game(options.settings);
+    OnePress player;
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<Empty>>(own);
+    };
+    PlayAlong along(player, options, Empty::about, make, PlayAlong::Pace::own);
+    game.step(0, 60, along);
+    along.play_until(60);
+    EXPECT_EQ(along.verdict(game).text,
+              "what the timestep costs is not measured: there are no bodies");
     EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
 }
 

@@ -223,6 +223,28 @@ TEST(WhatIf, NamesNoDistanceWhereNothingWasCompared) {
     EXPECT_EQ(result.runs[1].other_play_from, 2 / 60.0);
 }
 
+/// A game whose world has no body, or one from 1 s on.
+template <bool Spawns>
+struct Late {
+    static constexpr About about{.name = "late", .title = "Late", .rate = rate};
+    World world;
+    explicit Late(const Settings& settings) : world(1, settings) {}
+    void update(const Input&) {
+        if (Spawns && world.tick() == world.settings().stepping.rate.steps)
+            static_cast<void>(world.spawn(Body{}));
+    }
+};
+
+TEST(WhatIf, NamesNoDistanceWithoutBodies) {
+    const WhatIf without = measure<Late<false>>(record<Late<false>>(), "30");
+    for (const WhatIfRun& run : without.runs) EXPECT_TRUE(std::isnan(run.distance));
+    EXPECT_EQ(without.uncertainty, 0);
+    EXPECT_GT(without.certain_until, 0);
+    const WhatIf with = measure<Late<true>>(record<Late<true>>(), "30");
+    for (const WhatIfRun& run : with.runs) EXPECT_EQ(run.distance, 0);
+    EXPECT_EQ(with.uncertainty, 0);
+}
+
 // g·dt·t/2 exceeds 1 cm at 0.06 s at 60 Hz and at 0.12 s at 120 Hz. The late push of 30 Hz leaves
 // the body 5/60 m lower from step 46 on, 0.767 s. There, one push is still missing, so that it is
 // counted one step of 30 Hz later.

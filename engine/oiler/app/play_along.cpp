@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "oiler/app/what_if_settings.hpp"
@@ -131,6 +132,8 @@ const Verdict& PlayAlong::verdict(const AnyGame& game) {
         measured_ = runs_->result();
         verdict_ = verdict_of(*measured_, readings_, begin_->time,
                               [&](Entity body) { return game.name_of(body); });
+        if (std::isnan(measured_->runs.front().distance) && game.world().bodies().size() == 0)
+            verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
         readings_ = measured_->runs.front().readings;
         next_verdict_ = Clock::now() + time_of_verdict;
     }

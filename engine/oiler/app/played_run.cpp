@@ -126,7 +126,8 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
     }
     differs_from_.reset();
     result_.distance_now = apart->distance;
-    if (recorded > 0 && !(apart->distance <= result_.distance)) {
+    const bool has_bodies = !reference.bodies.empty();
+    if (recorded > 0 && has_bodies && !(apart->distance <= result_.distance)) {
         result_.distance = apart->distance;
         result_.furthest = apart->body;
     }

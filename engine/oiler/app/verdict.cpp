@@ -145,8 +145,9 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, d
                 reading_text(measured, *reading) + cure_text(measured) + limit};
     if (known == 0) return {grade, fmt::format("No error so far at {}.{}", setting, limit)};
     if (grade == Grade::good)
-        return {grade, fmt::format("Within {} of the true motion, less than a pixel, at {}.{}",
-                                   length_text(known), setting, limit)};
+        return {grade, fmt::format(
+                           "Each step is within {} of the true motion, less than a pixel, at {}.{}",
+                           length_text(known), setting, limit)};
     if (grade == Grade::unknown)
         return {grade,
                 fmt::format("Off by less than {} at {}. The true motion is not known better.{}",

@@ -2,6 +2,7 @@
 #include "oiler/app/what_if_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
@@ -102,7 +103,8 @@ void WhatIfRuns::compare(std::int64_t step) {
     certain_ = !check_.result().other_play_from && !check_.result().visible_from;
     if (!certain_ || check_.differs()) return;
     certain_until_ = time;
-    if (step > 0) uncertainty_ = check_.result().distance;
+    if (const double distance = check_.result().distance; !std::isnan(distance))
+        uncertainty_ = distance;
     for (const auto& run : runs_) run->compare(step, time, moment, pixel_ + uncertainty_);
 }
 

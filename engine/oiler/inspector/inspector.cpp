@@ -125,7 +125,7 @@ struct Inspector::Impl {
     static void show_settings(const Inspected& run, Wishes& wishes) {
         if (run.settings.empty()) return;
         ImGui::Separator();
-        text(fmt::format("Off the true motion {}", since(run)));
+        text(fmt::format("Off the true motion at the steps, {}", since(run)));
         if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingFixedFit)) return;
         for (const char* name : {"", "at most", "a frame", ""}) ImGui::TableSetupColumn(name);
         ImGui::TableHeadersRow();
@@ -159,7 +159,7 @@ struct Inspector::Impl {
                          {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()});
     }
 
-    /// How far the stiffest spring is from breaking.
+    /// How far the stiffest spring or damper is from breaking.
     static void show_gauge(const Inspected& run) {
         if (!run.stiffest) return;
         constexpr double near = 0.8;

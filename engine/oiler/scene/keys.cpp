@@ -150,7 +150,8 @@ constexpr std::array known_keys{
     SceneKey{"budget", "position_error", number, "m", positive, "1.0", "no limit",
              "largest error of the run, as drawn"},
     SceneKey{"budget", "energy_drift", number, "", positive, "0.01", "no limit",
-             "largest relative change of the energy"},
+             "largest change of the energy, relative to the largest kinetic energy or, if larger, "
+             "to the range of the potential energy"},
 };
 
 std::string in_range(const ValueRange& range) {
