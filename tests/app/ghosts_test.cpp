@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "oiler/app/look.hpp"
+
 namespace oiler::test {
 namespace {
 
@@ -70,6 +72,21 @@ TEST(Ghosts, HaveARingAndADistanceThatCanBeSeen) {
     const Picture large = drawn(0.1, 10);
     EXPECT_NEAR(centre(large.polylines[0]).y, 180 + 100, 1e-3);
     EXPECT_EQ(large.labels.at(0).text, "10 cm") << "the true distance";
+}
+
+// The body is drawn 0.9 m to the left of where it is, and its second disc further up.
+TEST(Ghosts, AreBesideTheDiscOfTheBody) {
+    World world(2);
+    const Entity body = world.spawn(Body{.position = {0.5, 0}});
+    Picture picture{.camera = {.height = 3.6F}};
+    picture.discs = {{.key = key_of(world, body, 1), .centre = {-0.4F, 1}},
+                     {.key = key_of(world, body), .centre = {-0.4F, 0}}};
+    add_ghosts(picture, {{body, {0.5, 0}, {0.5, 0.1}}}, 1);
+    const auto& line = picture.polylines.at(1).points;
+    EXPECT_NEAR(line.front().x, 320 - 40, 1e-3);
+    EXPECT_NEAR(line.back().x, 320 - 40, 1e-3);
+    EXPECT_NEAR(line.front().y, 180, 1e-3);
+    EXPECT_NEAR(line.back().y, 190, 1e-3);
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     const Verdict good = judge(measured(0.009, 0, 0));
     EXPECT_EQ(good.grade, Grade::good);
     EXPECT_EQ(good.text,
-              "Each step is within 9 mm of the true motion, less than a pixel, at 60 Hz semi_implicit_euler.");
+              "Each step is within 9 mm of the true motion, less than a pixel, at 60 Hz "
+              "semi_implicit_euler.");
     EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("within 10 µm"), std::string::npos)
         << "no more is known";
     WhatIf unsure = measured(0.001, 0, 0);
@@ -96,6 +97,9 @@ TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
         judge(measured(0.9, 0.5, 0.3)).text.ends_with(" 120 Hz: 30 cm off, +1000 µs a frame."));
     EXPECT_TRUE(judge(measured(0.9, 0.5, 0.6)).text.ends_with(" semi_implicit_euler."))
         << "less than half is no cure";
+    EXPECT_TRUE(judge(measured(900, 7.1, 8)).text.ends_with(" 7.1 m off, +300 µs a frame."));
+    EXPECT_TRUE(judge(measured(900, 7.3, 8)).text.ends_with(" semi_implicit_euler."))
+        << "beyond the 720 lines of the picture";
     WhatIf cheap = measured(0.9, 0.001, 0.002);
     cheap.runs[0].costs.step = 500;
     cheap.runs[1].costs.step = 10'000;
@@ -153,9 +157,10 @@ TEST(Verdict, SaysWhenThePlayIsAnotherOne) {
     result.runs[0].other_play_from = 3.25;
     result.runs[1].other_play_from = 1;
     EXPECT_EQ(judge(result).grade, Grade::bad);
-    EXPECT_EQ(judge(result).text,
-              "From 3.2 s on, the true motion is another play than at 60 Hz semi_implicit_euler. "
-              "120 Hz: 1 mm off, +1000 µs a frame.");
+    EXPECT_EQ(
+        judge(result).text,
+        "From 3.2 s on, other things happen at 60 Hz semi_implicit_euler than in the true motion. "
+        "120 Hz: 1 mm off, +1000 µs a frame.");
 }
 
 /// A fall from a height of 0 that Space pushes up.

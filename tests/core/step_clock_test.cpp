@@ -34,6 +34,18 @@ TEST(StepClock, AnHourAt144HzLosesNoStep) {
     EXPECT_EQ(clock.dropped_time(), 0ns);
 }
 
+TEST(StepClock, CatchesUpLessOfALateFrameIfToldTo) {
+    StepClock clock(100);
+    clock.advance(0ns);
+    EXPECT_EQ(clock.advance(200ms).steps, 20);
+    clock.set_longest_frame(30ms);
+    const auto late = clock.advance(400ms);
+    EXPECT_EQ(late.steps, 3);
+    EXPECT_EQ(late.dropped, 170ms);
+    clock.set_longest_frame(250ms);
+    EXPECT_EQ(clock.advance(500ms).steps, 10);
+}
+
 TEST(StepClock, TheFirstStampOnlyStartsTheClock) {
     StepClock clock(60);
     const auto first = clock.advance(5h);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "oiler/stability/region.hpp"
 #include "support/reference.hpp"
 
 namespace {
@@ -49,6 +50,23 @@ TEST(StabilityLimit, OfDampingAlone) {
     EXPECT_NEAR(limit("rk2_heun"), 2, 1e-12);
     EXPECT_NEAR(limit("rk4"), 2.785293563405281625, 1e-12);
     EXPECT_TRUE(std::isinf(limit("implicit_euler")));
+}
+
+// Velocity Verlet with damping in the drift has the trace 1 + d − z²·(1 − d)/c with d = exp(−c),
+// and d as its determinant: it is stable while z·tanh(ζz) < 4ζ, z = ω·dt, however strong the
+// damping.
+TEST(StabilityLimit, OfOverdampedSprings) {
+    const Method& method = find_method("velocity_verlet");
+    oiler::Region region(method, Damping::in_drift);
+    for (const double zeta : {1.5, 3.0, 10.0, 100.0}) {
+        double limit = 4 * zeta;
+        for (int i = 0; i < 50; ++i) limit = 4 * zeta / std::tanh(zeta * limit);
+        EXPECT_NEAR(stability_limit(method, Damping::in_drift, {1, 2 * zeta}), limit, 1e-9 * limit);
+        const auto is_inside = [&](double z) { return region.contains({z, 2 * zeta * z}); };
+        EXPECT_TRUE(is_inside(0.99 * limit)) << zeta;
+        EXPECT_FALSE(is_inside(1.01 * limit)) << zeta;
+        EXPECT_FALSE(is_inside(1e4 * limit)) << zeta;
+    }
 }
 
 // Explicit Euler on the article's spring is stable for every dt up to b/k = 1/150 s, and for no

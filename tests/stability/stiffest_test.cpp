@@ -97,5 +97,26 @@ TEST(Stiffest, IsADamperWithoutASpring) {
     EXPECT_NEAR(found.limit, 2, 1e-9);
 }
 
+// With ζ = 3 and 20, velocity Verlet with damping in the drift is stable while z·tanh(ζz) < 4ζ,
+// which is z = 4ζ here. Limits are kept for damping ratios of three digits.
+TEST(Stiffest, AnOverdampedSpringHasALimit) {
+    for (const double zeta : {3.0, 20.0}) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add(Body{}, Spring{.stiffness = 1e6, .damping = 2000 * zeta});
+        const Stiffest found = stiffest(bodies, "velocity_verlet", 60);
+        EXPECT_FALSE(found.is_damper);
+        EXPECT_NEAR(found.measure, 1000 / 60.0, 1e-9);
+        EXPECT_NEAR(found.limit, 4 * zeta, 0.04 * zeta);
+    }
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.damping = 5});
+    EXPECT_TRUE(stiffest(bodies, "explicit_euler").is_damper);
+}
+
+// Without a limit, the one that swings faster is named.
+TEST(Stiffest, IsTheFasterOneIfAnyIsStable) {
+    EXPECT_EQ(stiffest(two_springs(), "implicit_midpoint").row, 1U);
+}
+
 }  // namespace
 }  // namespace oiler::test

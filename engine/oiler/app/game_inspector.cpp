@@ -49,7 +49,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
         error = "failed";
         grade = Grade::bad;
     } else if (run.other_play_from) {
-        error = "another play";
+        error = "other events";
         grade = Grade::bad;
     } else if (run.distance >= unsure) {
         error = length_text(run.distance);
@@ -84,21 +84,25 @@ void GameInspector::find_stiffest(bool waits) {
     if (!finding_.valid() && (waits || now >= next_stiffest_) &&
         world.bodies().size() <= most_bodies) {
         next_stiffest_ = now + period;
+        found_for_ = stepping;
         finding_ = std::async(
             std::launch::async,
             [this, stepping, suspects = StiffestFinder::suspects_of(world.bodies(), stepping)] {
                 return finder_.find(suspects, stepping);
             });
     }
+    if (found_for_ != stepping) stiffest_.reset();
     if (!finding_.valid()) return;
     if (!waits && finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     const std::optional<Stiffest> found = finding_.get();
     stiffest_.reset();
     const auto is_here = [&](std::size_t row) { return row < world.bodies().size(); };
-    if (!found || !is_here(found->row) || (found->linked && !is_here(*found->linked))) return;
+    if (found_for_ != stepping || !found || !is_here(found->row) ||
+        (found->linked && !is_here(*found->linked)))
+        return;
     std::string name = game_.name_of(world.entity_of_row(found->row));
     if (found->linked) name += " to " + game_.name_of(world.entity_of_row(*found->linked));
-    stiffest_ = Inspected::Gauge{std::move(name), found->measure, found->limit};
+    stiffest_ = Inspected::Gauge{std::move(name), found->is_damper, found->measure, found->limit};
 }
 
 void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
@@ -106,10 +110,9 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     const auto mix = [](double& mean, std::chrono::nanoseconds time) {
         mean += weight * (static_cast<double>(time.count()) - mean);
     };
-    const StepTimes times = std::exchange(times_, {});
-    mix(costs_.update, times.update);
-    mix(costs_.step, times.step);
-    mix(costs_.picture, show - times.update - times.step);
+    mix(costs_.update, times_.update);
+    mix(costs_.step, times_.step);
+    mix(costs_.picture, show - time_of_steps());
     mix(costs_.draw, draw);
 }
 
@@ -138,9 +141,15 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
     const Verdict& verdict = along.verdict(game_);
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
-    if (const auto& measured = along.measured())
-        for (const WhatIfRun& one : measured->runs)
-            run.settings.push_back(inspected(one, *measured));
+    if (const auto& measured = along.measured()) {
+        // The errors are newer.
+        WhatIfRun played = measured->runs.front();
+        if (!run.errors.empty())
+            played.distance = std::max(played.distance, double{run.errors.back()});
+        run.settings.push_back(inspected(played, *measured));
+        for (const WhatIfRun& other : std::span(measured->runs).subspan(1))
+            run.settings.push_back(inspected(other, *measured));
+    }
     return inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
 }
 

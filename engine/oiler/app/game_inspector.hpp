@@ -32,8 +32,12 @@ public:
 
     /// Lists the methods anew: the game has other bodies.
     void list_methods();
-    /// Counts the times of a frame in which steps were taken. `show` is the time of steps and
-    /// picture.
+    void begin_frame() { times_ = {}; }
+    /// Of the updates and steps since begin_frame().
+    [[nodiscard]] std::chrono::nanoseconds time_of_steps() const {
+        return times_.update + times_.step;
+    }
+    /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
     [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
                               const Frame& frame);
@@ -50,6 +54,7 @@ private:
     Inspector inspector_;
     StiffestFinder finder_;  ///< of the thread that finds
     std::future<std::optional<Stiffest>> finding_;
+    Stepping found_for_;  ///< the setting that finding_ judges
     std::optional<Inspected::Gauge> stiffest_;
     std::chrono::steady_clock::time_point next_stiffest_{};
     StepTimes times_;

@@ -17,6 +17,14 @@ constexpr std::size_t most_ghosts = 100;
 constexpr float ring = 7;  // canvas units
 constexpr float least_seen = 3;
 
+/// Where the picture has the body: a game may draw it elsewhere than it is.
+Point place_in(const Picture& picture, const Ghost& ghost) {
+    const auto disc = std::ranges::find_if(picture.discs, [&](const Disc& one) {
+        return one.space == Space::world && one.key.object == ghost.body.id() && one.key.part == 0;
+    });
+    return disc == picture.discs.end() ? to_point(ghost.at) : disc->centre;
+}
+
 }  // namespace
 
 std::vector<Ghost> ghosts_of(const World& run, const World& reference) {
@@ -45,8 +53,10 @@ std::vector<Ghost> between(const std::vector<Ghost>& before, const std::vector<G
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor) {
     for (const Ghost& ghost : ghosts) {
         const Vec3 off = ghost.truth - ghost.at;
-        const Point at = picture.camera.to_canvas(to_point(ghost.at));
-        const Point truth = picture.camera.to_canvas(to_point(ghost.at + off * factor));
+        const Point way = to_point(off * factor);
+        const Point drawn = place_in(picture, ghost);
+        const Point at = picture.camera.to_canvas(drawn);
+        const Point truth = picture.camera.to_canvas({drawn.x + way.x, drawn.y + way.y});
         const float seen = std::hypot(truth.x - at.x, truth.y - at.y);
         if (!std::isfinite(seen)) continue;
         const auto add_line = [&](std::vector<Point> points) {

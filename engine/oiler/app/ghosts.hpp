@@ -23,8 +23,8 @@ struct Ghost {
 [[nodiscard]] std::vector<Ghost> between(const std::vector<Ghost>& before,
                                          const std::vector<Ghost>& after, double alpha);
 
-/// Adds a ring where each body truly is, and its distance if it can be seen. With a factor, the
-/// distances are drawn so many times as long.
+/// Adds a ring where each body truly is, relative to its disc in the picture if that has one, and
+/// its distance if it can be seen. With a factor, the distances are drawn so many times as long.
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor);
 
 }  // namespace oiler

@@ -71,7 +71,7 @@ std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& na
         for (std::string& line : broken(buttons_of(control, name), letters))
             rows.push_back({std::exchange(shown, ""), std::move(line)});
     }
-    if (rows.empty()) rows.push_back({"", "The game lists no actions."});
+    if (rows.empty()) rows.push_back({"", "The game does not list its keys."});
     return rows;
 }
 

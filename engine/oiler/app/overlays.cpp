@@ -61,11 +61,20 @@ void add_verdict(Picture& picture, const Verdict& verdict) {
     add_sheet(picture, {canvas_width / 2, middle}, {10 * canvas_width, height},
               palette::faded(palette::paper, 224));
     add_sheet(picture, {8, middle}, {6, 6}, colour_of(verdict.grade));
+    constexpr float right = canvas_width - 8;
+    constexpr std::string_view more = "F1: more  F2: keys";
+    picture.labels.push_back({.at = {right, middle - 2.5F},
+                              .text = std::string(more),
+                              .size = largest_size,
+                              .colour = palette::grey,
+                              .align = Align::right,
+                              .layer = overlay_layer});
+    constexpr float room = right - left - overlay_letter_width * largest_size * (more.size() + 2);
     const auto letters = static_cast<float>(verdict.text.size() + 1);
     picture.labels.push_back(
         {.at = {left, middle - 2.5F},
          .text = verdict.text,
-         .size = std::min(largest_size, (canvas_width - left) / (overlay_letter_width * letters)),
+         .size = std::min(largest_size, room / (overlay_letter_width * letters)),
          .colour = palette::ink,
          .layer = overlay_layer});
 }

@@ -29,10 +29,14 @@ double cost(const WhatIfRun& run) { return run.costs.update + run.costs.step; }
 
 bool is_sound(const WhatIfRun& run) { return run.failure.empty() && !run.other_play_from; }
 
-/// The other run with the smallest error, if that is at most half of the played one; else null.
+/// A setting that is off by more than the height of a picture, in pixels, mends nothing.
+constexpr double most_cured = 720;
+
+/// The other run with the smallest error, if that is at most half of the played one and in the
+/// picture; else null.
 const WhatIfRun* best(const WhatIf& measured) {
     const WhatIfRun* best = nullptr;
-    double least = measured.runs.front().distance / 2;
+    double least = std::min(measured.runs.front().distance / 2, most_cured * measured.pixel);
     for (const WhatIfRun& run : measured.runs) {
         if (!is_sound(run) || !(run.distance <= least)) continue;
         least = run.distance;
@@ -133,9 +137,10 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, d
                                                 begin + measured.certain_until)
                                   : "";
     if (played.other_play_from)
-        return {Grade::bad,
-                fmt::format("From {:.1f} s on, the true motion is another play than at {}.{}{}",
-                            begin + *played.other_play_from, setting, cure_text(measured), limit)};
+        return {
+            Grade::bad,
+            fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
+                        begin + *played.other_play_from, setting, cure_text(measured), limit)};
     const double pixels = played.distance / measured.pixel;
     const double known = std::max(played.distance, least_certain * measured.uncertainty);
     const bool is_hidden = pixels <= 1 && known > measured.pixel;

@@ -129,7 +129,9 @@ private:
         look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        if (wishes.restarts || keys.pressed(Key::f9)) {
+        // A run that diverged takes no input, and a scene restarts with R.
+        const bool is_r = failure_ && shelf_ && keys.pressed(Key::r);
+        if (wishes.restarts || is_r || keys.pressed(Key::f9)) {
             clock_.resume();
             complaint_.clear();
             restart();
@@ -248,9 +250,11 @@ private:
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
+        inspector_.begin_frame();
         const std::chrono::nanoseconds before_picture = now();
         Picture picture = next_picture(back);
         const std::chrono::nanoseconds show_time = now() - before_picture;
+        if (steps > 0) limit_steps_of_frame(steps);
         play_along();
         if (inspects_) {
             // A frame at the time of a step shows that step, others the way to it.
@@ -304,6 +308,17 @@ private:
         const Span span(profile_, "present");
         renderer_.blit();
         window_->present();
+    }
+
+    /// Steps that take longer than the time they simulate would hold a frame for seconds.
+    void limit_steps_of_frame(std::int64_t steps) {
+        constexpr double most = 0.1;  // s, of a frame's steps
+        const double took = std::chrono::duration<double>(inspector_.time_of_steps()).count();
+        const double step = static_cast<double>(pace_.denominator()) /
+                            (static_cast<double>(clock_.rate()) * pace_.numerator());
+        const double limit = took > 0 ? most / took * static_cast<double>(steps) * step : 1;
+        const std::chrono::duration<double> longest(std::clamp(limit, std::min(step, 0.25), 0.25));
+        clock_.set_longest_frame(std::chrono::ceil<std::chrono::nanoseconds>(longest));
     }
 
     void play_along() {

@@ -28,7 +28,7 @@ std::string list_text(const std::vector<Startable>& all) {
     add("Scenes:\n", true);
     return text +
            "`oiler demos NAME` starts one. Further words are its options: see "
-           "`oiler demos NAME --help`.\n";
+           "`oiler demos NAME --help`.\n`oiler demos --window` chooses in a window.\n";
 }
 
 /// Offers all in a window, again after each that was started, until the user leaves.

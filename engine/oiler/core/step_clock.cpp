@@ -26,10 +26,14 @@ static_assert(largest_whole < std::int64_t{1} << std::numeric_limits<double>::di
 
 }  // namespace
 
-StepClock::StepClock(int rate, nanoseconds longest_frame)
-    : rate_(rate), longest_frame_(longest_frame) {
+StepClock::StepClock(int rate, nanoseconds longest_frame) : rate_(rate) {
     assert(rate >= 1 && rate <= largest_rate);
+    set_longest_frame(longest_frame);
+}
+
+void StepClock::set_longest_frame(nanoseconds longest_frame) {
     assert(longest_frame > nanoseconds{0} && longest_frame <= longest_frame_limit);
+    longest_frame_ = longest_frame;
 }
 
 StepClock::Frame StepClock::advance(nanoseconds now) {

@@ -65,12 +65,14 @@ public:
     /// scales so far share a denominator of at most largest_scale; otherwise it is rounded down by
     /// less than 10⁻⁹ of a step.
     void set_time_scale(int numerator, int denominator);
+    /// See the constructor.
+    void set_longest_frame(std::chrono::nanoseconds longest_frame);
 
 private:
     std::int64_t whole_steps(std::chrono::nanoseconds elapsed);
 
     int rate_;
-    std::chrono::nanoseconds longest_frame_;
+    std::chrono::nanoseconds longest_frame_{};
     std::optional<std::chrono::nanoseconds> last_stamp_;
     // Scaled nanoseconds times rate; a step is due at 10^9 · scale_denominator_.
     std::int64_t accumulated_ = 0;

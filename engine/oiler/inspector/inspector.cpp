@@ -173,7 +173,8 @@ struct Inspector::Impl {
                                                         : palette::sky_blue));
         const std::string of = std::isinf(gauge.limit) ? "stable at any rate"
                                : gauge.limit == 0      ? "unstable at any rate"
-                                                       : fmt::format("ω·dt {:.3g}, limit {:.3g}",
+                                                       : fmt::format("{}·dt {:.3g}, limit {:.3g}",
+                                                                gauge.is_damper ? "c" : "ω",
                                                                      gauge.measure, gauge.limit);
         ImGui::ProgressBar(static_cast<float>(std::min(share, 1.0)), {-1, 0}, of.c_str());
         ImGui::PopStyleColor();
@@ -207,6 +208,7 @@ struct Inspector::Impl {
     static void show_energy(const Inspected& run) {
         if (run.bodies == 0) return;
         ImGui::Separator();
+        if (!std::isfinite(run.energy)) return text("energy: infinite");
         text(fmt::format("energy {:.6g} J", run.energy));
         if (!run.first_energy) return;
         const double first = *run.first_energy;

@@ -34,7 +34,8 @@ struct Inspected {
     /// The spring or damper that is closest to the limit of the method.
     struct Gauge {
         std::string name{};
-        double measure = 0;  ///< the larger one of ω·dt and c·dt
+        bool is_damper = false;
+        double measure = 0;  ///< ω·dt, of a damper c·dt
         double limit = 0;    ///< the largest stable measure; infinite: any is stable
     };
 

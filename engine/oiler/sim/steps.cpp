@@ -20,7 +20,7 @@ void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergen
 std::string describe(const Divergence& at, const Method& method, const Rate& rate, bool linked,
                      const NameOfRow& name) {
     const std::string when =
-        fmt::format("diverged at step {} (t = {} s)", at.tick, rate.time(at.tick));
+        fmt::format("diverged at step {} (t = {:.6g} s)", at.tick, rate.time(at.tick));
     if (at.of == Divergence::Of::solution) {
         const std::string whose =
             linked ? "the linked bodies" : fmt::format("body {}", name(at.row));

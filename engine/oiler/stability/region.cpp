@@ -7,7 +7,8 @@
 namespace oiler {
 namespace {
 
-/// Outside the region of every conditionally stable method.
+/// Of ω·dt, and of ω·dt/ζ of overdamped springs: outside the region of every conditionally stable
+/// method.
 constexpr double outside_all = 1000;
 
 }  // namespace
@@ -31,7 +32,9 @@ Oscillation unit_oscillation(const ScaledOscillation& of) {
 bool Region::contains(const ScaledOscillation& of) {
     if (!(size(of) > 0)) return true;
     if (!std::isfinite(size(of))) return false;
-    const double reached = std::min(size(of), outside_all);
+    const double ratio =
+        of.omega_dt > 0 ? std::clamp(of.damping_dt / of.omega_dt, 1.0, 1e9) : 1;  // 2ζ, at least 1
+    const double reached = std::min(size(of), outside_all * ratio * ratio);
     const auto [k, c] = unit_oscillation(of);
     const Oscillation at{k * reached * reached, c * reached};
     const auto [known, is_new] = known_.try_emplace(std::pair(at.k, at.c), false);

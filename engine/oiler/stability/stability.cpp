@@ -11,7 +11,7 @@ namespace oiler {
 namespace {
 
 constexpr long double round_off = 1e-14L;
-constexpr double farthest = 40;  // of max(ω, c)·dt
+constexpr double farthest = 40;  // of max(ω, c)·dt, and of ω·dt/ζ beyond ζ = 1/2
 
 /// The distance of the trace from the point where an eigenvalue leaves the unit circle at 1 or −1.
 /// Unlike the eigenvalues it is smooth where two eigenvalues meet.
@@ -95,14 +95,19 @@ bool is_stable(const StepMatrix& matrix) {
 double stability_limit(const Method& method, Damping damping, const Oscillation& oscillation) {
     constexpr std::size_t points = 8000;
     const Ray ray(method, damping, oscillation);
-    const double unit =
-        farthest / std::max(std::sqrt(std::abs(oscillation.k)), std::abs(oscillation.c));
+    const double omega = std::sqrt(std::abs(oscillation.k));
+    const double c = std::abs(oscillation.c);
+    const double unit = farthest / std::max(omega, c);
     std::vector<double> factors;
     for (std::size_t i = 0; i <= points; ++i)
         factors.push_back(unit * static_cast<double>(i) / points);
+    // With damping in the drift, the limit of an overdamped spring is as large as ω·dt = 4ζ.
+    if (omega > 0)
+        for (const double end = farthest / omega * std::min(c / omega, 1e9); factors.back() < end;)
+            factors.push_back(1.01 * factors.back());
     const std::vector<StepMatrix> steps = ray.at(factors);
     if (!is_stable(steps[1])) return 0;
-    for (std::size_t i = 1; i < points; ++i) {
+    for (std::size_t i = 1; i + 1 < factors.size(); ++i) {
         if (!is_stable(steps[i + 1])) return ray.edge_between(factors[i], factors[i + 1]);
         const long double here = trace_margin(steps[i]);
         if (here > trace_margin(steps[i - 1]) || here > trace_margin(steps[i + 1])) continue;

@@ -19,6 +19,19 @@ bool splits_dampers(const Stepping& stepping) {
     return splits_dampers(*stepping.method, damping_of(stepping));
 }
 
+/// To three digits.
+double rounded(double number) {
+    if (number == 0) return 0;
+    const double unit = std::pow(10, std::floor(std::log10(number)) - 2);
+    return std::round(number / unit) * unit;
+}
+
+/// To its limit; without limits, the faster one.
+bool is_closer(const Stiffest& a, const Stiffest& b) {
+    if (a.limit == b.limit) return a.measure > b.measure;
+    return a.measure * b.limit > b.measure * a.limit;
+}
+
 /// The fastest oscillations of a component by its stiffness and by its damping.
 std::vector<BodyOscillation> fastest(const Component& component, bool dampers_split) {
     const MatrixSum stiffness{1, 0, dampers_split}, damping{0, 1, dampers_split};
@@ -57,8 +70,7 @@ std::optional<Stiffest> StiffestFinder::find(const Suspects& suspects, const Ste
     const auto consider = [&](const BodyOscillation& one) {
         const Stiffest found = judge(one, stepping);
         if (!(found.measure > 0) || !std::isfinite(found.measure)) return;
-        if (!stiffest || found.measure * stiffest->limit > stiffest->measure * found.limit)
-            stiffest = found;
+        if (!stiffest || is_closer(found, *stiffest)) stiffest = found;
     };
     for (const BodyOscillation& one : suspects.alone) consider(one);
     for (const Component& component : suspects.linked)
@@ -72,22 +84,20 @@ Stiffest StiffestFinder::judge(const BodyOscillation& one, const Stepping& stepp
     const double omega = std::sqrt(std::max(one.of.k, 0.0));
     const double c = std::max(one.of.c, 0.0);
     const double fastest = std::max(omega, c);
-    Stiffest found{one.row, one.linked, fastest * stepping.rate.dt()};
-    if (fastest > 0 && std::isfinite(fastest))
-        found.limit = limit(*stepping.method, damping_of(stepping), omega / fastest, c / fastest);
+    Stiffest found{one.row, one.linked, omega == 0, 0, 0};
+    if (!(fastest > 0) || !std::isfinite(fastest)) return found;
+    const double own = omega > 0 ? omega : c;
+    found.measure = own * stepping.rate.dt();
+    found.limit =
+        own / fastest * limit(*stepping.method, damping_of(stepping), omega / fastest, c / fastest);
     return found;
 }
 
 double StiffestFinder::limit(const Method& method, Damping damping, double omega, double c) {
-    constexpr int digits = 100;
-    const int of_omega = static_cast<int>(std::lround(digits * omega));
-    const int of_c = static_cast<int>(std::lround(digits * c));
-    const auto [known, is_new] = limits_.try_emplace({&method, damping, of_omega, of_c});
-    if (is_new) {
-        const double rounded = static_cast<double>(of_omega) / digits;
-        known->second = stability_limit(method, damping,
-                                        {rounded * rounded, static_cast<double>(of_c) / digits});
-    }
+    const double known_omega = rounded(omega), known_c = rounded(c);
+    const auto [known, is_new] = limits_.try_emplace({&method, damping, known_omega, known_c});
+    if (is_new)
+        known->second = stability_limit(method, damping, {known_omega * known_omega, known_c});
     return known->second;
 }
 

@@ -17,14 +17,15 @@ namespace oiler {
 struct Stiffest {
     std::size_t row = 0;
     std::optional<std::size_t> linked{};  ///< the other row of a link
-    double measure = 0;                   ///< max(ω, c)·dt, c = 2ζω
+    bool is_damper = false;               ///< without a spring
+    double measure = 0;                   ///< ω·dt, of a damper c·dt
     double limit = 0;                     ///< the largest stable measure; infinite: any is stable
 };
 
 /// Finds the stiffest spring or damper again and again while a run goes on. Of what links connect,
 /// it is the fastest oscillation at the present positions, which is at most 1 % slower than told.
 /// Limits take some tens of milliseconds, so they are kept, each for the damping ratios that agree
-/// in two digits.
+/// in three digits.
 class StiffestFinder {
 public:
     /// What find() judges, of bodies as they are now.
@@ -40,7 +41,7 @@ private:
     [[nodiscard]] Stiffest judge(const BodyOscillation& one, const Stepping& stepping);
     [[nodiscard]] double limit(const Method& method, Damping damping, double omega, double c);
 
-    std::map<std::tuple<const Method*, Damping, int, int>, double> limits_;
+    std::map<std::tuple<const Method*, Damping, double, double>, double> limits_;
 };
 
 }  // namespace oiler
