@@ -39,9 +39,13 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
 
 void add_status(Picture& picture, std::string status) {
     if (status.empty()) return;
+    constexpr float size = 11;
+    const float width = overlay_letter_width * size * static_cast<float>(status.size()) + 16;
+    add_sheet(picture, {canvas_width - width / 2, 8}, {width, 16},
+              palette::faded(palette::paper, 232));
     picture.labels.push_back({.at = {canvas_width - 8, 4},
                               .text = std::move(status),
-                              .size = 11,
+                              .size = size,
                               .colour = palette::vermilion,
                               .align = Align::right,
                               .layer = overlay_layer});

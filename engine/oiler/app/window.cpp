@@ -216,6 +216,8 @@ private:
         const bool was_paused = clock_.paused();
         clock_ = StepClock(static_cast<int>(playback_.world().settings().stepping.rate.steps));
         if (was_paused && !failure_) clock_.pause();
+        knows_steps_ = false;
+        late_ = 0;
         undone_ = -playback_.steps();
         playback_.go_back(playback_.steps());
         failure_.reset();
@@ -244,7 +246,14 @@ private:
         const Span span(profile_, "frame");
         const bool back = goes_back_;
         live_.queue.set_paused(clock_.paused() || back);
-        const std::int64_t steps = clock_.advance(start).steps;
+        if (!knows_steps_) catch_up_at_most(2 * duration_of_step());
+        const StepClock::Frame owed = clock_.advance(start);
+        const std::int64_t steps = owed.steps;
+        if (knows_steps_ && start > last_start_)
+            late_ += (static_cast<double>(owed.dropped.count()) /
+                          static_cast<double>((start - last_start_).count()) -
+                      late_) /
+                     16;
         if (back && steps > 0) go_back(steps);
         if (!back && steps > 0 && was_back_) measure_from_here();
         if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
@@ -310,15 +319,23 @@ private:
         window_->present();
     }
 
+    /// s of real time
+    [[nodiscard]] double duration_of_step() const {
+        return static_cast<double>(pace_.denominator()) /
+               (static_cast<double>(clock_.rate()) * pace_.numerator());
+    }
+    void catch_up_at_most(double seconds) {
+        const std::chrono::duration<double> limit(std::min(seconds, 0.25));
+        clock_.set_longest_frame(std::chrono::ceil<std::chrono::nanoseconds>(limit));
+    }
     /// Steps that take longer than the time they simulate would hold a frame for seconds.
     void limit_steps_of_frame(std::int64_t steps) {
         constexpr double most = 0.1;  // s, of a frame's steps
+        if (!std::exchange(knows_steps_, true)) dropped_ -= clock_.dropped_time();
         const double took = std::chrono::duration<double>(inspector_.time_of_steps()).count();
-        const double step = static_cast<double>(pace_.denominator()) /
-                            (static_cast<double>(clock_.rate()) * pace_.numerator());
-        const double limit = took > 0 ? most / took * static_cast<double>(steps) * step : 1;
-        const std::chrono::duration<double> longest(std::clamp(limit, std::min(step, 0.25), 0.25));
-        clock_.set_longest_frame(std::chrono::ceil<std::chrono::nanoseconds>(longest));
+        const double step = duration_of_step();
+        catch_up_at_most(took > 0 ? std::max(step, most / took * static_cast<double>(steps) * step)
+                                  : 1);
     }
 
     void play_along() {
@@ -372,6 +389,8 @@ private:
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
+        else if (late_ > 0.1)
+            text = fmt::format("too slow here: {:.0f} % of its pace", 100 * (1 - late_));
         else if (back)
             text = fmt::format("back at {:.2f} s{}", playback_.world().time(),
                                playback_.steps() == rewind_->first() ? ", no further" : "");
@@ -423,6 +442,8 @@ private:
     bool helps_ = false;
     bool fills_ = false;  ///< the screen
     bool goes_back_ = false;
+    double late_ = 0;           ///< the share of the time that late frames drop
+    bool knows_steps_ = false;  ///< how long the steps of the setting take
     bool whole_ = false;
     bool was_back_ = false;  ///< nothing is measured since the player went back
 };
