@@ -129,9 +129,7 @@ private:
         look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        // A run that diverged takes no input, and a scene restarts with R.
-        const bool is_r = failure_ && shelf_ && keys.pressed(Key::r);
-        if (wishes.restarts || is_r || keys.pressed(Key::f9)) {
+        if (wishes.restarts || keys.pressed(Key::f9)) {
             clock_.resume();
             complaint_.clear();
             restart();
