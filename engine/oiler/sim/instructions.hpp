@@ -7,7 +7,7 @@
 namespace oiler {
 
 /// A remark for a user whose machine lacks all instruction sets of this build's kernels, so that
-/// steps take several times as long. Empty if the machine has one.
+/// steps take several times as long. Empty if the machine has one, or the build has none.
 [[nodiscard]] std::optional<std::string> missing_instructions();
 
 /// Throws Error{usage} if OILER_INSTRUCTIONS names a set that this build or machine lacks.

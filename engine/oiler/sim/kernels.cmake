@@ -2,7 +2,7 @@
 # The kernels of the step, for each instruction set in OILER_KERNELS and each precision. They are
 # always optimised: without inlining, the sets would share functions of the standard library.
 set(OILER_KERNELS native CACHE STRING
-    "Instruction sets to compile kernels for: native (this machine's widest), all, or a list of baseline, avx2, avx512")
+    "Instruction sets to compile kernels for: native (this machine's widest), all, none, or a list of baseline, avx2, avx512")
 
 set(flags_baseline)
 set(flags_avx2 -mavx2)
@@ -15,6 +15,8 @@ endif()
 set(sets ${OILER_KERNELS})
 if(sets STREQUAL all)
   set(sets ${every_set})
+elseif(sets STREQUAL none)
+  set(sets)
 elseif(sets STREQUAL native)
   set(sets baseline)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CMAKE_CROSSCOMPILING)
@@ -27,9 +29,11 @@ elseif(sets STREQUAL native)
   endif()
 endif()
 
+# So that other sets recompile this file alone.
+set_source_files_properties(kernels.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 foreach(name IN LISTS sets)
   if(NOT name IN_LIST every_set)
-    message(FATAL_ERROR "OILER_KERNELS has ${name}: give native, all, or a list of ${every_set}")
+    message(FATAL_ERROR "OILER_KERNELS has ${name}: give native, all, none, or a list of ${every_set}")
   endif()
   foreach(precision float double)
     set(kernels oiler_kernels_${name}_${precision})

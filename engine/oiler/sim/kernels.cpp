@@ -108,6 +108,7 @@ std::optional<std::string> missing_instructions() {
     std::string names;
     for (const InstructionSet& set : sets)
         if (set.built) names += fmt::format("{}{}", names.empty() ? "" : ", ", set.name);
+    if (names.empty()) return std::nullopt;
     return fmt::format(
         "built for processors with {}, which this one lacks: bodies are stepped one at a time, "
         "slowly; build with -DOILER_KERNELS=all",
