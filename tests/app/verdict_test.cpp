@@ -103,7 +103,12 @@ TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
     WhatIf cheap = measured(0.9, 0.001, 0.002);
     cheap.runs[0].costs.step = 500;
     cheap.runs[1].costs.step = 10'000;
-    EXPECT_TRUE(judge(cheap).text.ends_with("1 mm off, for the same time."));
+    EXPECT_TRUE(judge(cheap).text.ends_with("1 mm off, for about the same time."));
+    cheap.runs[1].costs.step = cheap.runs[2].costs.step = 9'999;
+    cheap.runs[1].evaluations = 120;
+    cheap.runs[2].evaluations = 119;
+    EXPECT_TRUE(judge(cheap).text.ends_with(" 120 Hz: 2 mm off, below 10 µs a frame."))
+        << "fewer forces";
     EXPECT_NE(judge(measured(1e9, 1e9, 1e9)).text.find("1.0e+09 m off, more than 99999 px"),
               std::string::npos);
 }
@@ -260,6 +265,50 @@ TEST(PlayAlong, BeginsAgainWithTheGameAsItIs) {
     EXPECT_NEAR(result.runs[1].distance, 20 * 1 / 60.0 / 2, 14e-12);
     ASSERT_EQ(result.runs[2].stepping.rate, Rate{240});
     EXPECT_EQ(along.ghosts(180, 1).at(0).at[0], game.world().bodies().position(0)[0]);
+}
+
+// Euler at 60 Hz falls 20/60·0.2/2 = 3.3 cm too deep in 0.2 s, and half of it at 120 Hz. Half of a
+// pixel of 1 cm needs 120·1.67/0.5 = 400 Hz, and the next multiple of 60 that is offered is 480.
+TEST(PlayAlong, ProvesTheAdvisedRateInTheNextRun) {
+    Options options;
+    options.settings.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}};
+    AnyGameOf<Fall> game(options.settings);
+    OnePress player;
+    const MakeGame make = make_fall;
+    PlayAlong along(player, options, Fall::about, make, PlayAlong::Pace::own);
+    const std::size_t usual = along.result().runs.size();
+    game.step(0, 12, along);
+    along.play_until(12);
+    (void)along.verdict(game);
+    along.start(12);
+    const std::vector<WhatIfRun> runs = along.result().runs;
+    ASSERT_EQ(runs.size(), usual + 1);
+    EXPECT_EQ(runs.back().stepping.rate, Rate{480});
+    EXPECT_EQ(runs.back().stepping.method, options.settings.stepping.method);
+    game.step(12, 12, along);
+    along.play_until(24);
+    (void)along.verdict(game);
+    along.start(24, {.method = options.settings.stepping.method, .rate = {120}});
+    EXPECT_EQ(along.result().runs.size(), usual) << "of another setting, nothing is known";
+}
+
+// Euler evaluates the forces once a step, rk4 four times.
+TEST(PlayAlong, CountsTheForcesOfEachSetting) {
+    Options options;
+    options.settings.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}};
+    AnyGameOf<Fall> game(options.settings);
+    OnePress player;
+    const MakeGame make = make_fall;
+    PlayAlong along(player, options, Fall::about, make, PlayAlong::Pace::own);
+    game.step(0, 60, along);
+    along.play_until(60);
+    for (const WhatIfRun& run : along.result().runs) {
+        const double per_step = run.stepping.method->name == "rk4"               ? 4
+                                : run.stepping.method->name == "velocity_verlet" ? 2
+                                                                                 : 1;
+        EXPECT_NEAR(run.evaluations, per_step * static_cast<double>(run.stepping.rate.steps), 1e-9)
+            << run.stepping.method->name;
+    }
 }
 
 /// A game whose update takes longer than the time that is left in a frame.

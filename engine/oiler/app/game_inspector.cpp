@@ -4,9 +4,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "oiler/app/overlays.hpp"
+#include "oiler/app/rate_advice.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
@@ -58,10 +60,13 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
         error = unsure < least_length ? "exact" : "< " + length_text(unsure);
         if (unsure <= measured.pixel) grade = Grade::good;
     }
+    const double cost = run.costs.update + run.costs.step;
+    const double times = run.evaluations / measured.runs.front().evaluations;
     return {.stepping = run.stepping,
             .error = std::move(error),
             .grade = colour_of(grade),
-            .cost = run.costs.update + run.costs.step};
+            .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
+            .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }
 
 }  // namespace
@@ -149,6 +154,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
         run.settings.push_back(inspected(played, *measured));
         for (const WhatIfRun& other : std::span(measured->runs).subspan(1))
             run.settings.push_back(inspected(other, *measured));
+        run.rate_advice = rate_advice_text(*measured);
     }
     return inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
 }

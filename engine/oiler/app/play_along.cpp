@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "oiler/app/rate_advice.hpp"
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
 
@@ -58,6 +59,7 @@ void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
 
 void PlayAlong::measure(std::int64_t first, MakeGame make) {
     make_run_ = std::move(make);
+    const auto advised = advised_setting();
     measured_.reset();
     errors_.clear();
     ghosts_before_.clear();
@@ -75,10 +77,22 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
         if (bodies.size() > most_bodies)
             return stop(fmt::format("what the timestep costs is not measured for {} bodies",
                                     bodies.size()));
-        runs_.emplace(options_, usual_what_if(options_.settings, make_run_), make_run_);
+        std::vector<Stepping> steppings = usual_what_if(options_.settings, make_run_);
+        if (advised && std::ranges::find(steppings, *advised) == steppings.end())
+            steppings.push_back(*advised);
+        runs_.emplace(options_, steppings, make_run_);
     } catch (const Error& error) {
         stop(error.what());
     }
+}
+
+std::optional<Stepping> PlayAlong::advised_setting() const {
+    Stepping setting = options_.settings.stepping;
+    if (!measured_ || measured_->runs.front().stepping != setting) return std::nullopt;
+    const auto advice = advise_rate(*measured_);
+    if (!advice || Rate{advice->rate} == setting.rate) return std::nullopt;
+    setting.rate = {advice->rate};
+    return setting;
 }
 
 Input PlayAlong::next(std::int64_t step) {

@@ -62,6 +62,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void measure(std::int64_t first, MakeGame make);
+    /// The setting that the last run of the same setting advises: the next one proves it.
+    [[nodiscard]] std::optional<Stepping> advised_setting() const;
 
     InputSource& inputs_;
     const MakeGame& make_;

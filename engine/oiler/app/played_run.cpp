@@ -105,8 +105,12 @@ void PlayedRun::play_until(std::int64_t recorded) {
 
 void PlayedRun::take_step() {
     times_ = {};
+    const std::int64_t before = game_->world().bodies().evaluations();
     try {
         steps_ += game_->step(steps_, 1, inputs_);
+        // A world that a game makes anew counts from 0.
+        const std::int64_t after = game_->world().bodies().evaluations();
+        evaluations_ += after - (after < before ? 0 : before);
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
         result_.failure = error.what();
@@ -162,6 +166,9 @@ WhatIfRun PlayedRun::finish() const {
     result.costs = {.update = steps_per_frame * typical(updates_),
                     .step = steps_per_frame * typical(world_steps_),
                     .picture = typical(pictures_)};
+    if (steps_ > 0)
+        result.evaluations = static_cast<double>(evaluations_) /
+                             (result.stepping.rate.dt() * static_cast<double>(steps_));
     if (!drawings_.empty()) result.costs.draw = typical(drawings_);
     return result;
 }

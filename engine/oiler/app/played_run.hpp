@@ -74,6 +74,7 @@ private:
     StepTimes times_;
     std::unique_ptr<AnyGame> game_;
     std::int64_t steps_ = 0;
+    std::int64_t evaluations_ = 0;
     std::optional<double> differs_from_;
     std::vector<std::chrono::nanoseconds> updates_;
     std::vector<std::chrono::nanoseconds> world_steps_;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double pixels_of_bad = 7.2;  // a hundredth of 720 lines
 constexpr double least_difference = 0.01;
-constexpr double least_cost = 10'000;  // ns a frame; less is not certain beside a game
 constexpr double most_pixels = 99'999;
 
 std::string setting_text(const Stepping& stepping) {
@@ -45,30 +44,39 @@ const WhatIfRun* best(const WhatIf& measured) {
     return best;
 }
 
+bool is_cheaper(const WhatIfRun& a, const WhatIfRun& b) {
+    const bool certain = std::max(cost(a), cost(b)) >= least_cost;
+    return certain ? cost(a) < cost(b) : a.evaluations < b.evaluations;
+}
+
 /// The cheapest other run whose errors no player sees, or else the best; null if there is none.
 const WhatIfRun* cure(const WhatIf& measured) {
     const WhatIfRun* cheapest = nullptr;
     for (std::size_t i = 1; i < measured.runs.size(); ++i) {
         const WhatIfRun& run = measured.runs[i];
         if (!is_sound(run) || !(run.distance <= measured.pixel)) continue;
-        if (!cheapest || cost(run) < cost(*cheapest)) cheapest = &run;
+        if (!cheapest || is_cheaper(run, *cheapest)) cheapest = &run;
     }
     return cheapest ? cheapest : best(measured);
+}
+
+std::string price_text(const WhatIfRun& run, const WhatIf& measured) {
+    const double played = cost(measured.runs.front());
+    if (std::max(cost(run), played) < least_cost) return "below 10 µs a frame";
+    const double more = cost(run) - played;
+    if (std::abs(more) < std::max(least_cost, 0.2 * played)) return "for about the same time";
+    return fmt::format("{}{:.0f} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
 }
 
 std::string cure_text(const WhatIf& measured) {
     const WhatIfRun* const run = cure(measured);
     if (!run) return "";
     const WhatIfRun& played = measured.runs.front();
-    const double more = cost(*run) - cost(played);
-    const std::string price =
-        std::abs(more) < std::max(least_cost, 0.2 * cost(played))
-            ? "for the same time"
-            : fmt::format("{}{:.0f} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
     const std::string error = run->distance < least_certain * measured.uncertainty
                                   ? "exact"
                                   : fmt::format("{} off", length_text(run->distance));
-    return fmt::format(" {}: {}, {}.", change_text(run->stepping, played.stepping), error, price);
+    return fmt::format(" {}: {}, {}.", change_text(run->stepping, played.stepping), error,
+                       price_text(*run, measured));
 }
 
 /// The reading that is off the most, relative to its truth, of those at rest; null if none is off

@@ -29,10 +29,13 @@ struct Verdict {
 /// pixel, or one in another unit that is off by more than a hundredth, comes first, if it is what
 /// it was `before`: one that still changes may differ by a step, which is no error. Then comes the
 /// body that is furthest off. The cure is the cheapest other run below a pixel, or else the best
-/// one. Differences of less than ten times the uncertainty of the reference are not named, nor
-/// prices below 10 µs a frame. The measured run begins at `begin`, s.
+/// one. Differences of less than ten times the uncertainty of the reference are not named. Prices
+/// below 10 µs a frame are not told apart. The measured run begins at `begin`, s.
 [[nodiscard]] Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
                                  double begin, const std::function<std::string(Entity)>& name_of);
+
+/// Shorter times are not certain beside a game, ns a frame.
+inline constexpr double least_cost = 10'000;
 
 /// Shorter lengths are not told apart, m.
 inline constexpr double least_length = 1e-9;

@@ -42,6 +42,8 @@ struct WhatIfRun {
     std::vector<Reading> true_readings{};
     double read_at = 0;  ///< s
     FrameCosts costs{};
+    /// Evaluations of the forces on a body per second of play; 0: none were counted.
+    double evaluations = 0;
 };
 
 /// The result of --what-if.

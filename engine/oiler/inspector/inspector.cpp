@@ -15,11 +15,6 @@ namespace oiler {
 namespace {
 
 constexpr float panel_width = 340;  // units
-/// The rates of the slider, Hz. They are even, so that half of each can play along.
-constexpr std::array<std::int64_t, 26> rates{10,  12,  16,  20,  24,  30,  36,  40,  48,
-                                             50,  60,  72,  80,  90,  100, 120, 144, 180,
-                                             200, 240, 300, 360, 480, 500, 600, 1000};
-constexpr double least_cost = 10'000;  // ns; less is not certain beside a game
 constexpr int lines_of_verdict = 4;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
 constexpr float smallest_error = 1e-6F;      // m
@@ -27,18 +22,13 @@ constexpr float smallest_error = 1e-6F;      // m
 /// The place of the closest rate on the slider.
 int place_of(std::int64_t rate) {
     const auto off = [&](std::int64_t one) { return std::abs(one - rate); };
-    return static_cast<int>(std::ranges::min_element(rates, {}, off) - rates.begin());
+    return static_cast<int>(std::ranges::min_element(offered_rates, {}, off) -
+                            offered_rates.begin());
 }
 
 ImVec4 gui_colour(Colour colour) {
     return {static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
             static_cast<float>(colour.b) / 255, 1};
-}
-
-std::string time_text(double nanoseconds) {
-    if (nanoseconds < 1000) return fmt::format("{:.0f} ns", nanoseconds);
-    if (nanoseconds < 1e6) return fmt::format("{:.3g} µs", nanoseconds / 1e3);
-    return fmt::format("{:.3g} ms", nanoseconds / 1e6);
 }
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
@@ -58,6 +48,12 @@ bool button(const char* name, bool has_effect = true) {
 
 }  // namespace
 
+std::string time_text(double nanoseconds) {
+    if (nanoseconds < 1000) return fmt::format("{:.0f} ns", nanoseconds);
+    if (nanoseconds < 1e6) return fmt::format("{:.3g} µs", nanoseconds / 1e3);
+    return fmt::format("{:.3g} ms", nanoseconds / 1e6);
+}
+
 struct Inspector::Impl {
     explicit Impl(std::span<const char> font) : gui(font) {}
 
@@ -76,13 +72,14 @@ struct Inspector::Impl {
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
         if (!is_sliding) place = place_of(run.stepping.rate.steps);
-        const std::string shown = fmt::format(
-            "{} Hz", is_sliding ? rates[static_cast<std::size_t>(place)] : run.stepping.rate.steps);
-        ImGui::SliderInt("rate", &place, 0, static_cast<int>(rates.size()) - 1, shown.c_str(),
-                         ImGuiSliderFlags_NoInput);
+        const std::string shown =
+            fmt::format("{} Hz", is_sliding ? offered_rates[static_cast<std::size_t>(place)]
+                                            : run.stepping.rate.steps);
+        ImGui::SliderInt("rate", &place, 0, static_cast<int>(offered_rates.size()) - 1,
+                         shown.c_str(), ImGuiSliderFlags_NoInput);
         is_sliding = ImGui::IsItemActive();
         if (ImGui::IsItemDeactivatedAfterEdit())
-            chosen.rate = {rates[static_cast<std::size_t>(place)]};
+            chosen.rate = {offered_rates[static_cast<std::size_t>(place)]};
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
         has_menu = ImGui::BeginCombo("method", run.stepping.method->name.data());
         if (has_menu) {
@@ -126,8 +123,9 @@ struct Inspector::Impl {
         if (run.settings.empty()) return;
         ImGui::Separator();
         text(fmt::format("Off the true motion at the steps, {}", since(run)));
-        if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingFixedFit)) return;
-        for (const char* name : {"", "at most", "a frame", ""}) ImGui::TableSetupColumn(name);
+        if (!ImGui::BeginTable("settings", 5, ImGuiTableFlags_SizingFixedFit)) return;
+        for (const char* name : {"", "at most", "a frame", "forces", ""})
+            ImGui::TableSetupColumn(name);
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
@@ -136,13 +134,16 @@ struct Inspector::Impl {
             ImGui::TableNextColumn();
             ImGui::TextColored(gui_colour(one.grade), "%s", one.error.c_str());
             ImGui::TableNextColumn();
-            text(one.cost < least_cost ? "< 10 µs" : time_text(one.cost));
+            text(one.cost);
+            ImGui::TableNextColumn();
+            text(one.forces);
             ImGui::TableNextColumn();
             ImGui::PushID(static_cast<int>(i));
             if (i > 0 && button("Apply", run.fixed.empty())) wishes.stepping = one.stepping;
             ImGui::PopID();
         }
         ImGui::EndTable();
+        if (!run.rate_advice.empty()) wrapped(run.rate_advice);
         show_errors(run);
     }
 

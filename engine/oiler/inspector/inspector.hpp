@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +15,14 @@
 
 namespace oiler {
 
+/// The rates of the inspector's slider, Hz. They are even, so that half of each can play along.
+inline constexpr std::array<std::int64_t, 26> offered_rates{
+    10, 12,  16,  20,  24,  30,  36,  40,  48,  50,  60,  72,  80,
+    90, 100, 120, 144, 180, 200, 240, 300, 360, 480, 500, 600, 1000};
+
+/// "850 ns", "12.3 µs", "4.5 ms".
+[[nodiscard]] std::string time_text(double nanoseconds);
+
 /// What the inspector shows of a run that is played.
 struct Inspected {
     /// A setting that plays along.
@@ -21,7 +30,9 @@ struct Inspected {
         Stepping stepping{};
         std::string error{};  ///< the largest distance from the true motion, such as "7.5 cm"
         Colour grade{};       ///< of that error
-        double cost = 0;      ///< update and step, ns per frame at 60 frames per second
+        /// Of update and step per frame at 60 frames per second, such as "< 10 µs".
+        std::string cost{};
+        std::string forces{};  ///< their evaluations, such as "×4"; empty: not counted
     };
     /// Times of a frame, ns; all 0: not measured.
     struct Costs {
@@ -45,6 +56,7 @@ struct Inspected {
     std::string verdict{};                     ///< what the timestep costs
     Colour grade{};                            ///< of the verdict
     std::vector<Setting> settings{};           ///< that of the run first; none: nothing is known
+    std::string rate_advice{};                 ///< which rate would be right
     std::vector<float> errors{};               ///< of the run over time, m
     std::optional<Gauge> stiffest{};
     Costs costs{};
