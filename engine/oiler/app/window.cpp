@@ -266,8 +266,8 @@ private:
         if (inspects_) {
             // A frame at the time of a step shows that step, others the way to it.
             const bool at_step = playback_.steps() == clock_.ticks() - undone_;
-            add_ghosts(picture, along_.ghosts(playback_.steps(), at_step ? 1 : clock_.alpha()),
-                       magnifies_ ? 10 : 1);
+            inspector_.add_overlays(picture, along_, playback_.steps(),
+                                    at_step ? 1 : clock_.alpha(), magnifies_ ? 10 : 1);
         }
         if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
         window_->take_text(playback_.loop().takes_text());
