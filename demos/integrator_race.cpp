@@ -116,7 +116,9 @@ struct IntegratorRace {
                                  .rate = 240,
                                  .duration = duration,
                                  .controls = controls,
-                                 .changes_in_play = false};
+                                 .changes_in_play = false,
+                                 .fixed_setting = "Each lane has its own method, and the slider "
+                                                  "in the picture sets the rate of all."};
 
     World world;  // only its time counts: the lanes are runs of their own
     std::size_t rate = first_rate;
@@ -124,9 +126,7 @@ struct IntegratorRace {
 
     explicit IntegratorRace(const Settings& settings) : world(1, settings) {
         if (settings.stepping != Stepping{.rate = {about.rate}})
-            fail(Exit::usage,
-                 "each lane has its own method, and the slider sets the rate of all: no other "
-                 "setting applies");
+            fail(Exit::usage, "{} No other setting applies.", about.fixed_setting);
     }
     /// Adds what the world does not hold to the hash of a state.
     void hash(StateHash& hash) const { hash.add(rate, is_grabbed); }

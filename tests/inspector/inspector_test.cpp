@@ -63,6 +63,11 @@ TEST(Inspector, AsksForWhatIsClicked) {
     EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pace == 1; }));
     EXPECT_FALSE(any(all, [](const Wishes& one) { return one.steps || one.goes_back; }))
         << "not paused";
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.trails; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.springs; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.velocities; }));
+    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.accelerations; }));
+    EXPECT_EQ(all.front().shown, Shown{});
     std::set<std::int64_t> rates;
     std::set<std::string_view> methods;
     std::set<Precision> precisions;
@@ -81,7 +86,7 @@ TEST(Inspector, AsksForWhatIsClicked) {
     EXPECT_TRUE(precisions.contains(Precision::single));
 }
 
-// Wherever the box is at the left: after a click on it, a click on a button at the right restarts.
+// Wherever the box is: after a click on it, a click on a button at the right restarts.
 TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     const Inspected run = run_at_60_hz();
     const auto click = [&](Inspector& inspector, Point at) {
@@ -94,11 +99,11 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     };
     constexpr float step = 12;
     int boxes = 0;
-    for (float y = 160; y < 220; y += step) {
+    for (float y = 124; y < 148; y += step) {
         Inspector inspector(Renderer::font());
-        EXPECT_FALSE(click(inspector, {panel_left + 28, y}));
+        EXPECT_FALSE(click(inspector, {1111, y}));
         bool restarts = false;
-        for (float of_button = 220; of_button < 500; of_button += step)
+        for (float of_button = 180; of_button < 500; of_button += step)
             for (float x = 1050; x < 1260; x += 30)
                 restarts = click(inspector, {x, of_button}) || restarts;
         boxes += restarts ? 1 : 0;
@@ -111,7 +116,7 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
 TEST(Inspector, EscapeClosesAnOpenMenu) {
     const Inspected run = run_at_60_hz();
     Inspector inspector(Renderer::font());
-    const Point method{1000, 123};
+    const Point method{1000, 113};
     for (const bool down : {false, false, true, false, false}) {
         EXPECT_FALSE(inspector.has_menu() && down);
         (void)inspector.show(run, {method, down}, frame, 1.0 / 60);

@@ -37,6 +37,8 @@ struct About {
     /// Whether the setting of the game's world may change while it is played. A game with several
     /// worlds, or with members that depend on the setting, says false and is made anew.
     bool changes_in_play = true;
+    /// Why a player cannot change the setting; empty: it can be changed.
+    std::string_view fixed_setting = "";
 };
 
 template <class G>

@@ -121,6 +121,16 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     mix(costs_.draw, draw);
 }
 
+void GameInspector::add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step,
+                                 double alpha, double factor) {
+    const World& world = game_.world();
+    const std::vector<Ghost> ghosts = along.ghosts(step, alpha);
+    motion_.add(
+        picture, world, shown_,
+        {.time = world.time() - (1 - alpha) * world.dt(), .ghosts = ghosts, .factor = factor});
+    add_ghosts(picture, ghosts, factor);
+}
+
 Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
                            const Frame& frame) {
     const World& world = game_.world();
@@ -138,7 +148,8 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                   .bodies = world.bodies().size(),
                   .is_paused = frame.is_paused,
                   .has_past = frame.has_past,
-                  .pace = frame.pace};
+                  .pace = frame.pace,
+                  .scales = motion_.scales()};
     if (const auto& begin = along.begin()) {
         run.begin = begin->time;
         run.first_energy = begin->energy;
@@ -156,7 +167,9 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
             run.settings.push_back(inspected(other, *measured));
         run.rate_advice = rate_advice_text(*measured);
     }
-    return inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
+    const Wishes wishes = inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
+    shown_ = wishes.shown;
+    return wishes;
 }
 
 }  // namespace oiler

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oiler/app/game.hpp"
+#include "oiler/app/motion_overlay.hpp"
 #include "oiler/app/play_along.hpp"
 #include "oiler/inspector/inspector.hpp"
 #include "oiler/stability/stiffest.hpp"
@@ -39,6 +40,10 @@ public:
     }
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
+    /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
+    /// game `alpha` of the way to its step `step`. Distances are drawn `factor` times as long.
+    void add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step, double alpha,
+                      double factor);
     [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
                               const Frame& frame);
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
@@ -57,6 +62,8 @@ private:
     Stepping found_for_;  ///< the setting that finding_ judges
     std::optional<Inspected::Gauge> stiffest_;
     std::chrono::steady_clock::time_point next_stiffest_{};
+    Shown shown_;
+    MotionOverlay motion_;
     StepTimes times_;
     Inspected::Costs costs_;
     std::vector<const Method*> methods_;

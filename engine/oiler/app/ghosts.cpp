@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/app/drawn_bodies.hpp"
 #include "oiler/app/help.hpp"
 #include "oiler/app/look.hpp"
 #include "oiler/app/verdict.hpp"
@@ -16,14 +17,6 @@ namespace {
 constexpr std::size_t most_ghosts = 100;
 constexpr float ring = 7;  // canvas units
 constexpr float least_seen = 3;
-
-/// Where the picture has the body: a game may draw it elsewhere than it is.
-Point place_in(const Picture& picture, const Ghost& ghost) {
-    const auto disc = std::ranges::find_if(picture.discs, [&](const Disc& one) {
-        return one.space == Space::world && one.key.object == ghost.body.id() && one.key.part == 0;
-    });
-    return disc == picture.discs.end() ? to_point(ghost.at) : disc->centre;
-}
 
 }  // namespace
 
@@ -51,10 +44,13 @@ std::vector<Ghost> between(const std::vector<Ghost>& before, const std::vector<G
 }
 
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor) {
+    if (ghosts.empty()) return;
+    const DrawnBodies bodies(picture);
     for (const Ghost& ghost : ghosts) {
+        const DrawnBodies::Body* const body = bodies.find(ghost.body);
         const Vec3 off = ghost.truth - ghost.at;
         const Point way = to_point(off * factor);
-        const Point drawn = place_in(picture, ghost);
+        const Point drawn = body ? body->centre : to_point(ghost.at);
         const Point at = picture.camera.to_canvas(drawn);
         const Point truth = picture.camera.to_canvas({drawn.x + way.x, drawn.y + way.y});
         const float seen = std::hypot(truth.x - at.x, truth.y - at.y);

@@ -67,11 +67,11 @@ public:
         : along(inputs, options, about, make, PlayAlong::Pace::own),
           inspector_(game, "F1 in a window changes them.", Renderer::font()) {}
 
-    /// Adds the true places of the bodies, and lays out the panel.
+    /// Adds what it draws over the picture, and lays out the panel.
     void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
               const Manifest& header) {
         along.play_until(steps);
-        add_ghosts(picture, along.ghosts(steps, steps == at.step ? 1 : at.alpha), 1);
+        inspector_.add_overlays(picture, along, steps, steps == at.step ? 1 : at.alpha, 1);
         (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
                               {.seconds = 1.0 / header.fps, .waits = true});
     }

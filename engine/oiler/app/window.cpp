@@ -50,7 +50,8 @@ std::string_view no_way_back(const Options& options) {
 }
 
 /// Why the setting of a run cannot be changed; empty: it can.
-std::string why_fixed(const Options& options) {
+std::string why_fixed(const Options& options, const About& about) {
+    if (!about.fixed_setting.empty()) return std::string(about.fixed_setting);
     const std::string_view option = options.json.empty() ? no_way_back(options) : "--json";
     return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
@@ -80,7 +81,7 @@ public:
           renderer_([this](const char* name) { return window_->procedure(name); }),
           clock_(static_cast<int>(options.settings.stepping.rate.steps)),
           along_(inputs, options, about, make),
-          inspector_(playback.game(), why_fixed(options), Renderer::font()),
+          inspector_(playback.game(), why_fixed(options, about), Renderer::font()),
           inspects_(options.inspector) {
         if (no_way_back(options).empty()) rewind_.emplace(playback.game(), along_);
         inputs_ = rewind_ ? static_cast<InputSource*>(&*rewind_) : &along_;
@@ -266,8 +267,8 @@ private:
         if (inspects_) {
             // A frame at the time of a step shows that step, others the way to it.
             const bool at_step = playback_.steps() == clock_.ticks() - undone_;
-            add_ghosts(picture, along_.ghosts(playback_.steps(), at_step ? 1 : clock_.alpha()),
-                       magnifies_ ? 10 : 1);
+            inspector_.add_overlays(picture, along_, playback_.steps(),
+                                    at_step ? 1 : clock_.alpha(), magnifies_ ? 10 : 1);
         }
         if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
         window_->take_text(playback_.loop().takes_text());

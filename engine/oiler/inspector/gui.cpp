@@ -68,6 +68,9 @@ void Gui::set_scale(float unit) {
     ImGui::StyleColorsLight(&style);
     style.AntiAliasedLinesUseTex = false;  // texels are not blended
     style.WindowRounding = 0;
+    style.FramePadding.y = 2;  // many rows
+    style.ItemSpacing.y = 3;
+    style.CellPadding.y = 1;
     style.ScaleAllSizes(unit);
     ImGui::GetStyle() = style;
 }

@@ -32,6 +32,9 @@ ImVec4 gui_colour(Colour colour) {
 }
 
 void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
+void coloured(Colour colour, const std::string& words) {
+    ImGui::TextColored(gui_colour(colour), "%s", words.c_str());
+}
 void wrapped(const std::string& words) {
     ImGui::PushTextWrapPos(0);
     text(words);
@@ -72,11 +75,11 @@ struct Inspector::Impl {
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
         if (!is_sliding) place = place_of(run.stepping.rate.steps);
-        const std::string shown =
+        const std::string hertz =
             fmt::format("{} Hz", is_sliding ? offered_rates[static_cast<std::size_t>(place)]
                                             : run.stepping.rate.steps);
         ImGui::SliderInt("rate", &place, 0, static_cast<int>(offered_rates.size()) - 1,
-                         shown.c_str(), ImGuiSliderFlags_NoInput);
+                         hertz.c_str(), ImGuiSliderFlags_NoInput);
         is_sliding = ImGui::IsItemActive();
         if (ImGui::IsItemDeactivatedAfterEdit())
             chosen.rate = {offered_rates[static_cast<std::size_t>(place)]};
@@ -96,10 +99,12 @@ struct Inspector::Impl {
         ImGui::RadioButton("double", &is_double, 1);
         ImGui::EndDisabled();
         chosen.precision = is_double == 1 ? Precision::double_ : Precision::single;
-        if (run.fixed.empty())
+        if (run.fixed.empty()) {
+            ImGui::SameLine(ImGui::GetContentRegionAvail().x / 2);
             ImGui::Checkbox("changes restart the run", &changes_from_start);
-        else
+        } else {
             wrapped(run.fixed);
+        }
         if (chosen != run.stepping) wishes.stepping = chosen;
     }
 
@@ -132,7 +137,7 @@ struct Inspector::Impl {
             ImGui::TableNextColumn();
             text(difference(one.stepping, run.stepping));
             ImGui::TableNextColumn();
-            ImGui::TextColored(gui_colour(one.grade), "%s", one.error.c_str());
+            coloured(one.grade, one.error);
             ImGui::TableNextColumn();
             text(one.cost);
             ImGui::TableNextColumn();
@@ -158,6 +163,44 @@ struct Inspector::Impl {
         ImGui::PlotLines("##errors", logarithms.data(), static_cast<int>(logarithms.size()), 0,
                          now.c_str(), -6, 3,
                          {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()});
+    }
+
+    /// What is drawn over the picture, with its scale.
+    void show_overlays(const Inspected& run) {
+        const Inspected::Scales& scales = run.scales;
+        const float second = ImGui::GetContentRegionAvail().x / 2;
+        ImGui::Separator();
+        ImGui::Checkbox("trails", &shown.trails);
+        ImGui::SameLine(second);
+        ImGui::Checkbox("springs by strain", &shown.springs);
+        ImGui::Checkbox("velocity", &shown.velocities);
+        ImGui::SameLine(second);
+        ImGui::Checkbox("acceleration", &shown.accelerations);
+        if (shown.springs) show_strains(scales);
+        const auto arrow = [](double scale, const char* unit, Colour colour) {
+            coloured(colour, fmt::format("1 m = {:g} {}", scale, unit));
+        };
+        if (shown.velocities) arrow(scales.velocity, "m/s", Inspected::Scales::colour_of_velocity);
+        if (shown.velocities && shown.accelerations) ImGui::SameLine(second);
+        if (shown.accelerations)
+            arrow(scales.acceleration, "m/s²", Inspected::Scales::colour_of_acceleration);
+        const bool has_bodies = shown.trails || shown.velocities || shown.accelerations;
+        if (has_bodies && scales.bodies > 0)
+            text(fmt::format("trails and arrows: {} bodies", scales.bodies));
+    }
+    static void show_strains(const Inspected::Scales& scales) {
+        const auto row = [](const std::string& full, bool may_be_compressed) {
+            if (may_be_compressed) {
+                coloured(palette::blue, "−" + full);
+                ImGui::SameLine();
+            }
+            coloured(palette::grey, "relaxed");
+            ImGui::SameLine();
+            coloured(palette::vermilion, "+" + full);
+        };
+        if (scales.springs == 0) text("there are no springs");
+        if (scales.strain > 0) row(fmt::format("{:g} %", 100 * scales.strain), true);
+        if (!scales.stretch.empty()) row(scales.stretch + ", without a rest length", false);
     }
 
     /// How far the stiffest spring or damper is from breaking.
@@ -238,6 +281,7 @@ struct Inspector::Impl {
     Gui gui;
     bool has_menu = false;
     bool changes_from_start = false;
+    Shown shown;
     int place = 0;  ///< of the rate on the slider
     bool is_sliding = false;
 };
@@ -256,17 +300,20 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
     const auto panel = static_cast<float>(frame.width - view(frame).width);
     ImGui::SetNextWindowPos({static_cast<float>(frame.width) - panel, 0});
     ImGui::SetNextWindowSize({panel, static_cast<float>(frame.height)});
-    ImGui::Begin("Inspector", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+    ImGui::Begin("Inspector", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
     Impl::show_verdict(run);
     impl_->show_setting(run, mouse.escapes, wishes);
     Impl::show_controls(run, wishes);
     Impl::show_settings(run, wishes);
     Impl::show_gauge(run);
+    impl_->show_overlays(run);
     Impl::show_costs(run);
     Impl::show_energy(run);
     ImGui::End();
     impl_->gui.end();
     wishes.changes_from_start = impl_->changes_from_start;
+    wishes.shown = impl_->shown;
     return wishes;
 }
 

@@ -11,6 +11,7 @@
 
 #include "oiler/core/size.hpp"
 #include "oiler/physics/stepping.hpp"
+#include "oiler/picture/palette.hpp"
 #include "oiler/render/overlay.hpp"
 
 namespace oiler {
@@ -22,6 +23,15 @@ inline constexpr std::array<std::int64_t, 26> offered_rates{
 
 /// "850 ns", "12.3 µs", "4.5 ms".
 [[nodiscard]] std::string time_text(double nanoseconds);
+
+/// What is drawn over the picture while the inspector is open.
+struct Shown {
+    bool trails = false;
+    bool springs = false;  ///< coloured by their strain
+    bool velocities = false;
+    bool accelerations = false;
+    friend bool operator==(const Shown&, const Shown&) = default;
+};
 
 /// What the inspector shows of a run that is played.
 struct Inspected {
@@ -50,6 +60,19 @@ struct Inspected {
         double limit = 0;    ///< the largest stable measure; infinite: any is stable
     };
 
+    /// The scales of what is drawn over the picture.
+    struct Scales {
+        static constexpr Colour colour_of_velocity = palette::green;
+        static constexpr Colour colour_of_acceleration = palette::ink;
+
+        double velocity = 0;      ///< m/s that are drawn as 1 m
+        double acceleration = 0;  ///< m/s² that are drawn as 1 m
+        double strain = 0;        ///< of springs with the full colour; 0: none has a strain
+        std::string stretch{};    ///< the same of springs without a rest length, such as "2 cm"
+        std::size_t springs = 0;  ///< that are drawn
+        std::size_t bodies = 0;   ///< that have trails and arrows; 0: all
+    };
+
     Stepping stepping{};
     std::span<const Method* const> methods{};  ///< those that can step the bodies
     std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
@@ -69,6 +92,7 @@ struct Inspected {
     bool is_paused = false;
     bool has_past = false;
     std::string pace{};
+    Scales scales{};
 };
 
 /// What the user asks of the loop through the inspector.
@@ -80,6 +104,7 @@ struct Wishes {
     bool goes_back = false;
     bool restarts = false;
     int pace = 0;  ///< faster, or slower
+    Shown shown{};
 };
 
 /// A panel at the right of the window.
