@@ -117,8 +117,9 @@ struct IntegratorRace {
                                  .duration = duration,
                                  .controls = controls,
                                  .changes_in_play = false,
-                                 .fixed_setting = "Each lane has its own method, and the slider "
-                                                  "in the picture sets the rate of all."};
+                                 .fixed_setting =
+                                     "The slider in the picture sets the rate of all "
+                                     "lanes; each has its own method."};
 
     World world;  // only its time counts: the lanes are runs of their own
     std::size_t rate = first_rate;
@@ -126,7 +127,9 @@ struct IntegratorRace {
 
     explicit IntegratorRace(const Settings& settings) : world(1, settings) {
         if (settings.stepping != Stepping{.rate = {about.rate}})
-            fail(Exit::usage, "{} No other setting applies.", about.fixed_setting);
+            fail(Exit::usage,
+                 "each lane has its own method, and the slider sets the rate of all: no other "
+                 "setting applies");
     }
     /// Adds what the world does not hold to the hash of a state.
     void hash(StateHash& hash) const { hash.add(rate, is_grabbed); }

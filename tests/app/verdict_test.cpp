@@ -9,6 +9,7 @@
 
 #include "oiler/app/play_along.hpp"
 #include "oiler/app/playback.hpp"
+#include "oiler/app/rate_advice.hpp"
 
 namespace oiler::test {
 namespace {
@@ -208,7 +209,7 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     OnePress other;
     const MakeGame make = make_fall;
     PlayAlong along(player, options, Fall::about, make);
-    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
     for (const std::int64_t second : {0, 1}) {
         game.step(60 * second, 60, along);
         alone.step(60 * second, 60, other);
@@ -235,8 +236,8 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     EXPECT_NEAR(along.errors().back(), 1 / 3.0, 1e-6);
     along.stop("went back");
     EXPECT_TRUE(along.ghosts(120, 1).empty());
-    EXPECT_EQ(along.verdict(game).text, "went back");
-    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+    EXPECT_EQ(along.verdict().text, "went back");
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
 }
 
 // Semi-implicit Euler falls g·dt/2·t too deep in the time t since its start. A run that begins at 1
@@ -279,17 +280,51 @@ TEST(PlayAlong, ProvesTheAdvisedRateInTheNextRun) {
     const std::size_t usual = along.result().runs.size();
     game.step(0, 12, along);
     along.play_until(12);
-    (void)along.verdict(game);
-    along.start(12);
+    along.repeat(12);
     const std::vector<WhatIfRun> runs = along.result().runs;
     ASSERT_EQ(runs.size(), usual + 1);
     EXPECT_EQ(runs.back().stepping.rate, Rate{480});
     EXPECT_EQ(runs.back().stepping.method, options.settings.stepping.method);
+    EXPECT_EQ(rate_advice_text(*along.measured()),
+              "About 480 Hz of this method would be within a pixel.");
     game.step(12, 12, along);
     along.play_until(24);
-    (void)along.verdict(game);
+    (void)along.verdict();
+    EXPECT_EQ(rate_advice_text(*along.measured()),
+              "480 Hz of this method is within a pixel so far.");
     along.start(24, {.method = options.settings.stepping.method, .rate = {120}});
     EXPECT_EQ(along.result().runs.size(), usual) << "of another setting, nothing is known";
+}
+
+// What a round of 12 steps found stands in the next one until that has found as much.
+TEST(PlayAlong, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
+    Options options;
+    options.settings.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}};
+    AnyGameOf<Fall> game(options.settings);
+    OnePress player;  // in step 30
+    const MakeGame make = make_fall;
+    PlayAlong along(player, options, Fall::about, make, PlayAlong::Pace::own);
+    const auto play = [&](std::int64_t from, std::int64_t count) {
+        game.step(from, count, along);
+        along.play_until(from + count);
+        (void)along.verdict();
+        return along.measured() ? along.measured()->runs.front().distance : -1;
+    };
+    const double off = play(0, 12);
+    EXPECT_NEAR(off, 20 * 0.2 / 60 / 2, 1e-12);
+    along.repeat(12);
+    EXPECT_EQ(play(12, 6), off);
+    EXPECT_TRUE(along.repeats());
+    EXPECT_EQ(play(18, 6), off);
+    EXPECT_FALSE(along.repeats()) << "it has found as much";
+    along.repeat(24);
+    EXPECT_EQ(play(24, 6), off);
+    EXPECT_NEAR(play(30, 1), 20 * (7 / 60.0) / 60 / 2, 1e-12) << "a press: another round";
+    EXPECT_FALSE(along.repeats());
+    along.repeat(31);
+    EXPECT_NEAR(play(31, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12) << "the last round had input";
+    along.start(34);
+    EXPECT_NEAR(play(34, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
 }
 
 // Euler evaluates the forces once a step, rk4 four times.
@@ -328,10 +363,10 @@ TEST(PlayAlong, EndsAfterAFewStepsIfTheyTakeTooLong) {
     };
     PlayAlong along(player, options, Fall::about, make);
     int frames = 0;
-    while (frames < 60 && along.verdict(game).text.find("cannot keep up") == std::string::npos)
+    while (frames < 60 && along.verdict().text.find("cannot keep up") == std::string::npos)
         along.play_until(++frames);
     EXPECT_LE(frames, 9) << "the first comparison takes no step, and may be late";
-    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
 }
 
 /// A game without bodies.
@@ -353,9 +388,8 @@ TEST(PlayAlong, ClaimsNoErrorOfAGameWithoutBodies) {
     PlayAlong along(player, options, Empty::about, make, PlayAlong::Pace::own);
     game.step(0, 60, along);
     along.play_until(60);
-    EXPECT_EQ(along.verdict(game).text,
-              "what the timestep costs is not measured: there are no bodies");
-    EXPECT_EQ(along.verdict(game).grade, Grade::unknown);
+    EXPECT_EQ(along.verdict().text, "what the timestep costs is not measured: there are no bodies");
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
         run.begin = begin->time;
         run.first_energy = begin->energy;
     }
-    const Verdict& verdict = along.verdict(game_);
+    const Verdict& verdict = along.verdict();
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
     if (const auto& measured = along.measured()) {
@@ -165,6 +165,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
         run.settings.push_back(inspected(played, *measured));
         for (const WhatIfRun& other : std::span(measured->runs).subspan(1))
             run.settings.push_back(inspected(other, *measured));
+        run.is_of_round = along.repeats();
         run.rate_advice = rate_advice_text(*measured);
     }
     const Wishes wishes = inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);

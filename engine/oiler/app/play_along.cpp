@@ -17,11 +17,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto time_of_frame = 1ms;
+constexpr int part_of_slow_frame = 16;  // where a picture takes long, so may this
 constexpr auto time_of_verdict = 100ms;
 constexpr std::int64_t longest_delay = 2;  // s
 constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
-constexpr int most_slow_steps = 8;  // one after the other that take longer than time_of_frame
+constexpr int most_slow_steps = 8;  // one after the other that take longer than that
 constexpr const char* too_slow =
     "what the timestep costs is not measured: this computer cannot keep up";
 constexpr std::size_t most_errors = 600;
@@ -45,11 +46,24 @@ void PlayAlong::start(std::int64_t first, const Stepping& stepping) {
     start(first);
 }
 
-void PlayAlong::start(std::int64_t first) { measure(first, make_); }
+void PlayAlong::start(std::int64_t first) {
+    repeats_ = false;
+    began_at_start_ = true;
+    measure(first, make_);
+}
+
+void PlayAlong::repeat(std::int64_t first) {
+    const bool is_same = runs_ && began_at_start_ && options_.replay->events.empty();
+    if (is_same && played_ != judged_) judge(runs_->result());
+    repeats_ = is_same && measured_;
+    began_at_start_ = true;
+    measure(first, make_);
+}
 
 void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
     options_.settings.stepping = game.world().settings().stepping;
     options_.replay->header.stepping = options_.settings.stepping;
+    repeats_ = began_at_start_ = false;
     measure(first, [now = std::shared_ptr<const AnyGame>(game.clone())](const Settings& settings) {
         std::unique_ptr<AnyGame> run = now->clone();
         run->set_stepping(settings.stepping);
@@ -59,8 +73,7 @@ void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
 
 void PlayAlong::measure(std::int64_t first, MakeGame make) {
     make_run_ = std::move(make);
-    const auto advised = advised_setting();
-    measured_.reset();
+    if (!repeats_) measured_.reset();
     errors_.clear();
     ghosts_before_.clear();
     ghosts_after_.clear();
@@ -68,6 +81,7 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
     first_ = first;
     played_ = judged_ = 0;
     slow_ = 0;
+    last_ = Clock::now();
     before_ = {};
     options_.replay->events.clear();
     try {
@@ -77,22 +91,23 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
         if (bodies.size() > most_bodies)
             return stop(fmt::format("what the timestep costs is not measured for {} bodies",
                                     bodies.size()));
-        std::vector<Stepping> steppings = usual_what_if(options_.settings, make_run_);
-        if (advised && std::ranges::find(steppings, *advised) == steppings.end())
-            steppings.push_back(*advised);
-        runs_.emplace(options_, steppings, make_run_);
+        runs_.emplace(options_, other_settings(), make_run_);
     } catch (const Error& error) {
         stop(error.what());
     }
 }
 
-std::optional<Stepping> PlayAlong::advised_setting() const {
-    Stepping setting = options_.settings.stepping;
-    if (!measured_ || measured_->runs.front().stepping != setting) return std::nullopt;
-    const auto advice = advise_rate(*measured_);
-    if (!advice || Rate{advice->rate} == setting.rate) return std::nullopt;
-    setting.rate = {advice->rate};
-    return setting;
+std::vector<Stepping> PlayAlong::other_settings() const {
+    std::vector<Stepping> others = usual_what_if(options_.settings, make_run_);
+    if (!repeats_) return others;
+    if (const auto advice = advise_rate(*measured_)) {
+        Stepping advised = options_.settings.stepping;
+        advised.rate = {advice->rate};
+        const bool is_played =
+            advised == options_.settings.stepping || std::ranges::count(others, advised) > 0;
+        if (!is_played) others.push_back(advised);
+    }
+    return others;
 }
 
 Input PlayAlong::next(std::int64_t step) {
@@ -110,12 +125,15 @@ void PlayAlong::play_until(std::int64_t step) {
     const bool hurries = pace_ == Pace::of_frames;
     if (hurries && behind(step) > std::max(delay, longest_delay_in_steps)) return stop(too_slow);
     options_.replay->steps = step - first_;
-    const Clock::time_point end = Clock::now() + time_of_frame;
+    const Clock::time_point now = Clock::now();
+    const auto time = std::max<Clock::duration>(time_of_frame, (now - last_) / part_of_slow_frame);
+    last_ = now;
+    const Clock::time_point end = now + time;
     try {
         while (behind(step) > 0 && (!hurries || Clock::now() < end)) {
             const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
-            slow_ = Clock::now() - begin > time_of_frame ? slow_ + 1 : 0;
+            slow_ = Clock::now() - begin > time ? slow_ + 1 : 0;
             ghosts_before_ = std::exchange(ghosts_after_, ghosts_of(runs_->recorded_game().world(),
                                                                     runs_->reference().world()));
             if (!runs_->certain()) continue;
@@ -136,19 +154,28 @@ std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {
 void PlayAlong::stop(std::string reason) {
     runs_.reset();
     measured_.reset();
+    repeats_ = false;
     verdict_ = {.text = std::move(reason)};
 }
 
-const Verdict& PlayAlong::verdict(const AnyGame& game) {
+void PlayAlong::judge(WhatIf measured) {
+    judged_ = played_;
+    if (!options_.replay->events.empty()) repeats_ = false;
+    if (repeats_ && measured.certain_until < measured_->certain_until) return;
+    repeats_ = false;
+    measured_ = std::move(measured);
+    const AnyGame& game = runs_->recorded_game();
+    verdict_ = verdict_of(*measured_, readings_, begin_->time,
+                          [&](Entity body) { return game.name_of(body); });
+    if (std::isnan(measured_->runs.front().distance) && game.world().bodies().size() == 0)
+        verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
+    readings_ = measured_->runs.front().readings;
+}
+
+const Verdict& PlayAlong::verdict() {
     const bool is_due = pace_ == Pace::own || Clock::now() >= next_verdict_;
     if (runs_ && played_ != judged_ && is_due) {
-        judged_ = played_;
-        measured_ = runs_->result();
-        verdict_ = verdict_of(*measured_, readings_, begin_->time,
-                              [&](Entity body) { return game.name_of(body); });
-        if (std::isnan(measured_->runs.front().distance) && game.world().bodies().size() == 0)
-            verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
-        readings_ = measured_->runs.front().readings;
+        judge(runs_->result());
         next_verdict_ = Clock::now() + time_of_verdict;
     }
     return verdict_;

@@ -27,6 +27,9 @@ public:
     void start(std::int64_t first);
     /// The same with another setting of the game.
     void start(std::int64_t first, const Stepping& stepping);
+    /// Begins again with the game as it is made: what was measured stands until as much is measured
+    /// anew, unless there is input. The rate that it advises plays along, too.
+    void repeat(std::int64_t first);
     /// Begins with the game as it is now, before its step `first`.
     void start_from(const AnyGame& game, std::int64_t first);
     [[nodiscard]] Input next(std::int64_t step) override;
@@ -49,7 +52,9 @@ public:
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
     /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
     /// second.
-    [[nodiscard]] const Verdict& verdict(const AnyGame& game);
+    [[nodiscard]] const Verdict& verdict();
+    /// Whether what is measured is of the round that this one repeats.
+    [[nodiscard]] bool repeats() const { return repeats_; }
     /// What the last verdict is made of; empty if nothing is measured.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
     /// The bodies and where they truly are, `alpha` between the last step and that before; empty if
@@ -62,8 +67,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void measure(std::int64_t first, MakeGame make);
-    /// The setting that the last run of the same setting advises: the next one proves it.
-    [[nodiscard]] std::optional<Stepping> advised_setting() const;
+    void judge(WhatIf measured);
+    [[nodiscard]] std::vector<Stepping> other_settings() const;
 
     InputSource& inputs_;
     const MakeGame& make_;
@@ -75,7 +80,10 @@ private:
     Input before_{};
     std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
     std::int64_t played_ = 0;
-    int slow_ = 0;             ///< the last steps that each took too long
+    int slow_ = 0;              ///< the last steps that each took too long
+    Clock::time_point last_{};  ///< when it last played along
+    bool repeats_ = false;
+    bool began_at_start_ = false;
     std::int64_t judged_ = 0;  ///< played then
     Clock::time_point next_verdict_{};
     std::vector<Reading> readings_;  ///< at the last verdict

@@ -234,7 +234,7 @@ private:
         restarted_at_ = playback_.steps();
         was_back_ = false;
         AnyGame& game = playback_.game();
-        if (measures()) along_.start(playback_.steps());
+        if (measures()) along_.repeat(playback_.steps());
         failure_.reset();
         if (game.takes_input()) return live_.queue.restart();
         game.restart();
@@ -270,7 +270,7 @@ private:
             inspector_.add_overlays(picture, along_, playback_.steps(),
                                     at_step ? 1 : clock_.alpha(), magnifies_ ? 10 : 1);
         }
-        if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict(playback_.game()));
+        if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict());
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
         if (helps_) add_help(picture, title_, controls_, key_names(), !uses_escape(controls_));

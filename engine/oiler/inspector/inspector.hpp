@@ -79,6 +79,7 @@ struct Inspected {
     std::string verdict{};                     ///< what the timestep costs
     Colour grade{};                            ///< of the verdict
     std::vector<Setting> settings{};           ///< that of the run first; none: nothing is known
+    bool is_of_round = false;                  ///< they are of the whole last round
     std::string rate_advice{};                 ///< which rate would be right
     std::vector<float> errors{};               ///< of the run over time, m
     std::optional<Gauge> stiffest{};
