@@ -54,8 +54,20 @@ TEST(Verdict, NamesTheBodyThePixelsAndTheCheapestCure) {
         std::string::npos);
     EXPECT_TRUE(judge(measured(0.073, 0.04, 0.04)).text.ends_with("semi_implicit_euler."))
         << "nothing mends it";
-    EXPECT_NE(judge(measured(0.073, 5e-6, 0.02)).text.find("velocity_verlet: exact"),
+    EXPECT_NE(judge(measured(0.073, 5e-6, 0.02)).text.find("velocity_verlet: exact,"),
               std::string::npos);
+}
+
+TEST(Verdict, SaysWhereACureIsOffOnlyBetweenSteps) {
+    WhatIf result = measured(0.04, 0.002, 0.02);
+    result.runs[1].distance_at_steps = 5e-6;
+    EXPECT_NE(judge(result).text.find("velocity_verlet: exact at the steps, "), std::string::npos);
+    result.runs[1].distance_at_steps = 5e-5;
+    EXPECT_NE(judge(result).text.find("velocity_verlet: 2 mm off, "), std::string::npos);
+    result = measured(0.04, 0.012, 0.03);
+    result.runs[1].distance_at_steps = 5e-6;
+    EXPECT_NE(judge(result).text.find("velocity_verlet: 1.2 cm off, "), std::string::npos)
+        << "a pixel is seen";
 }
 
 TEST(Verdict, TellsTimesOfTheGame) {
@@ -71,7 +83,7 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     const Verdict good = judge(measured(0.009, 0, 0));
     EXPECT_EQ(good.grade, Grade::good);
     EXPECT_EQ(good.text,
-              "Each step is within 9 mm of the true motion, less than a pixel, at 60 Hz "
+              "Drawn within 9 mm of the true motion, less than a pixel, at 60 Hz "
               "semi_implicit_euler.");
     EXPECT_NE(judge(measured(1e-7, 0, 0)).text.find("within 10 µm"), std::string::npos)
         << "no more is known";

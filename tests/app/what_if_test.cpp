@@ -131,19 +131,25 @@ WhatIf measure(const Options& options, const std::string& settings) {
     return *result;
 }
 
-// Semi-implicit Euler is g·dt·t/2 below the parabola. A push that comes late leaves the body lower
-// by push times the delay: step 45 of 60 Hz is at 0.75 s, the next step of 30 Hz 1/60 s later.
+/// What a straight line between two steps is off a parabola at its middle.
+double chord(double hertz) { return gravity / (hertz * hertz) / 8; }
+
+// Semi-implicit Euler is g·dt·t/2 below the parabola. A line between its steps is less below it
+// than its later end is. A push that comes late leaves the body lower by push times the delay: step
+// 45 of 60 Hz is at 0.75 s, the next step of 30 Hz 1/60 s later.
 TEST(WhatIf, ErrorsAreThoseOfClosedForms) {
     const WhatIf result = measure<Fall>(record<Fall>(), "20,30,120,30@rk4,velocity_verlet,float");
     const double end = 2;
     const auto fall = [&](double hertz) { return gravity / hertz * end / 2; };
     const double expected[] = {fall(60), fall(20), fall(30) + push / 60, fall(120), push / 60,
                                0,        fall(60)};
+    const double lines[] = {0, 0, 0, 0, chord(30), chord(60), 0};
     ASSERT_EQ(result.runs.size(), std::size(expected));
     for (std::size_t i = 0; i < std::size(expected); ++i) {
         const WhatIfRun& run = result.runs[i];
         const double tolerance = run.stepping.precision == Precision::single ? 1e-4 : 1e-10;
-        EXPECT_NEAR(run.distance, expected[i], tolerance) << describe(run.stepping);
+        EXPECT_NEAR(run.distance_at_steps, expected[i], tolerance) << describe(run.stepping);
+        EXPECT_NEAR(run.distance, expected[i] + lines[i], tolerance) << describe(run.stepping);
         ASSERT_EQ(run.readings.size(), 2U);
         EXPECT_NEAR(run.readings[0].value, result.reference.readings[0].value - expected[i],
                     tolerance);
@@ -170,6 +176,9 @@ TEST(WhatIf, ReadingsAreComparedWhereBothRunsBeginAStep) {
     const double push_at = 53 / 70.0;  // the first step of 70 Hz from 0.75 s on
     EXPECT_NEAR(run.readings[0].value, push * (at - push_at) - gravity * at * at / 2, 1e-10);
     EXPECT_NEAR(run.true_readings[0].value, push * (at - 0.75) - gravity * at * at / 2, 1e-10);
+    // Seven of its lines are 24 moments long, so that the middle of one is a moment.
+    EXPECT_NEAR(run.distance, push * (push_at - 0.75) + chord(70), 1e-10);
+    EXPECT_NEAR(run.distance_at_steps, push * (push_at - 0.75), 1e-10);
     EXPECT_EQ(result.runs[2].read_at, 118 / 60.0);
     EXPECT_EQ(result.runs[0].read_at, 119 / 60.0);
 }
@@ -220,7 +229,30 @@ TEST(WhatIf, NamesNoDistanceWhereNothingWasCompared) {
     const WhatIf result = measure<Elsewhere>(record<Elsewhere>(), "30");
     EXPECT_FALSE(std::isnan(result.runs[0].distance));
     EXPECT_TRUE(std::isnan(result.runs[1].distance));
+    EXPECT_TRUE(std::isnan(result.runs[1].distance_at_steps));
     EXPECT_EQ(result.runs[1].other_play_from, 2 / 60.0);
+}
+
+/// A body that moves 1 m a step, and is brought back in every second one.
+struct Commuter {
+    static constexpr About about{.name = "commuter", .title = "Commuter", .rate = rate};
+    World world;
+    Entity body;
+    explicit Commuter(const Settings& settings)
+        : world(1, settings), body(world.spawn(Body{.velocity = {rate}})) {}
+    void update(const Input&) {
+        const bool is_even = world.tick() % (2 * world.settings().stepping.rate.steps / rate) == 0;
+        if (is_even) world.teleport(body, {0});
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
+};
+
+// What the picture does not draw as a line is not compared as one: a line back would be up to 2 m
+// away from the body.
+TEST(WhatIf, ComparesNoLineOverATeleport) {
+    const WhatIf result = measure<Commuter>(record<Commuter>("rk4"), "120");
+    EXPECT_EQ(result.certain_until, 2);
+    for (const WhatIfRun& run : result.runs) EXPECT_NEAR(run.distance, 0, 1e-12);
 }
 
 /// A game whose world has no body, or one from 1 s on.
@@ -245,28 +277,32 @@ TEST(WhatIf, NamesNoDistanceWithoutBodies) {
     EXPECT_EQ(with.uncertainty, 0);
 }
 
-// g·dt·t/2 exceeds 1 cm at 0.06 s at 60 Hz and at 0.12 s at 120 Hz. The late push of 30 Hz leaves
+// At the steps, g·dt·t/2 exceeds 1 cm after 0.06 s at 60 Hz and after 0.12 s at 120 Hz. The line to
+// the next step is g·dt²·(a − a²/2) further below at a of the way: beyond 1 cm from the middle of
+// step 3 at 60 Hz, and of step 14 at 120 Hz. The late push of 30 Hz leaves
 // the body 5/60 m lower from step 46 on, 0.767 s. There, one push is still missing, so that it is
 // counted one step of 30 Hz later.
 TEST(WhatIf, NamesTheTimeFromWhichAPixelIsExceeded) {
     const WhatIf result = measure<Fall>(record<Fall>(), "120,30@rk4,rk4");
-    EXPECT_EQ(result.runs[0].visible_from, 4 / 60.0);
-    EXPECT_EQ(result.runs[1].visible_from, 8 / 60.0);
+    EXPECT_EQ(result.runs[0].visible_from, 3.5 / 60);
+    EXPECT_EQ(result.runs[1].visible_from, 14.5 / 120);
     EXPECT_EQ(result.runs[2].visible_from, 48 / 60.0);
     EXPECT_FALSE(result.runs[3].visible_from);
 }
 
 // The reference meets the target at 0.4113 s, before step 25 ends; semi-implicit Euler misses it,
-// because its apex is 9 m/s·dt/2 lower. Until then it is g·dt·t/2 too low. Velocity Verlet is
-// exact, but looks one step later: that is no other play.
+// because its apex is 9 m/s·dt/2 lower. Until step 24 it is g·dt·t/2 too low, and g·dt²·3/8 more in
+// the middle of the line to the next step, the last moment before; at 240 Hz that is a step.
+// Velocity Verlet is exact at the steps, but looks one step later: that is no other play.
 template <class Game>
-void expect_other_play(double after_delay = 0) {
+void expect_other_play(double after_delay = chord(60)) {
     const WhatIf result = measure<Game>(record<Game>(), "240,velocity_verlet");
     ASSERT_EQ(result.runs.size(), 3U);
     EXPECT_EQ(result.runs[0].other_play_from, 25 / 60.0);
-    EXPECT_NEAR(result.runs[0].distance, gravity / 60 * 0.4 / 2, 1e-10);
+    EXPECT_NEAR(result.runs[0].distance_at_steps, gravity / 60 * 0.4 / 2, 1e-10);
+    EXPECT_NEAR(result.runs[0].distance, gravity / 60 * (0.4 / 2 + 0.375 / 60), 1e-10);
     EXPECT_EQ(result.runs[1].other_play_from, 25 / 60.0);
-    EXPECT_NEAR(result.runs[1].distance, gravity / 240 * 0.4 / 2, 1e-10);
+    EXPECT_NEAR(result.runs[1].distance, gravity / 240 * (0.4 + 2 / 240.0) / 2, 1e-10);
     EXPECT_FALSE(result.runs[2].other_play_from);
     EXPECT_NEAR(result.runs[2].distance, after_delay, 1e-10);
     EXPECT_EQ(result.certain_until, 2);
@@ -295,9 +331,9 @@ TEST(WhatIf, NothingIsCountedOnceTheReferenceIsUncertain) {
     EXPECT_NEAR(result.uncertainty, 25 * until * (1 / 420.0 - 1 / 960.0), 1e-12);
     EXPECT_NEAR(result.runs[0].distance, 25 * until * (1 / 60.0 - 1 / 960.0), 1e-12);
     EXPECT_NEAR(result.runs[1].distance, 25 * until * (1 / 120.0 - 1 / 960.0), 1e-12);
-    // 240 Hz: 25·t·(1/240 - 1/960) is 1 cm after 0.128 s, and 1 cm more than the uncertainty after
-    // 0.224 s.
-    EXPECT_EQ(result.runs[2].visible_from, 14 / 60.0);
+    // 240 Hz: 25·t·(1/240 - 1/960) is 1 cm after 0.128 s, and 1 cm more than the uncertainty of
+    // step 14 after 0.228 s, of which 13.75 is the next moment.
+    EXPECT_EQ(result.runs[2].visible_from, 13.75 / 60);
 }
 
 TEST(WhatIf, TheReferenceHasAtLeast960Steps) {
@@ -321,7 +357,9 @@ TEST(WhatIf, ASettingThatFailsIsNamed) {
     EXPECT_TRUE(holds(result.runs[1].failure, "tick 10")) << result.runs[1].failure;
     EXPECT_TRUE(holds(result.runs[1].failure, "30 Hz is too slow"));
     const double until = 16 / 60.0;  // the last common step while the reference is certain
-    EXPECT_NEAR(result.runs[1].distance, 25 * until * (1 / 30.0 - 1 / 960.0), 1e-12);
+    EXPECT_NEAR(result.runs[1].distance_at_steps, 25 * until * (1 / 30.0 - 1 / 960.0), 1e-12);
+    const double drawn_until = 17 / 60.0;  // halfway to its next step
+    EXPECT_NEAR(result.runs[1].distance, 25 * drawn_until * (1 / 30.0 - 1 / 960.0), 1e-12);
     EXPECT_EQ(result.runs[2].failure, "");
 }
 

@@ -15,6 +15,11 @@ using Times = std::vector<std::chrono::nanoseconds>;
 constexpr double lasting_difference = 0.25;  // s
 constexpr double frames_per_second = 60;
 
+Rate rate_of_instants(Rate recorded) {
+    recorded.steps *= instants_per_step;
+    return recorded;
+}
+
 bool is_whole(double value) { return std::trunc(value) == value; }
 
 bool is_same_play(const Moment& a, const Moment& b) {
@@ -28,6 +33,19 @@ bool is_same_play(const Moment& a, const Moment& b) {
     return a.cuts == b.cuts && a.quits == b.quits &&
            std::ranges::equal(a.bodies, b.bodies, same_body) &&
            std::ranges::equal(a.readings, b.readings, same_count);
+}
+
+/// The largest distance as drawn, `alpha` of the way between two steps of a run; empty if there are
+/// no bodies or if the three are not the same play.
+std::optional<Apart> largest_drawn(const Moment& before, const Moment& after, double alpha,
+                                   const Moment& truth) {
+    if (truth.bodies.empty() || !is_same_play(before, after)) return std::nullopt;
+    Moment drawn = after;
+    for (std::size_t i = 0; i < drawn.bodies.size(); ++i) {
+        const Vec3 from = before.bodies[i].position;
+        drawn.bodies[i].position = from + (after.bodies[i].position - from) * alpha;
+    }
+    return largest_distance(truth, drawn);
 }
 
 /// Keeps a time, of many the last ones.
@@ -91,7 +109,8 @@ PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const Mak
     : result_{.stepping = stepping},
       inputs_(*options.replay, stepping.rate, options.controls),
       recorded_rate_(options.replay->header.stepping.rate),
-      ratio_(recorded_rate_, stepping.rate) {
+      ratio_(recorded_rate_, stepping.rate),
+      instants_(rate_of_instants(recorded_rate_), stepping.rate) {
     Settings settings = options.settings;
     settings.stepping = stepping;
     game_ = make(settings);
@@ -100,11 +119,46 @@ PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const Mak
 }
 
 void PlayedRun::play_until(std::int64_t recorded) {
-    while (steps_ < ratio_.last_until(recorded) && !game_->loop().quits() && !failed()) take_step();
+    play_until_instant(recorded * instants_per_step);
+}
+
+void PlayedRun::play_until_instant(std::int64_t index) {
+    while (steps_ < instants_.last_until(index) && goes_on()) take_step();
+}
+
+void PlayedRun::play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth,
+                           double visible) {
+    const Rate rate = rate_of_instants(recorded_rate_);
+    auto next = std::ranges::partition_point(
+        truth, [&](const TrueMoment& at) { return instants_.since(steps_, at.index) <= 0; });
+    while (steps_ < ratio_.last_until(recorded) && goes_on()) {
+        const bool is_compared = next != truth.end() && !result_.other_play_from &&
+                                 instants_.since(steps_, next->index) <= 1;
+        if (!is_compared) {
+            take_step();
+            continue;
+        }
+        const Moment before = moment();
+        const std::int64_t step = steps_;
+        take_step();
+        if (steps_ == step) return;
+        for (; next != truth.end(); ++next) {
+            const double alpha = instants_.since(step, next->index);
+            if (alpha > 1) break;
+            if (const auto apart = largest_drawn(before, moment(), alpha, next->moment))
+                note(*apart, rate.time(next->index), visible);
+        }
+    }
+}
+
+const Moment& PlayedRun::moment() {
+    if (!moment_) moment_ = moment_of(*game_);
+    return *moment_;
 }
 
 void PlayedRun::take_step() {
     times_ = {};
+    moment_.reset();
     const std::int64_t before = game_->world().bodies().evaluations();
     try {
         steps_ += game_->step(steps_, 1, inputs_);
@@ -122,7 +176,7 @@ void PlayedRun::take_step() {
 void PlayedRun::compare(std::int64_t recorded, double time, const Moment& reference,
                         double visible) {
     if (failed() || result_.other_play_from || !ratio_.has(recorded)) return;
-    const std::optional<Apart> apart = largest_distance(reference, moment_of(*game_));
+    const std::optional<Apart> apart = largest_distance(reference, moment());
     if (!apart) {
         differs_from_ = differs_from_.value_or(time);
         if (time - *differs_from_ >= lasting_difference) result_.other_play_from = differs_from_;
@@ -130,12 +184,18 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
     }
     differs_from_.reset();
     result_.distance_now = apart->distance;
-    const bool has_bodies = !reference.bodies.empty();
-    if (recorded > 0 && has_bodies && !(apart->distance <= result_.distance)) {
-        result_.distance = apart->distance;
-        result_.furthest = apart->body;
+    if (recorded == 0 || reference.bodies.empty()) return;
+    if (!(apart->distance <= result_.distance_at_steps))
+        result_.distance_at_steps = apart->distance;
+    note(*apart, time, visible);
+}
+
+void PlayedRun::note(const Apart& apart, double time, double visible) {
+    if (!(apart.distance <= result_.distance)) {
+        result_.distance = apart.distance;
+        result_.furthest = apart.body;
     }
-    if (apart->distance > visible && !result_.visible_from) result_.visible_from = time;
+    if (apart.distance > visible && !result_.visible_from) result_.visible_from = time;
 }
 
 void PlayedRun::read(std::int64_t recorded, const std::vector<Reading>& truth) {

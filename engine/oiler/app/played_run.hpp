@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,6 +37,15 @@ struct Apart {
 /// restarts or whole-number readings differ.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
 
+/// How many moments of a recorded step are compared.
+inline constexpr std::int64_t instants_per_step = 4;
+
+/// The true motion at the instant `index`, of which each recorded step has instants_per_step.
+struct TrueMoment {
+    std::int64_t index = 0;
+    Moment moment;
+};
+
 /// A recording that is played with one setting.
 class PlayedRun {
 public:
@@ -46,8 +56,13 @@ public:
 
     /// Takes all steps until a recorded one begins, unless one fails.
     void play_until(std::int64_t recorded);
+    /// The same, and compares what is drawn between these steps, and at their ends, with the
+    /// moments of the reference. A larger distance than `visible`, m, can be seen.
+    void play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth, double visible);
+    /// Takes all steps until an instant.
+    void play_until_instant(std::int64_t index);
     /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
-    /// this run begins then, too. A larger distance than `visible`, m, can be seen.
+    /// this run begins then, too.
     void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
     /// Reads the game as that recorded step begins, if a step of this run begins then, too.
     /// `truth` are the readings of the reference.
@@ -65,16 +80,21 @@ public:
     [[nodiscard]] WhatIfRun finish() const;
 
 private:
+    [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
     void take_step();
+    [[nodiscard]] const Moment& moment();
+    void note(const Apart& apart, double time, double visible);
 
     WhatIfRun result_;
     ResampledInput inputs_;
     Rate recorded_rate_;
     StepRatio ratio_;
+    StepRatio instants_;
     StepTimes times_;
     std::unique_ptr<AnyGame> game_;
     std::int64_t steps_ = 0;
     std::int64_t evaluations_ = 0;
+    std::optional<Moment> moment_;  ///< empty: a step was taken since
     std::optional<double> differs_from_;
     std::vector<std::chrono::nanoseconds> updates_;
     std::vector<std::chrono::nanoseconds> world_steps_;

@@ -22,6 +22,11 @@ public:
     [[nodiscard]] std::int64_t last_until(std::int64_t from) const {
         return from * numerator_ / denominator_;
     }
+    /// How long after the beginning of step `to` the step `from` begins, in steps of the former.
+    [[nodiscard]] double since(std::int64_t to, std::int64_t from) const {
+        return static_cast<double>(from * numerator_ - to * denominator_) /
+               static_cast<double>(denominator_);
+    }
     /// Whether a step begins at the same time as `from`.
     [[nodiscard]] bool has(std::int64_t from) const {
         return from * numerator_ % denominator_ == 0;

@@ -68,15 +68,19 @@ std::string price_text(const WhatIfRun& run, const WhatIf& measured) {
     return fmt::format("{}{:.0f} µs a frame", more < 0 ? "−" : "+", std::abs(more) / 1000);
 }
 
+std::string error_text(const WhatIfRun& run, const WhatIf& measured) {
+    const double certain = least_certain * measured.uncertainty;
+    if (run.distance < certain) return "exact";
+    const bool only_lines = run.distance_at_steps < certain && run.distance <= measured.pixel;
+    return only_lines ? "exact at the steps" : length_text(run.distance) + " off";
+}
+
 std::string cure_text(const WhatIf& measured) {
     const WhatIfRun* const run = cure(measured);
     if (!run) return "";
     const WhatIfRun& played = measured.runs.front();
-    const std::string error = run->distance < least_certain * measured.uncertainty
-                                  ? "exact"
-                                  : fmt::format("{} off", length_text(run->distance));
-    return fmt::format(" {}: {}, {}.", change_text(run->stepping, played.stepping), error,
-                       price_text(*run, measured));
+    return fmt::format(" {}: {}, {}.", change_text(run->stepping, played.stepping),
+                       error_text(*run, measured), price_text(*run, measured));
 }
 
 /// The reading that is off the most, relative to its truth, of those at rest; null if none is off
@@ -158,9 +162,9 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, d
                 reading_text(measured, *reading) + cure_text(measured) + limit};
     if (known == 0) return {grade, fmt::format("No error so far at {}.{}", setting, limit)};
     if (grade == Grade::good)
-        return {grade, fmt::format(
-                           "Each step is within {} of the true motion, less than a pixel, at {}.{}",
-                           length_text(known), setting, limit)};
+        return {grade,
+                fmt::format("Drawn within {} of the true motion, less than a pixel, at {}.{}",
+                            length_text(known), setting, limit)};
     if (grade == Grade::unknown)
         return {grade,
                 fmt::format("Off by less than {} at {}. The true motion is not known better.{}",

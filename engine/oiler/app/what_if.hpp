@@ -26,11 +26,13 @@ struct FrameCosts {
 /// A recording played with another setting, compared with the reference.
 struct WhatIfRun {
     Stepping stepping;
-    /// The largest distance of a body from the same body of the reference, m; NaN if none was
-    /// compared after the beginning.
+    /// The largest distance of a body, as it is drawn, from the same body of the reference, m; NaN
+    /// if none was compared after the beginning.
     double distance = std::numeric_limits<double>::quiet_NaN();
-    Entity furthest{};        ///< that body
-    double distance_now = 0;  ///< m, at the last comparison
+    Entity furthest{};  ///< that body
+    /// The same at the steps alone.
+    double distance_at_steps = std::numeric_limits<double>::quiet_NaN();
+    double distance_now = 0;  ///< m, at the last step that was compared
     /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
@@ -62,9 +64,11 @@ inline constexpr double least_certain = 10;
 
 /// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
 /// its rate, at least at 960 Hz. All runs go through the recording together and are compared at
-/// each recorded step that a run has, too. Bodies are the same if their entities are. The play is
-/// another one once bodies, teleports, restarts or whole-number readings have differed for 0.25 s:
-/// a shorter difference is a delay. The reference is uncertain once a run at 7/16 of its rate is
+/// each recorded step that a run has, too, and as they are drawn, on straight lines between their
+/// own steps, at four moments of each recorded step. Bodies are the same if their entities are. The
+/// play is another one once bodies, teleports, restarts or whole-number readings have differed for
+/// 0.25 s: a shorter difference is a delay. Between two steps that differ in these, nothing is
+/// compared. The reference is uncertain once a run at 7/16 of its rate is
 /// another play, or further away than a pixel. A pixel is 1/720 of the height that the camera of
 /// the reference shows then.
 ///

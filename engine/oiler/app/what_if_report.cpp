@@ -15,7 +15,8 @@ namespace oiler {
 namespace {
 
 constexpr const char* legend = R"(
-distance: largest distance of a body from the same body of the reference, at the recorded steps.
+distance: largest distance of a body, as it is drawn, from the same body of the reference.
+at steps: the same where a step of the setting and a recorded one begin.
 readings: at the end, or at the last recorded step that a setting has, too, and what they are off there.
 1 px: the time from which it certainly exceeds a pixel of the game's camera, at 720 lines.
 other play: the time from which bodies, restarts or counts differ; nothing later is counted.
@@ -59,16 +60,19 @@ std::string setting_cell(const WhatIfRun& run, const WhatIf& result) {
 }
 
 std::string table_of_runs(const WhatIf& result) {
-    std::string text = fmt::format("  {:<38} {:>10} {:>8} {:>11} {:>36}\n", "", "distance", "1 px",
-                                   "other play", "ns per frame");
-    text += fmt::format("  {:<38} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n", "* as recorded",
-                        "m", "from, s", "from, s", "update", "step", "picture", "draw");
+    std::string text = fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>36}\n", "", "distance",
+                                   "at steps", "1 px", "other play", "ns per frame");
+    text += fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n",
+                        "* as recorded", "m", "m", "from, s", "from, s", "update", "step",
+                        "picture", "draw");
     for (const WhatIfRun& run : result.runs)
-        text += fmt::format(
-            "  {:<38} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n", setting_cell(run, result),
-            error_cell(run.distance, result.uncertainty, false), time_cell(run.visible_from),
-            time_cell(run.other_play_from), cost_cell(run.costs.update), cost_cell(run.costs.step),
-            cost_cell(run.costs.picture), cost_cell(run.costs.draw));
+        text += fmt::format("  {:<38} {:>10} {:>10} {:>8} {:>11} {:>8} {:>8} {:>8} {:>9}\n",
+                            setting_cell(run, result),
+                            error_cell(run.distance, result.uncertainty, false),
+                            error_cell(run.distance_at_steps, result.uncertainty, false),
+                            time_cell(run.visible_from), time_cell(run.other_play_from),
+                            cost_cell(run.costs.update), cost_cell(run.costs.step),
+                            cost_cell(run.costs.picture), cost_cell(run.costs.draw));
     for (const WhatIfRun& run : result.runs)
         if (!run.failure.empty())
             text += fmt::format("  {} failed: {}\n", describe(run.stepping), run.failure);
@@ -131,6 +135,7 @@ Json to_json(const WhatIfRun& run, const WhatIf& result) {
     const auto time = [](const std::optional<double>& at) { return at ? Json(*at) : Json(); };
     Json json = to_json(run.stepping);
     json["distance"] = run.distance;
+    json["distance_at_steps"] = run.distance_at_steps;
     json["visible_from"] = time(run.visible_from);
     json["other_play_from"] = time(run.other_play_from);
     json["failure"] = run.failure.empty() ? Json() : Json(run.failure);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "oiler/app/what_if_settings.hpp"
 #include "oiler/core/error.hpp"
@@ -47,18 +48,24 @@ WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& step
     runs_.push_back(std::make_unique<PlayedRun>(recording_.header.stepping, options, make));
     for (const Stepping& stepping : steppings)
         runs_.push_back(std::make_unique<PlayedRun>(stepping, options, make));
+    const double dt = recording_.header.stepping.rate.dt();
+    for (const Stepping& stepping : steppings)
+        longest_ =
+            std::max<std::int64_t>(longest_, std::llround(std::ceil(stepping.rate.dt() / dt)));
 }
 
 void WhatIfRuns::play_until(std::int64_t step) {
-    play_reference(step);
-    for (const auto& run : runs_) run->play_until(step);
+    const bool is_known = play_reference(step);
+    for (const auto& run : runs_) run->play_until(step, truth_, visible());
     const std::vector<Reading> truth = reference_.game().readings();
     for (PlayedRun* const run : {&reference_, &check_}) run->read(step, truth);
     for (const auto& run : runs_) run->read(step, truth);
     if (const AnyGame& game = runs_.front()->game(); game.loop().quits())
         replay_.compare_end(runs_.front()->steps(), true);
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
-    if (certain_) compare(step);
+    if (!is_known) return;
+    const double time = recording_.header.stepping.rate.time(step);
+    for (const auto& run : runs_) run->compare(step, time, truth_.back().moment, visible());
 }
 
 void WhatIfRuns::compare_end() {
@@ -69,13 +76,35 @@ void WhatIfRuns::compare_end() {
     replay_.compare_end(recorded.steps(), recorded.game().loop().quits());
 }
 
-void WhatIfRuns::play_reference(std::int64_t step) {
-    for (PlayedRun* const run : {&reference_, &check_}) {
-        run->play_until(step);
+bool WhatIfRuns::play_reference(std::int64_t step) {
+    std::vector<TrueMoment> moments;
+    const std::int64_t last = step * instants_per_step;
+    for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + 1; i <= last; ++i) {
+        reference_.play_until_instant(i);
+        if (certain_) moments.push_back({i, moment_of(reference_.game())});
+    }
+    check_.play_until(step);
+    for (PlayedRun* const run : {&reference_, &check_})
         if (run->failed())
             fail(Exit::diverged, "--what-if: the reference ({}) failed: {}",
                  describe(run->result().stepping), run->result().failure);
-    }
+    while (!truth_.empty() && truth_.front().index < last - (longest_ + 1) * instants_per_step)
+        truth_.pop_front();
+    if (!certain_ || !check(step, moments.back().moment)) return false;
+    std::ranges::move(moments, std::back_inserter(truth_));
+    return true;
+}
+
+bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
+    const double time = recording_.header.stepping.rate.time(step);
+    pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
+    check_.compare(step, time, moment, pixel_);
+    certain_ = !check_.result().other_play_from && !check_.result().visible_from;
+    if (!certain_ || check_.differs()) return false;
+    certain_until_ = time;
+    if (const double distance = check_.result().distance; !std::isnan(distance))
+        uncertainty_ = distance;
+    return true;
 }
 
 void WhatIfRuns::time_pictures(DrawTimer* draw) {
@@ -93,19 +122,6 @@ WhatIf WhatIfRuns::result() const {
                   .check = check_.finish()};
     for (const auto& run : runs_) result.runs.push_back(run->finish());
     return result;
-}
-
-void WhatIfRuns::compare(std::int64_t step) {
-    const double time = recording_.header.stepping.rate.time(step);
-    const Moment moment = moment_of(reference_.game());
-    pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
-    check_.compare(step, time, moment, pixel_);
-    certain_ = !check_.result().other_play_from && !check_.result().visible_from;
-    if (!certain_ || check_.differs()) return;
-    certain_until_ = time;
-    if (const double distance = check_.result().distance; !std::isnan(distance))
-        uncertainty_ = distance;
-    for (const auto& run : runs_) run->compare(step, time, moment, pixel_ + uncertainty_);
 }
 
 }  // namespace oiler

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -20,8 +21,9 @@ public:
     WhatIfRuns(const Options& options, const std::vector<Stepping>& steppings,
                const MakeGame& make);
 
-    /// Plays all runs until a recorded step begins, and compares them there. Throws Error{diverged}
-    /// if the reference fails, and Error{comparison_failed} if the recorded states differ.
+    /// Plays all runs until a recorded step begins, and compares them until there. Throws
+    /// Error{diverged} if the reference fails, and Error{comparison_failed} if the recorded states
+    /// differ.
     void play_until(std::int64_t step);
     /// After all recorded steps: throws Error{comparison_failed} if the recorded setting goes on
     /// where the game quit.
@@ -36,14 +38,20 @@ public:
     [[nodiscard]] bool certain() const { return certain_; }
 
 private:
-    void play_reference(std::int64_t step);
-    void compare(std::int64_t step);
+    /// Plays the reference and the run that checks it, and keeps its moments while it is certain.
+    /// Returns whether it is as that recorded step begins.
+    bool play_reference(std::int64_t step);
+    /// Compares the reference with the run that checks it.
+    bool check(std::int64_t step, const Moment& moment);
+    [[nodiscard]] double visible() const { return pixel_ + uncertainty_; }
 
     const Recording& recording_;
     Replay replay_;
     PlayedRun reference_;
     PlayedRun check_;  ///< the reference at another rate
     std::vector<std::unique_ptr<PlayedRun>> runs_;
+    std::deque<TrueMoment> truth_;  ///< since the slowest run's last step
+    std::int64_t longest_ = 1;      ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
     double certain_until_ = 0;  ///< s
     double uncertainty_ = 0;    ///< m

@@ -127,7 +127,7 @@ struct Inspector::Impl {
     static void show_settings(const Inspected& run, Wishes& wishes) {
         if (run.settings.empty()) return;
         ImGui::Separator();
-        text("Off the true motion at the steps, " + (run.is_of_round ? "in a round" : since(run)));
+        text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
         if (!ImGui::BeginTable("settings", 5, ImGuiTableFlags_SizingFixedFit)) return;
         for (const char* name : {"", "at most", "a frame", "forces", ""})
             ImGui::TableSetupColumn(name);
