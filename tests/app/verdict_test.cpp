@@ -335,8 +335,14 @@ TEST(PlayAlong, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
     EXPECT_FALSE(along.repeats());
     along.repeat(31);
     EXPECT_NEAR(play(31, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12) << "the last round had input";
-    along.start(34);
-    EXPECT_NEAR(play(34, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
+    along.repeat(34);
+    EXPECT_NEAR(play(34, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "a release is input, too";
+    along.start(36);
+    EXPECT_NEAR(play(36, 1), 20 * (1 / 60.0) / 60 / 2, 1e-12);
+    along.start_from(game, 37);
+    EXPECT_NEAR(play(37, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
+    along.repeat(40);
+    EXPECT_NEAR(play(40, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "another beginning";
 }
 
 // Euler evaluates the forces once a step, rk4 four times.

@@ -138,12 +138,13 @@ double chord(double hertz) { return gravity / (hertz * hertz) / 8; }
 // than its later end is. A push that comes late leaves the body lower by push times the delay: step
 // 45 of 60 Hz is at 0.75 s, the next step of 30 Hz 1/60 s later.
 TEST(WhatIf, ErrorsAreThoseOfClosedForms) {
-    const WhatIf result = measure<Fall>(record<Fall>(), "20,30,120,30@rk4,velocity_verlet,float");
+    const WhatIf result =
+        measure<Fall>(record<Fall>(), "20,30,120,30@rk4,velocity_verlet,float,20@rk4");
     const double end = 2;
     const auto fall = [&](double hertz) { return gravity / hertz * end / 2; };
-    const double expected[] = {fall(60), fall(20), fall(30) + push / 60, fall(120), push / 60,
-                               0,        fall(60)};
-    const double lines[] = {0, 0, 0, 0, chord(30), chord(60), 0};
+    const double expected[] = {fall(60), fall(20), fall(30) + push / 60, fall(120), push / 60, 0,
+                               fall(60), 0};
+    const double lines[] = {0, 0, 0, 0, chord(30), chord(60), 0, chord(20)};
     ASSERT_EQ(result.runs.size(), std::size(expected));
     for (std::size_t i = 0; i < std::size(expected); ++i) {
         const WhatIfRun& run = result.runs[i];
