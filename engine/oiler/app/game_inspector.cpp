@@ -121,10 +121,9 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     mix(costs_.draw, draw);
 }
 
-void GameInspector::add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step,
-                                 double alpha, double factor) {
+void GameInspector::add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
+                                 double factor) {
     const World& world = game_.world();
-    const std::vector<Ghost> ghosts = along.ghosts(step, alpha);
     motion_.add(
         picture, world, shown_,
         {.time = world.time() - (1 - alpha) * world.dt(), .ghosts = ghosts, .factor = factor});
@@ -147,17 +146,20 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                   .dropped = frame.dropped,
                   .bodies = world.bodies().size(),
                   .is_paused = frame.is_paused,
-                  .has_past = frame.has_past,
+                  .past = frame.past,
                   .pace = frame.pace,
                   .scales = motion_.scales()};
     if (const auto& begin = along.begin()) {
         run.begin = begin->time;
         run.first_energy = begin->energy;
     }
-    const Verdict& verdict = along.verdict();
+    const Verdict verdict =
+        frame.other_moment.empty() ? along.verdict() : Verdict{.text = frame.other_moment};
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
-    if (const auto& measured = along.measured()) {
+    if (!frame.other_moment.empty()) {
+        run.errors.clear();
+    } else if (const auto& measured = along.measured()) {
         // The errors are newer.
         WhatIfRun played = measured->runs.front();
         if (!run.errors.empty())

@@ -23,7 +23,9 @@ public:
         double seconds = 0;  ///< since the last one
         double dropped = 0;  ///< s, since the start
         bool is_paused = false;
-        bool has_past = false;
+        std::optional<Inspected::Past> past{};
+        /// Why that which plays along does not show this moment; empty: it does.
+        std::string other_moment{};
         std::string pace{};
         bool waits = false;  ///< until all that it shows is known
     };
@@ -41,8 +43,8 @@ public:
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
     /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
-    /// game `alpha` of the way to its step `step`. Distances are drawn `factor` times as long.
-    void add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step, double alpha,
+    /// game `alpha` of the way to its last step. Distances are drawn `factor` times as long.
+    void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                       double factor);
     [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
                               const Frame& frame);
