@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <variant>
 
 #include "oiler/inspector/gui.hpp"
 #include "oiler/picture/palette.hpp"
@@ -102,10 +103,31 @@ struct Inspector::Impl {
         if (run.fixed.empty()) {
             ImGui::SameLine(ImGui::GetContentRegionAvail().x / 2);
             ImGui::Checkbox("changes restart the run", &changes_from_start);
-        } else {
-            wrapped(run.fixed);
         }
+        ImGui::BeginDisabled(!run.fixed.empty());
+        show_damping(chosen);
+        ImGui::EndDisabled();
+        if (!run.fixed.empty()) wrapped(run.fixed);
         if (chosen != run.stepping) wishes.stepping = chosen;
+    }
+
+    /// Where a splitting puts damping; other methods have no choice.
+    static void show_damping(Stepping& chosen) {
+        const Method& method = *chosen.method;
+        const Damping now = chosen.damping.value_or(method.damping);
+        int is_in_drift = now == Damping::in_drift ? 1 : 0;
+        ImGui::BeginDisabled(!std::holds_alternative<Splitting>(method.rule));
+        ImGui::AlignTextToFramePadding();
+        text("damping in the");
+        ImGui::SameLine();
+        ImGui::RadioButton("kick", &is_in_drift, 0);
+        ImGui::SameLine();
+        ImGui::RadioButton("drift", &is_in_drift, 1);
+        ImGui::EndDisabled();
+        const Damping wanted = is_in_drift == 1 ? Damping::in_drift : Damping::in_kick;
+        if (wanted == now) return;
+        chosen.damping.reset();
+        if (wanted != method.damping) chosen.damping = wanted;
     }
 
     void show_controls(const Inspected& run, Wishes& wishes) {
