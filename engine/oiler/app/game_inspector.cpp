@@ -121,13 +121,33 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     mix(costs_.draw, draw);
 }
 
+void GameInspector::follow(Picture& picture, const Input& mouse, const Camera& shown, double time) {
+    if (!inspector_.has_mouse()) follower_.look(mouse, shown, picture, game_.world(), time);
+    follower_.move(picture);
+}
+
 void GameInspector::add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                                  double factor) {
     const World& world = game_.world();
-    motion_.add(
-        picture, world, shown_,
-        {.time = world.time() - (1 - alpha) * world.dt(), .ghosts = ghosts, .factor = factor});
+    motion_.add(picture, world, shown_,
+                {.time = world.time() - (1 - alpha) * world.dt(),
+                 .ghosts = ghosts,
+                 .factor = factor,
+                 .followed = follower_.followed()});
     add_ghosts(picture, ghosts, factor);
+}
+
+/// "planet: 1.23 m/s at (0.5, 2) m".
+std::string GameInspector::figures_of(Entity body) const {
+    const World& world = game_.world();
+    if (!world.has_body(body)) return "the body that was followed is gone";
+    const Vec3 v = world.velocity(body);
+    const Vec3 x = world.position(body);
+    std::string place;
+    for (int axis = 0; axis < world.bodies().axes(); ++axis)
+        place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", x[axis]);
+    return fmt::format("{}: {:.4g} m/s at ({}) m", game_.name_of(body),
+                       std::hypot(v[0], v[1], v[2]), place);
 }
 
 Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
@@ -153,6 +173,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
         run.begin = begin->time;
         run.first_energy = begin->energy;
     }
+    if (follower_.followed()) run.followed = figures_of(*follower_.followed());
     const Verdict verdict =
         frame.other_moment.empty() ? along.verdict() : Verdict{.text = frame.other_moment};
     run.verdict = verdict.text;

@@ -160,6 +160,7 @@ private:
             complaint_.clear();
             restart_with(taken->stepping);
             inspector_.list_methods();
+            inspector_.stop_following();
         } catch (const Error& error) {
             complaint_ = error.what();
         }
@@ -268,7 +269,11 @@ private:
         const std::chrono::nanoseconds show_time = now() - before_picture;
         if (steps > 0) limit_steps_of_frame(steps);
         play_along();
-        if (inspects_) add_overlays(picture);
+        if (inspects_) {
+            inspector_.follow(picture, keys, live_.shown,
+                              std::chrono::duration<double>(start).count());
+            add_overlays(picture);
+        }
         if (!options_.quiet && !inspects_) add_verdict(picture, verdict());
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;

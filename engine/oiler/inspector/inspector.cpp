@@ -145,6 +145,7 @@ struct Inspector::Impl {
         text(fmt::format("{:.2f} s, bodies: {}{}{}", run.time, run.bodies,
                          run.pace.empty() ? "" : ", ", run.pace));
         if (run.past) show_time_line(*run.past, run.stepping.rate, wishes);
+        wrapped(run.followed.empty() ? "A double click on a body follows it." : run.followed);
     }
 
     void show_time_line(const Inspected::Past& past, const Rate& rate, Wishes& wishes) {

@@ -100,6 +100,7 @@ struct Inspected {
     bool is_paused = false;
     std::optional<Past> past{};
     std::string pace{};
+    std::string followed{};  ///< figures of the body that the view follows; empty: it follows none
     Scales scales{};
 };
 
