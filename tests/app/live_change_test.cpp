@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "oiler/core/error.hpp"
 
 namespace oiler::test {
@@ -58,6 +60,34 @@ TEST_F(LiveChangeTest, AnOddRateHasNoHalf) {
     change.want({.rate = {15}});
     EXPECT_TRUE(change.make(playback, 90, input));
     EXPECT_EQ(game.world().tick(), 5);
+}
+
+struct Brake {
+    static constexpr About about{.name = "brake", .title = "Brake"};
+    World world;
+    explicit Brake(const Settings& settings) : world(1, settings) {
+        (void)world.spawn({.mass = 1, .velocity = {1}}, LinearDrag{2});
+    }
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+// c = 2/s at 4 Hz: a kick multiplies the speed by 1 - c·dt = 1/2, a drift by e^(-c·dt) = e^(-1/2).
+TEST(LiveChange, DampsInTheDriftFromTheNextStepOn) {
+    AnyGameOf<Brake> game{
+        {.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {4}}}};
+    Recorder none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput input;
+    LiveChange change;
+    const auto speed = [&] { return game.world().bodies().velocity(0)[0]; };
+    playback.step_to(2, input);
+    EXPECT_EQ(speed(), 0.25);
+    Stepping stepping = game.world().settings().stepping;
+    stepping.damping = Damping::in_drift;
+    change.want(stepping);
+    EXPECT_TRUE(change.make(playback, 2, input));
+    playback.step_to(3, input);
+    EXPECT_NEAR(speed(), 0.25 * std::exp(-0.5), 1e-15) << "some roundings of 1.1e-16";
 }
 
 TEST_F(LiveChangeTest, ForgetsWhatIsImpossible) {

@@ -110,8 +110,8 @@ struct Played {
         }
     }
     void go_back(std::int64_t step) {
-        const Input last = rewind.go_back(step);
-        playback.go_back(step);
+        const Input last = rewind.go_to(step);
+        playback.go_to(step);
         list.inputs.resize(static_cast<std::size_t>(step));
         EXPECT_EQ(last, step > 0 ? list.inputs.back() : Input{}) << "what the last step saw";
     }
@@ -142,6 +142,47 @@ TEST(Rewind, GoesBackToTheStartStepByStep) {
     for (std::int64_t step = 899; step >= 0; --step) {
         played.go_back(step);
         ASSERT_EQ(played.game.world().state_hash(), hashes.at(static_cast<std::size_t>(step)));
+    }
+}
+
+// As with a time line that is dragged.
+TEST(Rewind, GoesForwardAgainToStepsThatWereTaken) {
+    std::mt19937 random(5);
+    RandomPlayer player(6);
+    Played played;
+    for (const std::int64_t more : {900, 300, 40}) {
+        played.play(player, more);
+        const std::vector<std::uint64_t> hashes = hashes_of(played.list);
+        const std::int64_t end = played.playback.steps();
+        for (int i = 0; i < 200; ++i) {
+            const auto step = static_cast<std::int64_t>(random()) % (end + 1);
+            const Input last = played.rewind.go_to(step);
+            played.playback.go_to(step);
+            played.rewind.keep(step);
+            ASSERT_EQ(played.game.world().state_hash(), hashes.at(static_cast<std::size_t>(step)));
+            EXPECT_EQ(played.rewind.last(), end);
+            EXPECT_EQ(last, step == 0 ? Input{}
+                                      : played.list.inputs.at(static_cast<std::size_t>(step - 1)));
+        }
+        // The end again, and from there on as if nothing had been.
+        (void)played.rewind.go_to(end);
+        played.playback.go_to(end);
+    }
+}
+
+TEST(Rewind, ForgetsWhatCameAfterTheStepFromWhichItPlaysOn) {
+    RandomPlayer player(7);
+    Played played;
+    played.play(player, 500);
+    played.go_back(200);
+    EXPECT_EQ(played.rewind.last(), 500);
+    played.play(player, 1);
+    EXPECT_EQ(played.rewind.last(), 201);
+    played.play(player, 299);
+    const std::vector<std::uint64_t> hashes = hashes_of(played.list);
+    for (const std::int64_t step : {500, 300, 201, 200, 499}) {
+        (void)played.rewind.go_to(step);
+        EXPECT_EQ(played.game.world().state_hash(), hashes.at(static_cast<std::size_t>(step)));
     }
 }
 
@@ -206,7 +247,7 @@ TEST(Rewind, KeepsABoundedNumberOfCopiesOfALongGame) {
     EXPECT_LE(most, 129) << "the game and 128 copies";
     EXPECT_EQ(rewind.first(), 0);
     for (const std::int64_t step : {long_run - 1, long_run - 500, long_run / 2 + 1, 1}) {
-        rewind.go_back(step);
+        rewind.go_to(step);
         EXPECT_EQ(game.picture().labels[0].text, fmt::format("{} {}", step, (step + 999) / 1000));
         EXPECT_LE(Counted::alive, 129);
     }
@@ -226,7 +267,7 @@ TEST(Rewind, KeepsFewCopiesOfManyBodies) {
         rewind.keep(step + 1);
         EXPECT_LE(Counted::alive, 11) << "the game and 1000/100 copies";
     }
-    rewind.go_back(2001);
+    rewind.go_to(2001);
     EXPECT_EQ(game.picture().labels[0].text, "2001 3");
     EXPECT_LE(Counted::alive, 11);
 }
@@ -253,7 +294,7 @@ TEST(Rewind, HasNoPastWhileThereAreTooManyBodies) {
     }
     EXPECT_EQ(past, std::string(20, 'y') + std::string(20, 'n') + std::string(20, 'y'));
     EXPECT_EQ(rewind.first(), 40);
-    rewind.go_back(50);
+    rewind.go_to(50);
     EXPECT_EQ(game.picture().labels[0].text, "50 1");
 }
 
@@ -276,14 +317,15 @@ TEST(Rewind, GoesBackInAGameWithoutInput) {
         game.step(step, 5, rewind);
         rewind.keep(step + 5);
     }
-    rewind.go_back(123);
+    rewind.go_to(123);
     fresh.step(0, 123, nobody);
     EXPECT_EQ(game.world().state_hash(), fresh.world().state_hash());
     game.restart();
     rewind.forget(123);
     EXPECT_EQ(rewind.first(), 123);
     game.step(123, 50, rewind);
-    rewind.go_back(133);
+    rewind.keep(173);
+    rewind.go_to(133);
     EXPECT_EQ(game.world().tick(), 10);
 }
 
@@ -320,7 +362,7 @@ TEST(Rewind, ChangesTheHeldKeysFromThePastToThePresentByEdges) {
         live.queue.set(Key::space, true);
         live.queue.set(Key::space, down_now);
         live.queue.turn_wheel(1);
-        live.queue.continue_after(rewind.go_back(4));
+        live.queue.continue_after(rewind.go_to(4));
         live.queue.set_paused(false);
         steps(4, 2);
         EXPECT_EQ(game.picture().labels[0].text, down_now ? "--dhhh" : "--dhu-");
@@ -336,8 +378,8 @@ TEST(Rewind, ShowsWholeStepsAndNothingStreaks) {
         heights.push_back(played.playback.show(step, 0, played.rewind).discs[0].centre.y);
     (void)played.playback.show(49, 0.5, played.rewind);
     for (const std::int64_t step : {40, 20, 19}) {
-        played.rewind.go_back(step);
-        played.playback.go_back(step);
+        played.rewind.go_to(step);
+        played.playback.go_to(step);
         EXPECT_EQ(played.playback.show(step, 0, played.rewind).discs[0].centre.y,
                   heights[static_cast<std::size_t>(step)]);
     }

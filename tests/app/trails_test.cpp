@@ -101,6 +101,16 @@ TEST(Trails, ForgetWhatWasUndone) {
     EXPECT_TRUE(drawn.lines().empty()) << "a restart";
 }
 
+TEST(Trails, AreCutWhereTimeLeaps) {
+    Drawn drawn;
+    drawn.play(0, 0.5, 1.0 / 64);
+    drawn.play(1.5, 2, 1.0 / 64);
+    for (const Polyline& line : drawn.lines()) {
+        const auto [low, high] = std::ranges::minmax(line.points, {}, &Point::x);
+        EXPECT_TRUE(high.x <= 0.5F || low.x >= 1.5F);
+    }
+}
+
 TEST(Trails, AreCutByATeleportAndEndWithTheBody) {
     Drawn drawn;
     drawn.play(0, 0.5, 1.0 / 64);

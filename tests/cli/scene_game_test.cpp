@@ -101,6 +101,32 @@ TEST(SceneGame, BodiesFollowTheMouseOnASpring) {
     }
 }
 
+// 360 canvas units are 10 m.
+TEST(SceneGame, AClickLeavesABodyAlone) {
+    const Scene scene = scene_of();
+    SceneGame game(held(scene), at(60), true);
+    Hand hand;
+    float aside = 0;
+    hand.plays = [&](InputQueue& queue, std::int64_t) {
+        Point at = Hand::canvas(0.3F, 0);
+        at.x += aside;
+        queue.point_at(at);
+        queue.set(Mouse::left, true);
+    };
+    (void)game.step(0, 6, hand);
+    aside = 2;
+    (void)game.step(6, 6, hand);
+    EXPECT_EQ(game.world().bodies().velocity(0), Vec3{});
+    EXPECT_EQ(game.picture().polylines.size(), 0U);
+    aside = 4;
+    (void)game.step(12, 1, hand);
+    EXPECT_GT(game.world().bodies().velocity(0)[0], 0) << "a drag";
+    const double speed = game.world().bodies().velocity(0)[0];
+    aside = 0;
+    (void)game.step(13, 1, hand);
+    EXPECT_NE(game.world().bodies().velocity(0)[0], speed) << "goes on where it began";
+}
+
 TEST(SceneGame, ADragIsStableAtAnyRate) {
     for (const std::int64_t rate : {1, 5, 20, 60}) {
         Scene scene = scene_of();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "oiler/render/renderer.hpp"
@@ -86,6 +87,26 @@ TEST(Inspector, AsksForWhatIsClicked) {
     EXPECT_TRUE(precisions.contains(Precision::single));
 }
 
+// The method's own choice is written as none.
+TEST(Inspector, OffersTheDampingOfASplitting) {
+    const auto asked = [](const Stepping& now) {
+        Inspected run = run_at_60_hz();
+        run.stepping = now;
+        std::set<std::optional<Damping>> dampings;
+        for (const Wishes& one : clicks_everywhere(run))
+            if (one.stepping && one.stepping->damping != now.damping)
+                dampings.insert(one.stepping->damping);
+        return dampings;
+    };
+    Stepping now = run_at_60_hz().stepping;
+    ASSERT_EQ(now.method->damping, Damping::in_kick);
+    EXPECT_EQ(asked(now), (std::set<std::optional<Damping>>{Damping::in_drift}));
+    now.damping = Damping::in_drift;
+    EXPECT_EQ(asked(now), (std::set<std::optional<Damping>>{std::nullopt}));
+    now = {.method = &find_method("rk4"), .rate = {60}};
+    EXPECT_TRUE(asked(now).empty()) << "it has no choice";
+}
+
 // Wherever the box is: after a click on it, a click on a button at the right restarts.
 TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     const Inspected run = run_at_60_hz();
@@ -132,7 +153,8 @@ TEST(Inspector, ChangesOneThingOfASetting) {
         if (!one.stepping) continue;
         const Stepping now = run_at_60_hz().stepping;
         EXPECT_EQ(int{one.stepping->rate != now.rate} + int{one.stepping->method != now.method} +
-                      int{one.stepping->precision != now.precision},
+                      int{one.stepping->precision != now.precision} +
+                      int{one.stepping->damping != now.damping},
                   1);
     }
 }
@@ -140,12 +162,36 @@ TEST(Inspector, ChangesOneThingOfASetting) {
 TEST(Inspector, StepsInAPauseAndKeepsAFixedSetting) {
     Inspected run = run_at_60_hz();
     run.is_paused = true;
-    run.has_past = true;
+    run.past = {{0, 600, 600}};
     run.fixed = "--record keeps this setting.";
     const std::vector<Wishes> all = clicks_everywhere(run);
     EXPECT_TRUE(any(all, [](const Wishes& one) { return one.steps; }));
     EXPECT_TRUE(any(all, [](const Wishes& one) { return one.goes_back; }));
     EXPECT_FALSE(any(all, [](const Wishes& one) { return one.stepping.has_value(); }));
+}
+
+// A drag along the time line asks for each step in turn, as long as it is held.
+TEST(Inspector, GoesToStepsOfThePast) {
+    Inspected run = run_at_60_hz();
+    run.past = {{100, 500, 600}};
+    std::set<std::int64_t> seeked;
+    for (float y = 150; y < 230; y += 6) {
+        Inspector inspector(Renderer::font());
+        const auto drag = [&](float x, bool down) {
+            return inspector.show(run, {Point{x, y}, down}, frame, 1.0 / 60).step;
+        };
+        (void)drag(1270, false);
+        (void)drag(1270, false);
+        for (float x = 1270; x > 930; x -= 8)
+            if (const auto step = drag(x, true)) seeked.insert(*step);
+        EXPECT_FALSE(drag(930, false));
+    }
+    EXPECT_GT(seeked.size(), 30U);
+    EXPECT_EQ(*seeked.begin(), 100);
+    EXPECT_EQ(*seeked.rbegin(), 600);
+    run.past = {{5, 5, 5}};
+    EXPECT_FALSE(
+        any(clicks_everywhere(run), [](const Wishes& one) { return one.step.has_value(); }));
 }
 
 TEST(Inspector, LeavesTheMouseBesideItToTheGame) {

@@ -121,14 +121,33 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     mix(costs_.draw, draw);
 }
 
-void GameInspector::add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step,
-                                 double alpha, double factor) {
+void GameInspector::follow(Picture& picture, const Input& mouse, const Camera& shown, double time) {
+    if (!inspector_.has_mouse()) follower_.look(mouse, shown, picture, game_.world(), time);
+    follower_.move(picture);
+}
+
+void GameInspector::add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
+                                 double factor) {
     const World& world = game_.world();
-    const std::vector<Ghost> ghosts = along.ghosts(step, alpha);
-    motion_.add(
-        picture, world, shown_,
-        {.time = world.time() - (1 - alpha) * world.dt(), .ghosts = ghosts, .factor = factor});
+    motion_.add(picture, world, shown_,
+                {.time = world.time() - (1 - alpha) * world.dt(),
+                 .ghosts = ghosts,
+                 .factor = factor,
+                 .followed = follower_.followed()});
     add_ghosts(picture, ghosts, factor);
+}
+
+/// "planet: 1.23 m/s at (0.5, 2) m".
+std::string GameInspector::figures_of(Entity body) const {
+    const World& world = game_.world();
+    if (!world.has_body(body)) return "the body that was followed is gone";
+    const Vec3 v = world.velocity(body);
+    const Vec3 x = world.position(body);
+    std::string place;
+    for (int axis = 0; axis < world.bodies().axes(); ++axis)
+        place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", x[axis]);
+    return fmt::format("{}: {:.4g} m/s at ({}) m", game_.name_of(body),
+                       std::hypot(v[0], v[1], v[2]), place);
 }
 
 Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
@@ -147,17 +166,21 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                   .dropped = frame.dropped,
                   .bodies = world.bodies().size(),
                   .is_paused = frame.is_paused,
-                  .has_past = frame.has_past,
+                  .past = frame.past,
                   .pace = frame.pace,
                   .scales = motion_.scales()};
     if (const auto& begin = along.begin()) {
         run.begin = begin->time;
         run.first_energy = begin->energy;
     }
-    const Verdict& verdict = along.verdict();
+    if (follower_.followed()) run.followed = figures_of(*follower_.followed());
+    const Verdict verdict =
+        frame.other_moment.empty() ? along.verdict() : Verdict{.text = frame.other_moment};
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
-    if (const auto& measured = along.measured()) {
+    if (!frame.other_moment.empty()) {
+        run.errors.clear();
+    } else if (const auto& measured = along.measured()) {
         // The errors are newer.
         WhatIfRun played = measured->runs.front();
         if (!run.errors.empty())

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/app/follower.hpp"
 #include "oiler/app/game.hpp"
 #include "oiler/app/motion_overlay.hpp"
 #include "oiler/app/play_along.hpp"
@@ -23,7 +24,9 @@ public:
         double seconds = 0;  ///< since the last one
         double dropped = 0;  ///< s, since the start
         bool is_paused = false;
-        bool has_past = false;
+        std::optional<Inspected::Past> past{};
+        /// Why that which plays along does not show this moment; empty: it does.
+        std::string other_moment{};
         std::string pace{};
         bool waits = false;  ///< until all that it shows is known
     };
@@ -40,9 +43,13 @@ public:
     }
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
+    /// Follows the body that the user double-clicks, see Follower.
+    void follow(Picture& picture, const Input& mouse, const Camera& shown, double time);
+    /// Follows no body any more.
+    void stop_following() { follower_.end(); }
     /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
-    /// game `alpha` of the way to its step `step`. Distances are drawn `factor` times as long.
-    void add_overlays(Picture& picture, const PlayAlong& along, std::int64_t step, double alpha,
+    /// game `alpha` of the way to its last step. Distances are drawn `factor` times as long.
+    void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                       double factor);
     [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
                               const Frame& frame);
@@ -51,6 +58,7 @@ public:
     [[nodiscard]] bool has_menu() const { return inspector_.has_menu(); }
 
 private:
+    [[nodiscard]] std::string figures_of(Entity body) const;
     /// Renews the spring that is closest to the method's limit, some times a second.
     void find_stiffest(bool waits);
 
@@ -62,6 +70,7 @@ private:
     Stepping found_for_;  ///< the setting that finding_ judges
     std::optional<Inspected::Gauge> stiffest_;
     std::chrono::steady_clock::time_point next_stiffest_{};
+    Follower follower_;
     Shown shown_;
     MotionOverlay motion_;
     StepTimes times_;

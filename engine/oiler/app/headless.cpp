@@ -71,7 +71,8 @@ public:
     void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
               const Manifest& header) {
         along.play_until(steps);
-        inspector_.add_overlays(picture, along, steps, steps == at.step ? 1 : at.alpha, 1);
+        const double alpha = steps == at.step ? 1 : at.alpha;
+        inspector_.add_overlays(picture, along.ghosts(steps, alpha), alpha, 1);
         (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
                               {.seconds = 1.0 / header.fps, .waits = true});
     }

@@ -92,8 +92,8 @@ Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
                : before_.picture;
 }
 
-void Playback::go_back(std::int64_t step) {
-    assert(step <= steps_ && keep_ == Keep::nothing);
+void Playback::go_to(std::int64_t step) {
+    assert(keep_ == Keep::nothing);
     steps_ = step;
     before_ = sample();
     after_ = {};

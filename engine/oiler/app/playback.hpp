@@ -35,8 +35,8 @@ public:
     [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
     /// The picture of the last whole step that was shown.
     [[nodiscard]] const Picture& last_picture() const { return before_.picture; }
-    /// Shows the game as it is now: it was put back to where it was after `step` steps.
-    void go_back(std::int64_t step);
+    /// Shows the game as it is now: it was put to where it was after `step` steps.
+    void go_to(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }
     [[nodiscard]] const AnyGame& game() const { return game_; }
     /// Shows the game to a watcher after each step. It must outlive the playback.

@@ -13,8 +13,9 @@
 
 namespace oiler {
 
-/// Goes back in a game that is played. It keeps the inputs, and copies of the game: a past step is
-/// the copy before it, stepped with the inputs since.
+/// Goes back in a game that is played, and forward again until the game takes another step. It
+/// keeps the inputs, and copies of the game: a past step is the copy before it, stepped with the
+/// inputs since.
 ///
 /// Its memory is bounded. Copies are dense in the last steps and sparse in the far past; a full
 /// list loses the copy whose neighbours are closest for its age. Inputs that do not change are kept
@@ -41,11 +42,13 @@ public:
     void keep(std::int64_t step);
     /// Whether the game can go back.
     [[nodiscard]] bool has_past() const { return !copies_.empty(); }
-    /// The first step to go back to.
+    /// The first step to go to.
     [[nodiscard]] std::int64_t first() const { return copies_.front().step; }
-    /// Makes the game as it was after `step` steps, from `first` on, and forgets what came then.
-    /// Returns the input that its last step saw.
-    Input go_back(std::int64_t step);
+    /// The last step that the game is known to have taken.
+    [[nodiscard]] std::int64_t last() const { return last_; }
+    /// Makes the game as it was after `step` steps, from `first` to `last`. What came then is
+    /// forgotten once the game takes another step. Returns the input that its last step saw.
+    Input go_to(std::int64_t step);
     /// Forgets all that was before: the game was replaced after `step` steps.
     void forget(std::int64_t step);
 
@@ -62,12 +65,16 @@ private:
     class Past;
 
     void add_copy(std::int64_t step);
-    void thin_out(std::int64_t now);
+    [[nodiscard]] std::vector<Copy>::iterator first_after(std::int64_t step);
+    void forget_after(std::int64_t step);
+    void thin_out();
     void forget_oldest(std::int64_t step);
 
     AnyGame& game_;
     InputSource& inputs_;
     Limits limits_;
+    std::int64_t at_ = 0;    ///< the step at which the game was seen
+    std::int64_t last_ = 0;  ///< that was taken
     std::vector<Copy> copies_;
     std::deque<Span> spans_;
     std::chrono::steady_clock::time_point next_copy_{};

@@ -100,13 +100,13 @@ void Trails::draw(Picture& picture, double factor) const {
         FadingLine drawn(picture, {2.5F, trail.look.colour, trail.look.layer});
         FadingLine truth(picture, {1, palette::purple, trail.look.layer});
         const double start = trail.samples.back().time - duration;
-        std::uint32_t jumps = trail.samples.front().jumps;
+        const Sample* before = &trail.samples.front();
         for (const Sample& sample : trail.samples) {
-            if (sample.jumps != jumps) {
+            if (sample.jumps != before->jumps || sample.time - before->time > longest_frame) {
                 drawn.end();
                 truth.end();
             }
-            jumps = sample.jumps;
+            before = &sample;
             const double freshness = (sample.time - start) / duration;
             drawn.add(sample.at, freshness);
             if (sample.off)

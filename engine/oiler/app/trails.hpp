@@ -17,7 +17,8 @@ namespace oiler {
 /// forgotten: time has gone back.
 class Trails {
 public:
-    static constexpr double duration = 2;  ///< s of simulated time
+    static constexpr double duration = 2;         ///< s of simulated time
+    static constexpr double longest_frame = 0.5;  ///< s; a longer one is a leap, not a path
 
     /// Keeps where the bodies are drawn at `time`, s. `ghosts` are at the same time.
     void add(const DrawnBodies& drawn, const World& world, const std::vector<Entity>& bodies,

@@ -134,9 +134,10 @@ private:
             clock_.resume();
             complaint_.clear();
             restart();
-        } else if (playback_.game().is_over() && playback_.steps() != restarted_at_) {
+        } else if (playback_.game().is_over() && playback_.steps() != restarted_at_ && !was_back_) {
             restart();
         }
+        seeked_ = has_past() ? wishes.step : std::nullopt;
         goes_back_ = has_past() && (wishes.goes_back ||
                                     (clock_.paused() ? keys.pressed(Key::f4) : keys.held(Key::f4)));
         const bool steps = !failure_ && (wishes.steps || keys.pressed(Key::f5));
@@ -159,6 +160,7 @@ private:
             complaint_.clear();
             restart_with(taken->stepping);
             inspector_.list_methods();
+            inspector_.stop_following();
         } catch (const Error& error) {
             complaint_ = error.what();
         }
@@ -218,9 +220,9 @@ private:
         knows_steps_ = false;
         late_ = 0;
         undone_ = -playback_.steps();
-        playback_.go_back(playback_.steps());
+        playback_.go_to(playback_.steps());
         failure_.reset();
-        was_back_ = false;
+        was_back_ = has_diverged_ = false;
         if (rewind_) rewind_->forget(playback_.steps());
     }
     [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
@@ -232,7 +234,7 @@ private:
 
     void restart() {
         restarted_at_ = playback_.steps();
-        was_back_ = false;
+        was_back_ = has_diverged_ = false;
         AnyGame& game = playback_.game();
         if (measures()) along_.repeat(playback_.steps());
         failure_.reset();
@@ -243,7 +245,7 @@ private:
 
     void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
         const Span span(profile_, "frame");
-        const bool back = goes_back_;
+        const bool back = goes_back_ || seeked_;
         live_.queue.set_paused(clock_.paused() || back);
         if (!knows_steps_) catch_up_at_most(2 * duration_of_step());
         const StepClock::Frame owed = clock_.advance(start);
@@ -253,9 +255,12 @@ private:
                           static_cast<double>((start - last_start_).count()) -
                       late_) /
                      16;
-        if (back && steps > 0) go_back(steps);
+        if (rewind_ && !failure_) rewind_->keep(playback_.steps());
+        if (seeked_)
+            go_to(*seeked_);
+        else if (back && steps > 0)
+            go_to(playback_.steps() - steps);
         if (!back && steps > 0 && was_back_) measure_from_here();
-        if (rewind_ && !back && !failure_) rewind_->keep(playback_.steps());
         // What is shown after a step back is a whole step, until play goes on.
         whole_ = back || (whole_ && clock_.paused());
         inspector_.begin_frame();
@@ -265,12 +270,11 @@ private:
         if (steps > 0) limit_steps_of_frame(steps);
         play_along();
         if (inspects_) {
-            // A frame at the time of a step shows that step, others the way to it.
-            const bool at_step = playback_.steps() == clock_.ticks() - undone_;
-            inspector_.add_overlays(picture, along_, playback_.steps(),
-                                    at_step ? 1 : clock_.alpha(), magnifies_ ? 10 : 1);
+            inspector_.follow(picture, keys, live_.shown,
+                              std::chrono::duration<double>(start).count());
+            add_overlays(picture);
         }
-        if (!options_.quiet && !inspects_) add_verdict(picture, along_.verdict());
+        if (!options_.quiet && !inspects_) add_verdict(picture, verdict());
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
         if (helps_) add_help(picture, title_, controls_, key_names(), !uses_escape(controls_));
@@ -309,7 +313,8 @@ private:
                 {.seconds = std::chrono::duration<double>(start - last_start_).count(),
                  .dropped = std::chrono::duration<double>(dropped_time()).count(),
                  .is_paused = clock_.paused(),
-                 .has_past = has_past(),
+                 .past = past(),
+                 .other_moment = other_moment(),
                  .pace = pace_.text()});
             renderer_.draw_over(inspector_.overlay());
         }
@@ -337,9 +342,18 @@ private:
                                   : 1);
     }
 
+    void add_overlays(Picture& picture) {
+        // A frame at the time of a step shows that step, others the way to it.
+        const bool at_step = playback_.steps() == clock_.ticks() - undone_;
+        const double alpha = at_step ? 1 : clock_.alpha();
+        std::vector<Ghost> ghosts;
+        if (!was_back_) ghosts = along_.ghosts(playback_.steps(), alpha);
+        inspector_.add_overlays(picture, ghosts, alpha, magnifies_ ? 10 : 1);
+    }
+
     void play_along() {
         const Span span(profile_, "play along");
-        along_.play_until(playback_.steps());
+        along_.play_until(was_back_ ? rewind_->last() : playback_.steps());
     }
 
     /// The picture to show now; after a divergence, that of the last step before.
@@ -358,21 +372,43 @@ private:
     }
 
     void measure_from_here() {
-        was_back_ = false;
+        was_back_ = has_diverged_ = false;
         if (!measures()) return;
-        along_.start_from(playback_.game(), playback_.steps());
+        if (about_.changes_in_play)
+            along_.start_from(playback_.game(), playback_.steps());
+        else
+            along_.stop("what the timestep costs is no longer measured: you went back");
     }
 
     [[nodiscard]] bool has_past() const { return rewind_ && rewind_->has_past(); }
-    void go_back(std::int64_t steps) {
-        const std::int64_t step = std::max(rewind_->first(), playback_.steps() - steps);
-        live_.queue.continue_after(rewind_->go_back(step));
-        was_back_ = about_.changes_in_play;
-        along_.stop(was_back_ ? "what the timestep costs is measured again when you play on"
-                              : "what the timestep costs is no longer measured: you went back");
-        playback_.go_back(step);
+    [[nodiscard]] std::optional<Inspected::Past> past() const {
+        if (!has_past()) return std::nullopt;
+        return Inspected::Past{rewind_->first(), playback_.steps(),
+                               std::max(rewind_->last(), playback_.steps())};
+    }
+    /// Shows a step of the past, or the last one again. What plays along stays where it is, for as
+    /// long as no other step is taken.
+    void go_to(std::int64_t step) {
+        step = std::clamp(step, rewind_->first(), rewind_->last());
+        has_diverged_ = has_diverged_ || failure_;
+        if (step != playback_.steps() || failure_) {
+            live_.queue.continue_after(rewind_->go_to(step));
+            playback_.go_to(step);
+        }
         failure_.reset();
+        was_back_ = has_diverged_ || step < rewind_->last();
         undone_ = clock_.ticks() - step;
+    }
+    /// Why what plays along does not show this moment; empty: it does.
+    [[nodiscard]] std::string other_moment() const {
+        if (!was_back_ || !measures()) return {};
+        return about_.changes_in_play
+                   ? "what the timestep costs is measured again when you play on"
+                   : "what the timestep costs is not measured when you play on from here";
+    }
+    [[nodiscard]] Verdict verdict() {
+        const std::string other = other_moment();
+        return other.empty() ? along_.verdict() : Verdict{.text = other};
     }
 
     [[nodiscard]] std::string status(const Input& keys, bool back) const {
@@ -444,7 +480,9 @@ private:
     double late_ = 0;           ///< the share of the time that late frames drop
     bool knows_steps_ = false;  ///< how long the steps of the setting take
     bool whole_ = false;
-    bool was_back_ = false;  ///< nothing is measured since the player went back
+    std::optional<std::int64_t> seeked_;  ///< the step that the time line shows
+    bool was_back_ = false;               ///< what plays along is of later steps than the one shown
+    bool has_diverged_ = false;           ///< they include steps that no game can go to
 };
 
 }  // namespace

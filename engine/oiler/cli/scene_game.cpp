@@ -19,6 +19,7 @@ namespace {
 constexpr double reach = 0.06;            // of the camera's height
 constexpr double highest_frequency = 10;  // Hz, of the spring that drags
 constexpr double most_periods_per_step = 0.05;
+constexpr float widest_click = 3;  // canvas units; moves beyond it drag
 
 constexpr float zoom_of_notch = 0.9F;
 
@@ -79,11 +80,15 @@ void SceneGame::look(const Input& input) {
 /// The body hangs on a critically damped spring, slow enough for the timestep, whatever the method.
 void SceneGame::drag(const Input& input) {
     const auto at = input.pointer();
+    const auto canvas = input.pointer_canvas();
     if (!at || !input.held(pull)) return drag_.reset();
     if (input.pressed(pull))
         if (const auto body = nearest_body(world_, *at, camera_.height))
-            drag_ = Drag{.body = *body};
+            drag_ = Drag{.body = *body, .from = *canvas};
     if (!drag_) return;
+    drag_->pulls = drag_->pulls ||
+                   std::hypot(canvas->x - drag_->from.x, canvas->y - drag_->from.y) > widest_click;
+    if (!drag_->pulls) return;
     drag_->to = world_.position(drag_->body);
     drag_->to[0] = at->x;
     if (world_.bodies().axes() > 1) drag_->to[1] = at->y;
@@ -124,7 +129,7 @@ Picture SceneGame::picture() const {
                                                       scene_->duration),
                                   .size = 9,
                                   .colour = palette::grey});
-    if (drag_)
+    if (drag_ && drag_->pulls)
         picture.polylines.push_back(
             {.points = {to_point(world_.position(drag_->body)), to_point(drag_->to)},
              .width = 1,

@@ -42,9 +42,12 @@ public:
     }
 
 private:
-    /// A body that the mouse holds.
+    /// A body that the mouse holds. It is pulled from the first move of the mouse on, so that a
+    /// click leaves its motion as it is.
     struct Drag {
         Entity body{};
+        Point from{};  ///< canvas, where the button went down
+        bool pulls = false;
         Vec3 to{};  ///< m
     };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <variant>
 
 #include "oiler/inspector/gui.hpp"
 #include "oiler/picture/palette.hpp"
@@ -102,16 +103,37 @@ struct Inspector::Impl {
         if (run.fixed.empty()) {
             ImGui::SameLine(ImGui::GetContentRegionAvail().x / 2);
             ImGui::Checkbox("changes restart the run", &changes_from_start);
-        } else {
-            wrapped(run.fixed);
         }
+        ImGui::BeginDisabled(!run.fixed.empty());
+        show_damping(chosen);
+        ImGui::EndDisabled();
+        if (!run.fixed.empty()) wrapped(run.fixed);
         if (chosen != run.stepping) wishes.stepping = chosen;
     }
 
-    static void show_controls(const Inspected& run, Wishes& wishes) {
+    /// Where a splitting puts damping; other methods have no choice.
+    static void show_damping(Stepping& chosen) {
+        const Method& method = *chosen.method;
+        const Damping now = chosen.damping.value_or(method.damping);
+        int is_in_drift = now == Damping::in_drift ? 1 : 0;
+        ImGui::BeginDisabled(!std::holds_alternative<Splitting>(method.rule));
+        ImGui::AlignTextToFramePadding();
+        text("damping in the");
+        ImGui::SameLine();
+        ImGui::RadioButton("kick", &is_in_drift, 0);
+        ImGui::SameLine();
+        ImGui::RadioButton("drift", &is_in_drift, 1);
+        ImGui::EndDisabled();
+        const Damping wanted = is_in_drift == 1 ? Damping::in_drift : Damping::in_kick;
+        if (wanted == now) return;
+        chosen.damping.reset();
+        if (wanted != method.damping) chosen.damping = wanted;
+    }
+
+    void show_controls(const Inspected& run, Wishes& wishes) {
         wishes.pauses = button(run.is_paused ? "Resume" : "Pause");
         ImGui::SameLine();
-        wishes.goes_back = button("Back", run.is_paused && run.has_past);
+        wishes.goes_back = button("Back", run.is_paused && run.past);
         ImGui::SameLine();
         wishes.steps = button("Step", run.is_paused);
         ImGui::SameLine();
@@ -122,6 +144,21 @@ struct Inspector::Impl {
         if (button("Faster")) ++wishes.pace;
         text(fmt::format("{:.2f} s, bodies: {}{}{}", run.time, run.bodies,
                          run.pace.empty() ? "" : ", ", run.pace));
+        if (run.past) show_time_line(*run.past, run.stepping.rate, wishes);
+        wrapped(run.followed.empty() ? "A double click on a body follows it." : run.followed);
+    }
+
+    void show_time_line(const Inspected::Past& past, const Rate& rate, Wishes& wishes) {
+        if (!is_seeking) seeked = past.now;
+        const double ago = rate.time(past.last - seeked);
+        const std::string when = ago == 0 ? "now" : fmt::format("{:.2f} s ago", ago);
+        ImGui::SetNextItemWidth(-1);
+        ImGui::BeginDisabled(past.first == past.last);
+        ImGui::SliderScalar("##time line", ImGuiDataType_S64, &seeked, &past.first, &past.last,
+                            when.c_str(), ImGuiSliderFlags_NoInput);
+        ImGui::EndDisabled();
+        is_seeking = ImGui::IsItemActive();
+        if (is_seeking) wishes.step = seeked;
     }
 
     static void show_settings(const Inspected& run, Wishes& wishes) {
@@ -284,6 +321,8 @@ struct Inspector::Impl {
     Shown shown;
     int place = 0;  ///< of the rate on the slider
     bool is_sliding = false;
+    std::int64_t seeked = 0;  ///< the step of the time line
+    bool is_seeking = false;
 };
 
 Size Inspector::view(Size frame) {
@@ -304,7 +343,7 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
     Impl::show_verdict(run);
     impl_->show_setting(run, mouse.escapes, wishes);
-    Impl::show_controls(run, wishes);
+    impl_->show_controls(run, wishes);
     Impl::show_settings(run, wishes);
     Impl::show_gauge(run);
     impl_->show_overlays(run);

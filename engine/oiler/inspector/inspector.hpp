@@ -73,6 +73,13 @@ struct Inspected {
         std::size_t bodies = 0;   ///< that have trails and arrows; 0: all
     };
 
+    /// The steps that the user can go to.
+    struct Past {
+        std::int64_t first = 0;
+        std::int64_t now = 0;
+        std::int64_t last = 0;
+    };
+
     Stepping stepping{};
     std::span<const Method* const> methods{};  ///< those that can step the bodies
     std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
@@ -91,8 +98,9 @@ struct Inspected {
     double dropped = 0;                    ///< s
     std::size_t bodies = 0;
     bool is_paused = false;
-    bool has_past = false;
+    std::optional<Past> past{};
     std::string pace{};
+    std::string followed{};  ///< figures of the body that the view follows; empty: it follows none
     Scales scales{};
 };
 
@@ -103,6 +111,7 @@ struct Wishes {
     bool pauses = false;                 ///< or resumes
     bool steps = false;
     bool goes_back = false;
+    std::optional<std::int64_t> step{};  ///< to show as long as the time line is held
     bool restarts = false;
     int pace = 0;  ///< faster, or slower
     Shown shown{};
