@@ -40,6 +40,14 @@ bool uses_escape(std::span<const Control> controls) {
     });
 }
 
+/// Whether the player presses a button of the game's control "restart".
+bool wants_restart(std::span<const Control> controls, const Input& keys) {
+    const auto found = std::ranges::find(controls, "restart", &Control::name);
+    return found != controls.end() &&
+           std::any_of(found->positive.begin(), found->positive.end(),
+                       [&](const Button& button) { return keys.pressed(button); });
+}
+
 /// The option that needs each step as it was first taken; empty if the player may go back.
 std::string_view no_way_back(const Options& options) {
     if (!options.script.empty()) return "--script";
@@ -132,7 +140,10 @@ private:
         look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        if (wishes.restarts || keys.pressed(Key::f9)) {
+        // A game that takes no steps sees no keys.
+        const bool stands = failure_ || clock_.paused();
+        if (wishes.restarts || keys.pressed(Key::f9) ||
+            (stands && wants_restart(controls_, keys))) {
             clock_.resume();
             complaint_.clear();
             restart();
