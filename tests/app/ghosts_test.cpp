@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "oiler/app/look.hpp"
 
@@ -29,8 +30,18 @@ TEST(Ghosts, AreTheBodiesThatBothHave) {
     EXPECT_EQ(ghosts[0].truth[0], 1.5);
     reference.teleport(thrown, {8});
     EXPECT_EQ(ghosts_of(run, reference).size(), 2U) << "thrown in both";
-    for (int i = 0; i < 200; ++i) (void)run.spawn({});
-    EXPECT_LE(ghosts_of(run, World(run)).size(), 100U);
+}
+
+TEST(Ghosts, OfManyBodiesAreThoseFurthestOff) {
+    World run(1, at_1_hz);
+    std::vector<Entity> bodies;
+    for (int i = 0; i < 150; ++i) bodies.push_back(run.spawn({}));
+    World reference = run;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        reference.set_position(bodies[i], {i % 2 == 0 ? 0.5 * double(i) : -0.5 * double(i)});
+    const std::vector<Ghost> ghosts = ghosts_of(run, reference);
+    EXPECT_EQ(ghosts.size(), 100U);
+    for (const Ghost& ghost : ghosts) EXPECT_GE(std::abs(ghost.truth[0]), 25) << "the 50 nearest";
 }
 
 TEST(Ghosts, MoveInStraightLinesBetweenSteps) {

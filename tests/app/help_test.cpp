@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "oiler/picture/palette.hpp"
 
@@ -24,7 +25,7 @@ bool shows(const Picture& picture, std::string_view text) {
 
 TEST(Help, ListsControlsAndKeysOverThePicture) {
     Picture picture{.background = palette::black, .labels = {{.text = "score 7", .layer = 1000}}};
-    add_help(picture, "Cannon", controls, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Cannon", controls, on_azerty, true);
     ASSERT_EQ(picture.polygons.size(), 1U);
     EXPECT_GT(picture.polygons[0].colour.g, 200) << "the text is dark";
     EXPECT_GT(picture.polygons[0].colour.a, 192);
@@ -36,7 +37,7 @@ TEST(Help, ListsControlsAndKeysOverThePicture) {
           "no button", "F4", "go back", "Escape"})
         EXPECT_TRUE(shows(picture, text)) << text;
     Picture other;
-    add_help(other, "Cannon", {}, on_azerty, false);
+    add_help(other, OverlayArea({1280, 720}), "Cannon", {}, on_azerty, false);
     EXPECT_FALSE(shows(other, "Escape"));
 }
 
@@ -44,7 +45,7 @@ TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
     const Control list[] = {Action{"menu", Pad::left_shoulder, Pad::right_shoulder,
                                    Pad::left_trigger, Pad::right_trigger, Pad::left_stick}};
     Picture picture;
-    add_help(picture, "Menu", list, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Menu", list, on_azerty, true);
     const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
                                    [](const Label& label) { return label.text == "F1"; });
     for (auto label = picture.labels.begin(); label != loop; ++label)
@@ -53,13 +54,35 @@ TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
             << label->text;
 }
 
+// 400x300: 0.625 pixels a unit, so that the canvas is 640 by 480 units, from -60 to 420.
+TEST(Help, FitsASmallWindow) {
+    Picture picture;
+    add_help(picture, OverlayArea({400, 300}), "Cannon", controls, on_azerty, true);
+    EXPECT_TRUE(shows(picture, "fire"));
+    EXPECT_TRUE(std::ranges::any_of(picture.labels, [](const Label& label) {
+        return label.text.find("F11 ") != std::string::npos;
+    }));
+    for (const Label& label : picture.labels) {
+        EXPECT_GE(label.at.y, -60) << label.text;
+        EXPECT_LE(label.at.y + label.size, 420) << label.text;
+        EXPECT_GE(label.size * 0.625F, 10.99F) << label.text << ": fewer pixels";
+        EXPECT_LE(label.at.x + 0.6F * label.size * static_cast<float>(label.text.size()), 640)
+            << label.text;
+    }
+    std::vector<float> rows;
+    for (const Label& label : picture.labels) rows.push_back(label.at.y);
+    std::ranges::sort(rows, std::greater<>());
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        EXPECT_TRUE(rows[i - 1] == rows[i] || rows[i - 1] - rows[i] >= 17.6F) << "lines touch";
+}
+
 TEST(Help, ALongListFitsTheCanvas) {
     std::vector<Control> many;
     for (int i = 0; i < 40; ++i)
         many.push_back(Action{"a very long name of an action", Pad::left_shoulder,
                               Pad::right_shoulder, Pad::left_trigger, Pad::right_trigger});
     Picture picture;
-    add_help(picture, "Many", many, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Many", many, on_azerty, true);
     for (const Label& label : picture.labels) {
         EXPECT_GT(label.at.y, 20);
         EXPECT_LT(label.at.y, canvas_height);

@@ -247,6 +247,14 @@ TEST(Oiler, HelpFitsAScreenAndEachCommandHasAnExample) {
     }
 }
 
+TEST(Oiler, AloneIsWrongUseWithoutADisplay) {
+    for (const std::string display : {"env -u DISPLAY", "env DISPLAY=", "env DISPLAY=:no"}) {
+        const Outcome run = shell(display + " WAYLAND_DISPLAY= oiler");
+        EXPECT_EQ(run.exit, 2) << display;
+        EXPECT_TRUE(holds(run.err, "command")) << run.err;
+    }
+}
+
 class WrongUse : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(WrongUse, IsRefusedInOneLineThatNamesIt) {

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Chooses in the window of `oiler demos --window` with the keys and with the mouse: each time the game
 # runs, and the window comes back. Escape leaves it with exit code 0.
+# `oiler` alone opens it, too.
 # Usage: menu_test.sh OILER. Exit 77: Xvfb or xdotool is not installed.
 set -u
 . "$(dirname "$0")/../support/until_true.sh"
@@ -55,3 +56,12 @@ wait $menu
 status=$?
 [ $status -eq 0 ] || fail "Escape leaves with exit code $status"
 [ "$(wc -l <"$folder/started")" = 2 ] || fail "started: $(cat "$folder/started")"
+
+"$prefix/bin/oiler" >"$folder/out" 2>"$folder/err" &
+menu=$!
+until_true window_focused || fail "oiler alone opens no window"
+sleep 1
+xdotool key Escape
+wait $menu
+status=$?
+[ $status -eq 0 ] || fail "Escape leaves oiler alone with exit code $status"

@@ -66,14 +66,15 @@ TEST_F(SceneShelfTest, BracketsGoThroughTheFolder) {
     EXPECT_FALSE(take(shelf, 0));
     const auto second = take(shelf, 1);
     ASSERT_TRUE(second);
-    EXPECT_EQ(second->title, "The second");
+    EXPECT_EQ(second->title, "The second – b.toml");
     EXPECT_EQ(second->stepping.rate, Rate{20});
     EXPECT_EQ(shelf.scene()->stepping.rate, Rate{20});
-    EXPECT_EQ(take(shelf, 1)->title, "c");
-    EXPECT_EQ(take(shelf, 1)->title, "a") << "after the last comes the first";
-    EXPECT_EQ(take(shelf, -1)->title, "c");
-    EXPECT_EQ(take(shelf, -2)->title, "a");
-    EXPECT_EQ(take(shelf, -5)->title, "The second") << "five places back in a round of three";
+    EXPECT_EQ(take(shelf, 1)->title, "c.toml");
+    EXPECT_EQ(take(shelf, 1)->title, "a.toml") << "after the last comes the first";
+    EXPECT_EQ(take(shelf, -1)->title, "c.toml");
+    EXPECT_EQ(take(shelf, -2)->title, "a.toml");
+    EXPECT_EQ(take(shelf, -5)->title, "The second – b.toml")
+        << "five places back in a round of three";
 }
 
 TEST_F(SceneShelfTest, TakesADroppedFileWhereverItIs) {
@@ -82,7 +83,7 @@ TEST_F(SceneShelfTest, TakesADroppedFileWhereverItIs) {
     std::ofstream(other / "far.toml")
         << "[scene]\naxes = 1\nrate = 77\n[[body]]\nposition = [1.0]\n";
     EXPECT_EQ(shelf.take(*shown_by(shelf), (other / "far.toml").string())->stepping.rate, Rate{77});
-    EXPECT_EQ(take(shelf, 1)->title, "far") << "its folder has no other";
+    EXPECT_EQ(take(shelf, 1)->title, "far.toml") << "its folder has no other";
 }
 
 TEST_F(SceneShelfTest, ReadsAChangedFileAgainAndKeepsThePlayersSetting) {
@@ -124,8 +125,8 @@ TEST_F(SceneShelfTest, ABrokenNeighbourIsTriedOnceAndLeftBehind) {
     write("b.toml", "rate = \"fast\"");
     EXPECT_THROW((void)take(shelf, 1), Error);
     EXPECT_FALSE(take(shelf, 1)) << "the same wish in the next frame";
-    EXPECT_EQ(take(shelf, 2)->title, "c") << "a second press";
-    EXPECT_EQ(take(shelf, 1)->title, "a");
+    EXPECT_EQ(take(shelf, 2)->title, "c.toml") << "a second press";
+    EXPECT_EQ(take(shelf, 1)->title, "a.toml");
 }
 
 TEST_F(SceneShelfTest, AFolderThatIsGoneLeavesTheScene) {

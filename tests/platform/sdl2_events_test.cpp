@@ -94,7 +94,7 @@ TEST_F(Sdl2Events, AreKeysByTheirPlace) {
     EXPECT_TRUE(input.pressed(Key::pad_5));
     const Input loop = loop_.take({});
     EXPECT_TRUE(loop.pressed(Key::f3));
-    EXPECT_FALSE(loop.held(Key::w));
+    EXPECT_TRUE(loop.pressed(Key::w)) << "the loop looks for R when a game stands";
     EXPECT_FALSE(input.held(Key::f3));
     EXPECT_TRUE(step({key(SDL_SCANCODE_ESCAPE, true)}).pressed(Key::escape));
     EXPECT_TRUE(loop_.take({}).pressed(Key::escape));

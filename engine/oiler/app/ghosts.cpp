@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "oiler/app/drawn_bodies.hpp"
 #include "oiler/app/help.hpp"
@@ -14,7 +15,6 @@
 namespace oiler {
 namespace {
 
-constexpr std::size_t most_ghosts = 100;
 constexpr float ring = 7;  // canvas units
 constexpr float least_seen = 3;
 
@@ -22,12 +22,15 @@ constexpr float least_seen = 3;
 
 std::vector<Ghost> ghosts_of(const World& run, const World& reference) {
     std::vector<Ghost> ghosts;
-    const std::size_t count = std::min(run.bodies().size(), most_ghosts);
-    for (std::size_t row = 0; row < count; ++row) {
+    for (std::size_t row = 0; row < run.bodies().size(); ++row) {
         const Entity body = run.entity_of_row(row);
         if (reference.has_body(body) && reference.jumps(body) == run.jumps(body))
             ghosts.push_back({body, run.position(body), reference.position(body)});
     }
+    if (ghosts.size() <= most_ghosts) return ghosts;
+    const auto distance = [](const Ghost& ghost) { return length(ghost.truth - ghost.at); };
+    std::ranges::nth_element(ghosts, ghosts.begin() + most_ghosts, std::greater<>(), distance);
+    ghosts.resize(most_ghosts);
     return ghosts;
 }
 

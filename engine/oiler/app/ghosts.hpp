@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "oiler/picture/picture.hpp"
@@ -15,8 +16,10 @@ struct Ghost {
     Vec3 truth{};
 };
 
+inline constexpr std::size_t most_ghosts = 100;
+
 /// The bodies of a run that the reference has, too, unless they were teleported in one of the two.
-/// Of many bodies, the first hundred.
+/// Of more than `most_ghosts` bodies, those that are furthest off.
 [[nodiscard]] std::vector<Ghost> ghosts_of(const World& run, const World& reference);
 
 /// The ghosts at `alpha` between two steps, for the bodies that both have.

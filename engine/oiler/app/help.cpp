@@ -14,24 +14,20 @@
 namespace oiler {
 namespace {
 
-constexpr float left_margin = 32;
-constexpr float loop_keys_left = 456;
-constexpr float first_row = 296;
-constexpr float bottom = 40;
-constexpr float largest_size = 11;    ///< of the font
 constexpr float line_height = 1.4F;   ///< of the size
 constexpr float letter_width = 0.6F;  ///< of the size, of the font's usual letters
 constexpr std::size_t longest_name = 20;
+constexpr float letters_of_loop_keys = 27;
+constexpr float least_letters_beside = 80;  ///< in an area with two columns
 
 struct Row {
     std::string name;
     std::string text;
 };
 
-/// A sheet of paper over the whole frame, whatever its shape is; an eighth shines through.
-Polygon sheet() {
-    return {.points = rectangle({canvas_width / 2, canvas_height / 2},
-                                {10 * canvas_width, 10 * canvas_height}),
+/// A sheet of paper over the whole area; an eighth shines through.
+Polygon sheet(const OverlayArea& area) {
+    return {.points = {area.low, {area.high.x, area.low.y}, area.high, {area.low.x, area.high.y}},
             .colour = palette::faded(palette::paper, 224),
             .space = Space::canvas,
             .layer = overlay_layer};
@@ -84,12 +80,37 @@ std::vector<Row> loop_keys(bool escape_quits) {
     return rows;
 }
 
-void add_rows(Picture& picture, std::span<const Row> rows, float x, float text_x, float size) {
+/// Rows side by side in so many columns.
+std::vector<Row> in_columns(const std::vector<Row>& rows, std::size_t columns) {
+    std::vector<Row> wide((rows.size() + columns - 1) / columns);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const float y = first_row - static_cast<float>(i) * line_height * size;
-        picture.labels.push_back(label({x, y}, rows[i].name, size, palette::blue));
-        picture.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
+        std::string& text = wide[i % wide.size()].text;
+        const std::string words = rows[i].name + " " + rows[i].text;
+        text += text.empty() ? words : ",  " + words;
     }
+    return wide;
+}
+
+/// A list whose first row is at a place.
+struct List {
+    Point at;
+    float text_x;
+    float size;
+
+    void add(Picture& overlay, std::span<const Row> rows) const {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const float y = at.y - static_cast<float>(i) * line_height * size;
+            overlay.labels.push_back(label({at.x, y}, rows[i].name, size, palette::blue));
+            overlay.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
+        }
+    }
+};
+
+std::size_t longest_of(std::span<const Control> controls) {
+    std::size_t longest = 0;
+    for (const Control& control : controls)
+        longest = std::max(longest, std::min(control.name.size(), longest_name) + 2);
+    return longest;
 }
 
 }  // namespace
@@ -103,21 +124,38 @@ std::string buttons_of(const Control& control, const NameButton& name) {
     return text.empty() ? "no button" : text;
 }
 
-void add_help(Picture& picture, std::string_view title, std::span<const Control> controls,
-              const NameButton& name, bool escape_quits) {
-    picture.polygons.push_back(sheet());
-    std::size_t longest = 0;
-    for (const Control& control : controls)
-        longest = std::max(longest, std::min(control.name.size(), longest_name) + 2);
-    const float letter = letter_width * largest_size;
-    const float text_x = left_margin + letter * static_cast<float>(longest);
-    const auto letters = static_cast<std::size_t>((loop_keys_left - text_x) / letter) - 1;
-    const std::vector<Row> rows = rows_of(controls, name, letters);
-    const float size = std::min(
-        largest_size, (first_row - bottom) / line_height / static_cast<float>(rows.size()));
-    picture.labels.push_back(label({left_margin, 324}, std::string(title), 15, palette::ink));
-    add_rows(picture, rows, left_margin, text_x, size);
-    add_rows(picture, loop_keys(escape_quits), loop_keys_left, loop_keys_left + 48, largest_size);
+void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
+              std::span<const Control> controls, const NameButton& name, bool escape_quits) {
+    overlay.polygons.push_back(sheet(area));
+    const float largest = area.legible(11);
+    const float letter = letter_width * largest;
+    const float room = area.high.x - area.low.x;
+    const bool is_wide = room > least_letters_beside * letter;
+    const float margin = (is_wide ? 3 : 1) * largest;
+    const float left = area.low.x + margin;
+    const float top = area.high.y - 3 * largest;
+    const float first_row = top - 2 * largest;
+    const float text_x = left + letter * static_cast<float>(longest_of(controls));
+    const float loop_x = area.high.x - letters_of_loop_keys * letter;
+    const float end = is_wide ? loop_x : area.high.x - margin;
+    const auto letters = static_cast<std::size_t>(std::max(8.0F, (end - text_x) / letter)) - 1;
+    std::vector<Row> rows = rows_of(controls, name, letters);
+    std::vector<Row> keys = loop_keys(escape_quits);
+    if (!is_wide) {
+        keys = in_columns(keys, 2);
+        rows.push_back({});
+    }
+    const std::size_t count = rows.size() + (is_wide ? 0 : keys.size());
+    const float size = std::min(largest, (first_row - area.low.y - 2 * largest) / line_height /
+                                             static_cast<float>(std::max<std::size_t>(count, 1)));
+    overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, palette::ink));
+    List{{left, first_row}, text_x, size}.add(overlay, rows);
+    if (is_wide) {
+        List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, keys);
+    } else {
+        const float y = first_row - static_cast<float>(rows.size()) * line_height * size;
+        List{{left, y}, left, size}.add(overlay, keys);
+    }
 }
 
 }  // namespace oiler

@@ -40,6 +40,14 @@ bool uses_escape(std::span<const Control> controls) {
     });
 }
 
+/// Whether the player presses a button of the game's control "restart".
+bool wants_restart(std::span<const Control> controls, const Input& keys) {
+    const auto found = std::ranges::find(controls, "restart", &Control::name);
+    return found != controls.end() &&
+           std::any_of(found->positive.begin(), found->positive.end(),
+                       [&](const Button& button) { return keys.pressed(button); });
+}
+
 /// The option that needs each step as it was first taken; empty if the player may go back.
 std::string_view no_way_back(const Options& options) {
     if (!options.script.empty()) return "--script";
@@ -94,9 +102,11 @@ public:
         const int fps = options_.fps.value_or(window_->refresh_rate());
         for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
             const std::chrono::nanoseconds start = now();
-            const Window::State state = window_->poll(
-                live_.queue, keys_,
-                {.width = share_of_picture(), .mouse = !inspects_ || !inspector_.has_mouse()});
+            const Window::State state =
+                window_->poll(live_.queue, keys_,
+                              {.width = share_of(&Size::width),
+                               .height = share_of(&Size::height),
+                               .mouse = !inspects_ || !inspector_.has_mouse()});
             if (state == Window::State::lost) return {Exit::no_display, dropped_time()};
             const Input keys = keys_.take({});
             const bool closes_menu = inspects_ && inspector_.has_menu();
@@ -130,7 +140,10 @@ private:
         look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
-        if (wishes.restarts || keys.pressed(Key::f9)) {
+        // A game that takes no steps sees no keys.
+        const bool stands = failure_ || clock_.paused();
+        if (wishes.restarts || keys.pressed(Key::f9) ||
+            (stands && wants_restart(controls_, keys))) {
             clock_.resume();
             complaint_.clear();
             restart();
@@ -274,37 +287,57 @@ private:
                               std::chrono::duration<double>(start).count());
             add_overlays(picture);
         }
-        if (!options_.quiet && !inspects_) add_verdict(picture, verdict());
         window_->take_text(playback_.loop().takes_text());
         live_.shown = picture.camera;
-        if (helps_) add_help(picture, title_, controls_, key_names(), !uses_escape(controls_));
-        if (failure_)
-            add_notice(picture, failure_->what(),
-                       has_past() ? "F4 goes back, F9 restarts, Escape quits"
-                                  : "F9 restarts, Escape quits");
-        else if (!complaint_.empty())
-            add_notice(picture, complaint_,
-                       "What was shown goes on. F9 restarts it and closes this.");
-        add_status(picture, status(keys, back));
+        const Picture overlay = overlay_of(keys, back);
         const std::chrono::nanoseconds before_drawing = now();
-        show(picture, keys, start);
+        show(picture, overlay, keys, start);
         if (!clock_.paused()) inspector_.add_times(show_time, now() - before_drawing);
         last_start_ = start;
     }
 
-    /// The part of the frame that the inspector leaves to the picture.
-    [[nodiscard]] Size view(Size size) const { return inspects_ ? Inspector::view(size) : size; }
-    [[nodiscard]] float share_of_picture() const {
-        const Size size = window_->size();
-        if (size.width == 0) return 1;
-        return static_cast<float>(view(size).width) / static_cast<float>(size.width);
+    /// What the loop says, over the picture and above it.
+    Picture overlay_of(const Input& keys, bool back) {
+        const OverlayArea area(beside_inspector(window_->size()));
+        Picture overlay;
+        if (has_verdict() && !helps_) add_verdict(overlay, area, verdict());
+        if (helps_)
+            add_help(overlay, area, title_, controls_, key_names(), !uses_escape(controls_));
+        if (failure_)
+            add_notice(overlay, area, failure_->what(),
+                       has_past() ? "F4 goes back, F9 restarts, Escape quits"
+                                  : "F9 restarts, Escape quits");
+        else if (!complaint_.empty())
+            add_notice(overlay, area, complaint_,
+                       "What was shown goes on. F9 restarts it and closes this.");
+        add_status(overlay, area, status(keys, back));
+        return overlay;
     }
-    void show(const Picture& picture, const Input& keys, std::chrono::nanoseconds start) {
+
+    [[nodiscard]] bool has_verdict() const { return !options_.quiet && !inspects_; }
+    [[nodiscard]] Size beside_inspector(Size size) const {
+        return inspects_ ? Inspector::view(size) : size;
+    }
+    /// The part of the frame that the inspector and the verdict leave to the picture.
+    [[nodiscard]] Size view(Size size) const {
+        Size view = beside_inspector(size);
+        if (has_verdict()) view.height -= verdict_height(OverlayArea(view));
+        return view;
+    }
+    [[nodiscard]] float share_of(int Size::*side) const {
+        const Size size = window_->size();
+        if (size.width == 0 || size.height == 0) return 1;
+        return static_cast<float>(view(size).*side) / static_cast<float>(size.*side);
+    }
+    void show(Picture& picture, const Picture& overlay, const Input& keys,
+              std::chrono::nanoseconds start) {
         const Size size = window_->size();
         if (size.width == 0 || size.height == 0) return;  // minimised
         {
             const Span span(profile_, "draw");
+            keep_legible(picture, OverlayArea(view(size)));
             renderer_.draw(picture, size, view(size));
+            renderer_.draw_over(overlay, beside_inspector(size));
         }
         if (inspects_) {
             const Span span(profile_, "inspector");

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <string>
+#include <vector>
+
 #include "oiler/app/run.hpp"
 #include "oiler/cli/command.hpp"
+#include "oiler/platform/surface.hpp"
 
 namespace oiler::cli {
 
@@ -16,10 +20,29 @@ using AllCommands = CommandList<
     struct AdviseCommand, struct RatesCommand, struct CheckCommand, struct ReportCommand,
     struct CompareCommand, struct DivergeCommand, struct DemosCommand, struct NewCommand>;
 
+namespace {
+
+/// `oiler` alone chooses in a window where there is a display that opens one; else it is refused
+/// with the list of commands.
+Exit run_alone(const std::vector<Command>& commands, int argc, char** argv) {
+    std::string name = "oiler", demos = "demos", window = "--window";
+    char* const words[] = {name.data(), demos.data(), window.data(), nullptr};
+    try {
+        return run_command(commands, 3, const_cast<char**>(words));
+    } catch (const Error& error) {
+        if (error.exit() != Exit::no_display && error.exit() != Exit::usage) throw;
+        return run_command(commands, argc, argv);
+    }
+}
+
+}  // namespace
 }  // namespace oiler::cli
 
 int main(int argc, char** argv) {
     using namespace oiler;
-    return guard_main("oiler",
-                      [&] { return cli::run_command(cli::AllCommands::make(), argc, argv); });
+    return guard_main("oiler", [&] {
+        const std::vector<cli::Command> commands = cli::AllCommands::make();
+        return argc == 1 && has_display() ? cli::run_alone(commands, argc, argv)
+                                          : cli::run_command(commands, argc, argv);
+    });
 }

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/project.hpp"
+#include "oiler/platform/surface.hpp"
 
 namespace oiler::cli {
 namespace {
@@ -86,14 +86,6 @@ std::string quoted(const std::string& word) {
     std::string text = "'";
     for (const char one : word) text += one == '\'' ? std::string("'\\''") : std::string(1, one);
     return text + "'";
-}
-
-bool has_display() {
-    const auto is_set = [](const char* variable) {
-        const char* const value = std::getenv(variable);
-        return value != nullptr && *value != '\0';
-    };
-    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
 std::string describe(const Home& home) {

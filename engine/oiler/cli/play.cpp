@@ -95,14 +95,16 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
         name = std::filesystem::path(file.name).stem().string();
         return describe(*shelf->scene(), name, text);
     };
-    const CommandLine line = parse_command_line(argc, argv, program, read);
+    CommandLine line = parse_command_line(argc, argv, program, read);
     if (!line.text.empty()) {
         print(line.text);
         return Exit::done;
     }
     const bool watched = is_watched(line.options);
+    const std::string title = shelf->title();
+    line.about.title = title;
     const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
+        return std::make_unique<SceneGame>(shelf->scene(), settings, watched, shelf->file());
     };
     const auto measure_budget = [&](double seconds) {
         return check(*shelf->scene(), line.options, seconds);

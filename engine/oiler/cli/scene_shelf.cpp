@@ -31,10 +31,6 @@ bool is_possible(const Scene& scene, const Stepping& stepping) {
     }
 }
 
-std::string title_of(const Scene& scene, const fs::path& file) {
-    return scene.title.empty() ? file.stem().string() : scene.title;
-}
-
 }  // namespace
 
 SceneShelf::SceneShelf(fs::path file, Scene scene)
@@ -63,7 +59,12 @@ Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping
     file_ = file;
     written_ = written(file);
     scene_ = std::make_shared<const Scene>(std::move(scene));
-    return {title_of(*scene_, file_), stepping};
+    return {title(), stepping};
+}
+
+std::string SceneShelf::title() const {
+    const std::string file = file_.filename().string();
+    return scene_->title.empty() ? file : scene_->title + " – " + file;
 }
 
 fs::path SceneShelf::neighbour(int places) const {

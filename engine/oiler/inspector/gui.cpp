@@ -7,7 +7,9 @@ namespace oiler {
 namespace {
 
 constexpr float usual_height = 720;
+constexpr float usual_width = 680;  // below, letters are smaller
 constexpr float font_size = 14;
+constexpr float least_font_size = 11;  // pixels
 
 Colour colour_of(ImU32 packed) {
     const auto part = [&](int shift) { return static_cast<std::uint8_t>(packed >> shift & 0xFFU); };
@@ -43,7 +45,9 @@ Gui::Gui(std::span<const char> font) : context_(ImGui::CreateContext()), font_(f
 Gui::~Gui() { ImGui::DestroyContext(context_); }
 
 float Gui::unit_of(Size frame) {
-    return std::max(1.0F, static_cast<float>(frame.height) / usual_height);
+    const float of_height = static_cast<float>(frame.height) / usual_height;
+    const float of_width = static_cast<float>(frame.width) / usual_width;
+    return std::max(least_font_size / font_size, std::min(std::max(1.0F, of_height), of_width));
 }
 
 void Gui::set_scale(float unit) {

@@ -18,7 +18,8 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Sizes grow with the frame: a unit is a pixel at 720 lines and below.
+    /// Sizes grow with the frame: a unit is a pixel at 720 lines and below, and less in a narrow
+    /// frame, as far as letters can be read.
     [[nodiscard]] static float unit_of(Size frame);
 
     /// Widgets may be called until `end`.

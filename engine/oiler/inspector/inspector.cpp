@@ -75,15 +75,18 @@ struct Inspector::Impl {
         Stepping chosen = run.stepping;
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
+        // The figure is beside the slider, whose knob would cover it.
         if (!is_sliding) place = place_of(run.stepping.rate.steps);
         const std::string hertz =
             fmt::format("{} Hz", is_sliding ? offered_rates[static_cast<std::size_t>(place)]
                                             : run.stepping.rate.steps);
-        ImGui::SliderInt("rate", &place, 0, static_cast<int>(offered_rates.size()) - 1,
-                         hertz.c_str(), ImGuiSliderFlags_NoInput);
+        ImGui::SliderInt("##rate", &place, 0, static_cast<int>(offered_rates.size()) - 1, "",
+                         ImGuiSliderFlags_NoInput);
         is_sliding = ImGui::IsItemActive();
         if (ImGui::IsItemDeactivatedAfterEdit())
             chosen.rate = {offered_rates[static_cast<std::size_t>(place)]};
+        ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+        text(hertz);
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
         has_menu = ImGui::BeginCombo("method", run.stepping.method->name.data());
         if (has_menu) {
@@ -327,7 +330,7 @@ struct Inspector::Impl {
 
 Size Inspector::view(Size frame) {
     const int panel = static_cast<int>(panel_width * Gui::unit_of(frame));
-    return {frame.width - std::min(panel, frame.width / 2), frame.height};
+    return {frame.width - std::min(panel, 2 * frame.width / 3), frame.height};
 }
 
 Inspector::Inspector(std::span<const char> font) : impl_(std::make_unique<Impl>(font)) {}

@@ -114,6 +114,17 @@ private:
     SdlFunctions sdl_;
 };
 
+int share(int length, float part) {
+    return static_cast<int>(std::lround(static_cast<float>(length) * part));
+}
+
+/// Gives the mouse in an event another origin, so many units below.
+void move_up(SDL_Event& event, int units) {
+    if (event.type == SDL_MOUSEMOTION) event.motion.y -= units;
+    if (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP)
+        event.button.y -= units;
+}
+
 class SdlWindow final : public Window {
 public:
     SdlWindow(Size size, const std::string& title) {
@@ -160,8 +171,9 @@ public:
         while (!display_is_lost() && sdl_->poll_event(&event) != 0) {
             Size window;
             sdl_->window_size(window_, &window.width, &window.height);
-            const auto width = static_cast<float>(window.width) * of_game.width;
-            window.width = static_cast<int>(std::lround(width));
+            const int top = window.height - share(window.height, of_game.height);
+            window = {share(window.width, of_game.width), window.height - top};
+            move_up(event, top);
             events_->handle(event, window, game, loop, of_game.mouse);
             if (event.type == SDL_DROPFILE) {
                 dropped_ = event.drop.file;

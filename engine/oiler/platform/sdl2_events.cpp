@@ -127,7 +127,7 @@ void SdlEvents::handle_key(const SDL_KeyboardEvent& event, InputQueue& game,
     const auto button = Button::of_id(static_cast<std::uint16_t>(code));
     if (!button) return;
     const bool down = event.type == SDL_KEYDOWN;
-    if (is_of_loop(*button) || *button == Button(Key::escape)) loop.set(*button, down);
+    loop.set(*button, down);
     if (is_of_loop(*button)) return;
     if (text_ && down && !edits_text(*button)) return;
     game.set(*button, down);

@@ -27,7 +27,7 @@ struct SdlInputFunctions {
 };
 
 /// Translates SDL's events to those of a game. Keys are places of the keyboard, whatever is printed
-/// on them. The keys of the loop, F1 to F12, are kept from the game; Escape goes to both.
+/// on them. The keys of the loop, F1 to F12, are kept from the game; all others go to both.
 class SdlEvents {
 public:
     explicit SdlEvents(const Library& library);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/platform/surface.hpp"
 
+#include <cstdlib>
+
 #include "oiler/core/error.hpp"
 #include "oiler/platform/library.hpp"
 #include "oiler/platform/providers.hpp"
@@ -20,6 +22,14 @@ std::unique_ptr<Surface> open_egl_after(const Error& osmesa) {
 }
 
 }  // namespace
+
+bool has_display() {
+    const auto is_set = [](const char* variable) {
+        const char* const value = std::getenv(variable);
+        return value != nullptr && *value != '\0';
+    };
+    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
 
 std::unique_ptr<Surface> open_offscreen(Offscreen which) {
     limit_llvmpipe_vectors();

@@ -44,11 +44,12 @@ public:
     };
     /// What of the window the game has.
     struct OfGame {
-        float width = 1;  ///< the canvas is in this share, at the left
+        float width = 1;   ///< the canvas is in this share, at the left
+        float height = 1;  ///< and in this one, at the bottom
         bool mouse = true;
     };
-    /// Hands events since the last call to the game, and those of F1 to F12 to the loop; Escape and
-    /// the mouse to both. A mouse that is not the game's only releases buttons there.
+    /// Hands events since the last call to the loop, and all but F1 to F12 to the game. A mouse
+    /// that is not the game's only releases buttons there.
     [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) = 0;
     /// The file that was dropped on the window since the last call; of several the last one.
     [[nodiscard]] virtual std::optional<std::string> take_dropped() = 0;
@@ -65,6 +66,9 @@ public:
 
 /// The provider without a window; `automatic` selects OSMesa, or EGL if OSMesa is missing.
 enum class Offscreen { automatic, osmesa, egl };
+
+/// Whether the environment names a display; there may be none all the same.
+[[nodiscard]] bool has_display();
 
 /// Opens a window of about `size` on the user's display.
 /// Throws Error{no_display}, naming --headless, without a display, SDL2 or GL 3.3.

@@ -292,6 +292,13 @@ void Renderer::draw_over(const Overlay& overlay) {
     if (!overlay.parts.empty()) impl_->draw_over(overlay);
 }
 
+void Renderer::draw_over(const Picture& picture, Size view) {
+    impl_->framebuffer.bind(impl_->framebuffer.size());
+    impl_->set_state();
+    impl_->gl.Viewport(0, 0, view.width, view.height);
+    for (const int layer : layers_of(picture)) impl_->draw_layer(picture, layer, view);
+}
+
 std::span<const char> Renderer::font() { return embedded::font(); }
 
 void Renderer::read(Pixels& pixels) const {

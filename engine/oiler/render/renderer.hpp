@@ -39,6 +39,8 @@ public:
     void draw(const Picture& picture, Size size, Size view);
     /// Draws over the last frame.
     void draw_over(const Overlay& overlay);
+    /// The same in `view`, without background, bars and sprites.
+    void draw_over(const Picture& picture, Size view);
     /// Reads the last frame. The memory of `pixels` is reused.
     void read(Pixels& pixels) const;
     /// Copies the last frame to framebuffer 0, of a window of the same size.
