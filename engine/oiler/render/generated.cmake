@@ -21,7 +21,8 @@ add_custom_command(
 set_source_files_properties(${OILER_GLAD}/src/gl.c PROPERTIES COMPILE_OPTIONS -w)
 
 set(oiler_assets font ${OILER_FONT})
-foreach(asset disc_frag disc_vert line_frag line_vert overlay_frag overlay_vert sprite_frag sprite_vert text_frag text_vert)
+foreach(asset disc_frag disc_vert line_frag line_vert overlay_frag overlay_vert splats_frag splats_vert
+              sprite_frag sprite_vert text_frag text_vert)
   string(REPLACE "_" "." file ${asset})
   list(APPEND oiler_assets ${asset} ${PROJECT_SOURCE_DIR}/assets/shaders/${file})
 endforeach()

@@ -10,6 +10,7 @@
 #include "oiler/render/framebuffer.hpp"
 #include "oiler/render/gl.hpp"
 #include "oiler/render/layout.hpp"
+#include "oiler/render/splats.hpp"
 #include "oiler/render/textures.hpp"
 
 namespace oiler {
@@ -89,20 +90,24 @@ struct Renderer::Impl {
           sprites(gl, embedded::sprite_vert(), embedded::sprite_frag()),
           lines(gl, embedded::line_vert(), embedded::line_frag()),
           discs(gl, embedded::disc_vert(), embedded::disc_frag()),
+          splat_image(gl, embedded::splats_vert(), embedded::splats_frag()),
           text(gl, embedded::text_vert(), embedded::text_frag()),
           overlays(gl, embedded::overlay_vert(), embedded::overlay_frag()),
           line_indices(gl.GenBuffers, gl.DeleteBuffers),
           overlay_indices(gl.GenBuffers, gl.DeleteBuffers),
           atlas(gl.GenTextures, gl.DeleteTextures),
+          splat_texels(gl.GenTextures, gl.DeleteTextures),
           textures(gl) {
         describe_sprites();
         describe_lines();
         describe_discs();
         describe_text();
         describe_overlays();
-        gl.BindTexture(GL_TEXTURE_2D, atlas);
-        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        for (const GLuint texture : {GLuint{atlas}, GLuint{splat_texels}}) {
+            gl.BindTexture(GL_TEXTURE_2D, texture);
+            gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        }
     }
 
     void describe_sprites() const {
@@ -177,6 +182,11 @@ struct Renderer::Impl {
         gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         gl.Enable(GL_BLEND);
         gl.BlendEquation(GL_FUNC_ADD);
+        blend_straight_colours();
+    }
+
+    /// Colours that are not multiplied by their alpha.
+    void blend_straight_colours() const {
         gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     }
 
@@ -217,11 +227,31 @@ struct Renderer::Impl {
         }
     }
 
+    void draw_discs(Size size) {
+        for (const DiscRun& run : runs_of(layout.discs, size))
+            run.is_splatted ? draw_splats(run.discs, size) : draw_quads(discs, run.discs, size);
+    }
+
+    void draw_splats(std::span<const PlacedDisc> run, Size size) {
+        splats.draw(run, size);
+        gl.ActiveTexture(GL_TEXTURE0);
+        gl.BindTexture(GL_TEXTURE_2D, splat_texels);
+        gl.BindSampler(0, 0);
+        gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16, size.width, size.height, 0, GL_RGBA,
+                      GL_UNSIGNED_SHORT, splats.texels().data());
+        splat_image.program.use(size.width, size.height);
+        gl.BindVertexArray(splat_image.array);
+        gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+        gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        blend_straight_colours();
+    }
+
     void draw_layer(const Picture& picture, int layer, Size size) {
         lay_out(picture, layer, size, glyphs, layout);
         draw_sprites(size);
         draw_lines(size);
-        draw_quads(discs, std::span<const PlacedDisc>(layout.discs), size);
+        draw_discs(size);
         bind_atlas();
         draw_quads(text, std::span<const PlacedGlyph>(layout.glyphs), size);
     }
@@ -264,13 +294,16 @@ struct Renderer::Impl {
     Batch sprites;
     Batch lines;
     Batch discs;
+    Batch splat_image;
     Batch text;
     Batch overlays;
     GlName line_indices;
     GlName overlay_indices;
     GlName atlas;
+    GlName splat_texels;
     Textures textures;
     Glyphs glyphs;
+    Splats splats;
     std::uint64_t atlas_revision = 0;
     Layout layout;
 };
