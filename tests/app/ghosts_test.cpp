@@ -8,52 +8,41 @@
 #include <cmath>
 
 #include "oiler/app/look.hpp"
+#include "oiler/world/world.hpp"
 
 namespace oiler::test {
 namespace {
 
-const Settings at_1_hz{.stepping = {.rate = {1}}};
+const Entity one{1, 1};
+const Entity two{2, 1};
+const Entity three{3, 1};
+
+Moment moment(std::vector<Moment::Placed> bodies) { return {.bodies = std::move(bodies)}; }
 
 TEST(Ghosts, AreTheBodiesThatBothHave) {
-    World run(1, at_1_hz);
-    const Entity kept = run.spawn({.position = {1}});
-    const Entity thrown = run.spawn({.position = {2}});
-    const Entity lost = run.spawn({.position = {3}});
-    World reference = run;
-    reference.set_position(kept, {1.5});
-    reference.destroy(lost);
-    run.teleport(thrown, {9});
-    const std::vector<Ghost> ghosts = ghosts_of(run, reference);
+    const Moment run = moment({{one, 0, {1}}, {two, 1, {9}}, {three, 0, {3}}});
+    const std::vector<Ghost> ghosts =
+        ghosts_of(run, moment({{one, 0, {1.5}}, {two, 0, {2}}, {{4, 1}, 0, {4}}}));
     ASSERT_EQ(ghosts.size(), 1U);
-    EXPECT_EQ(ghosts[0].body, kept);
+    EXPECT_EQ(ghosts[0].body, one);
     EXPECT_EQ(ghosts[0].at[0], 1);
     EXPECT_EQ(ghosts[0].truth[0], 1.5);
-    reference.teleport(thrown, {8});
-    EXPECT_EQ(ghosts_of(run, reference).size(), 2U) << "thrown in both";
+    EXPECT_EQ(ghosts_of(run, moment({{one, 0, {1.5}}, {two, 1, {8}}})).size(), 2U)
+        << "thrown in both";
+    EXPECT_TRUE(ghosts_of(run, moment({{{1, 2}, 0, {1.5}}})).empty())
+        << "another body in its place";
 }
 
 TEST(Ghosts, OfManyBodiesAreThoseFurthestOff) {
-    World run(1, at_1_hz);
-    std::vector<Entity> bodies;
-    for (int i = 0; i < 150; ++i) bodies.push_back(run.spawn({}));
-    World reference = run;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        reference.set_position(bodies[i], {i % 2 == 0 ? 0.5 * double(i) : -0.5 * double(i)});
+    Moment run;
+    Moment reference;
+    for (std::uint32_t i = 0; i < 150; ++i) {
+        run.bodies.push_back({{i, 1}, 0, {}});
+        reference.bodies.push_back({{i, 1}, 0, {i % 2 == 0 ? 0.5 * i : -0.5 * i}});
+    }
     const std::vector<Ghost> ghosts = ghosts_of(run, reference);
     EXPECT_EQ(ghosts.size(), 100U);
     for (const Ghost& ghost : ghosts) EXPECT_GE(std::abs(ghost.truth[0]), 25) << "the 50 nearest";
-}
-
-TEST(Ghosts, MoveInStraightLinesBetweenSteps) {
-    const Entity one{1, 1};
-    const Entity two{2, 1};
-    const std::vector<Ghost> before{{one, {0, 2}, {4, 4}}};
-    const std::vector<Ghost> after{{two, {}, {}}, {one, {8, 2}, {8, 0}}};
-    const std::vector<Ghost> quarter = between(before, after, 0.25);
-    ASSERT_EQ(quarter.size(), 1U) << "two is new";
-    EXPECT_EQ(quarter[0].body, one);
-    EXPECT_EQ(quarter[0].at, (Vec3{2, 2}));
-    EXPECT_EQ(quarter[0].truth, (Vec3{5, 3}));
 }
 
 // At 3.6 m of height, a metre is 100 units of the canvas, and 3 units are seen.

@@ -241,7 +241,12 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     const double before = 20 * (119 / 60.0) / 60 / 2;
     EXPECT_NEAR(off(1), 20 * 2 / 60.0 / 2, 1e-12);
     EXPECT_NEAR(off(0), before, 1e-12);
-    EXPECT_NEAR(off(0.5), (20 * 2 / 60.0 / 2 + before) / 2, 1e-12);
+    // The game is drawn on a straight line, from which a fall is g·dt²/8 away in the middle.
+    const double sagitta = 20 / 60.0 / 60 / 8;
+    EXPECT_NEAR(off(0.5), (20 * 2 / 60.0 / 2 + before) / 2 + sagitta, 1e-12);
+    EXPECT_NEAR(off(0.75), (3 * 20 * 2 / 60.0 / 2 + before) / 4 + 0.75 * sagitta, 1e-12);
+    // Between the quarters of a step the true motion is a straight line, too.
+    EXPECT_NEAR(off(0.625), (5 * 20 * 2 / 60.0 / 2 + 3 * before) / 8 + 0.875 * sagitta, 1e-12);
     EXPECT_EQ(along.ghosts(120, 1)[0].at[0], game.world().bodies().position(0)[0]);
     EXPECT_TRUE(along.ghosts(121, 1).empty()) << "not played yet";
     EXPECT_EQ(along.errors().size(), 121U) << "the beginning, and each step";
@@ -343,6 +348,34 @@ TEST(PlayAlong, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
     EXPECT_NEAR(play(37, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
     along.repeat(40);
     EXPECT_NEAR(play(40, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "another beginning";
+}
+
+/// A fall that Space begins anew.
+struct FallAgain : Fall {
+    using Fall::Fall;
+    void update(const Input& input) {
+        if (input.pressed(Key::space)) *this = FallAgain(world.settings());
+    }
+};
+
+// Semi-implicit Euler falls g·dt·t/2 too deep in the time t since the body was put back.
+TEST(PlayAlong, ForgetsTheErrorAndTheWayOfABodyThatIsPutBack) {
+    Options options;
+    options.settings.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}};
+    AnyGameOf<FallAgain> game(options.settings);
+    OnePress player;  // in step 30
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<FallAgain>>(own);
+    };
+    PlayAlong along(player, options, Fall::about, make, PlayAlong::Pace::own);
+    game.step(0, 31, along);
+    along.play_until(31);
+    EXPECT_NEAR(along.errors().at(30), 20 * 0.5 / 60 / 2, 1e-6);
+    EXPECT_NEAR(along.errors().at(31), 20 / 60.0 / 60 / 2, 1e-6);
+    EXPECT_TRUE(along.ghosts(31, 0.5).empty()) << "there is no way over a cut";
+    game.step(31, 1, along);
+    along.play_until(32);
+    EXPECT_EQ(along.ghosts(32, 0.5).size(), 1U);
 }
 
 // Euler evaluates the forces once a step, rk4 four times.

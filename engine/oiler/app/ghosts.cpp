@@ -20,29 +20,14 @@ constexpr float least_seen = 3;
 
 }  // namespace
 
-std::vector<Ghost> ghosts_of(const World& run, const World& reference) {
+std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference) {
     std::vector<Ghost> ghosts;
-    for (std::size_t row = 0; row < run.bodies().size(); ++row) {
-        const Entity body = run.entity_of_row(row);
-        if (reference.has_body(body) && reference.jumps(body) == run.jumps(body))
-            ghosts.push_back({body, run.position(body), reference.position(body)});
-    }
+    for (const auto& [body, truth] : same_bodies(run, reference))
+        ghosts.push_back({body->entity, body->position, truth->position});
     if (ghosts.size() <= most_ghosts) return ghosts;
     const auto distance = [](const Ghost& ghost) { return length(ghost.truth - ghost.at); };
     std::ranges::nth_element(ghosts, ghosts.begin() + most_ghosts, std::greater<>(), distance);
     ghosts.resize(most_ghosts);
-    return ghosts;
-}
-
-std::vector<Ghost> between(const std::vector<Ghost>& before, const std::vector<Ghost>& after,
-                           double alpha) {
-    std::vector<Ghost> ghosts;
-    for (const Ghost& to : after) {
-        const auto from = std::ranges::find(before, to.body, &Ghost::body);
-        if (from == before.end()) continue;
-        ghosts.push_back({to.body, from->at + (to.at - from->at) * alpha,
-                          from->truth + (to.truth - from->truth) * alpha});
-    }
     return ghosts;
 }
 

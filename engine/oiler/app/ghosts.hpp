@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "oiler/app/moment.hpp"
 #include "oiler/picture/picture.hpp"
-#include "oiler/world/world.hpp"
 
 namespace oiler {
 
@@ -20,11 +20,7 @@ inline constexpr std::size_t most_ghosts = 100;
 
 /// The bodies of a run that the reference has, too, unless they were teleported in one of the two.
 /// Of more than `most_ghosts` bodies, those that are furthest off.
-[[nodiscard]] std::vector<Ghost> ghosts_of(const World& run, const World& reference);
-
-/// The ghosts at `alpha` between two steps, for the bodies that both have.
-[[nodiscard]] std::vector<Ghost> between(const std::vector<Ghost>& before,
-                                         const std::vector<Ghost>& after, double alpha);
+[[nodiscard]] std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference);
 
 /// Adds a ring where each body truly is, relative to its disc in the picture if that has one, and
 /// its distance if it can be seen. With a factor, the distances are drawn so many times as long.

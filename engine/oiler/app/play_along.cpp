@@ -75,8 +75,6 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
     make_run_ = std::move(make);
     if (!repeats_) measured_.reset();
     errors_.clear();
-    ghosts_before_.clear();
-    ghosts_after_.clear();
     readings_.clear();
     first_ = first;
     played_ = judged_ = 0;
@@ -134,8 +132,6 @@ void PlayAlong::play_until(std::int64_t step) {
             const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
             slow_ = Clock::now() - begin > time ? slow_ + 1 : 0;
-            ghosts_before_ = std::exchange(ghosts_after_, ghosts_of(runs_->recorded_game().world(),
-                                                                    runs_->reference().world()));
             if (!runs_->certain()) continue;
             if (errors_.size() >= most_errors) errors_.erase(errors_.begin());
             errors_.push_back(static_cast<float>(runs_->recorded().distance_now));
@@ -147,8 +143,9 @@ void PlayAlong::play_until(std::int64_t step) {
 }
 
 std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {
-    if (!runs_ || !runs_->certain() || behind(step) > 0) return {};
-    return between(ghosts_before_, ghosts_after_, alpha);
+    if (!runs_ || behind(step) > 0) return {};
+    const auto drawn = runs_->drawn(alpha);
+    return drawn ? ghosts_of(drawn->run, drawn->truth) : std::vector<Ghost>{};
 }
 
 void PlayAlong::stop(std::string reason) {

@@ -60,7 +60,7 @@ public:
     /// The bodies and where they truly are, `alpha` between the last step and that before; empty if
     /// that is not known, or not yet of the game's step `step`.
     [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;
-    /// The distance of the body that is furthest off at the last steps, m.
+    /// The distance of the body that is furthest off as drawn, in each of the last steps, m.
     [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
 
 private:
@@ -90,8 +90,6 @@ private:
     Verdict verdict_;
     std::optional<WhatIf> measured_;
     std::vector<float> errors_;
-    std::vector<Ghost> ghosts_before_;
-    std::vector<Ghost> ghosts_after_;
 };
 
 }  // namespace oiler

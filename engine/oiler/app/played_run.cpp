@@ -20,32 +20,12 @@ Rate rate_of_instants(Rate recorded) {
     return recorded;
 }
 
-bool is_whole(double value) { return std::trunc(value) == value; }
-
-bool is_same_play(const Moment& a, const Moment& b) {
-    const auto same_body = [](const Moment::Placed& one, const Moment::Placed& other) {
-        return one.entity == other.entity && one.jumps == other.jumps;
-    };
-    const auto same_count = [](const Reading& one, const Reading& other) {
-        const bool counts = is_whole(one.value) && is_whole(other.value);
-        return one.name == other.name && (!counts || one.value == other.value);
-    };
-    return a.cuts == b.cuts && a.quits == b.quits &&
-           std::ranges::equal(a.bodies, b.bodies, same_body) &&
-           std::ranges::equal(a.readings, b.readings, same_count);
-}
-
 /// The largest distance as drawn, `alpha` of the way between two steps of a run; empty if there are
 /// no bodies or if the three are not the same play.
 std::optional<Apart> largest_drawn(const Moment& before, const Moment& after, double alpha,
                                    const Moment& truth) {
     if (truth.bodies.empty() || !is_same_play(before, after)) return std::nullopt;
-    Moment drawn = after;
-    for (std::size_t i = 0; i < drawn.bodies.size(); ++i) {
-        const Vec3 from = before.bodies[i].position;
-        drawn.bodies[i].position = from + (after.bodies[i].position - from) * alpha;
-    }
-    return largest_distance(truth, drawn);
+    return largest_distance(truth, between(before, after, alpha));
 }
 
 /// Keeps a time, of many the last ones.
@@ -81,30 +61,6 @@ double time_of_stopwatch() {
 
 }  // namespace
 
-Moment moment_of(const AnyGame& game) {
-    const World& world = game.world();
-    Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
-        const Entity entity = world.entity_of_row(row);
-        moment.bodies.push_back({entity, world.jumps(entity), world.bodies().position(row)});
-    }
-    std::ranges::sort(moment.bodies, {},
-                      [](const Moment::Placed& body) { return body.entity.id(); });
-    moment.readings = game.readings();
-    return moment;
-}
-
-std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
-    if (!is_same_play(a, b)) return std::nullopt;
-    Apart largest;
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-        const Vec3 apart = a.bodies[i].position - b.bodies[i].position;
-        const double distance = std::hypot(apart[0], apart[1], apart[2]);
-        if (distance > largest.distance) largest = {distance, a.bodies[i].entity};
-    }
-    return largest;
-}
-
 PlayedRun::PlayedRun(const Stepping& stepping, const Options& options, const MakeGame& make)
     : result_{.stepping = stepping},
       inputs_(*options.replay, stepping.rate, options.controls),
@@ -128,6 +84,7 @@ void PlayedRun::play_until_instant(std::int64_t index) {
 
 void PlayedRun::play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth,
                            double visible) {
+    result_.distance_now = 0;
     const Rate rate = rate_of_instants(recorded_rate_);
     auto next = std::ranges::partition_point(
         truth, [&](const TrueMoment& at) { return instants_.since(steps_, at.index) <= 0; });
@@ -183,7 +140,6 @@ void PlayedRun::compare(std::int64_t recorded, double time, const Moment& refere
         return;
     }
     differs_from_.reset();
-    result_.distance_now = apart->distance;
     if (recorded == 0 || reference.bodies.empty()) return;
     if (!(apart->distance <= result_.distance_at_steps))
         result_.distance_at_steps = apart->distance;
@@ -195,6 +151,7 @@ void PlayedRun::note(const Apart& apart, double time, double visible) {
         result_.distance = apart.distance;
         result_.furthest = apart.body;
     }
+    result_.distance_now = std::max(result_.distance_now, apart.distance);
     if (apart.distance > visible && !result_.visible_from) result_.visible_from = time;
 }
 

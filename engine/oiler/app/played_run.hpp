@@ -7,35 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "oiler/app/moment.hpp"
 #include "oiler/app/resampled.hpp"
 #include "oiler/app/step_times.hpp"
 #include "oiler/app/what_if.hpp"
 
 namespace oiler {
-
-/// A play at one time.
-struct Moment {
-    struct Placed {
-        Entity entity;
-        std::uint32_t jumps;
-        Vec3 position;
-    };
-    std::int64_t cuts = 0;
-    bool quits = false;
-    std::vector<Placed> bodies{};  ///< in the order of their entities
-    std::vector<Reading> readings{};
-};
-
-[[nodiscard]] Moment moment_of(const AnyGame& game);
-
-/// A body that is away from where it is in another play.
-struct Apart {
-    double distance = 0;  ///< m
-    Entity body{};
-};
-/// The body with the largest distance from that of the other play; empty if bodies, teleports,
-/// restarts or whole-number readings differ.
-[[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
 
 /// How many moments of a recorded step are compared.
 inline constexpr std::int64_t instants_per_step = 4;
@@ -71,6 +48,8 @@ public:
     void time_drawing(DrawTimer& draw);
 
     [[nodiscard]] const AnyGame& game() const { return *game_; }
+    /// The play as it is now.
+    [[nodiscard]] const Moment& moment();
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const WhatIfRun& result() const { return result_; }
     /// Whether the play was another one at the last time of comparison.
@@ -82,7 +61,6 @@ public:
 private:
     [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
     void take_step();
-    [[nodiscard]] const Moment& moment();
     void note(const Apart& apart, double time, double visible);
 
     WhatIfRun result_;

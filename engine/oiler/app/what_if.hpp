@@ -32,7 +32,7 @@ struct WhatIfRun {
     Entity furthest{};  ///< that body
     /// The same at the steps alone.
     double distance_at_steps = std::numeric_limits<double>::quiet_NaN();
-    double distance_now = 0;  ///< m, at the last step that was compared
+    double distance_now = 0;  ///< m, as drawn, the largest in the last recorded step
     /// The time from which a body is further away than a pixel and the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.

@@ -56,6 +56,8 @@ WhatIfRuns::WhatIfRuns(const Options& options, const std::vector<Stepping>& step
 
 void WhatIfRuns::play_until(std::int64_t step) {
     const bool is_known = play_reference(step);
+    before_ = runs_.front()->moment();
+    step_ = step;
     for (const auto& run : runs_) run->play_until(step, truth_, visible());
     const std::vector<Reading> truth = reference_.game().readings();
     for (PlayedRun* const run : {&reference_, &check_}) run->read(step, truth);
@@ -105,6 +107,19 @@ bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
     if (const double distance = check_.result().distance; !std::isnan(distance))
         uncertainty_ = distance;
     return true;
+}
+
+std::optional<WhatIfRuns::Drawn> WhatIfRuns::drawn(double alpha) const {
+    const Moment& after = runs_.front()->moment();
+    const std::int64_t first = (step_ - 1) * instants_per_step;
+    const auto truth = std::ranges::find(truth_, first, &TrueMoment::index);
+    const bool is_known = truth != truth_.end() && truth_.end() - truth > instants_per_step;
+    if (!is_known || before_.cuts != after.cuts) return std::nullopt;
+    const double place = alpha * static_cast<double>(instants_per_step);
+    const auto instant = std::min(static_cast<std::int64_t>(place), instants_per_step - 1);
+    return Drawn{between(before_, after, alpha),
+                 between(truth[instant].moment, truth[instant + 1].moment,
+                         place - static_cast<double>(instant))};
 }
 
 void WhatIfRuns::time_pictures(DrawTimer* draw) {

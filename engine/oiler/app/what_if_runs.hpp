@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "oiler/app/draw_timer.hpp"
@@ -34,6 +35,14 @@ public:
     [[nodiscard]] const AnyGame& recorded_game() const { return runs_.front()->game(); }
     /// The recorded setting, without its costs.
     [[nodiscard]] const WhatIfRun& recorded() const { return runs_.front()->result(); }
+    /// The recorded setting as it is drawn, and the true motion then.
+    struct Drawn {
+        Moment run;
+        Moment truth;
+    };
+    /// At `alpha` between the last step and that before; empty if the true motion is not known, or
+    /// another play.
+    [[nodiscard]] std::optional<Drawn> drawn(double alpha) const;
     /// Whether later steps are compared, too.
     [[nodiscard]] bool certain() const { return certain_; }
 
@@ -50,7 +59,9 @@ private:
     PlayedRun reference_;
     PlayedRun check_;  ///< the reference at another rate
     std::vector<std::unique_ptr<PlayedRun>> runs_;
+    Moment before_;                 ///< of the recorded setting, one step ago
     std::deque<TrueMoment> truth_;  ///< since the slowest run's last step
+    std::int64_t step_ = 0;         ///< the last that was played
     std::int64_t longest_ = 1;      ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
     double certain_until_ = 0;  ///< s

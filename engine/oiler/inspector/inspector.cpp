@@ -198,7 +198,7 @@ struct Inspector::Impl {
         std::vector<float> logarithms;
         for (const float error : run.errors)
             logarithms.push_back(std::log10(std::max(error, smallest_error)));
-        const std::string now = fmt::format("now {:.2g} m", run.errors.back());
+        const std::string now = fmt::format("up to {:.2g} m in the last step", run.errors.back());
         text("this run is off by (1 µm to 1 km, logarithmic)");
         ImGui::PlotLines("##errors", logarithms.data(), static_cast<int>(logarithms.size()), 0,
                          now.c_str(), -6, 3,
