@@ -2,7 +2,10 @@
 // Tests the number of frames of a film, and its manifest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "oiler/app/loops.hpp"
 #include "oiler/core/error.hpp"
@@ -33,19 +36,19 @@ class Film : public testing::Test {
 protected:
     /// Returns the manifest of a film. Skips the test without OSMesa and EGL.
     template <class G = Walker>
-    nlohmann::json film(Options options, double seconds) {
+    nlohmann::json film(Options options, double seconds, Profile* profile = nullptr) {
         const Folder folder;
         options.out = folder / "film";
         AnyGameOf<G> game(options.settings);
         Recorder none({}, {}, game.world());
-        Playback playback(game, none, Keep::hashes);
+        Playback playback(game, none, Keep::hashes, profile);
         About about = Walker::about;
         about.duration = seconds;
         LiveInput nobody;
         const MakeGame make = [](const Settings& settings) {
             return std::make_unique<AnyGameOf<G>>(settings);
         };
-        EXPECT_EQ(run_headless(playback, nobody, options, about, make, nullptr), Exit::done);
+        EXPECT_EQ(run_headless(playback, nobody, options, about, make, profile), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);
         return manifest;
@@ -67,6 +70,45 @@ TEST_F(Film, HasTheFramesOfItsDuration) {
     EXPECT_EQ(frames(0.29, 100), 29U);
     EXPECT_EQ(frames(0.07, 100), 7U);
     EXPECT_EQ(frames(0.5, 30), 15U);
+}
+
+// Frame i of 3 per second shows 7·i/3 steps.
+TEST_F(Film, ProfilesEachStageOfEachFrame) {
+    Options options = options_for(3);
+    options.inspector = true;
+    const Folder folder;
+    options.sheet = folder / "sheet.png";
+    Profile profile;
+    film(options, 4 / 3.0, &profile);
+    std::map<std::string, int> spans;
+    std::vector<double> shown;
+    const auto events = nlohmann::json::parse(profile.to_json()).at("traceEvents");
+    for (const auto& event : events)
+        if (event.at("ph") == "X")
+            ++spans[event.at("name")];
+        else
+            shown.push_back(event.at("args").at("shown step"));
+    EXPECT_EQ(shown, (std::vector<double>{0, 2 + 1 / 3.0, 4 + 2 / 3.0, 7}));
+    EXPECT_GE(spans["step"], 3);
+    EXPECT_GE(spans["picture"], 4);
+    for (const char* stage : {"frame", "play along", "inspector", "draw", "read", "sheet",
+                              "hand over", "encode", "write", "record"})
+        EXPECT_EQ(spans[stage], 4) << stage;
+    EXPECT_EQ(spans["hash"], 8) << "of the state, and of the pixels";
+    const auto is_frame = [](const nlohmann::json& event) { return event["name"] == "frame"; };
+    const auto in_frame = [&](const nlohmann::json& event) {
+        const double begin = event.at("ts");
+        return std::ranges::any_of(events, [&](const nlohmann::json& frame) {
+            return is_frame(frame) && frame.at("ts") <= begin &&
+                   frame.at("ts").get<double>() + frame.at("dur").get<double>() >=
+                       begin + event.at("dur").get<double>();
+        });
+    };
+    const auto thread = std::ranges::find_if(events, is_frame)->at("tid");
+    for (const auto& event : events)
+        if (event.at("ph") == "X" && event.at("tid") == thread) {
+            EXPECT_TRUE(in_frame(event)) << event.at("name");
+        }
 }
 
 /// Leaves before its eighth step.

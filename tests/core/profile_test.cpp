@@ -56,6 +56,26 @@ TEST(Profile, TakesSpansOfManyThreads) {
     EXPECT_EQ(numbers["a"] + numbers["b"] + numbers["c"], 1 + 2 + 3);
 }
 
+TEST(Profile, HasTheValuesOfCounters) {
+    Profile profile;
+    profile.count("shown step", 2.25);
+    profile.add("draw", Profile::Clock::now(), Profile::Clock::now());
+    profile.count("shown step", 3);
+    std::vector<double> values;
+    double last = 0;
+    for (const Json& event : events_of(profile)) {
+        if (event.at("ph") != "C") continue;
+        EXPECT_EQ(event.at("name"), "shown step");
+        EXPECT_EQ(event.at("pid"), 1);
+        EXPECT_GE(event.at("ts"), last);
+        last = event.at("ts");
+        values.push_back(event.at("args").at("shown step"));
+    }
+    EXPECT_EQ(values, (std::vector<double>{2.25, 3}));
+    EXPECT_GT(last, 0) << "since the profile was made";
+    EXPECT_LT(last, 60e6) << "in µs";
+}
+
 TEST(Span, LastsFromItsConstructionToItsDestruction) {
     Profile profile;
     const auto begin = Profile::Clock::now();

@@ -22,6 +22,7 @@ void Film::open() {
 
 Shot Film::shot_of(const Picture& picture, const HeadlessFrame& at,
                    const Playback& playback) const {
+    const Span span(profile_, "hash");
     Shot shot{.tick = at.step,
               .alpha = at.alpha,
               .state_hash = playback.state_hash(),
@@ -51,8 +52,11 @@ void Film::add(const Picture& picture, const HeadlessFrame& at, const Playback& 
         const Span span(profile_, "video");
         video_->add(pixels_.rgb);
     }
-    if (sheet_ && sheet_->wants(frames_))
+    if (sheet_ && sheet_->wants(frames_)) {
+        const Span span(profile_, "sheet");
         sheet_->add(picture, static_cast<double>(frames_) / header_.fps, renderer_);
+    }
+    const Span span(profile_, "hand over");
     shot.rgb = std::exchange(pixels_.rgb, capture_->spare_buffer());
     capture_->add(std::move(shot));
     ++frames_;

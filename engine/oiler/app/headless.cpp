@@ -63,14 +63,19 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
 class FilmedInspector {
 public:
     FilmedInspector(AnyGame& game, InputSource& inputs, const Options& options, const About& about,
-                    const MakeGame& make)
+                    const MakeGame& make, Profile* profile)
         : along(inputs, options, about, make, PlayAlong::Pace::own),
+          profile_(profile),
           inspector_(game, "F1 in a window changes them.", Renderer::font()) {}
 
     /// Adds what it draws over the picture, and lays out the panel.
     void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
               const Manifest& header) {
-        along.play_until(steps);
+        {
+            const Span span(profile_, "play along");
+            along.play_until(steps);
+        }
+        const Span span(profile_, "inspector");
         const double alpha = steps == at.step ? 1 : at.alpha;
         inspector_.add_overlays(picture, along.ghosts(steps, alpha), alpha, 1);
         (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
@@ -81,15 +86,17 @@ public:
     PlayAlong along;
 
 private:
+    Profile* profile_;
     GameInspector inspector_;
 };
 
 /// Draws the frames in their order until the last one or an interrupt.
 void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Manifest& header,
-                 bool quiet, FilmedInspector* inspector) {
+                 bool quiet, FilmedInspector* inspector, Profile* profile) {
     Progress progress(quiet, "frames", header.planned_frames);
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
+        const Span span(profile, "frame");
         Picture picture = playback.show(at.step, at.alpha, inputs);
         const bool ended = playback.loop().quits() && at.step > playback.steps();
         if (ended || Interrupt::requested()) return;
@@ -105,7 +112,7 @@ void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Man
     Film film(renderer, header, options, profile);
     try {
         draw_frames(film, playback, inspector ? inspector->along : inputs, header, options.quiet,
-                    inspector);
+                    inspector, profile);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged)
             film.finish();
@@ -139,16 +146,24 @@ std::string changes_of(const Manifest::Frame& expected, std::uint64_t state, std
 
 /// Draws one frame, and compares it with that of the manifest, if there is one.
 Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
-                const Options& options) {
+                const Options& options, Profile* profile) {
+    const Span whole(profile, "frame");
     const std::int64_t frame = *options.frame;
     const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
     const Picture picture = playback.show(at.step, at.alpha, inputs);
     if (Interrupt::requested()) return Exit::interrupted;
     Pixels pixels;
-    renderer.draw(picture, header.size);
-    renderer.read(pixels);
+    {
+        const Span span(profile, "draw");
+        renderer.draw(picture, header.size);
+    }
+    {
+        const Span span(profile, "read");
+        renderer.read(pixels);
+    }
     const auto path = options.out / fmt::format("still_{:06}.png", frame);
     make_folder(options.out);
+    const Span span(profile, "encode");
     write_file(path, encode_png(pixels.size, pixels.rgb), Links::replaced);
     remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
            static_cast<double>(frame) / header.fps, path.string());
@@ -175,9 +190,10 @@ Exit run_headless(Playback& playback, InputSource& inputs, const Options& option
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
     const Manifest header = describe(options, about, *surface, renderer);
-    if (options.frame) return draw_still(playback, inputs, renderer, header, options);
+    if (options.frame) return draw_still(playback, inputs, renderer, header, options, profile);
     std::optional<FilmedInspector> inspector;
-    if (options.inspector) inspector.emplace(playback.game(), inputs, options, about, make);
+    if (options.inspector)
+        inspector.emplace(playback.game(), inputs, options, about, make, profile);
     film(playback, inputs, renderer, header, options, profile, inspector ? &*inspector : nullptr);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }

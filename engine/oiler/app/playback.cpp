@@ -74,6 +74,7 @@ void Playback::take(std::int64_t count, InputSource& inputs) {
 
 Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
     assert(step >= before_.step);
+    if (profile_) profile_->count("shown step", static_cast<double>(step) + alpha);
     if (after_.step == step) {
         before_ = std::move(after_);
         after_ = {};

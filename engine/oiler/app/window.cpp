@@ -102,6 +102,7 @@ public:
         const int fps = options_.fps.value_or(window_->refresh_rate());
         for (std::int64_t frame = 0; !Interrupt::requested(); ++frame) {
             const std::chrono::nanoseconds start = now();
+            const Span span(profile_, "frame");
             const Window::State state =
                 window_->poll(live_.queue, keys_,
                               {.width = share_of(&Size::width),
@@ -118,6 +119,7 @@ public:
                               (options_.replay && playback_.steps() >= options_.replay->steps);
             if (state == Window::State::closed || escaped || last || playback_.loop().quits())
                 break;
+            const Span wait(profile_, "wait");
             limit_frame_rate(start, fps);
         }
         if (failure_) throw Error(*failure_);
@@ -257,7 +259,6 @@ private:
     }
 
     void draw_frame(const Input& keys, std::chrono::nanoseconds start) {
-        const Span span(profile_, "frame");
         const bool back = goes_back_ || seeked_;
         live_.queue.set_paused(clock_.paused() || back);
         if (!knows_steps_) catch_up_at_most(2 * duration_of_step());
@@ -283,6 +284,7 @@ private:
         if (steps > 0) limit_steps_of_frame(steps);
         play_along();
         if (inspects_) {
+            const Span span(profile_, "inspector");
             inspector_.follow(picture, keys, live_.shown,
                               std::chrono::duration<double>(start).count());
             add_overlays(picture);
@@ -298,6 +300,7 @@ private:
 
     /// What the loop says, over the picture and above it.
     Picture overlay_of(const Input& keys, bool back) {
+        const Span span(profile_, "overlay");
         const OverlayArea area(beside_inspector(window_->size()));
         Picture overlay;
         if (has_verdict() && !helps_) add_verdict(overlay, area, verdict());

@@ -22,6 +22,11 @@ void Profile::add(const char* stage, Clock::time_point begin, Clock::time_point 
     events_.push_back({stage, thread, begin, end});
 }
 
+void Profile::count(const char* counter, double value) {
+    const std::lock_guard lock(mutex_);
+    counts_.push_back({counter, value, Clock::now()});
+}
+
 std::string Profile::to_json() const {
     const std::lock_guard lock(mutex_);
     std::map<std::size_t, std::size_t> numbers;  // of threads, from 1
@@ -34,6 +39,12 @@ std::string Profile::to_json() const {
              {"tid", numbers.try_emplace(event.thread, numbers.size() + 1).first->second},
              {"ts", microseconds(event.begin - start_)},
              {"dur", microseconds(event.end - event.begin)}});
+    for (const Count& count : counts_)
+        events.push_back({{"name", count.counter},
+                          {"ph", "C"},
+                          {"pid", 1},
+                          {"ts", microseconds(count.at - start_)},
+                          {"args", {{count.counter, count.value}}}});
     const Json json{{"displayTimeUnit", "ms"}, {"traceEvents", events}};
     return json.dump(-1) + "\n";
 }

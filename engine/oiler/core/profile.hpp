@@ -9,13 +9,15 @@
 
 namespace oiler {
 
-/// The spans of the stages of a run, for the trace viewers of Chrome and Perfetto. Threads may add
-/// spans at the same time.
+/// The spans of the stages of a run, and counters, for the trace viewers of Chrome and Perfetto.
+/// Threads may add to it at the same time.
 class Profile {
 public:
     using Clock = std::chrono::steady_clock;
 
     void add(const char* stage, Clock::time_point begin, Clock::time_point end);
+    /// Notes the value of a counter now.
+    void count(const char* counter, double value);
     /// JSON in Chrome's trace event format; times are in µs since the profile was made.
     [[nodiscard]] std::string to_json() const;
 
@@ -26,10 +28,16 @@ private:
         Clock::time_point begin;
         Clock::time_point end;
     };
+    struct Count {
+        const char* counter;
+        double value;
+        Clock::time_point at;
+    };
 
     mutable std::mutex mutex_;
     Clock::time_point start_ = Clock::now();
     std::vector<Event> events_;
+    std::vector<Count> counts_;
 };
 
 /// Adds the time from its construction to its destruction. A null profile measures nothing.
