@@ -87,6 +87,15 @@ steps=$(steps_in_frames 1)
 steps=$(steps_in_frames 2)
 [ "$steps" -gt 0 ] && [ "$steps" -le 250 ] || fail "--frames 2 takes '$steps' steps"
 
+# The states of a window with everything that measures are those of a run without any.
+"$program" --quiet --steps 60 --rate 60 --record "$folder/run.rec" || fail "no recording"
+"$program" --replay "$folder/run.rec" --size 640x360 --inspector --profile "$folder/profile.json" 2>"$folder/err" ||
+    fail "a replay with the inspector leaves with exit code $?: $(cat "$folder/err")"
+grep -q "60 of 60 steps" "$folder/err" || fail "the replay compares other steps: $(cat "$folder/err")"
+for stage in frame step picture "play along" inspector overlay draw present wait "shown step"; do
+    grep -q "\"name\":\"$stage\"" "$folder/profile.json" || fail "the profile has no '$stage'"
+done
+
 # A divergence keeps the window, F9 restarts, and Escape leaves with 5 where it was the end.
 "$program" --size 640x360 --rate 1 --method explicit_euler --precision float 2>"$folder/err" &
 game=$!
