@@ -97,7 +97,7 @@ void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Mani
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
         const Span span(profile, "frame");
-        Picture picture = playback.show(at.step, at.alpha, inputs);
+        Picture& picture = playback.show(at.step, at.alpha, inputs);
         const bool ended = playback.loop().quits() && at.step > playback.steps();
         if (ended || Interrupt::requested()) return;
         if (inspector) inspector->show(picture, at, playback.steps(), header);
@@ -150,7 +150,7 @@ Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, con
     const Span whole(profile, "frame");
     const std::int64_t frame = *options.frame;
     const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-    const Picture picture = playback.show(at.step, at.alpha, inputs);
+    const Picture& picture = playback.show(at.step, at.alpha, inputs);
     if (Interrupt::requested()) return Exit::interrupted;
     Pixels pixels;
     {

@@ -72,7 +72,7 @@ void Playback::take(std::int64_t count, InputSource& inputs) {
         steps_per_call_ = std::min(most_steps_per_call, 2 * count);
 }
 
-Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
+Picture& Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
     assert(step >= before_.step);
     if (profile_) profile_->count("shown step", static_cast<double>(step) + alpha);
     if (after_.step == step) {
@@ -88,9 +88,11 @@ Picture Playback::show(std::int64_t step, double alpha, InputSource& inputs) {
         after_ = sample();
     }
     const Span span(profile_, "picture");
-    return alpha > 0 && before_.cuts == after_.cuts
-               ? between(before_.picture, after_.picture, static_cast<float>(alpha))
-               : before_.picture;
+    if (alpha > 0 && before_.cuts == after_.cuts)
+        between(before_.picture, after_.picture, static_cast<float>(alpha), shown_);
+    else
+        shown_ = before_.picture;
+    return shown_;
 }
 
 void Playback::go_to(std::int64_t step) {

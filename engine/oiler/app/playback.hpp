@@ -30,11 +30,12 @@ public:
     /// interrupted.
     void step_to(std::int64_t step, InputSource& inputs);
 
-    /// Returns the picture at `alpha` in [0, 1) between the states after `step` steps and the next.
-    /// `step` must not decrease. Where the game replaced its world between them, it is the former.
-    [[nodiscard]] Picture show(std::int64_t step, double alpha, InputSource& inputs);
+    /// The picture at `alpha` in [0, 1) between the states after `step` steps and the next. `step`
+    /// must not decrease. Where the game replaced its world between them, it is the former. It
+    /// lasts until the next call; the caller may draw over it.
+    [[nodiscard]] Picture& show(std::int64_t step, double alpha, InputSource& inputs);
     /// The picture of the last whole step that was shown.
-    [[nodiscard]] const Picture& last_picture() const { return before_.picture; }
+    [[nodiscard]] Picture& show_last() { return shown_ = before_.picture; }
     /// Shows the game as it is now: it was put to where it was after `step` steps.
     void go_to(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }
@@ -77,6 +78,7 @@ private:
     std::string tick_hashes_;  ///< four digits for each step, or dots
     Moment before_;
     Moment after_;
+    Picture shown_;  ///< kept for its memory: a million discs are 40 MB
 };
 
 }  // namespace oiler

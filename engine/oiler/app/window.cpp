@@ -279,7 +279,7 @@ private:
         whole_ = back || (whole_ && clock_.paused());
         inspector_.begin_frame();
         const std::chrono::nanoseconds before_picture = now();
-        Picture picture = next_picture(back);
+        Picture& picture = next_picture(back);
         const std::chrono::nanoseconds show_time = now() - before_picture;
         if (steps > 0) limit_steps_of_frame(steps);
         play_along();
@@ -393,7 +393,7 @@ private:
     }
 
     /// The picture to show now; after a divergence, that of the last step before.
-    Picture next_picture(bool back) {
+    Picture& next_picture(bool back) {
         try {
             if (!back && !failure_) change_until(clock_.ticks() - undone_);
             if (!failure_)
@@ -404,7 +404,7 @@ private:
             failure_ = error;
             clock_.pause();
         }
-        return playback_.last_picture();
+        return playback_.show_last();
     }
 
     void measure_from_here() {

@@ -161,13 +161,14 @@ void Camera::zoom(float factor, Point fixed) {
 }
 
 Picture between(const Picture& before, const Picture& after, float alpha) {
-    if (alpha >= 1) {
-        return after;
-    }
-    Picture picture = before;
-    if (!(alpha > 0)) {
-        return picture;
-    }
+    Picture picture;
+    between(before, after, alpha, picture);
+    return picture;
+}
+
+void between(const Picture& before, const Picture& after, float alpha, Picture& picture) {
+    picture = alpha >= 1 ? after : before;
+    if (alpha >= 1 || !(alpha > 0)) return;
     picture.background = mix(before.background, after.background, alpha);
     picture.camera = mix(before.camera, after.camera, alpha);
     move_all(picture.sprites, after.sprites, alpha);
@@ -175,7 +176,6 @@ Picture between(const Picture& before, const Picture& after, float alpha) {
     move_all(picture.polylines, after.polylines, alpha);
     move_all(picture.discs, after.discs, alpha);
     move_all(picture.labels, after.labels, alpha);
-    return picture;
 }
 
 void require_drawable(const Picture& picture) {

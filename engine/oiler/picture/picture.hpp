@@ -144,6 +144,8 @@ struct Picture {
 /// elements change when alpha reaches 1. A polyline with new points at its end (a trail) grows out
 /// of its last point; a polygon with another number of points changes at 1.
 [[nodiscard]] Picture between(const Picture& before, const Picture& after, float alpha);
+/// The same into a picture, whose memory is used again.
+void between(const Picture& before, const Picture& after, float alpha, Picture& picture);
 
 /// Throws Error{usage} for a camera whose height is not a positive number, for a negative radius,
 /// width, outline or font size, and for a sprite, disc or label with a number that is NaN.
