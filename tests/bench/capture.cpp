@@ -32,7 +32,7 @@ struct Stages {
     double frame_ms = 0;               ///< from the first span to the last one
 };
 
-/// Reads the file of --profile.
+/// Reads the file of --profile: the spans of the stages, without the frames around them.
 Stages read_stages(const fs::path& path, int frames) {
     std::ifstream file(path);
     const auto json = nlohmann::json::parse(file);
@@ -40,6 +40,7 @@ Stages read_stages(const fs::path& path, int frames) {
     double first = INFINITY;
     double last = 0;
     for (const auto& event : json.at("traceEvents")) {
+        if (event.at("ph") != "X" || event.at("name") == "frame") continue;
         const double begin = event.at("ts");
         const double length = event.at("dur");
         stages.ms[event.at("name")] += length / 1e3 / frames;
