@@ -132,6 +132,21 @@ TEST_F(Drawing, AHeapOfSplatsCoversAsItsDiscsDo) {
     EXPECT_NEAR(red(draw(of_discs(discs)), 320, 180), 255 * left, 1 + 300 * 0.5 / 256);
 }
 
+TEST_F(Drawing, SplatsThatBeginInDifferentRowsKeepTheirOrder) {
+    constexpr std::size_t places = 100;
+    static_assert(many % (2 * places) == 0);
+    std::vector<Disc> discs;
+    for (std::size_t i = 0; i < many; ++i) {
+        const std::size_t round = i / places;
+        const Colour colour = round % 2 == 0 ? Colour{255, 0, 0, 255} : Colour{0, 0, 255, 255};
+        const auto x = 20.5F + 6 * static_cast<float>(i % places);
+        discs.push_back(disc({x, 100.5F + static_cast<float>(round % 2)}, 3, colour));
+    }
+    const Pixels pixels = draw(of_discs(discs));
+    for (int i = 0; i < static_cast<int>(places); ++i)
+        for (int y = 99; y <= 103; ++y) ASSERT_EQ(red(pixels, 20 + 6 * i, y), 0) << i << ' ' << y;
+}
+
 TEST(DiscRuns, HoldEachDiscOnceInOrder) {
     std::vector<PlacedDisc> discs(3 * many, PlacedDisc{{}, 1, 1, {}});
     for (std::size_t i = 0; i < discs.size(); ++i) discs[i].centre.x = static_cast<float>(i);

@@ -18,11 +18,11 @@ std::size_t shortest_run(Size frame) {
                                        static_cast<std::size_t>(frame.height) / pixels_per_quad);
 }
 
-/// The pixels whose centres are within `reach` of a coordinate, and at most one more at each end.
+/// The pixels whose centres are within `reach` of a coordinate.
 struct Range {
     Range(float at, float reach, int size)
         : begin(static_cast<int>(std::max(at - reach + 0.5F, 0.0F))),
-          end(static_cast<int>(std::min(at + reach + 1.5F, static_cast<float>(size)))) {}
+          end(static_cast<int>(std::min(at + reach + 0.5F, static_cast<float>(size)))) {}
 
     int begin;
     int end;
