@@ -26,7 +26,8 @@ std::vector<BodyState> states_of(const AnyGame& game) {
     const Bodies& bodies = world.bodies();
     std::vector<BodyState> states;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
-        BodyState& state = states.emplace_back(game.name_of(world.entity_of_row(row)));
+        BodyState& state = states.emplace_back();
+        state.name = game.name_of(world.entity_of_row(row));
         for (int axis = 0; axis < bodies.axes(); ++axis) {
             state.position[static_cast<std::size_t>(axis)] = bodies.position(row)[axis];
             state.velocity[static_cast<std::size_t>(axis)] = bodies.velocity(row)[axis];
