@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "oiler/app/kept_pace.hpp"
 #include "oiler/app/playback.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -155,6 +156,35 @@ TEST(Pacing, APressIsSeenWithinAStepAndAFrame) {
     EXPECT_GT(earliest, -frame_time);
     EXPECT_LE(latest, step_time + 1e-6);
     EXPECT_GT(latest - earliest, step_time - 0.001) << "presses of all times within a step";
+}
+
+/// What is said after frames that each take `work` s to make, come every `period` s, and drop
+/// `late` s of it.
+std::string said_after(int frames, double work, double period, double late) {
+    using seconds = std::chrono::duration<double>;
+    KeptPace pace;
+    for (int frame = 0; frame < frames; ++frame)
+        pace.add(seconds(work), seconds(period), seconds(late));
+    return pace.text();
+}
+
+TEST(KeptPace, SaysWhatAComputerCannotKeep) {
+    EXPECT_EQ(said_after(200, 0.160, 0.170, 0),
+              "6 frames a second: fewer bodies or --headless help");
+    EXPECT_EQ(said_after(200, 0.160, 0.200, 0.188),
+              "too slow here: 6 % of its pace. A lower rate or --headless helps");
+    EXPECT_EQ(said_after(200, 0.016, 0.017, 0), "");
+    EXPECT_EQ(said_after(200, 0.04, 1.0, 0.05), "") << "a limit of frames is no lack of speed";
+}
+
+TEST(KeptPace, OneLateFrameIsNoLackOfSpeed) {
+    KeptPace pace;
+    using seconds = std::chrono::duration<double>;
+    for (int frame = 0; frame < 100; ++frame) pace.add(seconds(0.01), seconds(0.017), seconds(0));
+    pace.add(seconds(0.5), seconds(0.5), seconds(0.25));
+    EXPECT_EQ(pace.text(), "");
+    EXPECT_EQ(said_after(1, 0.4, 0.4, 0.1), "");
+    EXPECT_NE(said_after(16, 0.1, 0.1, 0), "");
 }
 
 }  // namespace

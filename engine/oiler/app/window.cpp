@@ -14,6 +14,7 @@
 #include "oiler/app/game_inspector.hpp"
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
+#include "oiler/app/kept_pace.hpp"
 #include "oiler/app/live_change.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/overlays.hpp"
@@ -233,7 +234,7 @@ private:
         clock_ = StepClock(static_cast<int>(playback_.world().settings().stepping.rate.steps));
         if (was_paused && !failure_) clock_.pause();
         knows_steps_ = false;
-        late_ = 0;
+        kept_pace_ = {};
         undone_ = -playback_.steps();
         playback_.go_to(playback_.steps());
         failure_.reset();
@@ -264,11 +265,6 @@ private:
         if (!knows_steps_) catch_up_at_most(2 * duration_of_step());
         const StepClock::Frame owed = clock_.advance(start);
         const std::int64_t steps = owed.steps;
-        if (knows_steps_ && start > last_start_)
-            late_ += (static_cast<double>(owed.dropped.count()) /
-                          static_cast<double>((start - last_start_).count()) -
-                      late_) /
-                     16;
         if (rewind_ && !failure_) rewind_->keep(playback_.steps());
         if (seeked_)
             go_to(*seeked_);
@@ -295,6 +291,7 @@ private:
         const std::chrono::nanoseconds before_drawing = now();
         show(picture, overlay, keys, start);
         if (!clock_.paused()) inspector_.add_times(show_time, now() - before_drawing);
+        if (knows_steps_) kept_pace_.add(now() - start, start - last_start_, owed.dropped);
         last_start_ = start;
     }
 
@@ -460,11 +457,11 @@ private:
         else if (clock_.paused())
             text =
                 fmt::format("paused: F3 resumes, {}F5 steps", has_past() ? "F4 steps back, " : "");
-        else if (late_ > 0.1)
-            text = fmt::format("too slow here: {:.0f} % of its pace", 100 * (1 - late_));
         else if (back)
             text = fmt::format("back at {:.2f} s{}", playback_.world().time(),
                                playback_.steps() == rewind_->first() ? ", no further" : "");
+        else
+            text = kept_pace_.text();
         if (inspects_ && magnifies_)
             text += (text.empty() ? "" : "   ") + std::string("errors ×10");
         if (!pace_.text().empty()) text += (text.empty() ? "" : "   ") + pace_.text();
@@ -498,6 +495,7 @@ private:
     GameInspector inspector_;
     Wishes wishes_;
     Pace pace_;
+    KeptPace kept_pace_;
     InputQueue keys_;  ///< of the loop
     std::optional<Rewind> rewind_;
     InputSource* inputs_ = nullptr;
@@ -513,7 +511,6 @@ private:
     bool helps_ = false;
     bool fills_ = false;  ///< the screen
     bool goes_back_ = false;
-    double late_ = 0;           ///< the share of the time that late frames drop
     bool knows_steps_ = false;  ///< how long the steps of the setting take
     bool whole_ = false;
     std::optional<std::int64_t> seeked_;  ///< the step that the time line shows

@@ -104,7 +104,7 @@ Exit PlayCommand::parse_and_run(int argc, char** argv) {
     const std::string title = shelf->title();
     line.about.title = title;
     const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(shelf->scene(), settings, watched, shelf->file());
+        return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
     };
     const auto measure_budget = [&](double seconds) {
         return check(*shelf->scene(), line.options, seconds);

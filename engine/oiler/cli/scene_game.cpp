@@ -39,11 +39,9 @@ std::optional<Entity> nearest_body(const World& world, Point at, float height) {
 
 }  // namespace
 
-SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched,
-                     std::string file)
+SceneGame::SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched)
     : scene_(std::move(scene)),
       watched_(watched),
-      file_(std::move(file)),
       world_(make_world(*scene_, settings)),
       camera_(camera_of(*scene_, world_)) {}
 
@@ -116,7 +114,6 @@ void SceneGame::assign(const AnyGame& other) {
         held_.reset();
     }
     world_ = source.world_;
-    file_ = source.file_;
     places_to_go_ = source.places_to_go_;
     drag_ = source.drag_;
     ends_ = source.ends_;
@@ -128,11 +125,11 @@ Picture SceneGame::picture() const {
     if (watched_)
         picture.labels.push_back(
             {.at = {8, 6},
-             .text = fmt::format("{} repeats after {:g} s; R restarts, the mouse "
-                                 "drags bodies, [ and ] change the scene",
-                                 file_, scene_->duration),
+             .text =
+                 fmt::format("repeats after {:g} s; drag bodies, R restarts, [ ] change the scene",
+                             scene_->duration),
              .size = 9,
-             .colour = palette::grey});
+             .colour = palette::ink});
     if (drag_ && drag_->pulls)
         picture.polylines.push_back(
             {.points = {to_point(world_.position(drag_->body)), to_point(drag_->to)},

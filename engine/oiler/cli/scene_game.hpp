@@ -21,9 +21,7 @@ public:
     static constexpr Action next{"next scene", Key::right_bracket};
     static constexpr Control controls[] = {again, pull, move, previous, next};
 
-    /// `file` is the name that a window shows.
-    SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched,
-              std::string file = "the scene");
+    SceneGame(std::shared_ptr<const Scene> scene, const Settings& settings, bool watched);
 
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override;
     void restart() override;
@@ -60,7 +58,6 @@ private:
 
     std::shared_ptr<const Scene> scene_;
     bool watched_;
-    std::string file_;
     World world_;
     Camera camera_;              ///< the user's: copies that are assigned leave it alone
     std::optional<Point> held_;  ///< the place of the world that the right button holds

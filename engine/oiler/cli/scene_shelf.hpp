@@ -19,8 +19,6 @@ public:
     [[nodiscard]] std::optional<Taken> take(const AnyGame& shown,
                                             const std::optional<std::string>& dropped) override;
     [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
-    /// The name of the scene's file, without its folder.
-    [[nodiscard]] std::string file() const { return file_.filename().string(); }
     /// The scene's title and its file.
     [[nodiscard]] std::string title() const;
 
