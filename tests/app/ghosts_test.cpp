@@ -89,5 +89,30 @@ TEST(Ghosts, AreBesideTheDiscOfTheBody) {
     EXPECT_NEAR(line.back().y, 190, 1e-3);
 }
 
+TEST(Ghosts, AreAsLargeAsTheirDiscs) {
+    World world(2);
+    const Entity body = world.spawn(Body{});
+    Picture picture{.camera = {.height = 3.6F}};
+    picture.discs = {{.key = key_of(world, body), .centre = {0.4F, 0}, .radius = 0.2F}};
+    add_ghosts(picture, {{body, {}, {0.5, 0}}}, 1);
+    EXPECT_NEAR(std::ranges::max(picture.polylines.at(0).points, {}, &Point::x).x, 320 + 90 + 20,
+                1e-3);
+}
+
+TEST(Ghosts, TheFurthestHaveTheirDistancesBesideTheirRings) {
+    Picture picture{.camera = {.height = 3.6F}};
+    std::vector<Ghost> ghosts;
+    for (std::uint32_t i = 0; i < 20; ++i)
+        ghosts.push_back({{i, 1}, {}, {i % 2 == 0 ? 0.1 * i : -0.1 * i}});
+    add_ghosts(picture, ghosts, 1);
+    ASSERT_EQ(picture.labels.size(), 5U);
+    EXPECT_EQ(picture.labels.back().text, "1.9 m");
+    EXPECT_EQ(picture.labels.back().align, Align::right);
+    EXPECT_LT(picture.labels.back().at.x, 320 - 190);
+    EXPECT_EQ(picture.labels.front().text, "1.5 m");
+    EXPECT_EQ(picture.labels[1].align, Align::left);
+    EXPECT_GT(picture.labels[1].at.x, 320 + 160);
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -176,9 +176,13 @@ TEST(Playback, ARestartTakesOneStepAndIsNotInterpolated) {
     EXPECT_EQ(shown.at(199, 0.5), 199.5F);
     shown.queue.set(Key::enter, true);
     EXPECT_EQ(shown.at(200, 0), 200) << "taken before the key";
+    EXPECT_FALSE(shown.playback.shows_before_cut());
     EXPECT_EQ(shown.at(200, 0.5), 200) << "nothing flies back";
+    EXPECT_TRUE(shown.playback.shows_before_cut());
     EXPECT_EQ(shown.at(201, 0), 1) << "a new game, one step old";
+    EXPECT_FALSE(shown.playback.shows_before_cut());
     EXPECT_EQ(shown.at(201, 0.5), 1.5F);
+    EXPECT_FALSE(shown.playback.shows_before_cut());
     EXPECT_EQ(shown.playback.steps(), 202);
     EXPECT_EQ(shown.game.world().tick(), 2);
 }

@@ -58,6 +58,25 @@ TEST(Verdict, NamesTheBodyThePixelsAndTheCheapestCure) {
               std::string::npos);
 }
 
+// With ten uncertainties of 2.5 cm, an error of 4 cm is known, and one of 2 mm is not.
+TEST(Verdict, ClaimsNothingThatTheReferenceDoesNotKnow) {
+    WhatIf result = measured(0.04, 0.001, 0.002);
+    result.uncertainty = 0.0025;
+    EXPECT_TRUE(judge(result).text.ends_with("semi_implicit_euler.")) << judge(result).text;
+    result.uncertainty = 0.002;
+    EXPECT_NE(judge(result).text.find("velocity_verlet: less than 2 cm off,"), std::string::npos)
+        << judge(result).text;
+    result.uncertainty = 0.005;
+    EXPECT_EQ(judge(result).grade, Grade::unknown);
+    EXPECT_EQ(judge(result).text,
+              "Off by less than 5 cm at 60 Hz semi_implicit_euler. The true motion is not known "
+              "better.");
+    result = measured(0.04, 5e-6, 0.02);
+    result.uncertainty = 1.1e-5;
+    EXPECT_NE(judge(result).text.find("less than 0.11 mm off,"), std::string::npos)
+        << "a pixel is 1 cm";
+}
+
 TEST(Verdict, SaysWhereACureIsOffOnlyBetweenSteps) {
     WhatIf result = measured(0.04, 0.002, 0.02);
     result.runs[1].distance_at_steps = 5e-6;
@@ -127,13 +146,18 @@ TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
 }
 
 TEST(Verdict, LengthsHaveUnitsOfTheirSize) {
-    EXPECT_EQ(length_text(1e-13), "1 nm");
+    EXPECT_EQ(length_text(0), "0 m");
+    EXPECT_EQ(length_text(3e-13), "3e-13 m");
+    EXPECT_EQ(length_text(1.06e-10), "0.11 nm");
     EXPECT_EQ(length_text(2.5e-8), "25 nm");
     EXPECT_EQ(length_text(4.9e-7), "0.49 µm");
     EXPECT_EQ(length_text(2.5e-6), "2.5 µm");
     EXPECT_EQ(length_text(0.0025), "2.5 mm");
     EXPECT_EQ(length_text(0.075), "7.5 cm");
+    EXPECT_EQ(length_text(0.997), "0.997 m");
     EXPECT_EQ(length_text(3.14159), "3.14 m");
+    EXPECT_EQ(length_text(999.7), "1000 m");
+    EXPECT_EQ(length_text(12345.6), "12346 m");
     EXPECT_EQ(length_text(5e96), "5.0e+96 m");
 }
 
@@ -245,8 +269,11 @@ TEST(PlayAlong, MeasuresTheGameThatItNeverTouches) {
     const double sagitta = 20 / 60.0 / 60 / 8;
     EXPECT_NEAR(off(0.5), (20 * 2 / 60.0 / 2 + before) / 2 + sagitta, 1e-12);
     EXPECT_NEAR(off(0.75), (3 * 20 * 2 / 60.0 / 2 + before) / 4 + 0.75 * sagitta, 1e-12);
-    // Between the quarters of a step the true motion is a straight line, too.
-    EXPECT_NEAR(off(0.625), (5 * 20 * 2 / 60.0 / 2 + 3 * before) / 8 + 0.875 * sagitta, 1e-12);
+    // Between the sixteenths of a step, here 4 and 5, the true motion is a straight line, too:
+    // 4a(1 − a) is 0.75 and 0.859375 there.
+    EXPECT_NEAR(off(4.5 / 16),
+                before + 4.5 / 16 * (20 * 2 / 60.0 / 2 - before) + (0.75 + 0.859375) / 2 * sagitta,
+                1e-12);
     EXPECT_EQ(along.ghosts(120, 1)[0].at[0], game.world().bodies().position(0)[0]);
     EXPECT_TRUE(along.ghosts(121, 1).empty()) << "not played yet";
     EXPECT_EQ(along.errors().size(), 121U) << "the beginning, and each step";
@@ -303,7 +330,7 @@ TEST(PlayAlong, ProvesTheAdvisedRateInTheNextRun) {
     EXPECT_EQ(runs.back().stepping.rate, Rate{480});
     EXPECT_EQ(runs.back().stepping.method, options.settings.stepping.method);
     EXPECT_EQ(rate_advice_text(*along.measured()),
-              "About 480 Hz of this method would be within a pixel.");
+              "About 480 Hz of this method would be within a pixel so far.");
     game.step(12, 12, along);
     along.play_until(24);
     (void)along.verdict();
@@ -311,6 +338,38 @@ TEST(PlayAlong, ProvesTheAdvisedRateInTheNextRun) {
               "480 Hz of this method is within a pixel so far.");
     along.start(24, {.method = options.settings.stepping.method, .rate = {120}});
     EXPECT_EQ(along.result().runs.size(), usual) << "of another setting, nothing is known";
+}
+
+struct MovesTheMouse final : InputSource {
+    InputQueue queue;
+    Input next(std::int64_t step) override {
+        queue.point_at(Point{static_cast<float>(step), 100});
+        return queue.take({});
+    }
+};
+
+TEST(PlayAlong, AMouseThatMovesAndTheRestartMakeNoOtherRound) {
+    Options options;
+    options.settings.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}};
+    AnyGameOf<Fall> game(options.settings);
+    MovesTheMouse player;
+    const MakeGame make = make_fall;
+    PlayAlong along(player, options, Fall::about, make, PlayAlong::Pace::own);
+    for (const std::int64_t from : {0, 12}) {
+        game.step(from, 12 - from / 2, along);
+        along.play_until(12 + from / 2);
+        (void)along.verdict();
+        EXPECT_NEAR(along.measured()->runs.front().distance, 20 * 0.2 / 60 / 2, 1e-12);
+        if (from > 0) continue;
+        along.repeat(12);
+        player.queue.restart();
+    }
+    EXPECT_TRUE(along.repeats());
+    player.queue.restart();
+    game.step(18, 1, along);
+    along.play_until(19);
+    (void)along.verdict();
+    EXPECT_FALSE(along.repeats()) << "a restart in a round";
 }
 
 // What a round of 12 steps found stands in the next one until that has found as much.
@@ -414,7 +473,8 @@ TEST(PlayAlong, EndsAfterAFewStepsIfTheyTakeTooLong) {
     };
     PlayAlong along(player, options, Fall::about, make);
     int frames = 0;
-    while (frames < 60 && along.verdict().text.find("cannot keep up") == std::string::npos)
+    while (frames < 60 &&
+           along.verdict().text.find("playing along takes longer") == std::string::npos)
         along.play_until(++frames);
     EXPECT_LE(frames, 9) << "the first comparison takes no step, and may be late";
     EXPECT_EQ(along.verdict().grade, Grade::unknown);

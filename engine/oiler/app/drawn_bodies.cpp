@@ -14,11 +14,12 @@ Point centre_of(const std::vector<Point>& corners) {
 }  // namespace
 
 DrawnBodies::DrawnBodies(const Picture& picture) {
-    const auto add = [&](const auto& element, Point centre) {
+    const auto add = [&](const auto& element, Point centre, float radius = 0) {
         if (element.space == Space::world && element.key.object != 0 && element.key.part == 0)
-            bodies_.try_emplace(element.key.object, Body{centre, element.colour, element.layer});
+            bodies_.try_emplace(element.key.object,
+                                Body{centre, element.colour, element.layer, radius});
     };
-    for (const Disc& disc : picture.discs) add(disc, disc.centre);
+    for (const Disc& disc : picture.discs) add(disc, disc.centre, disc.radius);
     for (const Polygon& polygon : picture.polygons)
         if (!polygon.points.empty()) add(polygon, centre_of(polygon.points));
     for (const Sprite& sprite : picture.sprites) add(sprite, sprite.centre);

@@ -16,6 +16,7 @@ public:
         Point centre{};  ///< m
         Colour colour{};
         int layer = 0;
+        float radius = 0;  ///< m; 0: it is no disc
     };
 
     /// The disc, polygon or sprite of part 0 stands for a body.

@@ -42,6 +42,13 @@ Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
     return mouse;
 }
 
+/// Whether a body was compared, or a number.
+bool has_figures(const WhatIf& measured) {
+    const WhatIfRun& played = measured.runs.front();
+    return !std::isnan(played.distance) || !played.readings.empty() || !played.failure.empty() ||
+           played.other_play_from;
+}
+
 Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
     using Grade = Verdict::Grade;
     const double unsure = least_certain * measured.uncertainty;
@@ -57,7 +64,7 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
         error = length_text(run.distance);
         grade = grade_of(run.distance / measured.pixel);
     } else if (run.distance < unsure) {
-        error = unsure < least_length ? "exact" : "< " + length_text(unsure);
+        error = unsure <= part_of_exact * measured.pixel ? "exact" : "< " + length_text(unsure);
         if (unsure <= measured.pixel) grade = Grade::good;
     }
     const double cost = run.costs.update + run.costs.step;
@@ -154,14 +161,14 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                            const Frame& frame) {
     const World& world = game_.world();
     find_stiffest(frame.waits);
-    const double energy = world.bodies().energy().total();
+    const Energy energy = world.bodies().energy();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
                   .errors = along.errors(),
                   .stiffest = stiffest_,
                   .costs = costs_,
-                  .energy = energy,
+                  .energy = energy.total(),
                   .time = world.time(),
                   .dropped = frame.dropped,
                   .bodies = world.bodies().size(),
@@ -172,6 +179,8 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
     if (const auto& begin = along.begin()) {
         run.begin = begin->time;
         run.first_energy = begin->energy;
+        if (energies_.begin != begin->time) energies_ = {.begin = begin->time};
+        run.energy_scale = energies_.with(energy);
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
     const Verdict verdict =
@@ -180,7 +189,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
     run.grade = colour_of(verdict.grade);
     if (!frame.other_moment.empty()) {
         run.errors.clear();
-    } else if (const auto& measured = along.measured()) {
+    } else if (const auto& measured = along.measured(); measured && has_figures(*measured)) {
         // The errors are newer.
         WhatIfRun played = measured->runs.front();
         if (!run.errors.empty())

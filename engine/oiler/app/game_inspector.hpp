@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <future>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,23 @@
 #include "oiler/stability/stiffest.hpp"
 
 namespace oiler {
+
+/// What changes of the energy are a share of, as in the lab: the larger of the largest kinetic
+/// energy and the range of the potential energy so far.
+struct EnergyScale {
+    double begin = -1;  ///< s, since when
+    double kinetic = 0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+
+    /// J, with a further energy
+    double with(const Energy& energy) {
+        kinetic = std::max(kinetic, energy.kinetic);
+        lowest = std::min(lowest, energy.potential);
+        highest = std::max(highest, energy.potential);
+        return std::max(kinetic, highest - lowest);
+    }
+};
 
 /// Gathers what the inspector shows of a game.
 class GameInspector {
@@ -75,6 +94,7 @@ private:
     MotionOverlay motion_;
     StepTimes times_;
     Inspected::Costs costs_;
+    EnergyScale energies_;
     std::vector<const Method*> methods_;
 };
 

@@ -15,8 +15,20 @@
 namespace oiler {
 namespace {
 
-constexpr float ring = 7;  // canvas units
+constexpr float least_ring = 7;  // canvas units
 constexpr float least_seen = 3;
+constexpr std::size_t most_labels = 5;
+
+double distance(const Ghost& ghost) { return length(ghost.truth - ghost.at); }
+
+/// The ghosts that are furthest off.
+std::vector<Ghost> furthest(std::vector<Ghost> ghosts, std::size_t most) {
+    if (ghosts.size() <= most) return ghosts;
+    std::ranges::nth_element(ghosts, ghosts.begin() + static_cast<std::ptrdiff_t>(most),
+                             std::greater<>(), distance);
+    ghosts.resize(most);
+    return ghosts;
+}
 
 }  // namespace
 
@@ -24,16 +36,14 @@ std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference) {
     std::vector<Ghost> ghosts;
     for (const auto& [body, truth] : same_bodies(run, reference))
         ghosts.push_back({body->entity, body->position, truth->position});
-    if (ghosts.size() <= most_ghosts) return ghosts;
-    const auto distance = [](const Ghost& ghost) { return length(ghost.truth - ghost.at); };
-    std::ranges::nth_element(ghosts, ghosts.begin() + most_ghosts, std::greater<>(), distance);
-    ghosts.resize(most_ghosts);
-    return ghosts;
+    return furthest(std::move(ghosts), most_ghosts);
 }
 
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor) {
     if (ghosts.empty()) return;
     const DrawnBodies bodies(picture);
+    const double least_labelled =
+        distance(std::ranges::min(furthest(ghosts, most_labels), {}, distance));
     for (const Ghost& ghost : ghosts) {
         const DrawnBodies::Body* const body = bodies.find(ghost.body);
         const Vec3 off = ghost.truth - ghost.at;
@@ -41,6 +51,9 @@ void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double facto
         const Point drawn = body ? body->centre : to_point(ghost.at);
         const Point at = picture.camera.to_canvas(drawn);
         const Point truth = picture.camera.to_canvas({drawn.x + way.x, drawn.y + way.y});
+        const float radius = body ? body->radius : 0;
+        const float ring =
+            std::max(least_ring, picture.camera.to_canvas({drawn.x + radius, drawn.y}).x - at.x);
         const float seen = std::hypot(truth.x - at.x, truth.y - at.y);
         if (!std::isfinite(seen)) continue;
         const auto add_line = [&](std::vector<Point> points) {
@@ -53,10 +66,14 @@ void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double facto
         add_line(circle(truth, ring));
         if (seen < least_seen) continue;
         add_line({at, truth});
-        picture.labels.push_back({.at = {truth.x + ring + 2, truth.y},
-                                  .text = length_text(std::hypot(off[0], off[1], off[2])),
+        if (distance(ghost) < least_labelled) continue;
+        // Beside the ring, where the line to the body is not.
+        const bool is_right = truth.x >= at.x;
+        picture.labels.push_back({.at = {truth.x + (is_right ? ring + 2 : -ring - 2), truth.y},
+                                  .text = length_text(distance(ghost)),
                                   .size = 9,
                                   .colour = palette::purple,
+                                  .align = is_right ? Align::left : Align::right,
                                   .layer = overlay_layer});
     }
 }

@@ -23,7 +23,8 @@ inline constexpr std::size_t most_ghosts = 100;
 [[nodiscard]] std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference);
 
 /// Adds a ring where each body truly is, relative to its disc in the picture if that has one, and
-/// its distance if it can be seen. With a factor, the distances are drawn so many times as long.
+/// as large; and the distances of the five that are furthest off, if they can be seen. With a
+/// factor, the distances are drawn so many times as long.
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor);
 
 }  // namespace oiler

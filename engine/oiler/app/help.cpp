@@ -25,10 +25,10 @@ struct Row {
     std::string text;
 };
 
-/// A sheet of paper over the whole area; an eighth shines through.
+/// A sheet of paper over the whole area; little shines through.
 Polygon sheet(const OverlayArea& area) {
     return {.points = {area.low, {area.high.x, area.low.y}, area.high, {area.low.x, area.high.y}},
-            .colour = palette::faded(palette::paper, 224),
+            .colour = palette::faded(palette::paper, 248),
             .space = Space::canvas,
             .layer = overlay_layer};
 }
@@ -67,7 +67,7 @@ std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& na
         for (std::string& line : broken(buttons_of(control, name), letters))
             rows.push_back({std::exchange(shown, ""), std::move(line)});
     }
-    if (rows.empty()) rows.push_back({"", "The game does not list its keys."});
+    if (rows.empty()) rows.push_back({"", "The game lists no keys of its own."});
     return rows;
 }
 

@@ -24,8 +24,18 @@ constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
 constexpr int most_slow_steps = 8;  // one after the other that take longer than that
 constexpr const char* too_slow =
-    "what the timestep costs is not measured: this computer cannot keep up";
+    "what the timestep costs is not measured: playing along takes longer than 1 ms per frame";
 constexpr std::size_t most_errors = 600;
+
+/// Whether a player did more than move the mouse, after the restart that began the round.
+bool has_input(const Recording& recording) {
+    using What = InputEvent::What;
+    return std::ranges::any_of(recording.events, [](const Recording::Event& one) {
+        const What what = one.event.what;
+        const bool begins = what == What::restart && one.step == 0;
+        return !begins && what != What::pointer && what != What::no_pointer && what != What::camera;
+    });
+}
 
 }  // namespace
 
@@ -53,7 +63,7 @@ void PlayAlong::start(std::int64_t first) {
 }
 
 void PlayAlong::repeat(std::int64_t first) {
-    const bool is_same = runs_ && began_at_start_ && options_.replay->events.empty();
+    const bool is_same = runs_ && began_at_start_ && !has_input(*options_.replay);
     if (is_same && played_ != judged_) judge(runs_->result());
     repeats_ = is_same && measured_;
     began_at_start_ = true;
@@ -98,12 +108,11 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
 std::vector<Stepping> PlayAlong::other_settings() const {
     std::vector<Stepping> others = usual_what_if(options_.settings, make_run_);
     if (!repeats_) return others;
-    if (const auto advice = advise_rate(*measured_)) {
-        Stepping advised = options_.settings.stepping;
-        advised.rate = {advice->rate};
-        const bool is_played =
-            advised == options_.settings.stepping || std::ranges::count(others, advised) > 0;
-        if (!is_played) others.push_back(advised);
+    for (const std::int64_t rate : rates_to_try(*measured_)) {
+        Stepping tried = options_.settings.stepping;
+        tried.rate = {rate};
+        if (tried != options_.settings.stepping && std::ranges::count(others, tried) == 0)
+            others.push_back(tried);
     }
     return others;
 }
@@ -157,7 +166,7 @@ void PlayAlong::stop(std::string reason) {
 
 void PlayAlong::judge(WhatIf measured) {
     judged_ = played_;
-    if (!options_.replay->events.empty()) repeats_ = false;
+    if (has_input(*options_.replay)) repeats_ = false;
     if (repeats_ && measured.certain_until < measured_->certain_until) return;
     repeats_ = false;
     measured_ = std::move(measured);

@@ -36,6 +36,10 @@ public:
     [[nodiscard]] Picture& show(std::int64_t step, double alpha, InputSource& inputs);
     /// The picture of the last whole step that was shown.
     [[nodiscard]] Picture& show_last() { return shown_ = before_.picture; }
+    /// Whether the picture is of a step before a restart or rewind, and the game after it.
+    [[nodiscard]] bool shows_before_cut() const {
+        return after_.step >= 0 && before_.cuts != after_.cuts;
+    }
     /// Shows the game as it is now: it was put to where it was after `step` steps.
     void go_to(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }

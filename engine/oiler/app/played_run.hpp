@@ -15,7 +15,7 @@
 namespace oiler {
 
 /// How many moments of a recorded step are compared.
-inline constexpr std::int64_t instants_per_step = 4;
+inline constexpr std::int64_t instants_per_step = 16;
 
 /// The true motion at the instant `index`, of which each recorded step has instants_per_step.
 struct TrueMoment {

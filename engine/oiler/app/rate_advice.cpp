@@ -44,22 +44,44 @@ std::optional<std::int64_t> lowest_measured(const WhatIf& measured) {
     return lowest;
 }
 
-/// The rate at which the error would be `wanted`, Hz, from runs at half, once and twice the rate;
-/// empty unless the error shrinks alike between them.
-std::optional<double> promised_rate(const WhatIf& measured, double wanted) {
+/// A rate whose error is measured, and whose half and quarter are.
+struct Trend {
+    std::int64_t rate;  ///< Hz
+    double error;       ///< m
+    double order;       ///< of the error, between half the rate and the rate
+};
+
+/// The trend of the errors up to the highest rate that has one; empty if the error does not shrink
+/// alike on the way there.
+std::optional<Trend> trend_of(const WhatIf& measured) {
     constexpr double least_order = 0.7;
     constexpr double most_apart = 0.3;  // of orders
-    const WhatIfRun& played = measured.runs.front();
-    const std::int64_t rate = played.stepping.rate.steps;
-    const WhatIfRun* const half = rate % 2 == 0 ? run_at(rate / 2, measured) : nullptr;
-    const WhatIfRun* const twice = run_at(2 * rate, measured);
-    if (!half || !twice) return std::nullopt;
-    for (const WhatIfRun* const run : {half, &played, twice})
-        if (!is_certain(*run, measured)) return std::nullopt;
-    const double order = std::log2(played.distance / twice->distance);
-    const double order_before = std::log2(half->distance / played.distance);
-    if (order < least_order || std::abs(order - order_before) > most_apart) return std::nullopt;
-    return 2 * static_cast<double>(rate) * std::pow(twice->distance / wanted, 1 / order);
+    std::optional<Trend> trend;
+    for (const WhatIfRun& run : measured.runs) {
+        const std::int64_t rate = run.stepping.rate.steps;
+        if (run_at(rate, measured) != &run || rate % 4 != 0 || (trend && rate < trend->rate))
+            continue;
+        const WhatIfRun* const half = run_at(rate / 2, measured);
+        const WhatIfRun* const quarter = run_at(rate / 4, measured);
+        if (!half || !quarter || !is_certain(run, measured) || !is_certain(*half, measured) ||
+            !is_certain(*quarter, measured))
+            continue;
+        const double order = std::log2(half->distance / run.distance);
+        const double order_before = std::log2(quarter->distance / half->distance);
+        if (order >= least_order && std::abs(order - order_before) <= most_apart)
+            trend = Trend{rate, run.distance, order};
+    }
+    return trend;
+}
+
+/// The rate at which the error would be `wanted`, Hz. Far away it shrinks no faster than the
+/// method's order says.
+std::optional<double> promised_rate(const WhatIf& measured, double wanted) {
+    const auto trend = trend_of(measured);
+    if (!trend) return std::nullopt;
+    const int most = measured.runs.front().stepping.method->order;
+    const double order = std::min(trend->order, static_cast<double>(most));
+    return static_cast<double>(trend->rate) * std::pow(trend->error / wanted, 1 / order);
 }
 
 }  // namespace
@@ -72,8 +94,20 @@ std::optional<RateAdvice> advise_rate(const WhatIf& measured) {
     const auto found = std::ranges::find_if(offered_rates, [&](std::int64_t rate) {
         return rate % played == 0 && static_cast<double>(rate) >= *promised;
     });
-    if (found == offered_rates.end()) return std::nullopt;
+    // A promise that was measured not to hold is none.
+    if (found == offered_rates.end() || run_at(*found, measured)) return std::nullopt;
     return RateAdvice{*found, false};
+}
+
+std::vector<std::int64_t> rates_to_try(const WhatIf& measured) {
+    constexpr std::int64_t most_tried = 4000;  // Hz
+    if (const auto advice = advise_rate(measured)) return {advice->rate};
+    std::vector<std::int64_t> rates;
+    for (const std::int64_t factor : {8, 16, 32}) {
+        const std::int64_t rate = factor * measured.runs.front().stepping.rate.steps;
+        if (rate <= most_tried) rates.push_back(rate);
+    }
+    return rates;
 }
 
 std::string rate_advice_text(const WhatIf& measured) {
@@ -84,12 +118,14 @@ std::string rate_advice_text(const WhatIf& measured) {
                    ? "This rate is within a pixel so far."
                    : fmt::format("{} Hz of this method is within a pixel so far.", advice->rate);
     if (advice)
-        return fmt::format("About {} Hz of this method would be within a pixel.", advice->rate);
+        return fmt::format("About {} Hz of this method would be within a pixel so far.",
+                           advice->rate);
     if (const auto promised = promised_rate(measured, measured.pixel))
-        return fmt::format("To be within a pixel, this method would need {}.",
+        return fmt::format("To be within a pixel so far, this method would need {}.",
                            *promised > most_named ? fmt::format("more than {} Hz", most_named)
                                                   : fmt::format("about {} Hz", rounded(*promised)));
-    return "";
+    return std::isnan(played.distance) ? ""
+                                       : "No rate within a pixel is known yet for this method.";
 }
 
 }  // namespace oiler

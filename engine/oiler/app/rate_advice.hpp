@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "oiler/app/what_if.hpp"
 
@@ -20,7 +21,12 @@ struct RateAdvice {
 /// leaves half a pixel to spare. Empty if there is none, or nothing is certain.
 [[nodiscard]] std::optional<RateAdvice> advise_rate(const WhatIf& measured);
 
-/// "120 Hz of this method is within a pixel so far.", or what it takes; empty if nothing is known.
+/// The rates of the played method to measure next: the advised one, else rates so high that their
+/// errors shrink as those of the method's order do.
+[[nodiscard]] std::vector<std::int64_t> rates_to_try(const WhatIf& measured);
+
+/// "120 Hz of this method is within a pixel so far.", or what it takes; empty if nothing is
+/// measured.
 [[nodiscard]] std::string rate_advice_text(const WhatIf& measured);
 
 }  // namespace oiler

@@ -28,6 +28,11 @@ double cost(const WhatIfRun& run) { return run.costs.update + run.costs.step; }
 
 bool is_sound(const WhatIfRun& run) { return run.failure.empty() && !run.other_play_from; }
 
+/// The largest error that a run may have, m.
+double most_error(const WhatIfRun& run, const WhatIf& measured) {
+    return std::max(run.distance, least_certain * measured.uncertainty);
+}
+
 /// A setting that is off by more than the height of a picture, in pixels, mends nothing.
 constexpr double most_cured = 720;
 
@@ -37,7 +42,10 @@ const WhatIfRun* best(const WhatIf& measured) {
     const WhatIfRun* best = nullptr;
     double least = std::min(measured.runs.front().distance / 2, most_cured * measured.pixel);
     for (const WhatIfRun& run : measured.runs) {
-        if (!is_sound(run) || !(run.distance <= least)) continue;
+        const double most = most_error(run, measured);
+        if (!is_sound(run) ||
+            !(run.distance <= least && most <= measured.runs.front().distance / 2))
+            continue;
         least = run.distance;
         best = &run;
     }
@@ -54,7 +62,7 @@ const WhatIfRun* cure(const WhatIf& measured) {
     const WhatIfRun* cheapest = nullptr;
     for (std::size_t i = 1; i < measured.runs.size(); ++i) {
         const WhatIfRun& run = measured.runs[i];
-        if (!is_sound(run) || !(run.distance <= measured.pixel)) continue;
+        if (!is_sound(run) || !(most_error(run, measured) <= measured.pixel)) continue;
         if (!cheapest || is_cheaper(run, *cheapest)) cheapest = &run;
     }
     return cheapest ? cheapest : best(measured);
@@ -70,7 +78,10 @@ std::string price_text(const WhatIfRun& run, const WhatIf& measured) {
 
 std::string error_text(const WhatIfRun& run, const WhatIf& measured) {
     const double certain = least_certain * measured.uncertainty;
-    if (run.distance < certain) return "exact";
+    if (run.distance < certain)
+        return certain <= part_of_exact * measured.pixel
+                   ? "exact"
+                   : fmt::format("less than {} off", length_text(certain));
     const bool only_lines = run.distance_at_steps < certain && run.distance <= measured.pixel;
     return only_lines ? "exact at the steps" : length_text(run.distance) + " off";
 }
@@ -122,11 +133,14 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
 }  // namespace
 
 std::string length_text(double metres) {
-    if (metres < 99e-9) return fmt::format("{:.2g} nm", 1e9 * std::max(metres, least_length));
+    if (metres == 0) return "0 m";
+    if (metres < 1e-12) return fmt::format("{:.0e} m", metres);
+    if (metres < 99e-9) return fmt::format("{:.2g} nm", 1e9 * metres);
     if (metres < 1e-5) return fmt::format("{:.2g} µm", 1e6 * metres);
     if (metres < 0.01) return fmt::format("{:.2g} mm", 1000 * metres);
-    if (metres < 1) return fmt::format("{:.2g} cm", 100 * metres);
-    if (metres < 1e6) return fmt::format("{:.3g} m", metres);
+    if (metres < 0.995) return fmt::format("{:.2g} cm", 100 * metres);
+    if (metres < 999.5) return fmt::format("{:.3g} m", metres);
+    if (metres < 1e6) return fmt::format("{:.0f} m", metres);
     return fmt::format("{:.1e} m", metres);
 }
 
@@ -154,8 +168,8 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, d
             fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
                         begin + *played.other_play_from, setting, cure_text(measured), limit)};
     const double pixels = played.distance / measured.pixel;
-    const double known = std::max(played.distance, least_certain * measured.uncertainty);
-    const bool is_hidden = pixels <= 1 && known > measured.pixel;
+    const double known = most_error(played, measured);
+    const bool is_hidden = known > played.distance && known > measured.pixel;
     const Grade grade = is_hidden ? Grade::unknown : grade_of(pixels);
     if (const Reading* const reading = worst_reading(measured, before))
         return {std::max(grade, Grade::visible),

@@ -37,8 +37,8 @@ struct Verdict {
 /// Shorter times are not certain beside a game, ns a frame.
 inline constexpr double least_cost = 10'000;
 
-/// Shorter lengths are not told apart, m.
-inline constexpr double least_length = 1e-9;
+/// What is off by less than this part of a pixel, if it is off at all, is called exact.
+inline constexpr double part_of_exact = 0.01;
 
 /// "30 nm", "2 mm", "7.5 cm", "3.1 m".
 [[nodiscard]] std::string length_text(double metres);

@@ -65,7 +65,7 @@ inline constexpr double least_certain = 10;
 /// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
 /// its rate, at least at 960 Hz. All runs go through the recording together and are compared at
 /// each recorded step that a run has, too, and as they are drawn, on straight lines between their
-/// own steps, at four moments of each recorded step. Bodies are the same if their entities are. The
+/// own steps, at 16 moments of each recorded step. Bodies are the same if their entities are. The
 /// play is another one once bodies, teleports, restarts or whole-number readings have differed for
 /// 0.25 s: a shorter difference is a delay. Between two steps that differ in these, nothing is
 /// compared. The reference is uncertain once a run at 7/16 of its rate is

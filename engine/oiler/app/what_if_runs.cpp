@@ -11,16 +11,15 @@
 namespace oiler {
 namespace {
 
-constexpr std::int64_t least_factor = 16;
 constexpr std::int64_t least_rate = 960;  // Hz
 constexpr double pixels_of_height = 720;
 
-/// How many steps of the reference a recorded step has, a multiple of 4: at least `least_factor`,
-/// and so many that its rate is `least_rate`.
+/// How many steps of the reference a recorded step has, a multiple of the instants that are
+/// compared, and so many that its rate is at least `least_rate`.
 std::int64_t reference_factor(const Options& options) {
     const std::int64_t recorded = options.replay->header.stepping.rate.steps;
     const std::int64_t factor = (least_rate + recorded - 1) / recorded;
-    return std::max(least_factor, (factor + 3) / 4 * 4);
+    return (factor + instants_per_step - 1) / instants_per_step * instants_per_step;
 }
 Stepping reference_stepping(const Options& options) {
     Rate rate = options.replay->header.stepping.rate;

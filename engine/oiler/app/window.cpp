@@ -376,6 +376,7 @@ private:
     }
 
     void add_overlays(Picture& picture) {
+        if (playback_.shows_before_cut()) return;
         // A frame at the time of a step shows that step, others the way to it.
         const bool at_step = playback_.steps() == clock_.ticks() - undone_;
         const double alpha = at_step ? 1 : clock_.alpha();

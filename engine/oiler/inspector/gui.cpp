@@ -74,7 +74,8 @@ void Gui::set_scale(float unit) {
     style.WindowRounding = 0;
     style.FramePadding.y = 2;  // many rows
     style.ItemSpacing.y = 3;
-    style.CellPadding = {3, 1};
+    style.CellPadding = {2, 1};
+    style.ScrollbarSize = 10;
     style.ScaleAllSizes(unit);
     ImGui::GetStyle() = style;
 }

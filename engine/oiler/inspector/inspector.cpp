@@ -58,6 +58,14 @@ std::string time_text(double nanoseconds) {
     return fmt::format("{:.3g} ms", nanoseconds / 1e6);
 }
 
+std::string energy_text(double joules) {
+    const double size = std::abs(joules);
+    if (size >= 1e9 || (size > 0 && size < 1e-3)) return fmt::format("{:.3g} J", joules);
+    if (size >= 1e6) return fmt::format("{:.4g} MJ", joules / 1e6);
+    if (size >= 1e3) return fmt::format("{:.4g} kJ", joules / 1e3);
+    return fmt::format("{:.4g} J", joules);
+}
+
 struct Inspector::Impl {
     explicit Impl(std::span<const char> font) : gui(font) {}
 
@@ -148,7 +156,10 @@ struct Inspector::Impl {
         text(fmt::format("{:.2f} s, bodies: {}{}{}", run.time, run.bodies,
                          run.pace.empty() ? "" : ", ", run.pace));
         if (run.past) show_time_line(*run.past, run.stepping.rate, wishes);
-        wrapped(run.followed.empty() ? "A double click on a body follows it." : run.followed);
+        if (!run.followed.empty())
+            wrapped(run.followed);
+        else if (run.bodies > 0)
+            text("A double click on a body follows it.");
     }
 
     void show_time_line(const Inspected::Past& past, const Rate& rate, Wishes& wishes) {
@@ -198,16 +209,22 @@ struct Inspector::Impl {
         std::vector<float> logarithms;
         for (const float error : run.errors)
             logarithms.push_back(std::log10(std::max(error, smallest_error)));
-        const std::string now = fmt::format("up to {:.2g} m in the last step", run.errors.back());
-        text("this run is off by (1 µm to 1 km, logarithmic)");
+        text(fmt::format("this run: up to {:.2g} m in the last step", run.errors.back()));
+        // The mouse over the curve would show logarithms.
+        ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 1);
+        ImGui::BeginDisabled();
         ImGui::PlotLines("##errors", logarithms.data(), static_cast<int>(logarithms.size()), 0,
-                         now.c_str(), -6, 3,
+                         nullptr, -6, 3,
                          {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetFontSize()});
+        ImGui::EndDisabled();
+        ImGui::PopStyleVar();
+        coloured(palette::grey, "from 1 µm to 1 km, logarithmic");
     }
 
     /// What is drawn over the picture, with its scale.
     void show_overlays(const Inspected& run) {
         const Inspected::Scales& scales = run.scales;
+        if (run.bodies == 0) return;
         const float second = ImGui::GetContentRegionAvail().x / 2;
         ImGui::Separator();
         ImGui::Checkbox("trails", &shown.trails);
@@ -293,12 +310,15 @@ struct Inspector::Impl {
         if (run.bodies == 0) return;
         ImGui::Separator();
         if (!std::isfinite(run.energy)) return text("energy: infinite");
-        text(fmt::format("energy {:.6g} J", run.energy));
+        text("energy " + energy_text(run.energy));
         if (!run.first_energy) return;
-        const double first = *run.first_energy;
-        std::string words = fmt::format("{} {:+.3g} J", since(run), run.energy - first);
-        if (first != 0)
-            words += fmt::format(", {:+.3g} %", 100 * (run.energy - first) / std::abs(first));
+        const double change = run.energy - *run.first_energy;
+        std::string words = since(run) + (change < 0 ? " " : " +") + energy_text(change);
+        if (run.energy_scale > 0) {
+            const double percent = 100 * change / run.energy_scale;
+            words += std::abs(percent) < 99.5 ? fmt::format(", {:+.2g} %", percent)
+                                              : fmt::format(", {:+.0f} %", percent);
+        }
         text(words);
     }
 
@@ -315,6 +335,7 @@ struct Inspector::Impl {
     }
 
     static std::string since(const Inspected& run) {
+        if (run.begin > run.time) return "since before the restart";
         return run.begin == 0 ? "since the start" : fmt::format("since {:.2f} s", run.begin);
     }
 

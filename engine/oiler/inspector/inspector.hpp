@@ -21,6 +21,9 @@ inline constexpr std::array<std::int64_t, 26> offered_rates{
     10, 12,  16,  20,  24,  30,  36,  40,  48,  50,  60,  72,  80,
     90, 100, 120, 144, 180, 200, 240, 300, 360, 480, 500, 600, 1000};
 
+/// "-12.5 J", "4.235 MJ".
+[[nodiscard]] std::string energy_text(double joules);
+
 /// "850 ns", "12.3 µs", "4.5 ms".
 [[nodiscard]] std::string time_text(double nanoseconds);
 
@@ -94,6 +97,7 @@ struct Inspected {
     double energy = 0;                     ///< J
     double begin = 0;                      ///< s, since when errors and energies are compared
     std::optional<double> first_energy{};  ///< J, then; empty: it is not known
+    double energy_scale = 0;               ///< J, of which changes are a share; 0: none
     double time = 0;                       ///< s
     double dropped = 0;                    ///< s
     std::size_t bodies = 0;
