@@ -96,7 +96,14 @@ TEST(RateAdvice, TakesTheTrendOfTheHighestRates) {
     for (const int factor : {8, 16, 32}) result.runs.push_back(run_of(60 * factor, 0.064 / factor));
     EXPECT_EQ(rate_advice_text(result),
               "To be within a pixel so far, this method would need about 3800 Hz.");
+    result.runs = {run_of(60, 0.04),   run_of(30, 0.08),   run_of(120, 0.02),
+                   run_of(480, 0.004), run_of(960, 0.007), run_of(1920, 0.014)};
+    EXPECT_EQ(rate_advice_text(result), unknown) << "float: round-off grows with the rate";
     EXPECT_EQ(rates_to_try(measured(0.08, 0.04, 0.02, 0.008)), std::vector<std::int64_t>{600});
+    WhatIf disproved = measured(0.08, 0.04, 0.02, 0.008);
+    disproved.runs.push_back(run_of(600, 0.009));
+    EXPECT_FALSE(advise_rate(disproved))
+        << "it was promised half a pixel, and is measured beyond one";
     WhatIf fast = result;
     fast.runs = {run_of(240, 0.9), run_of(120, 1.1), run_of(480, 0.5)};
     EXPECT_EQ(rates_to_try(fast), (std::vector<std::int64_t>{1920, 3840})) << "7680 is too much";

@@ -92,8 +92,8 @@ TEST(Verdict, SaysWhereACureIsOffOnlyBetweenSteps) {
 TEST(Verdict, TellsTimesOfTheGame) {
     WhatIf result = measured(0.04, 0.002, 0.001);
     result.certain_until = 2.5;
-    EXPECT_NE(judge(result).text.find("known until 2.5 s."), std::string::npos);
-    EXPECT_NE(judge(result, {}, 3).text.find("known until 5.5 s."), std::string::npos);
+    EXPECT_NE(judge(result).text.find("After 2.5 s the"), std::string::npos);
+    EXPECT_NE(judge(result, {}, 3).text.find("After 5.5 s the"), std::string::npos);
     result.runs[0].other_play_from = 0.5;
     EXPECT_TRUE(judge(result, {}, 3).text.starts_with("From 3.5 s on"));
 }
@@ -121,7 +121,7 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     EXPECT_EQ(judge(unknown).text.find("1 m"), std::string::npos) << "never a guess";
     WhatIf early = measured(0.009, 0, 0);
     early.certain_until = 2.25;
-    EXPECT_TRUE(judge(early).text.ends_with(" The true motion is known until 2.2 s."));
+    EXPECT_TRUE(judge(early).text.ends_with(" After 2.2 s the true motion is not known."));
 }
 
 TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {

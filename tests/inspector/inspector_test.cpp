@@ -56,6 +56,15 @@ bool any(const std::vector<Wishes>& all, const std::function<bool(const Wishes&)
     return std::ranges::any_of(all, is);
 }
 
+TEST(Inspector, WritesEnergiesWithUnits) {
+    EXPECT_EQ(energy_text(0), "0 J");
+    EXPECT_EQ(energy_text(-12.3456), "-12.35 J");
+    EXPECT_EQ(energy_text(4.23537e6), "4.235 MJ");
+    EXPECT_EQ(energy_text(-1234.56), "-1.235 kJ");
+    EXPECT_EQ(energy_text(2.5e-7), "2.5e-07 J");
+    EXPECT_EQ(energy_text(1.8e18), "1.8e+18 J");
+}
+
 TEST(Inspector, AsksForWhatIsClicked) {
     const std::vector<Wishes> all = clicks_everywhere(run_at_60_hz());
     EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pauses; }));

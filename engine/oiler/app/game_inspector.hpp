@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <future>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "oiler/app/energy_scale.hpp"
 #include "oiler/app/follower.hpp"
 #include "oiler/app/game.hpp"
 #include "oiler/app/motion_overlay.hpp"
@@ -17,23 +16,6 @@
 #include "oiler/stability/stiffest.hpp"
 
 namespace oiler {
-
-/// What changes of the energy are a share of, as in the lab: the larger of the largest kinetic
-/// energy and the range of the potential energy so far.
-struct EnergyScale {
-    double begin = -1;  ///< s, since when
-    double kinetic = 0;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -std::numeric_limits<double>::infinity();
-
-    /// J, with a further energy
-    double with(const Energy& energy) {
-        kinetic = std::max(kinetic, energy.kinetic);
-        lowest = std::min(lowest, energy.potential);
-        highest = std::max(highest, energy.potential);
-        return std::max(kinetic, highest - lowest);
-    }
-};
 
 /// Gathers what the inspector shows of a game.
 class GameInspector {

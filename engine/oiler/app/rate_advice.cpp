@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "oiler/inspector/inspector.hpp"
@@ -44,34 +45,33 @@ std::optional<std::int64_t> lowest_measured(const WhatIf& measured) {
     return lowest;
 }
 
-/// A rate whose error is measured, and whose half and quarter are.
+/// How the error shrinks up to a rate.
 struct Trend {
     std::int64_t rate;  ///< Hz
     double error;       ///< m
     double order;       ///< of the error, between half the rate and the rate
 };
 
-/// The trend of the errors up to the highest rate that has one; empty if the error does not shrink
-/// alike on the way there.
+/// The trend up to the highest rate whose half and quarter are measured, too; empty if the error
+/// does not shrink alike on the way there.
 std::optional<Trend> trend_of(const WhatIf& measured) {
     constexpr double least_order = 0.7;
     constexpr double most_apart = 0.3;  // of orders
-    std::optional<Trend> trend;
+    std::array<const WhatIfRun*, 3> last{};
     for (const WhatIfRun& run : measured.runs) {
         const std::int64_t rate = run.stepping.rate.steps;
-        if (run_at(rate, measured) != &run || rate % 4 != 0 || (trend && rate < trend->rate))
-            continue;
-        const WhatIfRun* const half = run_at(rate / 2, measured);
-        const WhatIfRun* const quarter = run_at(rate / 4, measured);
-        if (!half || !quarter || !is_certain(run, measured) || !is_certain(*half, measured) ||
-            !is_certain(*quarter, measured))
-            continue;
-        const double order = std::log2(half->distance / run.distance);
-        const double order_before = std::log2(quarter->distance / half->distance);
-        if (order >= least_order && std::abs(order - order_before) <= most_apart)
-            trend = Trend{rate, run.distance, order};
+        if (run_at(rate, measured) != &run || rate % 4 != 0) continue;
+        const std::array on_the_way{run_at(rate / 4, measured), run_at(rate / 2, measured), &run};
+        if (std::ranges::count(on_the_way, nullptr) > 0) continue;
+        if (!last[2] || rate > last[2]->stepping.rate.steps) last = on_the_way;
     }
-    return trend;
+    if (!last[2] || !std::ranges::all_of(
+                        last, [&](const WhatIfRun* run) { return is_certain(*run, measured); }))
+        return std::nullopt;
+    const double order_before = std::log2(last[0]->distance / last[1]->distance);
+    const double order = std::log2(last[1]->distance / last[2]->distance);
+    if (order < least_order || std::abs(order - order_before) > most_apart) return std::nullopt;
+    return Trend{last[2]->stepping.rate.steps, last[2]->distance, order};
 }
 
 /// The rate at which the error would be `wanted`, Hz. Far away it shrinks no faster than the

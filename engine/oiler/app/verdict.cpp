@@ -159,7 +159,7 @@ Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before, d
     if (!(measured.certain_until > 0) || (std::isnan(played.distance) && !played.other_play_from))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
     const std::string limit = measured.certain_until < measured.duration - 1
-                                  ? fmt::format(" The true motion is known until {:.1f} s.",
+                                  ? fmt::format(" After {:.1f} s the true motion is not known.",
                                                 begin + measured.certain_until)
                                   : "";
     if (played.other_play_from)
