@@ -280,9 +280,9 @@ TEST(WhatIf, NamesNoDistanceWithoutBodies) {
 
 // At the steps, g·dt·t/2 exceeds 1 cm after 0.06 s at 60 Hz and after 0.12 s at 120 Hz. The line to
 // the next step is g·dt²·(a − a²/2) further below at a of the way: beyond 1 cm from a = 0.368 of
-// step 3 at 60 Hz, and a = 0.225 of step 14 at 120 Hz; the next sixteenth of a recorded step is at
-// 0.375 and 0.25. The late push of 30 Hz leaves the body 5/60 m lower from step 46 on, 0.767 s.
-// There, one push is still missing, so that it is counted one step of 30 Hz later.
+// step 3 at 60 Hz, and a = 0.225 of step 14 at 120 Hz; the next samples, at sixteenths of a
+// recorded step, are 0.375 and 0.25. The late push of 30 Hz leaves the body 5/60 m lower from step
+// 46 on, 0.767 s. There, one push is still missing, so that it is counted one step of 30 Hz later.
 TEST(WhatIf, NamesTheTimeFromWhichAPixelIsExceeded) {
     const WhatIf result = measure<Fall>(record<Fall>(), "120,30@rk4,rk4");
     EXPECT_EQ(result.runs[0].visible_from, 3.375 / 60);
@@ -340,7 +340,7 @@ struct Bounce {
 };
 
 // The bounce lies at a = 0.4 of a step, of which the picture cuts the corner: at 0.4 it is
-// 2·v·dt·a(1 − a) above the floor, and 7/16, where it is looked at next, (1 − 7/16)/(1 − 0.4) of
+// 2·v·dt·a(1 − a) above the floor, and at 7/16, the next sample, (1 − 7/16)/(1 − 0.4) of
 // that.
 TEST(WhatIf, SeesTheCornerThatThePictureCutsAtABounce) {
     const WhatIf result = measure<Bounce>(record<Bounce>(), "120");

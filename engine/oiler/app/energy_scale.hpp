@@ -8,8 +8,8 @@
 
 namespace oiler {
 
-/// What changes of the energy are a share of, as in the lab: the larger of the largest kinetic
-/// energy and the range of the potential energy so far.
+/// The scale of energy changes, as in the lab: the larger of the largest kinetic energy and the
+/// range of the potential energy so far.
 struct EnergyScale {
     double begin = -1;  ///< s, since when
     double kinetic = 0;

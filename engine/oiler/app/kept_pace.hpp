@@ -8,7 +8,7 @@
 
 namespace oiler {
 
-/// What a computer keeps of the pace of a window, as means over about 16 frames.
+/// The pace that a computer keeps in a window, as means over about 16 frames.
 class KeptPace {
 public:
     /// A frame that took `work` to make, `period` after the one before, and dropped `late` of the
@@ -18,7 +18,7 @@ public:
         work_ += (work.count() - work_) / 16;
         if (period.count() > 0) late_ += (late / period - late_) / 16;
     }
-    /// What cannot be kept, and what helps; empty: all is kept.
+    /// Tells that the pace or the frame rate is too low, and what helps; empty if both are kept.
     [[nodiscard]] std::string text() const {
         if (late_ > 0.1)
             return fmt::format(

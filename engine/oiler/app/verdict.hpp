@@ -37,7 +37,7 @@ struct Verdict {
 /// Shorter times are not certain beside a game, ns a frame.
 inline constexpr double least_cost = 10'000;
 
-/// What is off by less than this part of a pixel, if it is off at all, is called exact.
+/// An error that is known to be below this part of a pixel is called exact.
 inline constexpr double part_of_exact = 0.01;
 
 /// "30 nm", "2 mm", "7.5 cm", "3.1 m".
