@@ -107,6 +107,11 @@ TEST(RateAdvice, TakesTheTrendOfTheHighestRates) {
     WhatIf fast = result;
     fast.runs = {run_of(240, 0.9), run_of(120, 1.1), run_of(480, 0.5)};
     EXPECT_EQ(rates_to_try(fast), (std::vector<std::int64_t>{1920, 3840})) << "7680 is too much";
+    // 1920 and 3840 Hz take 24 times as long as 240 Hz.
+    fast.runs[0].costs.step = 12'400;
+    EXPECT_EQ(rates_to_try(fast).size(), 2U);
+    fast.runs[0].costs.update = 200;
+    EXPECT_TRUE(rates_to_try(fast).empty()) << "0.302 ms";
 }
 
 bool is_unknown(const WhatIf& result) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "oiler/inspector/inspector.hpp"
 
@@ -101,12 +102,19 @@ std::optional<RateAdvice> advise_rate(const WhatIf& measured) {
 
 std::vector<std::int64_t> rates_to_try(const WhatIf& measured) {
     constexpr std::int64_t most_tried = 4000;  // Hz
-    if (const auto advice = advise_rate(measured)) return {advice->rate};
+    constexpr double most_time = 300'000;      // ns of a frame
+    const WhatIfRun& played = measured.runs.front();
+    const std::int64_t played_rate = played.stepping.rate.steps;
     std::vector<std::int64_t> rates;
-    for (const std::int64_t factor : {8, 16, 32}) {
-        const std::int64_t rate = factor * measured.runs.front().stepping.rate.steps;
-        if (rate <= most_tried) rates.push_back(rate);
-    }
+    if (const auto advice = advise_rate(measured))
+        rates = {advice->rate};
+    else
+        for (const std::int64_t factor : {8, 16, 32})
+            if (factor * played_rate <= most_tried) rates.push_back(factor * played_rate);
+    const double time_per_rate =
+        (played.costs.update + played.costs.step) / static_cast<double>(played_rate);
+    const auto sum = std::accumulate(rates.begin(), rates.end(), std::int64_t{0});
+    if (time_per_rate * static_cast<double>(sum) > most_time) return {};
     return rates;
 }
 

@@ -22,7 +22,7 @@ struct RateAdvice {
 [[nodiscard]] std::optional<RateAdvice> advise_rate(const WhatIf& measured);
 
 /// The rates of the played method to measure next: the advised one, else rates so high that their
-/// errors shrink as those of the method's order do.
+/// errors shrink as those of the method's order do. None if they took too much of a frame's time.
 [[nodiscard]] std::vector<std::int64_t> rates_to_try(const WhatIf& measured);
 
 /// "120 Hz of this method is within a pixel so far.", or what it takes; empty if nothing is

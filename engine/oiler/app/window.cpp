@@ -305,8 +305,8 @@ private:
             add_help(overlay, area, title_, controls_, key_names(), !uses_escape(controls_));
         if (failure_)
             add_notice(overlay, area, failure_->what(),
-                       has_past() ? "F4 goes back, F9 restarts, Escape quits"
-                                  : "F9 restarts, Escape quits");
+                       fmt::format("F1 changes rate and method, {}F9 restarts, Escape quits",
+                                   has_past() ? "F4 goes back, " : ""));
         else if (!complaint_.empty())
             add_notice(overlay, area, complaint_,
                        "What was shown goes on. F9 restarts it and closes this.");
