@@ -152,6 +152,7 @@ TEST(Verdict, LengthsHaveUnitsOfTheirSize) {
     EXPECT_EQ(length_text(2.5e-8), "25 nm");
     EXPECT_EQ(length_text(4.9e-7), "0.49 µm");
     EXPECT_EQ(length_text(2.5e-6), "2.5 µm");
+    EXPECT_EQ(length_text(1.3e-5), "13 µm");
     EXPECT_EQ(length_text(0.0025), "2.5 mm");
     EXPECT_EQ(length_text(0.075), "7.5 cm");
     EXPECT_EQ(length_text(0.997), "0.997 m");

@@ -72,9 +72,9 @@ void Gui::set_scale(float unit) {
     ImGui::StyleColorsLight(&style);
     style.AntiAliasedLinesUseTex = false;  // texels are not blended
     style.WindowRounding = 0;
-    style.FramePadding.y = 2;  // many rows
+    style.FramePadding = {3, 2};  // many rows
     style.ItemSpacing.y = 3;
-    style.CellPadding = {2, 1};
+    style.CellPadding = {3, 1};
     style.ScrollbarSize = 10;
     style.ScaleAllSizes(unit);
     ImGui::GetStyle() = style;

@@ -15,7 +15,7 @@
 namespace oiler {
 namespace {
 
-constexpr float panel_width = 340;  // units
+constexpr float panel_width = 350;  // units
 constexpr int lines_of_verdict = 4;
 constexpr double frame_at_60_hz = 1e9 / 60;  // ns
 constexpr float smallest_error = 1e-6F;      // m
@@ -153,8 +153,9 @@ struct Inspector::Impl {
         if (button("Slower")) --wishes.pace;
         ImGui::SameLine();
         if (button("Faster")) ++wishes.pace;
-        text(fmt::format("{:.2f} s, bodies: {}{}{}", run.time, run.bodies,
-                         run.pace.empty() ? "" : ", ", run.pace));
+        const std::string bodies = run.bodies > 0 ? fmt::format(", bodies: {}", run.bodies) : "";
+        text(fmt::format("{:.2f} s{}{}{}", run.time, bodies, run.pace.empty() ? "" : ", ",
+                         run.pace));
         if (run.past) show_time_line(*run.past, run.stepping.rate, wishes);
         if (!run.followed.empty())
             wrapped(run.followed);
