@@ -13,21 +13,25 @@ namespace {
 TEST(EnergyScale, OfAnOscillatorIsItsEnergy) {
     for (const double zero : {0.0, -1e6, 1e6}) {
         EnergyScale scale;
-        double last = 0;
         for (int i = 0; i <= 64; ++i) {
             const double c = std::cos(i / 10.0);
-            last = scale.with({.kinetic = 1 - c * c, .potential = zero + c * c});
+            scale.add({.kinetic = 1 - c * c, .potential = zero + c * c});
         }
-        EXPECT_NEAR(last, 1, 1e-2) << zero;  // 0.1 rad from an extreme is 1 % of it
+        EXPECT_NEAR(scale.joules(), 1, 1e-2) << zero;  // 0.1 rad from an extreme is 1 % of it
     }
 }
 
 TEST(EnergyScale, IsTheLargerOfKineticEnergyAndPotentialRangeSoFar) {
     EnergyScale scale;
-    EXPECT_EQ(scale.with({.kinetic = 2, .potential = 5}), 2);
-    EXPECT_EQ(scale.with({.kinetic = 1, .potential = 8}), 3);
-    EXPECT_EQ(scale.with({.kinetic = 7, .potential = 6}), 7);
-    EXPECT_EQ(scale.with({.kinetic = 0, .potential = 6}), 7);
+    EXPECT_EQ(scale.joules(), 0);
+    const auto with = [&](double kinetic, double potential) {
+        scale.add({kinetic, potential});
+        return scale.joules();
+    };
+    EXPECT_EQ(with(2, 5), 2);
+    EXPECT_EQ(with(1, 8), 3);
+    EXPECT_EQ(with(7, 6), 7);
+    EXPECT_EQ(with(0, 6), 7);
 }
 
 }  // namespace

@@ -187,6 +187,13 @@ TEST(Playback, ARestartTakesOneStepAndIsNotInterpolated) {
     EXPECT_EQ(shown.game.world().tick(), 2);
 }
 
+TEST(Playback, ARestartKeepsTheNumberOfThreads) {
+    Rewound shown;
+    shown.game.set_threads(2);
+    shown.game.restart();
+    EXPECT_EQ(shown.game.world().settings().threads, 2);
+}
+
 TEST(Playback, ARewindOnEveryStepReturns) {
     Rewound shown;
     (void)shown.at(20, 0);
@@ -342,6 +349,7 @@ public:
     }
     void restart() override {}
     void set_stepping(const Stepping& stepping) override { world_.set_stepping(stepping); }
+    void set_threads(int threads) override { world_.set_threads(threads); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return std::make_unique<Sluggish>(*this);
     }

@@ -366,6 +366,7 @@ TEST(PlayAlong, AMouseThatMovesAndTheRestartMakeNoOtherRound) {
         player.queue.restart();
     }
     EXPECT_TRUE(along.repeats());
+    EXPECT_NEAR(along.energy_scale(), 20 * 20 / 3600.0 * 78, 1e-12) << "g·h of the whole round";
     player.queue.restart();
     game.step(18, 1, along);
     along.play_until(19);

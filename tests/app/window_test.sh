@@ -75,6 +75,27 @@ wait $game
 status=$?
 [ $status -eq 0 ] || fail "Escape leaves with exit code $status"
 
+# A window that the user has resized opens with that size next time, unless --size is given.
+export XDG_STATE_HOME="$folder/states"
+is_of_size() { xdotool search --name "$title" getwindowgeometry 2>/dev/null | grep -q "Geometry: $1"; }
+for size in 1280x720 500x300; do
+    "$program" --quiet 2>"$folder/err" &
+    game=$!
+    until_true is_of_size $size || fail "the window is not of $size: $(cat "$folder/err")"
+    window_focused
+    [ -e "$folder/states" ] || [ $size = 1280x720 ] || fail "the size is not kept"
+    xdotool search --name "$title" windowsize 500 300
+    until_true is_of_size 500x300 || fail "the window cannot be resized"
+    xdotool key Escape
+    wait $game || fail "a resized window leaves with exit code $?"
+done
+"$program" --size 640x360 --quiet 2>"$folder/err" &
+game=$!
+until_true is_of_size 640x360 || fail "--size does not win over the size of last time"
+until_true window_focused
+xdotool key Escape
+wait $game
+
 # steps_in_frames N: number of steps of a run of N frames, 0.1 s apart, at 1000 Hz. The first frame
 # starts the clock and takes no step; a late frame takes at most 250.
 steps_in_frames() {

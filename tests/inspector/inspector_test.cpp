@@ -143,6 +143,18 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
 }
 
 // A click on the method opens the menu; with Escape it is gone in the next frame.
+TEST(Inspector, OffersThreadsWhereMoreThanOneChangeSomething) {
+    Inspected run = run_at_60_hz();
+    EXPECT_FALSE(
+        any(clicks_everywhere(run), [](const Wishes& one) { return one.threads.has_value(); }));
+    run.most_threads = 4;
+    run.threads = 2;
+    std::set<int> offered;
+    for (const Wishes& one : clicks_everywhere(run))
+        if (one.threads) offered.insert(*one.threads);
+    EXPECT_EQ(offered, (std::set<int>{1, 3, 4}));
+}
+
 TEST(Inspector, EscapeClosesAnOpenMenu) {
     const Inspected run = run_at_60_hz();
     Inspector inspector(Renderer::font());

@@ -31,6 +31,18 @@ TEST(WorldSettings, Threads) {
     EXPECT_EQ(threads_of_this_process(), before + 3);
 }
 
+TEST(WorldSettings, AnotherNumberOfThreads) {
+    const std::ptrdiff_t before = threads_of_this_process();
+    World world(1, {.threads = 4});
+    world.set_threads(3);
+    EXPECT_EQ(threads_of_this_process(), before + 2);
+    EXPECT_EQ(world.settings().threads, 3);
+    world.set_threads(1);
+    EXPECT_EQ(threads_of_this_process(), before);
+    EXPECT_THROW(world.set_threads(0), Mistake);
+    EXPECT_EQ(world.settings().threads, 1);
+}
+
 /// 1 kg at 1 m on a spring of 1 N/m and 1 N·s/m, after a step of 0.5 s.
 double position_after_a_step(const Stepping& stepping) {
     World world(1, stepping);

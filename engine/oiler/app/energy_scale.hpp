@@ -10,19 +10,20 @@ namespace oiler {
 
 /// The scale of energy changes, as in the lab: the larger of the largest kinetic energy and the
 /// range of the potential energy so far.
-struct EnergyScale {
-    double begin = -1;  ///< s, since when
-    double kinetic = 0;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -std::numeric_limits<double>::infinity();
-
-    /// J, with a further energy
-    double with(const Energy& energy) {
-        kinetic = std::max(kinetic, energy.kinetic);
-        lowest = std::min(lowest, energy.potential);
-        highest = std::max(highest, energy.potential);
-        return std::max(kinetic, highest - lowest);
+class EnergyScale {
+public:
+    void add(const Energy& energy) {
+        kinetic_ = std::max(kinetic_, energy.kinetic);
+        lowest_ = std::min(lowest_, energy.potential);
+        highest_ = std::max(highest_, energy.potential);
     }
+    /// J; 0 if nothing was added.
+    [[nodiscard]] double joules() const { return std::max(kinetic_, highest_ - lowest_); }
+
+private:
+    double kinetic_ = 0;
+    double lowest_ = std::numeric_limits<double>::infinity();
+    double highest_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace oiler

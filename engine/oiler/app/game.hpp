@@ -161,6 +161,7 @@ public:
     virtual void restart() = 0;
     /// Goes on from here with another setting, see World::set_stepping.
     virtual void set_stepping(const Stepping& stepping) = 0;
+    virtual void set_threads(int threads) = 0;
     /// Whether it has come to its end, so that a window makes it anew.
     [[nodiscard]] virtual bool is_over() const { return false; }
     /// A copy, which goes on as the game does.
@@ -229,6 +230,7 @@ public:
         ++cuts_;
     }
     void set_stepping(const Stepping& stepping) override { game_.world.set_stepping(stepping); }
+    void set_threads(int threads) override { game_.world.set_threads(threads); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return guarded(copying, [&] { return std::make_unique<AnyGameOf>(*this); });
     }

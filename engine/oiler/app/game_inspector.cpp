@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "oiler/app/overlays.hpp"
 #include "oiler/app/rate_advice.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/sim/row_parts.hpp"
 
 namespace oiler {
 namespace {
@@ -25,6 +27,13 @@ std::vector<const Method*> applicable_methods(const World& world) {
             if (error.exit() != Exit::usage) throw;
         }
     return all;
+}
+
+/// The largest number of threads that can be chosen; 1 where more change nothing.
+int most_threads(const World& world) {
+    const auto here = static_cast<int>(std::thread::hardware_concurrency());
+    const int most = std::max(here, world.settings().threads);
+    return pays_for_team(world.bodies().size(), 1) ? most : 1;
 }
 
 /// The mouse and Escape; the mouse in pixels; the canvas is centred in `view`.
@@ -161,17 +170,19 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                            const Frame& frame) {
     const World& world = game_.world();
     find_stiffest(frame.waits);
-    const Energy energy = world.bodies().energy();
+    const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
                   .errors = along.errors(),
                   .stiffest = stiffest_,
                   .costs = costs_,
-                  .energy = energy.total(),
+                  .energy = energy,
                   .time = world.time(),
                   .dropped = frame.dropped,
                   .bodies = world.bodies().size(),
+                  .threads = world.settings().threads,
+                  .most_threads = most_threads(world),
                   .is_paused = frame.is_paused,
                   .past = frame.past,
                   .pace = frame.pace,
@@ -179,8 +190,7 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
     if (const auto& begin = along.begin()) {
         run.begin = begin->time;
         run.first_energy = begin->energy;
-        if (energies_.begin != begin->time) energies_ = {.begin = begin->time};
-        run.energy_scale = energies_.with(energy);
+        run.energy_scale = along.energy_scale();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
     const Verdict verdict =

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "oiler/app/energy_scale.hpp"
 #include "oiler/app/follower.hpp"
 #include "oiler/app/game.hpp"
 #include "oiler/app/motion_overlay.hpp"
@@ -76,7 +75,6 @@ private:
     MotionOverlay motion_;
     StepTimes times_;
     Inspected::Costs costs_;
-    EnergyScale energies_;
     std::vector<const Method*> methods_;
 };
 

@@ -342,6 +342,7 @@ Options collect(const CLI::App& app, Options options, const Words& words, const 
         options.settings.stepping.damping =
             words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
     options.size = parse_size(words.size);
+    options.has_size = app.count("--size") > 0;
     if (words.surface == "osmesa") options.offscreen = Offscreen::osmesa;
     if (words.surface == "egl") options.offscreen = Offscreen::egl;
     if (app.count("--frames") > 0) options.frames = words.frames;

@@ -25,6 +25,7 @@ struct Options {
     std::optional<std::int64_t> frames;
     std::optional<int> fps;
     Size size{1280, 720};
+    bool has_size = false;  ///< it was given
     std::filesystem::path out;
     bool has_png = true;         ///< false: hashes only
     std::int64_t keyframes = 1;  ///< every so many frames have a PNG

@@ -83,7 +83,10 @@ void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
 
 void PlayAlong::measure(std::int64_t first, MakeGame make) {
     make_run_ = std::move(make);
-    if (!repeats_) measured_.reset();
+    if (!repeats_) {
+        measured_.reset();
+        energy_scale_ = {};
+    }
     errors_.clear();
     readings_.clear();
     first_ = first;
@@ -140,6 +143,7 @@ void PlayAlong::play_until(std::int64_t step) {
         while (behind(step) > 0 && (!hurries || Clock::now() < end)) {
             const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
+            energy_scale_.add(runs_->recorded_game().world().bodies().energy());
             slow_ = Clock::now() - begin > time ? slow_ + 1 : 0;
             if (!runs_->certain()) continue;
             if (errors_.size() >= most_errors) errors_.erase(errors_.begin());

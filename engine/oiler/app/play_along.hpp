@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 
+#include "oiler/app/energy_scale.hpp"
 #include "oiler/app/ghosts.hpp"
 #include "oiler/app/input_source.hpp"
 #include "oiler/app/verdict.hpp"
@@ -48,6 +49,8 @@ public:
     };
     /// Empty if nothing was ever measured.
     [[nodiscard]] const std::optional<Begin>& begin() const { return begin_; }
+    /// The scale of the energy's changes since then, J; in a repeated round, also of the last one.
+    [[nodiscard]] double energy_scale() const { return energy_scale_.joules(); }
     /// What is measured so far; nothing may have stopped it.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
     /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
@@ -90,6 +93,7 @@ private:
     Verdict verdict_;
     std::optional<WhatIf> measured_;
     std::vector<float> errors_;
+    EnergyScale energy_scale_;
 };
 
 }  // namespace oiler

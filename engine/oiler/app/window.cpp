@@ -15,6 +15,7 @@
 #include "oiler/app/help.hpp"
 #include "oiler/app/interrupt.hpp"
 #include "oiler/app/kept_pace.hpp"
+#include "oiler/app/kept_size.hpp"
 #include "oiler/app/live_change.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/overlays.hpp"
@@ -65,6 +66,17 @@ std::string why_fixed(const Options& options, const About& about) {
     return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
 
+/// The size that is given, else that of the last time.
+Size first_size(const Options& options, const About& about) {
+    if (options.has_size) return options.size;
+    try {
+        return read_size(file_of_size(about.name)).value_or(options.size);
+    } catch (const Error& error) {
+        remark(options.quiet, "{}", error.what());
+        return options.size;
+    }
+}
+
 /// Sleeps until the frame's period ends, unless the display has already waited.
 void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
     const std::chrono::nanoseconds period = std::chrono::nanoseconds(std::chrono::seconds(1)) / fps;
@@ -86,7 +98,8 @@ public:
           about_(about),
           title_(about.title),
           controls_(controls_of(options, about)),
-          window_(open_window(options.size, std::string(about.title))),
+          window_(open_window(first_size(options, about), std::string(about.title))),
+          opened_size_(window_->size()),
           renderer_([this](const char* name) { return window_->procedure(name); }),
           clock_(static_cast<int>(options.settings.stepping.rate.steps)),
           along_(inputs, options, about, make),
@@ -123,6 +136,7 @@ public:
             const Span wait(profile_, "wait");
             limit_frame_rate(start, fps);
         }
+        keep_size();
         if (failure_) throw Error(*failure_);
         return {.dropped = dropped_time()};
     }
@@ -142,6 +156,7 @@ private:
         if (keys.presses(Key::f11) % 2 == 1) window_->fill_screen(fills_ = !fills_);
         look_at_shelf();
         if (wishes.stepping) change_to(*wishes.stepping, wishes.changes_from_start);
+        if (wishes.threads) is_possible([&] { playback_.game().set_threads(*wishes.threads); });
         clock_.set_time_scale(pace_.numerator(), pace_.denominator());
         // A game that takes no steps sees no keys.
         const bool stands = failure_ || clock_.paused();
@@ -243,6 +258,17 @@ private:
     }
     [[nodiscard]] std::chrono::nanoseconds dropped_time() const {
         return dropped_ + clock_.dropped_time();
+    }
+
+    /// For the next time, if the user has changed it.
+    void keep_size() {
+        const std::filesystem::path file = file_of_size(about_.name);
+        if (fills_ || window_->size() == opened_size_ || file.empty()) return;
+        try {
+            write_size(file, window_->size());
+        } catch (const Error& error) {
+            remark(options_.quiet, "{}", error.what());
+        }
     }
 
     /// Whether the user wants to know what the timestep costs.
@@ -490,6 +516,7 @@ private:
     std::string title_;
     std::span<const Control> controls_;
     std::unique_ptr<Window> window_;
+    Size opened_size_;
     Renderer renderer_;
     StepClock clock_;
     PlayAlong along_;

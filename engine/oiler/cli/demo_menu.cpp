@@ -50,6 +50,7 @@ public:
         return std::make_unique<DemoMenu>(*this);
     }
     void set_stepping(const Stepping& stepping) override { world_.set_stepping(stepping); }
+    void set_threads(int threads) override { world_.set_threads(threads); }
     void assign(const AnyGame& other) override {
         const auto& source = dynamic_cast<const DemoMenu&>(other);
         world_ = source.world_;

@@ -26,6 +26,7 @@ public:
     std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) override;
     void restart() override;
     void set_stepping(const Stepping& stepping) override { world_.set_stepping(stepping); }
+    void set_threads(int threads) override { world_.set_threads(threads); }
     [[nodiscard]] std::unique_ptr<AnyGame> clone() const override {
         return std::make_unique<SceneGame>(*this);
     }

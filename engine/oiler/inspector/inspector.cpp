@@ -119,6 +119,15 @@ struct Inspector::Impl {
         show_damping(chosen);
         ImGui::EndDisabled();
         if (!run.fixed.empty()) wrapped(run.fixed);
+        if (run.most_threads > 1) {
+            int threads = run.threads;
+            ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
+            ImGui::SliderInt("##threads", &threads, 1, run.most_threads, "",
+                             ImGuiSliderFlags_NoInput);
+            ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+            text(fmt::format("{} thread{}", run.threads, run.threads == 1 ? "" : "s"));
+            if (threads != run.threads) wishes.threads = threads;
+        }
         if (chosen != run.stepping) wishes.stepping = chosen;
     }
 

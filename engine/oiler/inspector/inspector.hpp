@@ -101,6 +101,8 @@ struct Inspected {
     double time = 0;                       ///< s
     double dropped = 0;                    ///< s
     std::size_t bodies = 0;
+    int threads = 1;
+    int most_threads = 1;  ///< that can be chosen; 1: more change nothing
     bool is_paused = false;
     std::optional<Past> past{};
     std::string pace{};
@@ -111,6 +113,7 @@ struct Inspected {
 /// What the user asks of the loop through the inspector.
 struct Wishes {
     std::optional<Stepping> stepping{};  ///< the setting to have
+    std::optional<int> threads{};
     bool changes_from_start = false;     ///< restart with it; else go on with it
     bool pauses = false;                 ///< or resumes
     bool steps = false;

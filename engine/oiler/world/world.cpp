@@ -229,6 +229,11 @@ std::optional<std::int64_t> World::tick_at(const Rate& rate) const {
     return tick_ / old_ticks * new_ticks;
 }
 
+void World::set_threads(int threads) {
+    placed("set_threads", [&] { bodies_.set_threads(threads); });
+    settings_.threads = threads;
+}
+
 void World::set_stepping(const Stepping& stepping) {
     placed("set_stepping", [&] {
         const std::optional<std::int64_t> tick = tick_at(stepping.rate);

@@ -278,6 +278,9 @@ public:
     /// rounded up to a tick. Throws Error{usage}, and changes nothing, if the new rate has no tick
     /// now, for another precision, and if the method cannot step these bodies.
     void set_stepping(const Stepping& stepping);
+    /// Steps with another number of threads from here on. Throws Error{usage} if the machine gives
+    /// fewer.
+    void set_threads(int threads);
 
     /// Steps all bodies `count` times. Results do not depend on the number of steps per call.
     /// Throws Error{diverged}.

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/kept_size.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "oiler/app/parse_size.hpp"
+#include "oiler/core/error.hpp"
+
+namespace oiler {
+
+namespace fs = std::filesystem;
+
+fs::path file_of_size(std::string_view program) {
+    const auto folder = [](const char* variable) {
+        const char* const value = std::getenv(variable);
+        return fs::path(value ? value : "");
+    };
+    fs::path states = folder("XDG_STATE_HOME");
+    if (states.empty() && !folder("HOME").empty()) states = folder("HOME") / ".local" / "state";
+    return states.empty() ? fs::path() : states / "oiler" / (std::string(program) + ".size");
+}
+
+std::optional<Size> read_size(const fs::path& file) {
+    std::ifstream stream(file);
+    if (!stream) return std::nullopt;
+    std::string words;
+    std::getline(stream, words);
+    try {
+        return parse_size(words);
+    } catch (const Error&) {
+        fail(Exit::usage, "{}: expected a size such as 1280x720, got '{}'; remove the file",
+             file.string(), words);
+    }
+}
+
+void write_size(const fs::path& file, Size size) {
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    std::ofstream stream(file);
+    stream << size.width << 'x' << size.height << '\n' << std::flush;
+    if (!stream) fail(Exit::io, "{}: cannot be written; give --size", file.string());
+}
+
+}  // namespace oiler
