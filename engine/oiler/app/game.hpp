@@ -161,6 +161,7 @@ public:
     virtual void restart() = 0;
     /// Goes on from here with another setting, see World::set_stepping.
     virtual void set_stepping(const Stepping& stepping) = 0;
+    /// See World::set_threads.
     virtual void set_threads(int threads) = 0;
     /// Whether it has come to its end, so that a window makes it anew.
     [[nodiscard]] virtual bool is_over() const { return false; }

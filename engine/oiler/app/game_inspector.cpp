@@ -51,7 +51,7 @@ Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
     return mouse;
 }
 
-/// Whether a body was compared, or a number.
+/// Whether a body or a reading was compared, or the run ended otherwise.
 bool has_figures(const WhatIf& measured) {
     const WhatIfRun& played = measured.runs.front();
     return !std::isnan(played.distance) || !played.readings.empty() || !played.failure.empty() ||

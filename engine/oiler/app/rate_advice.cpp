@@ -95,7 +95,7 @@ std::optional<RateAdvice> advise_rate(const WhatIf& measured) {
     const auto found = std::ranges::find_if(offered_rates, [&](std::int64_t rate) {
         return rate % played == 0 && static_cast<double>(rate) >= *promised;
     });
-    // A promise that was measured not to hold is none.
+    // A rate that is measured and beyond a pixel refutes the promise.
     if (found == offered_rates.end() || run_at(*found, measured)) return std::nullopt;
     return RateAdvice{*found, false};
 }

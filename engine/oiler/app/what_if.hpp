@@ -63,13 +63,13 @@ struct WhatIf {
 inline constexpr double least_certain = 10;
 
 /// Plays options.replay at its own setting, at `steppings`, and as a reference with rk4 at 16 times
-/// its rate, at least at 960 Hz. All runs go through the recording together and are compared at
-/// each recorded step that a run has, too, and as they are drawn, on straight lines between their
-/// own steps, at 16 moments of each recorded step. Bodies are the same if their entities are. The
-/// play is another one once bodies, teleports, restarts or whole-number readings have differed for
-/// 0.25 s: a shorter difference is a delay. Between two steps that differ in these, nothing is
-/// compared. The reference is uncertain once a run at 7/16 of its rate is
-/// another play, or further away than a pixel. A pixel is 1/720 of the height that the camera of
+/// its rate, or a multiple of that which is at least 960 Hz. All runs go through the recording
+/// together and are compared at each recorded step that a run has, too, and as they are drawn, on
+/// straight lines between their own steps, at 16 moments of each recorded step. Bodies are the same
+/// if their entities are. The play is another one once bodies, teleports, restarts or whole-number
+/// readings have differed for 0.25 s: a shorter difference is a delay. Between two steps that
+/// differ in these, nothing is compared. The reference is uncertain once a run at 7/16 of its rate
+/// is another play, or further away than a pixel. A pixel is 1/720 of the height that the camera of
 /// the reference shows then.
 ///
 /// Empty if interrupted. Without `draw`, drawing is not timed. Throws Error{comparison_failed} if

@@ -66,11 +66,16 @@ std::string why_fixed(const Options& options, const About& about) {
     return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
 
+/// The file with the size of the window. All scenes share one.
+std::filesystem::path size_file(const About& about) {
+    return file_of_size(about.scene_text.empty() ? about.name : "oiler");
+}
+
 /// The size that is given, else that of the last time.
 Size first_size(const Options& options, const About& about) {
     if (options.has_size) return options.size;
     try {
-        return read_size(file_of_size(about.name)).value_or(options.size);
+        return read_size(size_file(about)).value_or(options.size);
     } catch (const Error& error) {
         remark(options.quiet, "{}", error.what());
         return options.size;
@@ -260,9 +265,9 @@ private:
         return dropped_ + clock_.dropped_time();
     }
 
-    /// For the next time, if the user has changed it.
+    /// Keeps the size for the next start if the user has changed it.
     void keep_size() {
-        const std::filesystem::path file = file_of_size(about_.name);
+        const std::filesystem::path file = size_file(about_);
         if (fills_ || window_->size() == opened_size_ || file.empty()) return;
         try {
             write_size(file, window_->size());
