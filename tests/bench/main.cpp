@@ -8,11 +8,11 @@
 
 #include "bench/bench.hpp"
 #include "bench/plots.hpp"
-#include "oiler/app/console.hpp"
-#include "oiler/app/parse.hpp"
-#include "oiler/app/run.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/guard_main.hpp"
+#include "oiler/process/parse.hpp"
 
 namespace oiler::bench {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/film.hpp"
 
-#include "oiler/app/console.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/picture/picture_hash.hpp"
+#include "oiler/process/console.hpp"
 
 namespace oiler {
 

@@ -6,11 +6,11 @@
 #include <system_error>
 #include <utility>
 
-#include "oiler/app/console.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/compare/comparer.hpp"
 #include "oiler/compare/differences.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/process/console.hpp"
 
 namespace oiler {
 namespace {

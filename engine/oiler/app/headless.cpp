@@ -5,16 +5,16 @@
 #include <cmath>
 #include <string>
 
-#include "oiler/app/console.hpp"
 #include "oiler/app/film.hpp"
-#include "oiler/app/game_inspector.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/overlay/game_inspector.hpp"
 #include "oiler/picture/picture_hash.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
@@ -62,9 +62,9 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
 /// The inspector of a run without a window: nobody clicks, and what plays along is never late.
 class FilmedInspector {
 public:
-    FilmedInspector(AnyGame& game, InputSource& inputs, const Options& options, const About& about,
+    FilmedInspector(AnyGame& game, InputSource& inputs, const Options& options,
                     const MakeGame& make, Profile* profile)
-        : along(inputs, options, about, make, PlayAlong::Pace::own),
+        : along(inputs, {options.settings, options.controls}, make, PlayAlong::Pace::own),
           profile_(profile),
           inspector_(game, "F1 in a window changes them.", Renderer::font()) {}
 
@@ -192,8 +192,7 @@ Exit run_headless(Playback& playback, InputSource& inputs, const Options& option
     const Manifest header = describe(options, about, *surface, renderer);
     if (options.frame) return draw_still(playback, inputs, renderer, header, options, profile);
     std::optional<FilmedInspector> inspector;
-    if (options.inspector)
-        inspector.emplace(playback.game(), inputs, options, about, make, profile);
+    if (options.inspector) inspector.emplace(playback.game(), inputs, options, make, profile);
     film(playback, inputs, renderer, header, options, profile, inspector ? &*inspector : nullptr);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }

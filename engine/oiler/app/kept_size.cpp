@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include "oiler/app/parse_size.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/process/parse_size.hpp"
 
 namespace oiler {
 

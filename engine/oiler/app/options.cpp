@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "oiler/app/golden.hpp"
-#include "oiler/app/help.hpp"
-#include "oiler/app/keys.hpp"
-#include "oiler/app/parse.hpp"
-#include "oiler/app/parse_size.hpp"
-#include "oiler/app/what_if_settings.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/paths.hpp"
 #include "oiler/capture/video.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/overlay/help.hpp"
+#include "oiler/play/keys.hpp"
+#include "oiler/process/parse.hpp"
+#include "oiler/process/parse_size.hpp"
+#include "oiler/whatif/what_if_settings.hpp"
 
 namespace oiler {
 namespace {

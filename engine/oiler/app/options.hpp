@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "oiler/app/game.hpp"
-#include "oiler/app/recording.hpp"
 #include "oiler/capture/manifest.hpp"
 #include "oiler/core/size.hpp"
+#include "oiler/game/game.hpp"
 #include "oiler/platform/surface.hpp"
+#include "oiler/play/recording.hpp"
 
 namespace oiler {
 

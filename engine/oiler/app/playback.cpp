@@ -6,8 +6,8 @@
 #include <chrono>
 #include <utility>
 
-#include "oiler/app/interrupt.hpp"
 #include "oiler/core/state_hash.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler {
 namespace {

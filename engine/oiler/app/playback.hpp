@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "oiler/app/game.hpp"
 #include "oiler/app/recorder.hpp"
-#include "oiler/app/tape.hpp"
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/core/profile.hpp"
+#include "oiler/game/game.hpp"
+#include "oiler/play/tape.hpp"
 
 namespace oiler {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/app/reading.hpp"
 #include "oiler/capture/file.hpp"
+#include "oiler/game/reading.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

@@ -10,19 +10,20 @@
 #include <optional>
 #include <span>
 
-#include "oiler/app/console.hpp"
 #include "oiler/app/golden.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
 #include "oiler/app/report.hpp"
-#include "oiler/app/script.hpp"
-#include "oiler/app/tape.hpp"
-#include "oiler/app/what_if.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/floating_point.hpp"
+#include "oiler/play/script.hpp"
+#include "oiler/play/tape.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/guard_main.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/sim/instructions.hpp"
+#include "oiler/whatif/what_if.hpp"
+#include "oiler/whatif/what_if_settings.hpp"
 
 namespace oiler {
 namespace {
@@ -157,28 +158,36 @@ Exit show_budget(const std::vector<BudgetEntry>& budget, bool quiet) {
     return kept ? Exit::done : Exit::comparison_failed;
 }
 
-struct Ending {
-    Exit exit = Exit::done;
-    std::string error{};  ///< a line without the program's name; empty: none
-};
-
-/// Names of files and options may have line breaks.
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+/// Without a provider of OpenGL, drawing is not timed, unless the user asks for that provider.
+std::unique_ptr<DrawTimer> open_timer(const Options& options) {
+    try {
+        return std::make_unique<DrawTimer>(options.offscreen, options.size);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::no_display || options.offscreen != Offscreen::automatic) throw;
+        remark(options.quiet, "draw is not measured: {}", error.what());
+        return nullptr;
+    }
 }
 
-Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
-    try {
-        fill_closed_streams();
-        Interrupt::handle_signals(name);
-        require_ieee_arithmetic();
-        return {program()};
-    } catch (const Error& error) {
-        return {error.exit(), error.what()};
-    } catch (const std::bad_alloc&) {
-        return {Exit::io, "not enough memory; take fewer bodies or a shorter time"};
+/// Measures what other settings would have shown, prints the table and writes --json.
+Exit run_what_if(const Options& options, const About& about, const MakeGame& make) {
+    const std::vector<Stepping> steppings = options.what_if_settings.empty()
+                                                ? usual_what_if(options.settings, make)
+                                                : options.what_if_settings;
+    std::optional<File> json;  // opened before the runs, so that a wrong path costs no time
+    if (!options.json.empty()) json.emplace(options.json);
+    const RecordedPlay play{options.settings, options.controls, *options.replay,
+                            options.replay_file.string(), options.replay_anyway};
+    const std::unique_ptr<DrawTimer> draw = open_timer(options);
+    const std::optional<WhatIf> result =
+        measure_what_if(play, steppings, make, draw.get(), options.quiet);
+    if (!result) return Exit::interrupted;
+    if (json) {
+        json->write(to_json(*result, about.name).dump(2) + "\n");
+        json->commit();
     }
+    if (options.json != "-") write_file("-", text_of(*result, about.name));
+    return Exit::done;
 }
 
 /// Plays the game. Completes the report, also after a divergence.
@@ -255,15 +264,6 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     else if (!options.golden.empty())
         exit = std::max(exit, compare_with_golden(options, report.budget));
     return std::max(exit, show_budget(report.budget, options.quiet));
-}
-
-int guard_main(std::string_view name, const std::function<Exit()>& program) {
-    Ending ending = ending_of(name, program);
-    if (Interrupt::requested())
-        ending = {Exit::interrupted,
-                  "interrupted" + (ending.error.empty() ? "" : ": " + ending.error)};
-    if (!ending.error.empty()) say(fmt::format("{}: {}", name, one_line(ending.error)));
-    return static_cast<int>(ending.exit);
 }
 
 int run_program(int argc, char** argv, const About& about, const MakeGame& make) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "oiler/app/game.hpp"
+#include "oiler/game/game.hpp"
 
 namespace oiler {
 

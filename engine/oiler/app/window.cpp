@@ -10,20 +10,20 @@
 #include <thread>
 #include <utility>
 
-#include "oiler/app/console.hpp"
-#include "oiler/app/game_inspector.hpp"
-#include "oiler/app/help.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/kept_pace.hpp"
 #include "oiler/app/kept_size.hpp"
 #include "oiler/app/live_change.hpp"
 #include "oiler/app/loops.hpp"
-#include "oiler/app/overlays.hpp"
 #include "oiler/app/pace.hpp"
-#include "oiler/app/play_along.hpp"
-#include "oiler/app/rewind.hpp"
 #include "oiler/core/step_clock.hpp"
+#include "oiler/overlay/game_inspector.hpp"
+#include "oiler/overlay/help.hpp"
+#include "oiler/overlay/overlays.hpp"
+#include "oiler/play/rewind.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/render/renderer.hpp"
+#include "oiler/whatif/play_along.hpp"
 
 namespace oiler {
 namespace {
@@ -107,7 +107,8 @@ public:
           opened_size_(window_->size()),
           renderer_([this](const char* name) { return window_->procedure(name); }),
           clock_(static_cast<int>(options.settings.stepping.rate.steps)),
-          along_(inputs, options, about, make),
+          along_(inputs, {options.settings, options.controls}, make,
+                 measures() ? PlayAlong::Pace::of_frames : PlayAlong::Pace::never),
           inspector_(playback.game(), why_fixed(options, about), Renderer::font()),
           inspects_(options.inspector) {
         if (no_way_back(options).empty()) rewind_.emplace(playback.game(), along_);

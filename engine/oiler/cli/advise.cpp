@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/advise.hpp"
 
-#include "oiler/app/interrupt.hpp"
-#include "oiler/app/parse_size.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/lab/advice/json.hpp"
+#include "oiler/process/interrupt.hpp"
+#include "oiler/process/parse_size.hpp"
 #include "oiler/scene/apply.hpp"
 #include "oiler/scene/draw.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "oiler/app/parse.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/process/parse.hpp"
 
 namespace oiler::cli {
 namespace {

@@ -4,11 +4,11 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "oiler/app/console.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "oiler/app/console.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/core/junit.hpp"
 #include "oiler/lab/budget.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "oiler/app/game.hpp"
 #include "oiler/app/loops.hpp"
+#include "oiler/game/game.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
 

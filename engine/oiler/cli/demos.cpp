@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <iterator>
 
-#include "oiler/app/interrupt.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/demo_menu.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/startable.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/certify/figures.hpp"
 
-#include "oiler/app/console.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/shared_options.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "oiler/app/run.hpp"
 #include "oiler/cli/command.hpp"
 #include "oiler/platform/surface.hpp"
+#include "oiler/process/guard_main.hpp"
 
 namespace oiler::cli {
 

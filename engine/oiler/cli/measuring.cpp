@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "oiler/app/interrupt.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "oiler/app/console.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
+#include "oiler/process/console.hpp"
 
 namespace oiler::cli {
 

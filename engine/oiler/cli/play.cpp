@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "oiler/app/console.hpp"
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/loops.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"
 #include "oiler/cli/scene_shelf.hpp"
 #include "oiler/lab/budget.hpp"
+#include "oiler/process/console.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/scene/read.hpp"
 #include "oiler/scene/scene_text.hpp"
 

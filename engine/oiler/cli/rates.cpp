@@ -7,12 +7,12 @@
 #include <cmath>
 #include <sstream>
 
-#include "oiler/app/interrupt.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/rates_json.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/app/interrupt.hpp"
 #include "oiler/app/stills.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/files.hpp"
@@ -10,6 +9,7 @@
 #include "oiler/cli/report_data.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/core/markup.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "oiler/app/game.hpp"
+#include "oiler/game/game.hpp"
 #include "oiler/scene/scene.hpp"
 
 namespace oiler::cli {

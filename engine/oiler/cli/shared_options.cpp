@@ -6,7 +6,7 @@
 #include <sstream>
 #include <variant>
 
-#include "oiler/app/parse_size.hpp"
+#include "oiler/process/parse_size.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {

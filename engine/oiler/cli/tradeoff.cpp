@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "oiler/app/interrupt.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
@@ -13,6 +12,7 @@
 #include "oiler/cli/tradeoff_output.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/app/console.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
+#include "oiler/process/console.hpp"
 
 namespace oiler::cli {
 

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/overlay/game_inspector.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "oiler/core/error.hpp"
+#include "oiler/overlay/overlays.hpp"
+#include "oiler/sim/row_parts.hpp"
+#include "oiler/whatif/rate_advice.hpp"
+
+namespace oiler {
+namespace {
+
+/// The methods that can step the bodies of a world.
+std::vector<const Method*> applicable_methods(const World& world) {
+    std::vector<const Method*> all;
+    const Steps steps{world.settings().stepping.rate, world.tick(), 1, {}};
+    for (const Method& method : methods()) try {
+            world.bodies().require_applicable(method, steps);
+            all.push_back(&method);
+        } catch (const Error& error) {
+            if (error.exit() != Exit::usage) throw;
+        }
+    return all;
+}
+
+/// The largest number of threads that can be chosen; 1 where more change nothing.
+int most_threads(const World& world) {
+    const auto here = static_cast<int>(std::thread::hardware_concurrency());
+    const int most = std::max(here, world.settings().threads);
+    return pays_for_team(world.bodies().size(), 1) ? most : 1;
+}
+
+/// The mouse and Escape; the mouse in pixels; the canvas is centred in `view`.
+Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
+    Inspector::Mouse mouse{.is_down = input.held(Mouse::left),
+                           .wheel = input.wheel(),
+                           .escapes = input.pressed(Key::escape)};
+    const auto at = input.pointer_canvas();
+    if (!at) return mouse;
+    const auto width = static_cast<float>(view.width);
+    const auto height = static_cast<float>(view.height);
+    const float scale = std::min(width / canvas_width, height / canvas_height);
+    mouse.at = Point{width / 2 + (at->x - canvas_width / 2) * scale,
+                     height / 2 - (at->y - canvas_height / 2) * scale};
+    return mouse;
+}
+
+/// Whether a body or a reading was compared, or the run ended otherwise.
+bool has_figures(const WhatIf& measured) {
+    const WhatIfRun& played = measured.runs.front();
+    return !std::isnan(played.distance) || !played.readings.empty() || !played.failure.empty() ||
+           played.other_play_from;
+}
+
+Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
+    using Grade = Verdict::Grade;
+    const double unsure = least_certain * measured.uncertainty;
+    std::string error = "?";
+    Grade grade = Grade::unknown;
+    if (!run.failure.empty()) {
+        error = "failed";
+        grade = Grade::bad;
+    } else if (run.other_play_from) {
+        error = "other events";
+        grade = Grade::bad;
+    } else if (run.distance >= unsure) {
+        error = length_text(run.distance);
+        grade = grade_of(run.distance / measured.pixel);
+    } else if (run.distance < unsure) {
+        error = unsure <= part_of_exact * measured.pixel ? "exact" : "< " + length_text(unsure);
+        if (unsure <= measured.pixel) grade = Grade::good;
+    }
+    const double cost = run.costs.update + run.costs.step;
+    const double times = run.evaluations / measured.runs.front().evaluations;
+    return {.stepping = run.stepping,
+            .error = std::move(error),
+            .grade = colour_of(grade),
+            .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
+            .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
+}
+
+}  // namespace
+
+GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
+    : game_(game), fixed_(std::move(fixed)), inspector_(font) {
+    game_.measure(times_);
+    list_methods();
+}
+
+void GameInspector::list_methods() { methods_ = applicable_methods(game_.world()); }
+
+/// Limits take too long for a frame, so they are found aside.
+void GameInspector::find_stiffest(bool waits) {
+    constexpr std::size_t most_bodies = 2000;
+    constexpr std::chrono::milliseconds period{250};
+    const World& world = game_.world();
+    const Stepping& stepping = world.settings().stepping;
+    const auto now = std::chrono::steady_clock::now();
+    if (!finding_.valid() && (waits || now >= next_stiffest_) &&
+        world.bodies().size() <= most_bodies) {
+        next_stiffest_ = now + period;
+        found_for_ = stepping;
+        finding_ = std::async(
+            std::launch::async,
+            [this, stepping, suspects = StiffestFinder::suspects_of(world.bodies(), stepping)] {
+                return finder_.find(suspects, stepping);
+            });
+    }
+    if (found_for_ != stepping) stiffest_.reset();
+    if (!finding_.valid()) return;
+    if (!waits && finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    const std::optional<Stiffest> found = finding_.get();
+    stiffest_.reset();
+    const auto is_here = [&](std::size_t row) { return row < world.bodies().size(); };
+    if (found_for_ != stepping || !found || !is_here(found->row) ||
+        (found->linked && !is_here(*found->linked)))
+        return;
+    std::string name = game_.name_of(world.entity_of_row(found->row));
+    if (found->linked) name += " to " + game_.name_of(world.entity_of_row(*found->linked));
+    stiffest_ = Inspected::Gauge{std::move(name), found->is_damper, found->measure, found->limit};
+}
+
+void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
+    constexpr double weight = 1.0 / 32;
+    const auto mix = [](double& mean, std::chrono::nanoseconds time) {
+        mean += weight * (static_cast<double>(time.count()) - mean);
+    };
+    mix(costs_.update, times_.update);
+    mix(costs_.step, times_.step);
+    mix(costs_.picture, show - time_of_steps());
+    mix(costs_.draw, draw);
+}
+
+void GameInspector::follow(Picture& picture, const Input& mouse, const Camera& shown, double time) {
+    if (!inspector_.has_mouse()) follower_.look(mouse, shown, picture, game_.world(), time);
+    follower_.move(picture);
+}
+
+void GameInspector::add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
+                                 double factor) {
+    const World& world = game_.world();
+    motion_.add(picture, world, shown_,
+                {.time = world.time() - (1 - alpha) * world.dt(),
+                 .ghosts = ghosts,
+                 .factor = factor,
+                 .followed = follower_.followed()});
+    add_ghosts(picture, ghosts, factor);
+}
+
+/// "planet: 1.23 m/s at (0.5, 2) m".
+std::string GameInspector::figures_of(Entity body) const {
+    const World& world = game_.world();
+    if (!world.has_body(body)) return "the body that was followed is gone";
+    const Vec3 v = world.velocity(body);
+    const Vec3 x = world.position(body);
+    std::string place;
+    for (int axis = 0; axis < world.bodies().axes(); ++axis)
+        place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", x[axis]);
+    return fmt::format("{}: {:.4g} m/s at ({}) m", game_.name_of(body),
+                       std::hypot(v[0], v[1], v[2]), place);
+}
+
+Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
+                           const Frame& frame) {
+    const World& world = game_.world();
+    find_stiffest(frame.waits);
+    const double energy = world.bodies().energy().total();
+    Inspected run{.stepping = world.settings().stepping,
+                  .methods = methods_,
+                  .fixed = fixed_,
+                  .errors = along.errors(),
+                  .stiffest = stiffest_,
+                  .costs = costs_,
+                  .energy = energy,
+                  .time = world.time(),
+                  .dropped = frame.dropped,
+                  .bodies = world.bodies().size(),
+                  .threads = world.settings().threads,
+                  .most_threads = most_threads(world),
+                  .is_paused = frame.is_paused,
+                  .past = frame.past,
+                  .pace = frame.pace,
+                  .scales = motion_.scales()};
+    if (const auto& begin = along.begin()) {
+        run.begin = begin->time;
+        run.first_energy = begin->energy;
+        run.energy_scale = along.energy_scale();
+    }
+    if (follower_.followed()) run.followed = figures_of(*follower_.followed());
+    const Verdict verdict =
+        frame.other_moment.empty() ? along.verdict() : Verdict{.text = frame.other_moment};
+    run.verdict = verdict.text;
+    run.grade = colour_of(verdict.grade);
+    if (!frame.other_moment.empty()) {
+        run.errors.clear();
+    } else if (const auto& measured = along.measured(); measured && has_figures(*measured)) {
+        // The errors are newer.
+        WhatIfRun played = measured->runs.front();
+        if (!run.errors.empty())
+            played.distance = std::max(played.distance, double{run.errors.back()});
+        run.settings.push_back(inspected(played, *measured));
+        for (const WhatIfRun& other : std::span(measured->runs).subspan(1))
+            run.settings.push_back(inspected(other, *measured));
+        run.is_of_round = along.repeats();
+        run.rate_advice = rate_advice_text(*measured);
+    }
+    const Wishes wishes = inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
+    shown_ = wishes.shown;
+    return wishes;
+}
+
+}  // namespace oiler

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/overlay/help.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "oiler/picture/palette.hpp"
+#include "oiler/picture/shapes.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr float line_height = 1.4F;   ///< of the size
+constexpr float letter_width = 0.6F;  ///< of the size, of the font's usual letters
+constexpr std::size_t longest_name = 20;
+constexpr float letters_of_loop_keys = 27;
+constexpr float least_letters_beside = 80;  ///< in an area with two columns
+
+struct Row {
+    std::string name;
+    std::string text;
+};
+
+/// A sheet of paper over the whole area; little shines through.
+Polygon sheet(const OverlayArea& area) {
+    return {.points = {area.low, {area.high.x, area.low.y}, area.high, {area.low.x, area.high.y}},
+            .colour = palette::faded(palette::paper, 248),
+            .space = Space::canvas,
+            .layer = overlay_layer};
+}
+
+Label label(Point at, std::string text, float size, Colour colour) {
+    return {
+        .at = at, .text = std::move(text), .size = size, .colour = colour, .layer = overlay_layer};
+}
+
+std::string names_of(const Buttons& buttons, const NameButton& name) {
+    std::vector<std::string> names;
+    for (const Button button : buttons) names.push_back(name(button));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Lines of at most `most` letters, broken after commas.
+std::vector<std::string> broken(std::string text, std::size_t most) {
+    std::vector<std::string> lines;
+    while (text.size() > most) {
+        const std::size_t comma = text.rfind(", ", most - 1);
+        if (comma == std::string::npos) break;
+        lines.push_back(text.substr(0, comma + 1));
+        text.erase(0, comma + 2);
+    }
+    lines.push_back(std::move(text));
+    return lines;
+}
+
+/// Rows for the controls; a long list of buttons takes several rows, the first one with the name.
+std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& name,
+                         std::size_t letters) {
+    std::vector<Row> rows;
+    for (const Control& control : controls) {
+        std::string shown(control.name.substr(0, longest_name));
+        if (shown.size() < control.name.size()) shown += "…";
+        for (std::string& line : broken(buttons_of(control, name), letters))
+            rows.push_back({std::exchange(shown, ""), std::move(line)});
+    }
+    if (rows.empty()) rows.push_back({"", "The game lists no keys of its own."});
+    return rows;
+}
+
+std::vector<Row> loop_keys(bool escape_quits) {
+    std::vector<Row> rows{{"F1", "inspector"},   {"F2", "close this help"}, {"F3", "pause, resume"},
+                          {"F4", "go back"},     {"F5", "step in a pause"}, {"F6", "errors ×10"},
+                          {"F7", "slower"},      {"F8", "faster"},          {"F9", "restart"},
+                          {"F11", "full screen"}};
+    if (escape_quits) rows.push_back({"Escape", "quit"});
+    return rows;
+}
+
+/// Rows side by side in so many columns.
+std::vector<Row> in_columns(const std::vector<Row>& rows, std::size_t columns) {
+    std::vector<Row> wide((rows.size() + columns - 1) / columns);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::string& text = wide[i % wide.size()].text;
+        const std::string words = rows[i].name + " " + rows[i].text;
+        text += text.empty() ? words : ",  " + words;
+    }
+    return wide;
+}
+
+/// A list whose first row is at a place.
+struct List {
+    Point at;
+    float text_x;
+    float size;
+
+    void add(Picture& overlay, std::span<const Row> rows) const {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const float y = at.y - static_cast<float>(i) * line_height * size;
+            overlay.labels.push_back(label({at.x, y}, rows[i].name, size, palette::blue));
+            overlay.labels.push_back(label({text_x, y}, rows[i].text, size, palette::ink));
+        }
+    }
+};
+
+std::size_t longest_of(std::span<const Control> controls) {
+    std::size_t longest = 0;
+    for (const Control& control : controls)
+        longest = std::max(longest, std::min(control.name.size(), longest_name) + 2);
+    return longest;
+}
+
+}  // namespace
+
+std::string buttons_of(const Control& control, const NameButton& name) {
+    std::string text = names_of(control.positive, name);
+    if (!control.negative.empty())
+        text = names_of(control.negative, name) + (text.empty() ? "" : " and ") + text;
+    if (control.stick)
+        text.append(text.empty() ? "stick " : ", stick ").append(name_of(*control.stick));
+    return text.empty() ? "no button" : text;
+}
+
+void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
+              std::span<const Control> controls, const NameButton& name, bool escape_quits) {
+    overlay.polygons.push_back(sheet(area));
+    const float largest = area.legible(11);
+    const float letter = letter_width * largest;
+    const float room = area.high.x - area.low.x;
+    const bool is_wide = room > least_letters_beside * letter;
+    const float margin = (is_wide ? 3 : 1) * largest;
+    const float left = area.low.x + margin;
+    const float top = area.high.y - 3 * largest;
+    const float first_row = top - 2 * largest;
+    const float text_x = left + letter * static_cast<float>(longest_of(controls));
+    const float loop_x = area.high.x - letters_of_loop_keys * letter;
+    const float end = is_wide ? loop_x : area.high.x - margin;
+    const auto letters = static_cast<std::size_t>(std::max(8.0F, (end - text_x) / letter)) - 1;
+    std::vector<Row> rows = rows_of(controls, name, letters);
+    std::vector<Row> keys = loop_keys(escape_quits);
+    if (!is_wide) {
+        keys = in_columns(keys, 2);
+        rows.push_back({});
+    }
+    const std::size_t count = rows.size() + (is_wide ? 0 : keys.size());
+    const float size = std::min(largest, (first_row - area.low.y - 2 * largest) / line_height /
+                                             static_cast<float>(std::max<std::size_t>(count, 1)));
+    overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, palette::ink));
+    List{{left, first_row}, text_x, size}.add(overlay, rows);
+    if (is_wide) {
+        List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, keys);
+    } else {
+        const float y = first_row - static_cast<float>(rows.size()) * line_height * size;
+        List{{left, y}, left, size}.add(overlay, keys);
+    }
+}
+
+}  // namespace oiler

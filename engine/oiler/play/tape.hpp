@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "oiler/game/input_source.hpp"
+#include "oiler/play/recording.hpp"
+
+namespace oiler {
+
+/// Looks at the game after each step.
+class StepWatcher {
+public:
+    virtual ~StepWatcher() = default;
+    /// `step` is the number of the step that was taken, from 0.
+    virtual void after(std::int64_t step, const AnyGame& game) = 0;
+};
+
+/// Records what a source of input hands out.
+class Tape final : public InputSource, public StepWatcher {
+public:
+    Tape(InputSource& inputs, const std::filesystem::path& path, const RecordingHeader& header)
+        : inputs_(inputs), writer_(path, header) {}
+
+    [[nodiscard]] Input next(std::int64_t step) override {
+        Input input = inputs_.next(step);
+        writer_.add(step, input);
+        return input;
+    }
+    void after(std::int64_t step, const AnyGame& game) override { writer_.add_state(step, game); }
+    void finish(std::int64_t steps, const AnyGame& game, bool diverged = false) {
+        writer_.finish(steps, game, diverged);
+    }
+
+private:
+    InputSource& inputs_;
+    RecordingWriter writer_;
+};
+
+/// Plays a recording, and compares the game with it after each step.
+class Replay final : public InputSource, public StepWatcher {
+public:
+    /// With `plays_on`, differences are remembered and not thrown.
+    Replay(const Recording& recording, std::string name, ChosenControls controls = {},
+           bool plays_on = false)
+        : recording_(recording),
+          name_(std::move(name)),
+          player_(std::move(controls)),
+          plays_on_(plays_on) {}
+
+    [[nodiscard]] Input next(std::int64_t step) override;
+    /// Throws Error{comparison_failed} with the first step that differs, and in which part.
+    void after(std::int64_t step, const AnyGame& game) override;
+    /// Throws Error{comparison_failed} if a game that has taken `steps` steps quits before it did
+    /// in the recording, or goes on where it quit there.
+    void compare_end(std::int64_t steps, bool quits);
+    /// The first difference; empty if there is none.
+    [[nodiscard]] const std::string& difference() const { return difference_; }
+    [[nodiscard]] std::int64_t steps() const { return recording_.steps; }
+    [[nodiscard]] bool quits() const { return recording_.quits; }
+    /// The number of steps whose states were compared: of many bodies, one per second.
+    [[nodiscard]] std::int64_t compared() const { return compared_; }
+    [[nodiscard]] bool complete() const { return recording_.complete; }
+
+private:
+    void differ(std::string how);
+
+    const Recording& recording_;
+    std::string name_;
+    EventPlayer player_;
+    bool plays_on_;
+    std::string difference_;
+    std::size_t played_ = 0;
+    std::int64_t equal_until_ = -1;
+    std::int64_t compared_ = 0;
+};
+
+}  // namespace oiler

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "oiler/game/input_source.hpp"
+#include "oiler/whatif/energy_scale.hpp"
+#include "oiler/whatif/verdict.hpp"
+#include "oiler/whatif/what_if_runs.hpp"
+
+namespace oiler {
+
+/// Measures what the timestep costs while a game is played: the reference and the usual other
+/// settings play along with the player's input, in the time that is left. The game never sees them.
+class PlayAlong final : public InputSource {
+public:
+    /// Whether it plays in the time that a frame leaves, takes the time that it needs, or never
+    /// plays.
+    enum class Pace { of_frames, own, never };
+
+    /// The game is played with `play`, whose recording is that of the inputs.
+    PlayAlong(InputSource& inputs, RecordedPlay play, const MakeGame& make,
+              Pace pace = Pace::of_frames);
+    PlayAlong(const PlayAlong&) = delete;
+    PlayAlong& operator=(const PlayAlong&) = delete;
+
+    /// Begins with the game as it is made, before its step `first`.
+    void start(std::int64_t first);
+    /// The same with another setting of the game.
+    void start(std::int64_t first, const Stepping& stepping);
+    /// Begins again with the game as it is made: what was measured stands until as much is measured
+    /// anew, unless there is input. The rate that it advises plays along, too.
+    void repeat(std::int64_t first);
+    /// Begins with the game as it is now, before its step `first`.
+    void start_from(const AnyGame& game, std::int64_t first);
+    [[nodiscard]] Input next(std::int64_t step) override;
+    /// Plays along until that step of the game begins, or for a short time at the pace of frames.
+    void play_until(std::int64_t step);
+    /// Ends it: the game is no longer what the input made of it.
+    void stop(std::string reason);
+    /// The number of steps until the game's step `step` that are still to be played.
+    [[nodiscard]] std::int64_t behind(std::int64_t step) const {
+        return step + 1 - first_ - played_;
+    }
+    /// The game when measuring began.
+    struct Begin {
+        double time = 0;    ///< s
+        double energy = 0;  ///< J
+    };
+    /// Empty if nothing was ever measured.
+    [[nodiscard]] const std::optional<Begin>& begin() const { return begin_; }
+    /// The scale of the energy's changes since then, J; in a repeated round, also of the last one.
+    [[nodiscard]] double energy_scale() const { return energy_scale_.joules(); }
+    /// What is measured so far; nothing may have stopped it.
+    [[nodiscard]] WhatIf result() const { return runs_->result(); }
+    /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
+    /// second.
+    [[nodiscard]] const Verdict& verdict();
+    /// Whether what is measured is of the round that this one repeats.
+    [[nodiscard]] bool repeats() const { return repeats_; }
+    /// What the last verdict is made of; empty if nothing is measured.
+    [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
+    /// The bodies and where they truly are, `alpha` between the last step and that before; empty if
+    /// that is not known, or not yet of the game's step `step`.
+    [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;
+    /// The distance of the body that is furthest off as drawn, in each of the last steps, m.
+    [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void measure(std::int64_t first, MakeGame make);
+    void judge(WhatIf measured);
+    [[nodiscard]] std::vector<Stepping> other_settings() const;
+
+    InputSource& inputs_;
+    const MakeGame& make_;
+    Pace pace_;
+    RecordedPlay play_;  ///< its recording grows
+    MakeGame make_run_;  ///< makes the game as it was at the beginning
+    std::optional<Begin> begin_;
+    std::int64_t first_ = 0;
+    Input before_{};
+    std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
+    std::int64_t played_ = 0;
+    int slow_ = 0;              ///< the last steps that each took too long
+    Clock::time_point last_{};  ///< when it last played along
+    bool repeats_ = false;
+    bool began_at_start_ = false;
+    std::int64_t judged_ = 0;  ///< played then
+    Clock::time_point next_verdict_{};
+    std::vector<Reading> readings_;  ///< at the last verdict
+    Verdict verdict_;
+    std::optional<WhatIf> measured_;
+    std::vector<float> errors_;
+    EnergyScale energy_scale_;
+};
+
+}  // namespace oiler

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/game/look.hpp"
+
+#include <gtest/gtest.h>
+
+#include "oiler/game/game.hpp"
+
+namespace oiler {
+namespace {
+
+/// A game that only says how its bodies look.
+struct Plain {
+    static constexpr About about{.name = "plain", .title = "Plain"};
+    World world;
+    Camera camera{.centre = {3, 1}, .height = 8};
+    explicit Plain(const Settings& settings) : world(2, settings) {
+        world.add(world.spawn(Body{.position = {1, 2}}), Look{.size = 0.25F});
+        world.add(
+            world.spawn(Body{.position = {4, 2}}),
+            Look{.shape = Look::Shape::square, .size = 2, .colour = palette::green, .layer = 3});
+        (void)world.spawn(Body{.position = {9, 9}});
+        world.add(world.create(), Look{});
+    }
+};
+
+TEST(Look, DrawsAGameWithoutAPicture) {
+    const AnyGameOf<Plain> game(Settings{});
+    const Picture picture = game.picture();
+    EXPECT_EQ(picture.camera, (Camera{{3, 1}, 8}));
+    ASSERT_EQ(picture.discs.size(), 1U) << "bodies without a Look, and looks without a body";
+    EXPECT_EQ(picture.discs[0].centre, (Point{1, 2}));
+    EXPECT_EQ(picture.discs[0].radius, 0.25F);
+    EXPECT_EQ(picture.discs[0].colour, palette::blue);
+    EXPECT_EQ(picture.discs[0].key.object, game.world().entity_of_row(0).id());
+    ASSERT_EQ(picture.polygons.size(), 1U);
+    const Polygon& square = picture.polygons[0];
+    EXPECT_EQ(square.points, (std::vector<Point>{{2, 0}, {6, 0}, {6, 4}, {2, 4}}));
+    EXPECT_EQ(square.colour, palette::green);
+    EXPECT_EQ(square.layer, 3);
+}
+
+struct Unframed {
+    static constexpr About about{.name = "unframed", .title = "Unframed"};
+    World world;
+    explicit Unframed(const Settings& settings) : world(1, settings) {}
+};
+
+TEST(Look, HasTheUsualCameraWithoutOne) {
+    const AnyGameOf<Unframed> game(Settings{});
+    EXPECT_EQ(game.picture().camera, Camera{});
+}
+
+TEST(Look, OfATriangleReachesItsCorners) {
+    World world(2, Settings{});
+    world.add(world.spawn(Body{.position = {1, 2}}),
+              Look{.shape = Look::Shape::triangle, .size = 2});
+    const Polygon triangle = draw_looks(world, {}).polygons.at(0);
+    ASSERT_EQ(triangle.points.size(), 3U);
+    EXPECT_EQ(triangle.points[0], (Point{1, 4}));
+    for (const Point corner : triangle.points)
+        EXPECT_NEAR(std::hypot(corner.x - 1, corner.y - 2), 2, 1e-6);
+}
+
+// A plane fills its side of the picture; its normal may have any length.
+TEST(Look, PlanesAreGround) {
+    World world(2, Settings{});
+    world.add_plane({.normal = {0, 3}, .offset = 6});
+    world.add_plane({.normal = {-1, 0}, .offset = -5});
+    const std::vector<Polygon> ground = draw_looks(world, {{100, 50}, 10}).polygons;
+    ASSERT_EQ(ground.size(), 2U);
+    float top = -1e9F;
+    for (const Point point : ground[0].points) top = std::max(top, point.y);
+    EXPECT_EQ(top, 2);
+    EXPECT_EQ(ground[0].points[0].x, 140) << "as far as the camera sees";
+    EXPECT_EQ(ground[0].points[1].x, 60);
+    float left = 1e9F;
+    for (const Point point : ground[1].points) left = std::min(left, point.x);
+    EXPECT_EQ(left, 5) << "x ≤ 5 is free";
+}
+
+TEST(Look, IsPartOfTheStateHash) {
+    const auto hash_with = [](const Look& look) {
+        World world(1, Settings{});
+        world.add(world.create(), look);
+        EXPECT_TRUE(world.unhashed().empty());
+        return world.state_hash();
+    };
+    const std::uint64_t usual = hash_with({});
+    EXPECT_NE(hash_with({.shape = Look::Shape::square}), usual);
+    EXPECT_NE(hash_with({.size = 0.25F}), usual);
+    EXPECT_NE(hash_with({.colour = palette::green}), usual);
+    EXPECT_NE(hash_with({.layer = 1}), usual);
+}
+
+}  // namespace
+}  // namespace oiler

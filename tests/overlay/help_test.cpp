@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/overlay/help.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "oiler/picture/palette.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr Action fire{"fire", Key::q, Mouse::left};
+constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};
+constexpr Action nothing{"nothing"};
+constexpr Control controls[] = {fire, aim, nothing};
+
+std::string on_azerty(Button button) { return button == Button(Key::q) ? "A" : name_of(button); }
+
+bool shows(const Picture& picture, std::string_view text) {
+    return std::any_of(picture.labels.begin(), picture.labels.end(),
+                       [&](const Label& label) { return label.text == text; });
+}
+
+TEST(Help, ListsControlsAndKeysOverThePicture) {
+    Picture picture{.background = palette::black, .labels = {{.text = "score 7", .layer = 1000}}};
+    add_help(picture, OverlayArea({1280, 720}), "Cannon", controls, on_azerty, true);
+    ASSERT_EQ(picture.polygons.size(), 1U);
+    EXPECT_GT(picture.polygons[0].colour.g, 200) << "the text is dark";
+    EXPECT_GT(picture.polygons[0].colour.a, 192);
+    EXPECT_GT(picture.polygons[0].layer, picture.labels[0].layer);
+    for (std::size_t i = 1; i < picture.labels.size(); ++i)
+        EXPECT_EQ(picture.labels[i].layer, picture.polygons[0].layer);
+    for (const char* const text :
+         {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
+          "no button", "F4", "go back", "Escape"})
+        EXPECT_TRUE(shows(picture, text)) << text;
+    Picture other;
+    add_help(other, OverlayArea({1280, 720}), "Cannon", {}, on_azerty, false);
+    EXPECT_FALSE(shows(other, "Escape"));
+}
+
+TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
+    const Control list[] = {Action{"menu", Pad::left_shoulder, Pad::right_shoulder,
+                                   Pad::left_trigger, Pad::right_trigger, Pad::left_stick}};
+    Picture picture;
+    add_help(picture, OverlayArea({1280, 720}), "Menu", list, on_azerty, true);
+    const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
+                                   [](const Label& label) { return label.text == "F1"; });
+    for (auto label = picture.labels.begin(); label != loop; ++label)
+        EXPECT_LT(label->at.x + 0.6F * label->size * static_cast<float>(label->text.size()),
+                  loop->at.x)
+            << label->text;
+}
+
+// 400x300: 0.625 pixels a unit, so that the canvas is 640 by 480 units, from -60 to 420.
+TEST(Help, FitsASmallWindow) {
+    Picture picture;
+    add_help(picture, OverlayArea({400, 300}), "Cannon", controls, on_azerty, true);
+    EXPECT_TRUE(shows(picture, "fire"));
+    EXPECT_TRUE(std::ranges::any_of(picture.labels, [](const Label& label) {
+        return label.text.find("F11 ") != std::string::npos;
+    }));
+    for (const Label& label : picture.labels) {
+        EXPECT_GE(label.at.y, -60) << label.text;
+        EXPECT_LE(label.at.y + label.size, 420) << label.text;
+        EXPECT_GE(label.size * 0.625F, 10.99F) << label.text << ": fewer pixels";
+        EXPECT_LE(label.at.x + 0.6F * label.size * static_cast<float>(label.text.size()), 640)
+            << label.text;
+    }
+    std::vector<float> rows;
+    for (const Label& label : picture.labels) rows.push_back(label.at.y);
+    std::ranges::sort(rows, std::greater<>());
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        EXPECT_TRUE(rows[i - 1] == rows[i] || rows[i - 1] - rows[i] >= 17.6F) << "lines touch";
+}
+
+TEST(Help, ALongListFitsTheCanvas) {
+    std::vector<Control> many;
+    for (int i = 0; i < 40; ++i)
+        many.push_back(Action{"a very long name of an action", Pad::left_shoulder,
+                              Pad::right_shoulder, Pad::left_trigger, Pad::right_trigger});
+    Picture picture;
+    add_help(picture, OverlayArea({1280, 720}), "Many", many, on_azerty, true);
+    for (const Label& label : picture.labels) {
+        EXPECT_GT(label.at.y, 20);
+        EXPECT_LT(label.at.y, canvas_height);
+        EXPECT_LE(label.at.x + 0.6F * label.size * static_cast<float>(label.text.size()),
+                  canvas_width)
+            << label.text;
+    }
+}
+
+}  // namespace
+}  // namespace oiler

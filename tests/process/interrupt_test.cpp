@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Stops programs by signals. A test of a program that would not stop hangs when it fails.
+#include "oiler/process/interrupt.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+
+#include "oiler/process/guard_main.hpp"
+#include "support/program.hpp"
+
+namespace oiler::test {
+namespace {
+
+using testing::ExitedWithCode;
+
+[[noreturn]] void compute_forever() {
+    for (volatile unsigned i = 0;;) i = i + 1;
+}
+
+/// Shell: waits until the background program handles SIGTERM, number 15: bit 14 of the mask.
+const std::string until_started =
+    "until grep -q 'SigCgt:.*[4-7c-f]...$' /proc/$!/status; do sleep 0.01; done; ";
+
+void raise_all() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) raise(signal);
+}
+
+TEST(Interrupt, AProgramThatPollsEndsWithALine) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        EXPECT_EXIT(_exit(guard_main("game",
+                                     [&] {
+                                         EXPECT_FALSE(Interrupt::requested());
+                                         raise(signal);
+                                         return Interrupt::requested() ? Exit::interrupted
+                                                                       : Exit::done;
+                                     })),
+                    ExitedWithCode(130), "^game: interrupted\n$")
+            << signal;
+}
+
+TEST(Interrupt, WhateverTheProgramReturnsItWasInterrupted) {
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 [] {
+                                     raise_all();
+                                     return Exit::done;
+                                 })),
+                ExitedWithCode(130), "^game: interrupted\n$");
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 []() -> Exit {
+                                     raise_all();
+                                     fail(Exit::io, "cannot write f");
+                                 })),
+                ExitedWithCode(130), "^game: interrupted: cannot write f\n$");
+}
+
+TEST(Interrupt, AProgramThatDoesNotPollIsEnded) {
+    EXPECT_EXIT(guard_main("game",
+                           []() -> Exit {
+                               raise_all();
+                               compute_forever();
+                           }),
+                ExitedWithCode(130), "^game: interrupted; unfinished files are not written\n$");
+}
+
+TEST(Interrupt, ASignalAfterTheProgramDoesNotChangeItsEnd) {
+    EXPECT_EXIT(
+        {
+            const int code = guard_main("game", [] { return Exit::usage; });
+            raise_all();
+            _exit(code);
+        },
+        ExitedWithCode(2), "^$");
+}
+
+TEST(Interrupt, AFullStandardErrorDoesNotKeepItAlive) {
+    EXPECT_EXIT(guard_main("game",
+                           []() -> Exit {
+                               std::array<int, 2> ends{};
+                               EXPECT_EQ(pipe(ends.data()), 0);
+                               fcntl(ends[1], F_SETFL, O_NONBLOCK);
+                               while (write(ends[1], "x", 1) == 1) continue;
+                               fcntl(ends[1], F_SETFL, 0);
+                               dup2(ends[1], STDERR_FILENO);
+                               raise(SIGTERM);
+                               compute_forever();
+                           }),
+                ExitedWithCode(130), "^$");
+}
+
+TEST(Interrupt, IgnoredSignalsStayIgnored) {
+    EXPECT_EXIT(
+        {
+            std::signal(SIGHUP, SIG_IGN);
+            _exit(guard_main("game", [] {
+                raise(SIGHUP);
+                return Interrupt::requested() ? Exit::interrupted : Exit::comparison_failed;
+            }));
+        },
+        ExitedWithCode(1), "^$");
+}
+
+TEST(Interrupt, APipeThatNobodyReadsIsLeft) {
+    const Folder folder;
+    for (const std::string path : {"--json ", "--trace ", "--energy "}) {
+        const Outcome run = shell("cd " + folder.path().string() +
+                                  "; rm -f fifo; mkfifo fifo; hello --steps 5 --quiet " + path +
+                                  "fifo & " + until_started + "kill -TERM $!; wait $!");
+        EXPECT_EQ(run.exit, 130) << path;
+        EXPECT_TRUE(run.err.starts_with("hello: interrupted")) << run.err;
+    }
+}
+
+// 10^12 steps take an hour.
+TEST(Interrupt, ALongRunWritesItsReportUpToThere) {
+    const Folder folder;
+    const std::string json = (folder / "run.json").string();
+    const Outcome run =
+        shell("hello --steps 1000000000000 --quiet --json " + json + " & " + until_started +
+              "kill -INT $! && kill -HUP $! && kill -TERM $!; wait $!");
+    EXPECT_EQ(run.exit, 130);
+    EXPECT_EQ(run.err, "hello: interrupted\n");
+    EXPECT_NE(text_of(json).find("\"steps\": "), std::string::npos);
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"run.json"});
+}
+
+TEST(Interrupt, AClosedPipeIsAWriteError) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    close(ends[0]);
+    const std::string to_pipe = " >&" + std::to_string(ends[1]);
+    for (const std::string line : {"hello --help", "hello --version", "hello --steps 1 --json -"}) {
+        const Outcome run = shell(line + to_pipe);
+        EXPECT_EQ(run.exit, 4) << line;
+        EXPECT_TRUE(run.err.ends_with("Broken pipe; choose another place\n")) << run.err;
+    }
+    close(ends[1]);
+}
+
+TEST(Interrupt, ALimitOfFileSizeIsAWriteError) {
+    const Folder folder;
+    const Outcome run = shell("cd " + folder.path().string() +
+                              "; ulimit -f 8; hello --steps 10000 --quiet --trace t.csv");
+    EXPECT_EQ(run.exit, 4);
+    EXPECT_NE(run.err.find("t.csv: File too large"), std::string::npos) << run.err;
+    EXPECT_TRUE(names_in(folder.path()).empty());
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What is compared of two plays, and what is drawn between two moments of one.
+#include "oiler/whatif/moment.hpp"
+
+#include <gtest/gtest.h>
+
+namespace oiler::test {
+namespace {
+
+const Entity one{1, 1};
+const Entity two{2, 1};
+const Entity three{3, 1};
+
+TEST(Moments, AreDrawnOnStraightLinesBetweenThem) {
+    const Moment before{.cuts = 1, .bodies = {{one, 0, {0, 2}}, {two, 0, {5}}}};
+    const Moment after{.cuts = 2,
+                       .quits = true,
+                       .bodies = {{one, 0, {8, 2}}, {two, 1, {6}}, {three, 0, {7}}},
+                       .readings = {{"score", 3}}};
+    const Moment quarter = between(before, after, 0.25);
+    ASSERT_EQ(quarter.bodies.size(), 1U) << "two was thrown, three is new";
+    EXPECT_EQ(quarter.bodies[0].entity, one);
+    EXPECT_EQ(quarter.bodies[0].position, (Vec3{2, 2}));
+    EXPECT_EQ(quarter.cuts, 2);
+    EXPECT_TRUE(quarter.quits);
+    EXPECT_EQ(quarter.readings.at(0).value, 3);
+}
+
+TEST(Moments, PairTheirBodies) {
+    const Moment a{.bodies = {{one, 0, {1}}, {two, 0, {2}}, {three, 4, {3}}}};
+    const Moment b{.bodies = {{two, 0, {20}}, {three, 4, {30}}, {{4, 1}, 0, {40}}}};
+    const auto pairs = same_bodies(a, b);
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_EQ(pairs[0].first->position, (Vec3{2}));
+    EXPECT_EQ(pairs[0].second->position, (Vec3{20}));
+    EXPECT_EQ(pairs[1].first->position, (Vec3{3}));
+    EXPECT_EQ(pairs[1].second->position, (Vec3{30}));
+}
+
+}  // namespace
+}  // namespace oiler::test
