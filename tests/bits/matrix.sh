@@ -5,12 +5,14 @@
 # if two differ. As a control, a build with fused multiply-adds must differ. Takes some minutes.
 #   tests/bits/matrix.sh [FOLDER]    # folder for the programs; a temporary one if absent
 set -euo pipefail
+shopt -s globstar
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$(mktemp -d)}
 mkdir -p "$folder"
 sources=("$root"/tests/bits/state_hash.cpp)
-for file in "$root"/engine/oiler/{core,physics,physics/methods,sim,stability,world}/*.cpp; do
-    [ "${file##*/}" = kernels_of_set.cpp ] || sources+=("$file")
+for room in core physics sim stability world; do
+    mapfile -t -O ${#sources[@]} sources < <(
+        find "$root/engine/oiler/$room" -name '*.cpp' ! -name kernels_of_set.cpp)
 done
 
 # build NAME COMPILER OPTION...
@@ -21,7 +23,7 @@ build() {
                    -DOILER_VERSION='"bits"' -Wno-psabi "$@" -I"$root/engine" -I/usr/include/eigen3)
     for precision in float double; do
         "$compiler" "${options[@]}" -DOILER_PRECISION=$precision \
-            -c "$root/engine/oiler/sim/kernels_of_set.cpp" -o "$folder/$name-$precision.o"
+            -c "$root"/engine/oiler/sim/**/kernels_of_set.cpp -o "$folder/$name-$precision.o"
     done
     "$compiler" "${options[@]}" "${sources[@]}" "$folder/$name"-{float,double}.o \
         -o "$folder/$name" -lfmt -lxxhash -pthread
