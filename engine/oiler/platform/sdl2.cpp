@@ -2,8 +2,10 @@
 #define SDL_MAIN_HANDLED
 #include <SDL2/SDL.h>
 #include <SDL2/SDL_syswm.h>
-#include <cmath>
+#include <dlfcn.h>
 
+#include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <utility>
