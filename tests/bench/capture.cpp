@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/stock_png.hpp"
-#include "oiler/compare/captured.hpp"
+#include "oiler/compare/captures/captured.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "oiler/core/error.hpp"
-#include "oiler/picture/picture_hash.hpp"
+#include "oiler/picture/picture.hpp"
 #include "support/text.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/gzip.hpp"
+#include "oiler/capture/frame_record.hpp"
 
 #include <gtest/gtest.h>
 

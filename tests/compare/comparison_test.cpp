@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/comparer.hpp"
+#include "oiler/compare/captures/comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "capture/captures.hpp"
 #include "oiler/capture/png.hpp"
-#include "oiler/compare/picture_changes.hpp"
+#include "oiler/compare/captures/picture_changes.hpp"
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
 #include "support/text.hpp"
@@ -419,7 +419,7 @@ TEST_F(ComparisonOfFilms, JsonHasTheFacts) {
         film.shots[4].rgb[0] += 1;
         film.header.seed = 3;
     });
-    const auto json = nlohmann::json::parse(json_of(moved).dump(0));
+    const auto json = nlohmann::json::parse(to_json(moved).dump(0));
     EXPECT_EQ(json.at("passed"), false);
     EXPECT_EQ(json.at("verdict"), moved.verdict);
     EXPECT_EQ(json.at("renderer"), nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/differences.hpp"
-#include "oiler/compare/comparer.hpp"
+#include "oiler/compare/captures/differences.hpp"
+#include "oiler/compare/captures/comparison.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/divergence.hpp"
+#include "oiler/compare/runs/divergence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <random>
 #include <tuple>
 
-#include "oiler/compare/ulps.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/ulps.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/state_changes.hpp"
+#include "oiler/compare/captures/state_changes.hpp"
 
 #include <gtest/gtest.h>
 

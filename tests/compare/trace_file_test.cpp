@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/trace_file.hpp"
+#include "oiler/compare/runs/trace_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/picture/picture_hash.hpp"
+#include "oiler/picture/picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #endif
 
 #include "oiler/core/error.hpp"
-#include "oiler/platform/library.hpp"
+#include "oiler/platform/providers.hpp"
 #include "render/drawing.hpp"
 
 namespace oiler {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "oiler/picture/shapes.hpp"
-#include "oiler/render/polygon_mesh.hpp"
+#include "oiler/render/mesh.hpp"
 #include "render/drawing.hpp"
 
 // Polygons, sprites, layers and bars.

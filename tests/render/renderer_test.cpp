@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "oiler/core/utf8.hpp"
-#include "oiler/render/polyline_mesh.hpp"
+#include "oiler/render/mesh.hpp"
 #include "render/drawing.hpp"
 
 namespace oiler {

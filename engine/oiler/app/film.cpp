@@ -2,7 +2,7 @@
 #include "oiler/app/film.hpp"
 
 #include "oiler/core/error.hpp"
-#include "oiler/picture/picture_hash.hpp"
+#include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
 
 namespace oiler {

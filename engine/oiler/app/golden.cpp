@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "oiler/capture/file.hpp"
-#include "oiler/compare/comparer.hpp"
-#include "oiler/compare/differences.hpp"
+#include "oiler/compare/captures/comparison.hpp"
+#include "oiler/compare/captures/differences.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/process/console.hpp"
 

@@ -12,7 +12,7 @@
 #include "oiler/core/step_clock.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/overlay/game_inspector.hpp"
-#include "oiler/picture/picture_hash.hpp"
+#include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/render/renderer.hpp"

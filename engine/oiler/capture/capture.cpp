@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "oiler/capture/gzip.hpp"
+#include "oiler/capture/frame_record.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 

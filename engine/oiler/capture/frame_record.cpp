@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/frame_record.hpp"
 
+#include <libdeflate.h>
 #include <limits>
+#include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "oiler/core/error.hpp"
@@ -211,6 +214,8 @@ FrameRecord to_record(const Parsed& json) {
     return record;
 }
 
+constexpr std::size_t largest_member = std::size_t{1} << 28;
+
 }  // namespace
 
 bool is_recordable(std::size_t bodies, const Picture& picture) {
@@ -237,6 +242,41 @@ std::vector<FrameRecord> parse_frame_records(std::string_view lines, std::string
     return records;
 } catch (const Parsed::exception& error) {
     fail(Exit::usage, "{}: not the records of a capture ({}); capture again", file, error.what());
+}
+
+std::vector<std::byte> gzip(std::string_view text) {
+    constexpr int level = 6;
+    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+        libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+    if (!compressor) throw std::bad_alloc();
+    std::vector<std::byte> bytes(libdeflate_gzip_compress_bound(compressor.get(), text.size()));
+    bytes.resize(libdeflate_gzip_compress(compressor.get(), text.data(), text.size(), bytes.data(),
+                                          bytes.size()));
+    return bytes;
+}
+
+std::string gunzip(std::span<const std::byte> bytes, std::string_view file) {
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
+        decompressor(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    if (!decompressor) throw std::bad_alloc();
+    std::string text;
+    std::string member(1 << 16, '\0');
+    while (!bytes.empty()) {
+        std::size_t read = 0;
+        std::size_t written = 0;
+        const auto result =
+            libdeflate_gzip_decompress_ex(decompressor.get(), bytes.data(), bytes.size(),
+                                          member.data(), member.size(), &read, &written);
+        if (result == LIBDEFLATE_INSUFFICIENT_SPACE && member.size() < largest_member) {
+            member.resize(4 * member.size());
+            continue;
+        }
+        if (result != LIBDEFLATE_SUCCESS)
+            fail(Exit::usage, "{}: damaged gzip file; capture again", file);
+        text.append(member, 0, written);
+        bytes = bytes.subspan(read);
+    }
+    return text;
 }
 
 }  // namespace oiler

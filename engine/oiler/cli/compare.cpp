@@ -3,8 +3,8 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/compare/comparer.hpp"
-#include "oiler/compare/differences.hpp"
+#include "oiler/compare/captures/comparison.hpp"
+#include "oiler/compare/captures/differences.hpp"
 
 namespace oiler::cli {
 
@@ -47,7 +47,7 @@ struct CompareCommand {
         const bool prints = json != "-" && junit != "-";
         if (prints) print(describe(comparison));
         if (!junit.empty()) write_text(junit, suite_of(comparison).xml());
-        if (!json.empty()) write_json(json, json_of(comparison));
+        if (!json.empty()) write_json(json, to_json(comparison));
         write_differences(comparison, folder);
         if (prints && !comparison.passed())
             print("differences: " + (folder / "index.html").string() + "\n");

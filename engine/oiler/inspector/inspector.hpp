@@ -12,7 +12,7 @@
 #include "oiler/core/size.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
-#include "oiler/render/overlay.hpp"
+#include "oiler/render/renderer.hpp"
 
 namespace oiler {
 

@@ -151,4 +151,9 @@ void between(const Picture& before, const Picture& after, float alpha, Picture& 
 /// width, outline or font size, and for a sprite, disc or label with a number that is NaN.
 void require_drawable(const Picture& picture);
 
+/// XXH3 over the bits of all numbers and texts of a picture. Pictures with equal hashes are drawn
+/// alike by the same renderer. Layers of 0, and lists that Oiler 0.1 did not have, are hashed only
+/// if they are used, so that its captures stay comparable.
+[[nodiscard]] std::uint64_t hash_of(const Picture& picture);
+
 }  // namespace oiler

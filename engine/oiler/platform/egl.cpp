@@ -6,7 +6,6 @@
 #include <array>
 
 #include "oiler/core/error.hpp"
-#include "oiler/platform/library.hpp"
 #include "oiler/platform/providers.hpp"
 
 namespace oiler {

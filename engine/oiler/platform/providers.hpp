@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "oiler/platform/surface.hpp"
 
@@ -10,5 +11,33 @@ namespace oiler {
 /// Both throw Error{no_display} with the Debian packages to install.
 [[nodiscard]] std::unique_ptr<Surface> open_osmesa();
 [[nodiscard]] std::unique_ptr<Surface> open_egl();
+
+/// A shared library, loaded at run time. A program therefore starts without it and can name the
+/// package to install.
+class Library {
+public:
+    /// Throws Error{no_display}: "cannot load SONAME (the loader's reason); REMEDY".
+    Library(const char* soname, const char* remedy);
+    ~Library();
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+
+    /// Sets `function` to the function `name`. Throws Error{no_display} if it is missing.
+    template <class Function>
+    void resolve(Function*& function, const char* name) const {
+        function = reinterpret_cast<Function*>(address(name));
+    }
+
+private:
+    [[nodiscard]] void* address(const char* name) const;
+
+    std::string soname_;
+    void* handle_;
+};
+
+/// Limits llvmpipe to vectors of 256 bits: Mesa 22.3 crashes with 512, and pixels must be the same
+/// on every machine. Call it before a GL driver is loaded. LP_NATIVE_VECTOR_WIDTH of the user
+/// overrides it.
+void limit_llvmpipe_vectors();
 
 }  // namespace oiler

@@ -2,20 +2,65 @@
 #define SDL_MAIN_HANDLED
 #include <SDL2/SDL.h>
 #include <SDL2/SDL_syswm.h>
-#include <cmath>
+#include <dlfcn.h>
 
+#include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <utility>
 
 #include "oiler/core/error.hpp"
-#include "oiler/platform/library.hpp"
+#include "oiler/platform/providers.hpp"
 #include "oiler/platform/sdl2_events.hpp"
 #include "oiler/platform/surface.hpp"
-#include "oiler/platform/x11.hpp"
 
 namespace oiler {
 namespace {
+
+// The types of Xlib.h, which defines macros such as None: a Display is only passed on here.
+using EndHandler = int (*)(void* display);
+using ErrorHandler = int (*)(void* display, void* event);
+using ExitHandler = void (*)(void* display, void* data);
+
+std::atomic<bool> lost = false;  // global: an EndHandler has no argument for it
+
+// These replace Xlib's messages.
+int remember_end(void*) {
+    lost = true;
+    return 0;
+}
+int remember_error(void*, void*) {
+    lost = true;
+    return 0;
+}
+
+/// Replaces exit(1). Xlib's function then returns with an error.
+void keep_running(void*, void*) {}
+
+/// Keeps the process alive when the server of an X11 display ends or reports an error. By default
+/// Xlib then calls exit(1), and the files of a run are lost. `display` is a Display* of a loaded
+/// libX11; without libX11 1.7 or later the default stays.
+void outlive_display(void* display) {
+    void* const library = dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+    if (library == nullptr) return;
+    const auto set_error =
+        reinterpret_cast<ErrorHandler (*)(ErrorHandler)>(dlsym(library, "XSetErrorHandler"));
+    const auto set_end =
+        reinterpret_cast<EndHandler (*)(EndHandler)>(dlsym(library, "XSetIOErrorHandler"));
+    const auto set_exit = reinterpret_cast<void (*)(void*, ExitHandler, void*)>(
+        dlsym(library, "XSetIOErrorExitHandler"));
+    if (set_error != nullptr && set_end != nullptr && set_exit != nullptr) {
+        set_error(remember_error);
+        set_end(remember_end);
+        set_exit(display, keep_running, nullptr);
+    }
+    dlclose(library);
+}
+
+/// Returns whether the server has ended or reported an error. After that, no function of X11 or SDL
+/// may be called.
+bool display_is_lost() { return lost; }
 
 constexpr const char* sdl_remedy =
     "install the Debian package libsdl2-2.0-0, or run with --headless";

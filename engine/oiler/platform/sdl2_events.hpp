@@ -8,7 +8,7 @@
 
 #include "oiler/core/size.hpp"
 #include "oiler/input/input_queue.hpp"
-#include "oiler/platform/library.hpp"
+#include "oiler/platform/providers.hpp"
 
 namespace oiler {
 

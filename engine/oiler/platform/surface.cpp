@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "oiler/core/error.hpp"
-#include "oiler/platform/library.hpp"
 #include "oiler/platform/providers.hpp"
 
 namespace oiler {

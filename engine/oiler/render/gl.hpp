@@ -2,8 +2,13 @@
 #pragma once
 
 #include <glad/gl.h>
-
+#include <memory>
+#include <string>
 #include <string_view>
+#include <unordered_map>
+
+#include "oiler/core/size.hpp"
+#include "oiler/picture/picture.hpp"
 
 namespace oiler {
 
@@ -43,6 +48,49 @@ public:
 private:
     const Gl& gl_;
     GLuint name_;
+};
+
+/// The framebuffer of a renderer, the same for every surface: EGL without a surface has no default
+/// framebuffer, and OSMesa fills its own only at glFinish.
+class Framebuffer {
+public:
+    explicit Framebuffer(const Gl& gl);
+
+    /// Makes it current with that size.
+    /// Throws Error{usage} if the provider cannot draw such a large frame.
+    void bind(Size size);
+    [[nodiscard]] Size size() const { return size_; }
+    [[nodiscard]] GLuint name() const { return name_; }
+
+private:
+    void resize(Size size);
+
+    const Gl& gl_;
+    GlName name_;
+    GlName colour_;
+    Size largest_;
+    Size size_;
+};
+
+/// The textures of the bitmaps that pictures show. One is kept while a game keeps its bitmap.
+class Textures {
+public:
+    explicit Textures(const Gl& gl) : gl_(gl) {}
+
+    /// Remembers the bitmaps of a picture, and forgets those that are gone.
+    void update(const std::vector<Sprite>& sprites);
+    void remember(const std::shared_ptr<const Bitmap>& bitmap);
+    /// Makes the texture of a remembered bitmap current.
+    void bind(const Bitmap& bitmap);
+
+private:
+    struct Entry {
+        std::weak_ptr<const Bitmap> bitmap;
+        std::unique_ptr<GlName> texture{};  ///< null until it is drawn
+    };
+
+    const Gl& gl_;
+    std::unordered_map<const Bitmap*, Entry> entries_;
 };
 
 }  // namespace oiler

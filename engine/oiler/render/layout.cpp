@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "oiler/render/polygon_mesh.hpp"
+#include "oiler/render/mesh.hpp"
 
 namespace oiler {
 namespace {

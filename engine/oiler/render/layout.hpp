@@ -6,7 +6,7 @@
 #include "oiler/core/size.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/render/glyphs.hpp"
-#include "oiler/render/polyline_mesh.hpp"
+#include "oiler/render/mesh.hpp"
 
 namespace oiler {
 

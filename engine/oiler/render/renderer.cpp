@@ -7,11 +7,9 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/render/embedded.hpp"
-#include "oiler/render/framebuffer.hpp"
 #include "oiler/render/gl.hpp"
 #include "oiler/render/layout.hpp"
 #include "oiler/render/splats.hpp"
-#include "oiler/render/textures.hpp"
 
 namespace oiler {
 namespace {

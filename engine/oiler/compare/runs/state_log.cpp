@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/tick_walk.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/state_changes.hpp"
+#include "oiler/compare/captures/state_changes.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <map>
 
-#include "oiler/compare/ulps.hpp"
+#include "oiler/core/ulps.hpp"
 
 namespace oiler {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/ulps.hpp"
+#include "oiler/core/ulps.hpp"
 
 #include <algorithm>
 #include <bit>

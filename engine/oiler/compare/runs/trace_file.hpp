@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "oiler/compare/state_log.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 namespace oiler {
 

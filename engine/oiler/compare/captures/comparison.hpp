@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/capture/manifest.hpp"
 #include "oiler/core/json.hpp"
 
 namespace oiler {
@@ -77,6 +78,19 @@ struct Comparison {
 [[nodiscard]] std::string describe(const Comparison& comparison);
 
 /// All facts of a comparison but the images.
-[[nodiscard]] Json json_of(const Comparison& comparison);
+[[nodiscard]] Json to_json(const Comparison& comparison);
+
+/// The settings in which two captures differ, besides the renderer.
+[[nodiscard]] std::vector<SettingChange> setting_changes(const Manifest& golden,
+                                                         const Manifest& actual);
+
+/// The first lines in which two scene files differ besides comments; empty if there are none.
+[[nodiscard]] std::string scene_change(const std::string& golden, const std::string& actual);
+
+/// Compares the frames of two folders. Throws Error{usage} if a folder has no finished golden or no
+/// capture at all, if a PNG is damaged, or if its pixels are not those of its manifest.
+[[nodiscard]] Comparison compare_captures(const std::filesystem::path& golden,
+                                          const std::filesystem::path& actual,
+                                          const PixelTolerance& tolerance);
 
 }  // namespace oiler

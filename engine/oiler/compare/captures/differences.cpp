@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/differences.hpp"
+#include "oiler/compare/captures/differences.hpp"
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/png.hpp"
-#include "oiler/compare/captured.hpp"
+#include "oiler/compare/captures/captured.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/markup.hpp"
 
@@ -140,7 +140,7 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
     make_folder(folder);
     const Captured golden(comparison.golden);
     const Captured actual(comparison.actual);
-    Json data = json_of(comparison);
+    Json data = to_json(comparison);
     data["timeline"] = timeline_of(comparison);
     const PixelTolerance& tolerance = comparison.tolerance;
     data["tolerance"] = {{"channel", tolerance.channel}, {"share", tolerance.share}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/captured.hpp"
+#include "oiler/compare/captures/captured.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
-#include "oiler/capture/gzip.hpp"
+#include "oiler/capture/frame_record.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 

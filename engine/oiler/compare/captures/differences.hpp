@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "oiler/compare/comparison.hpp"
+#include "oiler/compare/captures/comparison.hpp"
 #include "oiler/core/junit.hpp"
 
 namespace oiler {

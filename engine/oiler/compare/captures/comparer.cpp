@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/comparer.hpp"
+#include "oiler/compare/captures/comparison.hpp"
 
 #include <fmt/core.h>
 
@@ -7,10 +7,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "oiler/compare/captured.hpp"
-#include "oiler/compare/picture_changes.hpp"
-#include "oiler/compare/setting_changes.hpp"
-#include "oiler/compare/state_changes.hpp"
+#include "oiler/compare/captures/captured.hpp"
+#include "oiler/compare/captures/picture_changes.hpp"
+#include "oiler/compare/captures/state_changes.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "oiler/compare/captured.hpp"
-#include "oiler/compare/state_log.hpp"
+#include "oiler/compare/captures/captured.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 namespace oiler {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/captured_states.hpp"
+#include "oiler/compare/runs/captured_states.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
-#include "oiler/compare/tick_walk.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {

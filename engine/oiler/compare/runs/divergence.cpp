@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/divergence.hpp"
+#include "oiler/compare/runs/divergence.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,9 +10,9 @@
 #include <span>
 #include <unordered_set>
 
-#include "oiler/compare/tick_walk.hpp"
-#include "oiler/compare/ulps.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/ulps.hpp"
 
 namespace oiler {
 namespace {

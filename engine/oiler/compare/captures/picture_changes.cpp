@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/picture_changes.hpp"
+#include "oiler/compare/captures/picture_changes.hpp"
 
 #include <fmt/core.h>
 

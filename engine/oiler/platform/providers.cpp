@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/platform/library.hpp"
+#include "oiler/platform/providers.hpp"
 
 #include <dlfcn.h>
-
 #include <cstdlib>
 
 #include "oiler/core/error.hpp"

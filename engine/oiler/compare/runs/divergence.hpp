@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/compare/state_log.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 namespace oiler {
 
