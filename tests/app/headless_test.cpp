@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tests the number of frames of a film, and its manifest.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "oiler/app/loops.hpp"
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

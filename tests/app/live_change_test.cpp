@@ -2,11 +2,7 @@
 // A game that is played goes on with another setting at a tick that both rates have.
 #include "oiler/app/live_change.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "oiler/core/error.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <sstream>
-#include <vector>
-
-#include "oiler/core/error.hpp"
-
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 constexpr About about{.name = "demo", .title = "A demo", .rate = 50};
@@ -114,11 +109,11 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     EXPECT_EQ(given.stepping.method->name, "exact");
     EXPECT_EQ(given.stepping.precision, Precision::double_);
     EXPECT_EQ(given.stepping.damping, Damping::in_drift);
-    EXPECT_NE(parse_file({"demo", "--help"}).text.find("SCENE"), std::string::npos);
+    EXPECT_TRUE(holds(parse_file({"demo", "--help"}).text, "SCENE"));
 }
 
 TEST(Options, HelpAndVersionAreText) {
-    EXPECT_NE(parse("--help").text.find("--headless"), std::string::npos);
+    EXPECT_TRUE(holds(parse("--help").text, "--headless"));
     EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
 }
 
@@ -132,15 +127,9 @@ struct Wrong {
 class WrongOptions : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongOptions, AreRefusedInOneLineThatNamesThem) {
-    try {
-        (void)parse(GetParam().words);
-        FAIL() << "accepted: " << GetParam().words;
-    } catch (const Error& error) {
-        const std::string line = error.what();
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_NE(line.find(GetParam().named), std::string::npos) << line;
-        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    }
+    const std::string line = line_of_error(Exit::usage, [&] { (void)parse(GetParam().words); });
+    EXPECT_TRUE(holds(line, GetParam().named));
+    EXPECT_FALSE(holds(line, "\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -182,4 +171,4 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--rate 30 --rate 60", "--rate: given 2 times; give it once (see demo --help)"}));
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

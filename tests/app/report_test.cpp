@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/report.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "oiler/app/loops.hpp"
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/sheet.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/capture/png.hpp"
 #include "oiler/picture/palette.hpp"
 #include "render/drawing.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -2,14 +2,11 @@
 // Scenes that are watched in a window: they repeat, and their bodies can be dragged.
 #include "oiler/cli/scene_game.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "oiler/input/input_queue.hpp"
 #include "oiler/scene/read.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cmath>
-#include <cstdint>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "lab/measured_scenes.hpp"
-#include "oiler/core/error.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 
 inline const MeasuredScene& spring() {
     static const MeasuredScene measured(article_spring);
@@ -72,15 +65,9 @@ inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
 }
 
 inline void expect_usage(const std::function<void()>& wrong, const std::string& words) {
-    try {
-        wrong();
-        ADD_FAILURE() << "is not refused";
-    } catch (const Error& error) {
-        const std::string line = error.what();
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(holds(line, words)) << line;
-        EXPECT_FALSE(holds(line, "\n")) << line;
-    }
+    const std::string line = line_of_error(Exit::usage, [&] { wrong(); });
+    EXPECT_TRUE(holds(line, words));
+    EXPECT_FALSE(holds(line, "\n"));
 }
 
 }  // namespace oiler::test

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/platform/surface.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cfenv>
 #include <cstdlib>
 #include <filesystem>
@@ -10,11 +8,11 @@
 #include <xmmintrin.h>
 #endif
 
-#include "oiler/core/error.hpp"
 #include "oiler/platform/providers.hpp"
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// The control bits that affect sums: rounding, and whether subnormal numbers are flushed. The six
@@ -83,9 +81,9 @@ void expect_no_window() {
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::no_display);
         const std::string line = error.what();
-        EXPECT_NE(line.find("--headless"), std::string::npos) << line;
-        EXPECT_NE(line.find("no display"), std::string::npos) << line;
-        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        EXPECT_TRUE(holds(line, "--headless"));
+        EXPECT_TRUE(holds(line, "no display"));
+        EXPECT_FALSE(holds(line, "\n"));
     }
 }
 
@@ -101,15 +99,11 @@ TEST(Window, WithoutADisplayNamesHeadless) {
 }
 
 TEST(Library, NamesThePackageToInstall) {
-    try {
+    const std::string line = line_of_error(Exit::no_display, [&] {
         const Library library("libOilerHasNoSuchThing.so.9", "install the Debian package x");
-        FAIL() << "loaded a library that does not exist";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::no_display);
-        const std::string line = error.what();
-        EXPECT_NE(line.find("libOilerHasNoSuchThing.so.9"), std::string::npos) << line;
-        EXPECT_NE(line.find("install the Debian package x"), std::string::npos) << line;
-    }
+    });
+    EXPECT_TRUE(holds(line, "libOilerHasNoSuchThing.so.9"));
+    EXPECT_TRUE(holds(line, "install the Debian package x"));
 }
 
 TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
@@ -122,4 +116,4 @@ TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -2,10 +2,9 @@
 // The input of a recording at other rates, compared with plain lists.
 #include "oiler/play/resampled.hpp"
 
-#include <gtest/gtest.h>
-
-#include <map>
 #include <random>
+
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "render/drawing.hpp"
 
 // Polygons, sprites, layers and bars.
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 using drawing::blend_rounding;
@@ -355,4 +355,4 @@ TEST_F(Drawing, AnOverlayIsDrawnOverAFrameWithinItsBox) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <optional>
-
-#include "oiler/core/error.hpp"
 #include "oiler/platform/surface.hpp"
 #include "oiler/render/renderer.hpp"
+#include "support/test.hpp"
 
 namespace oiler::drawing {
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tests frames at their edges, at their largest size, and after a change of size.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdio>
-#include <string>
 
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 using drawing::of_disc;
@@ -96,4 +93,4 @@ TEST_F(Frame, IsDrawnAnewInTheSameSize) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

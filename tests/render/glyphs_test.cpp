@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/render/glyphs.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "oiler/render/layout.hpp"
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// Rows. The atlas is full above this height.
@@ -128,4 +121,4 @@ TEST(Atlas, IsClearedIfFullBeforeEachPicture) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -8,7 +8,7 @@
 #include "oiler/core/random.hpp"
 #include "render/drawing.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 using drawing::Drawing;
@@ -186,4 +186,4 @@ TEST(Splats, AreCutByTheEdgesOfTheFrame) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The pre-flight's warnings of drag, attraction and rounded positions, compared with runs.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdlib>
 #include <random>
 
 #include "oiler/stability/preflight.hpp"
 #include "support/springs.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Attractor;
-using oiler::Bodies;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Vec3;
 
 std::vector<std::string> warnings(const Bodies& bodies, const Method& method, const Rate& at) {
     std::vector<std::string> lines;
-    for (const oiler::Risk& risk : preflight(bodies, method, {at}))
+    for (const Risk& risk : preflight(bodies, method, {at}))
         lines.push_back(describe(risk, method, {at}, [](std::size_t row) { return row; }));
     return lines;
 }
@@ -202,14 +187,14 @@ TEST(AttractorWarning, NamesDistanceAndRate) {
         lines[0].starts_with("attractor of body 0: ω·dt = 2.828 at the closest point of the "
                              "orbit, 1 m, velocity_verlet needs < "))
         << lines[0];
-    EXPECT_FALSE(holds(lines[0], "implicit")) << lines[0];
+    EXPECT_FALSE(holds(lines[0], "implicit"));
     const double dt = 1 / static_cast<double>(rate_in(lines[0]));
     EXPECT_FALSE(is_lost(orbiting(0.9), verlet, dt, 0.9)) << lines[0];
 }
 
 TEST(AttractorWarning, OfABodyOnAnAttractorIsToMoveIt) {
     for (const Method& method : methods()) {
-        if (method.order == oiler::exact_order) continue;
+        if (method.order == exact_order) continue;
         Bodies bodies(2, Precision::single);
         bodies.add({.position = {3, 4}}, Attractor{.centre = {3, 4}, .gm = 1});
         const auto lines = warnings(bodies, method, {60});
@@ -224,7 +209,7 @@ TEST(AttractorWarning, OfAFallIntoTheCentreNamesNoRate) {
     bodies.add({.position = {3, 4}}, Attractor{.gm = 1});
     const auto lines = warnings(bodies, find_method("rk4"), {60});
     ASSERT_EQ(lines.size(), 1U);
-    EXPECT_TRUE(holds(lines[0], "leads into its centre, which no rate resolves")) << lines[0];
+    EXPECT_TRUE(holds(lines[0], "leads into its centre, which no rate resolves"));
 }
 
 // A passage is not a revolution: the local frequency decides.
@@ -309,3 +294,4 @@ TEST(RandomPositions, AreWarnedOfIfTheyStay) {
 }
 
 }  // namespace
+}  // namespace oiler::test

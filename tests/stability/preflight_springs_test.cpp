@@ -3,27 +3,16 @@
 // with eigenvalues of matrices that the test assembles, and with runs.
 #define EIGEN_DONT_VECTORIZE
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Eigenvalues>
 #include <chrono>
 #include <cstdlib>
 
 #include "oiler/stability/stability.hpp"
 #include "support/springs.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::Precision;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Vec3;
 
 /// The highest frequency, 1/s, from the second derivatives of the springs' energies: stiffness
 /// along each spring, tension across a stretched one.
@@ -311,3 +300,4 @@ TEST(RandomSprings, AreWarnedOfIfTheyExplode) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -3,10 +3,7 @@
 // promises.
 #include "oiler/whatif/rate_advice.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/growth.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/json.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

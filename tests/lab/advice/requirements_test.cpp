@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Advice for errors at the steps, as drawn and on a display; ties; damping.
 #include <fmt/core.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <memory>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -2,15 +2,12 @@
 // Scenes whose errors were once told wrongly, because runs were sampled at instants that players do
 // not see. Each truth is a closed form.
 #include <fmt/core.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/lab/budget.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

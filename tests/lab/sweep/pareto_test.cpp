@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 namespace {
 
 TradeoffRow made_up(double error, double cost, bool stable = true) {

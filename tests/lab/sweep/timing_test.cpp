@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Costs of rows from a made-up clock, so that each number is known.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
 #include "lab/tradeoffs.hpp"
 #include "oiler/core/version.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 namespace {
 
 bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
@@ -301,17 +295,12 @@ TEST(TradeoffFile, DamagedAnywhereIsRefusedWithFileFieldAndRemedy) {
     EXPECT_GE(damages().size(), 50U);
     for (const Damage& damage : damages()) {
         const std::string text = damaged(good, damage).dump();
-        try {
-            (void)parse_tradeoff(text, "dir/a.json");
-            ADD_FAILURE() << damage.pointer << " = " << damage.value.dump() << " is accepted";
-        } catch (const Error& error) {
-            const std::string line = error.what();
-            EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_EQ(line.rfind("dir/a.json: ", 0), 0U) << line;
-            EXPECT_TRUE(holds(line, damage.named)) << damage.pointer << ": " << line;
-            EXPECT_TRUE(holds(line, "; measure again")) << line;
-            EXPECT_FALSE(holds(line, "\n")) << line;
-        }
+        const std::string line =
+            line_of_error(Exit::usage, [&] { (void)parse_tradeoff(text, "dir/a.json"); });
+        EXPECT_EQ(line.rfind("dir/a.json: ", 0), 0U) << line;
+        EXPECT_TRUE(holds(line, damage.named)) << damage.pointer << ": " << line;
+        EXPECT_TRUE(holds(line, "; measure again"));
+        EXPECT_FALSE(holds(line, "\n"));
     }
 }
 

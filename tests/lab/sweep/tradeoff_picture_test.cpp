@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "lab/measured_scenes.hpp"
 #include "oiler/picture/palette.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <ostream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "oiler/lab/sweep/tradeoff.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::Method;
-using oiler::Precision;
-using Real = long double;
 
 constexpr double stiffness = 15;  // N/m, of the article's spring, on 1 kg
 constexpr double damping = 0.1;   // N·s/m
@@ -57,7 +45,7 @@ struct Run {
 /// most 3·10⁻⁹ here, while errors near the target of 10⁻⁶ differ from it by at least 7·10⁻⁹.
 Run run(const Method& method, std::int64_t rate) {
     Bodies bodies(1, Precision::double_);
-    const oiler::Spring spring{.stiffness = stiffness, .damping = damping};
+    const Spring spring{.stiffness = stiffness, .damping = damping};
     bodies.add({.position = {1}}, spring);
     bodies.add({.velocity = {1}}, spring);
     bodies.step(method, {{rate}, 0, duration * rate});
@@ -89,9 +77,9 @@ std::int64_t evaluations_to_meet(const Method& method, double target, std::int64
 }
 
 std::vector<std::int64_t> lab_rungs() {
-    oiler::Scene scene;
+    Scene scene;
     scene.stepping.rate.steps = 1;
-    return oiler::lab::rungs(scene, 1 << 22);
+    return lab::rungs(scene, 1 << 22);
 }
 
 /// The evaluations of the first rung with at least the steps of `least` evaluations. Methods that
@@ -126,7 +114,7 @@ TEST_P(WorkPrecision, TakesTheEvaluationsOfTheReference) {
     const auto& needed = table.at("force_evaluations_needed").at(GetParam().in_reference);
     const auto& targets = table.at("targets");
     const auto rungs = lab_rungs();
-    const Method& method = oiler::find_method(GetParam().method);
+    const Method& method = find_method(GetParam().method);
     std::size_t found = 0;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const double target = number(targets.at(i));
@@ -156,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Rungs are 4/3 or 3/2 apart, and farther below 60 Hz; this test checks the number of steps. With 1
 // % fewer steps than in the reference, the error is above the target.
 TEST(WorkPrecisionOfSemiImplicitEuler, TakesTheStepsOfTheReferenceWithin1Percent) {
-    const Method& method = oiler::find_method("semi_implicit_euler");
+    const Method& method = find_method("semi_implicit_euler");
     EXPECT_LT(run(method, 1593).error, 1e-3);
     EXPECT_GT(run(method, 1577).error, 1e-3);
 }
@@ -174,3 +162,4 @@ TEST(LabsLadder, HasRungsFourThirdsAndThreeHalvesApart) {
 }
 
 }  // namespace
+}  // namespace oiler::test
