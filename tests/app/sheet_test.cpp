@@ -36,7 +36,7 @@ Picture picture(int index) {
 class SheetOfTiles : public testing::Test {
 protected:
     void SetUp() override {
-        studio = drawing::open_studio(Offscreen::automatic);
+        studio = open_studio(Offscreen::automatic);
         if (!studio) GTEST_SKIP() << "no OpenGL without a screen";
     }
     /// Writes a sheet of `tiles` tiles out of `frames` frames, and reads it back.
@@ -54,7 +54,7 @@ protected:
         const auto& rgb = image.rgb_bottom_up;
         return {rgb.at(at), rgb.at(at + 1), rgb.at(at + 2)};
     }
-    std::unique_ptr<drawing::Studio> studio;
+    std::unique_ptr<Studio> studio;
     Folder folder;
 };
 

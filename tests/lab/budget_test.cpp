@@ -7,7 +7,6 @@
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 std::vector<BudgetLine> checked(const std::string& text, std::int64_t rate = 0,

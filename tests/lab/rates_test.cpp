@@ -7,7 +7,6 @@
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 using Rate = std::int64_t;

@@ -11,11 +11,6 @@
 namespace oiler::test {
 using namespace lab;
 
-inline const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
-
 inline SweepPlan small_plan() {
     return {.methods = methods_of({"explicit_euler", "semi_implicit_euler", "velocity_verlet",
                                    "rk4", "exact", "kahan_li8_kdk"}),

@@ -33,21 +33,21 @@ protected:
 };
 
 TEST_P(Provider, DrawsAPictureWithOpenGl33) {
-    const auto studio = drawing::open_studio(GetParam());
+    const auto studio = open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
     EXPECT_EQ(studio->surface->provider(), expected_name());
     EXPECT_NE(studio->surface->procedure("glDrawElements"), nullptr);
     EXPECT_GE(studio->renderer.gl_version(), "3.3");
     EXPECT_FALSE(studio->renderer.gl_renderer().empty());
-    EXPECT_EQ(drawing::total_coverage(studio->draw(Picture{}, {3, 2})), 0);
+    EXPECT_EQ(total_coverage(studio->draw(Picture{}, {3, 2})), 0);
 }
 
 TEST_P(Provider, OpensAgainAndAgain) {
     Pixels first;
     for (int i = 0; i < 5; ++i) {
-        const auto studio = drawing::open_studio(GetParam());
+        const auto studio = open_studio(GetParam());
         if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
-        const Pixels pixels = studio->draw(drawing::rich_picture(), {160, 90});
+        const Pixels pixels = studio->draw(rich_picture(), {160, 90});
         if (i == 0) first = pixels;
         EXPECT_EQ(pixels.rgb, first.rgb);
     }
@@ -55,10 +55,10 @@ TEST_P(Provider, OpensAgainAndAgain) {
 
 TEST_P(Provider, DoesNotChangeTheArithmetic) {
     const unsigned before = arithmetic();
-    const auto studio = drawing::open_studio(GetParam());
+    const auto studio = open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
     EXPECT_EQ(arithmetic(), before);
-    static_cast<void>(studio->draw(drawing::rich_picture()));
+    static_cast<void>(studio->draw(rich_picture()));
     EXPECT_EQ(arithmetic(), before);
 }
 
@@ -68,9 +68,9 @@ INSTANTIATE_TEST_SUITE_P(Offscreen, Provider, testing::Values(Offscreen::osmesa,
                          });
 
 TEST(Automatic, SelectsAnInstalledProvider) {
-    const auto studio = drawing::open_studio(Offscreen::automatic);
+    const auto studio = open_studio(Offscreen::automatic);
     if (!studio) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
-    const auto osmesa = drawing::open_studio(Offscreen::osmesa);
+    const auto osmesa = open_studio(Offscreen::osmesa);
     EXPECT_EQ(studio->surface->provider(), osmesa ? "osmesa" : "egl");
 }
 

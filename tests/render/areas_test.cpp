@@ -13,14 +13,6 @@
 namespace oiler::test {
 namespace {
 
-using drawing::blend_rounding;
-using drawing::coverage;
-using drawing::Drawing;
-using drawing::Ink;
-using drawing::ink;
-using drawing::red;
-using drawing::total_coverage;
-
 constexpr Colour white{255, 255, 255, 255};
 
 Picture of_polygon(std::vector<Point> points, Colour colour = {}) {

@@ -5,7 +5,7 @@
 #include "oiler/render/renderer.hpp"
 #include "support/test.hpp"
 
-namespace oiler::drawing {
+namespace oiler::test {
 
 /// A surface with a renderer; null if the provider is not installed.
 struct Studio {
@@ -173,4 +173,4 @@ inline Picture rich_picture() {
     return picture;
 }
 
-}  // namespace oiler::drawing
+}  // namespace oiler::test

@@ -8,10 +8,6 @@
 namespace oiler::test {
 namespace {
 
-using drawing::of_disc;
-using drawing::red;
-using drawing::total_coverage;
-
 class Frame : public testing::Test {
 protected:
     void SetUp() override {
@@ -21,7 +17,7 @@ protected:
         return studio_->draw(picture, size);
     }
 
-    std::unique_ptr<drawing::Studio> studio_ = drawing::open_studio(Offscreen::automatic);
+    std::unique_ptr<Studio> studio_ = open_studio(Offscreen::automatic);
 };
 
 /// Area of the part of a disc beyond a line at a distance from its centre.
@@ -66,7 +62,7 @@ TEST_F(Frame, HasItsSizeAfterAChangeOfOneSide) {
 }
 
 /// The largest size, from the message for a larger one: "… choose a --size from 1x1 to WxH".
-Size largest_frame(drawing::Studio& studio) {
+Size largest_frame(Studio& studio) {
     try {
         (void)studio.draw({}, {1 << 20, 1});
     } catch (const Error& error) {

@@ -11,9 +11,6 @@
 namespace oiler::test {
 namespace {
 
-using drawing::Drawing;
-using drawing::red;
-
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t many = 14'000;  // enough of them are splatted
 constexpr Size frame{640, 360};       // a pixel is a unit of the canvas

@@ -11,23 +11,6 @@ namespace {
 
 constexpr Rate rate{60};
 
-/// The warnings for a method with its default damping.
-std::vector<std::string> warnings(const Bodies& bodies, const Method& method, const Rate& at) {
-    const Steps steps{.rate = at};
-    std::vector<std::string> lines;
-    for (const Risk& risk : preflight(bodies, method, steps))
-        lines.push_back(describe(risk, method, steps, [](std::size_t row) { return row; }));
-    return lines;
-}
-
-/// The n of "… rate ≥ n Hz …".
-std::int64_t rate_in(const std::string& line) {
-    const std::string before = "rate ≥ ";
-    const std::size_t at = line.find(before);
-    EXPECT_NE(at, std::string::npos) << line;
-    return at == std::string::npos ? 1 : std::stoll(line.substr(at + before.size()));
-}
-
 /// 1 kg at 1 m on a spring of ω·dt = h, 60 Hz.
 Bodies swinging(double h) { return oscillator(Precision::double_, h * h * 3600, 0, 1); }
 

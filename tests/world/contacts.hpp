@@ -2,9 +2,8 @@
 // Bodies that meet planes: the worlds of landing, resting and sliding.
 #pragma once
 
-#include <random>
-
 #include "oiler/world/world.hpp"
+#include "support/dice.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -41,17 +40,5 @@ inline int count(World& world, int steps) {
     }
     return met;
 }
-
-/// Uniform random numbers, the same on every machine.
-class Uniform {
-public:
-    explicit Uniform(std::uint64_t seed) : random_(seed) {}
-    double operator()(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-    }
-
-private:
-    std::mt19937_64 random_;
-};
 
 }  // namespace oiler::test

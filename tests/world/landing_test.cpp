@@ -253,18 +253,18 @@ TEST(Landing, PassesOverHopsThatFrictionStops) {
 // Flights under gravity are exact, and planes take energy away. A body that slid through the other
 // plane of a wedge for the rest of a step would gain up to g·dt per second.
 TEST(Landing, GivesABodyInAWedgeNoEnergy) {
-    Uniform uniform(1);
+    Dice dice(1);
     for (int i = 0; i < 400; ++i) {
         const int rate = i % 2 == 0 ? 5 : 20;
         World world = world_of("velocity_verlet", rate, 2);
         world.set_gravity({0, -g});
-        const double elastic = i % 4 < 2 ? 1 : uniform(0.96, 0.999);
-        for (const double side : {uniform(0.2, 1), -uniform(0.2, 1)})
+        const double elastic = i % 4 < 2 ? 1 : dice.uniform(0.96, 0.999);
+        for (const double side : {dice.uniform(0.2, 1), -dice.uniform(0.2, 1)})
             world.add_plane({.normal = {side, 1},
                              .restitution = side > 0 ? 1 : elastic,
-                             .friction = uniform(0.05, 0.5)});
+                             .friction = dice.uniform(0.05, 0.5)});
         const Entity ball =
-            world.spawn({.position = {uniform(-0.3, 0.3), 1}, .contact = Contact{}});
+            world.spawn({.position = {dice.uniform(-0.3, 0.3), 1}, .contact = Contact{}});
         const auto energy = [&] {
             const Vec3 v = world.velocity(ball);
             return dot(v, v) / 2 + g * world.position(ball)[1];

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Bodies that come to rest on planes. How they slide is in sliding_test.cpp.
-#include <random>
-
 #include "world/contacts.hpp"
 
 namespace oiler::test {

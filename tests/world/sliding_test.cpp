@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Bodies that slide along planes. How they come to rest is in resting_test.cpp.
-#include <random>
-
 #include "world/contacts.hpp"
 
 namespace oiler::test {
@@ -219,17 +217,17 @@ TEST(Sliding, AcrossASlopeStops) {
 // Near its stop, friction turns with the velocity at any rate: an implicit method that solved for
 // it would find no solution. Friction is larger than the slope, so that each body stops within 5 s.
 TEST(Sliding, StopsByImplicitMethods) {
-    Uniform uniform(1);
+    Dice dice(1);
     for (const char* method : {"implicit_euler", "implicit_midpoint"})
         for (int i = 0; i < 100; ++i) {
             World world = world_of(method, i % 2 == 0 ? 60 : 5, 3);
             world.set_gravity({0, -10, 0});
-            const double slope = i == 0 ? 0.2 : uniform(0, 0.4);
+            const double slope = i == 0 ? 0.2 : dice.uniform(0, 0.4);
             world.add_plane({.normal = {slope, 1, 0},
-                             .friction = i == 0 ? 0.3 : slope * 1.2 + uniform(0.1, 0.3)});
-            const Entity body = world.spawn(
-                {.velocity = {i == 0 ? 1 : uniform(-1, 1), 0, i == 0 ? 1 : uniform(-1, 1)},
-                 .contact = Contact{}});
+                             .friction = i == 0 ? 0.3 : slope * 1.2 + dice.uniform(0.1, 0.3)});
+            const Entity body = world.spawn({.velocity = {i == 0 ? 1 : dice.uniform(-1, 1), 0,
+                                                          i == 0 ? 1 : dice.uniform(-1, 1)},
+                                             .contact = Contact{}});
             world.step(5 * world.settings().stepping.rate.steps);
             EXPECT_EQ(length(world.velocity(body)), 0) << method << i;
         }

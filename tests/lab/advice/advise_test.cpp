@@ -9,7 +9,6 @@
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 // ---- exact motions, from textbooks

@@ -9,13 +9,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
-const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
-
 /// The cost of a step of a method, ns, as the search estimates it and as it is timed later.
 struct Price {
     const char* method;

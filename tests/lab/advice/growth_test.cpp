@@ -11,7 +11,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
 using Law = Growth::Law;
 
 /// The largest errors at the steps up to the ends of 64 equal parts of 8 s; lines add `lines` m.

@@ -5,7 +5,6 @@
 // Requirements that no setting meets, and those that the reference cannot judge.
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 TEST(Advice, ThatDoesNotExistNamesTheObstacles) {

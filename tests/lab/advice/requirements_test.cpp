@@ -12,13 +12,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
-const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
-
 /// Every step takes 1 ns.
 SweepWatch equal_costs() {
     return made_up_clock([](const Stepping&) { return 1.0; });

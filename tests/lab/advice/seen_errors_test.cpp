@@ -12,7 +12,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
 constexpr double pi = std::numbers::pi;
 
 std::string spring(const std::string& name, double omega, double amplitude) {

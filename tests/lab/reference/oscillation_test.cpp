@@ -7,8 +7,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
 /// A reference of these motions that is meaningful up to its last sample.
 Reference reference_of(const Motions& motions, const SampleTimes& samples) {
     Reference reference;

@@ -9,8 +9,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
 constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
 
 ClosedForm claimed(const Motions& motions) {

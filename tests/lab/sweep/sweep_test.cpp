@@ -7,7 +7,6 @@
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 Tradeoff swept(const MeasuredScene& measured, const SweepPlan& plan) {

@@ -7,8 +7,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
 TradeoffRow row_at(std::int64_t rate, bool stable = true) {
     TradeoffRow row{.stepping = {&find_method("rk4"), {rate}, Precision::double_}};
     row.judgement.stable = stable;

@@ -8,7 +8,6 @@
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
 bool same_times(const TradeoffRow& a, const TradeoffRow& b) {

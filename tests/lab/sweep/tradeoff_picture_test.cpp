@@ -8,8 +8,6 @@
 namespace oiler::test {
 namespace {
 
-using namespace lab;
-
 TradeoffRow row_of(const char* method, std::int64_t rate, double us, double error) {
     TradeoffRow row{.stepping = {&find_method(method), {rate}, Precision::double_}};
     row.judgement.position_error = error;
