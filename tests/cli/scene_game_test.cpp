@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::test {

@@ -8,7 +8,7 @@
 
 #include "oiler/cli/scene_game.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "oiler/game/look.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 
 namespace oiler::test {
 namespace {

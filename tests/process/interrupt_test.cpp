@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "oiler/process/guard_main.hpp"
 #include "support/program.hpp"
 
 namespace oiler::test {
