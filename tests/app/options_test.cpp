@@ -117,6 +117,39 @@ TEST(Options, HelpAndVersionAreText) {
     EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
 }
 
+TEST(Options, MayNeedTheStepsOfARunOrItsSetting) {
+    EXPECT_EQ(no_way_back(parse("--steps 3 --json -").options), "");
+    EXPECT_EQ(no_way_back(parse("--steps 3 --energy e --trace t").options), "--trace");
+    EXPECT_EQ(no_way_back(parse("--steps 3 --trace t --record r").options), "--record");
+    EXPECT_EQ(fixing_option(parse("--steps 3 --profile p").options), "");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --profile p").options, about), "");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --record r --json j").options, about),
+              "--json keeps this setting.");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --energy e").options, about),
+              "--energy keeps this setting.");
+    About fixed = about;
+    fixed.fixed_setting = "Keys choose it.";
+    EXPECT_EQ(why_fixed(parse("--steps 3 --json j").options, fixed), "Keys choose it.");
+}
+
+// Each option that writes a file is compared with each other one.
+TEST(Options, WriteFilesOfTheirOwn) {
+    const std::vector<std::string> outputs{"--record", "--video",  "--sheet", "--junit",
+                                           "--trace",  "--energy", "--json",  "--profile"};
+    for (const std::string& one : outputs)
+        for (const std::string& other : outputs) try {
+                if (one == other) continue;
+                (void)parse("--headless --golden g --update-golden --force " + one + " f.mp4 " +
+                            other + " ./f.mp4");
+                ADD_FAILURE() << one << " and " << other;
+            } catch (const Error& error) {
+                const std::string line = error.what();
+                EXPECT_TRUE(line.find("both write") != line.npos ||
+                            line.find("--junit: --update-golden writes g only") != line.npos)
+                    << line;
+            }
+}
+
 struct Wrong {
     const char* words;
     const char* named;  ///< text that the message must have

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/test.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "oiler/cli/scene_game.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a fixed step sees of a keyboard, a mouse and a controller.
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 
 #include <chrono>
 #include <random>

@@ -4,7 +4,7 @@
 #include "oiler/overlay/follower.hpp"
 
 #include "oiler/game/look.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

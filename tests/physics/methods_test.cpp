@@ -3,6 +3,7 @@
 
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/physics/stepping.hpp"
 #include "oiler/stability/stability.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
@@ -10,6 +11,24 @@
 
 namespace oiler::test {
 namespace {
+
+TEST(Stepping, IsDescribedAsItIsRead) {
+    const Stepping full{&find_method("rk4"), {60}, Precision::single, Damping::in_kick};
+    const Stepping usual{&find_method("exact"), {120}};
+    EXPECT_EQ(describe(full), "rk4 at 60 Hz in float, damping in the kick");
+    EXPECT_EQ(table_text(full), "rk4, 60 Hz, float, kick");
+    EXPECT_EQ(table_text(usual), "exact, 120 Hz, double");
+    EXPECT_EQ(caption(full), "rk4 at 60 Hz, float");
+    EXPECT_EQ(short_text(usual), "120 Hz exact");
+    EXPECT_EQ(difference_text(usual, full), "exact, 120 Hz, double");
+    EXPECT_EQ(difference_text(full, full), "");
+    for (const Precision precision : {Precision::single, Precision::double_})
+        EXPECT_EQ(find_precision(name_of(precision)), precision);
+    for (const Damping damping : {Damping::in_kick, Damping::in_drift})
+        EXPECT_EQ(find_damping(name_of(damping)), damping);
+    EXPECT_FALSE(find_precision("long double") || find_precision(""));
+    EXPECT_FALSE(find_damping("Kick") || find_damping(""));
+}
 
 TEST(Methods, HaveUniqueNames) {
     std::set<std::string_view> names;

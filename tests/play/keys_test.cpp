@@ -133,13 +133,13 @@ TEST_F(PlayedKeys, AreRecordedAndReplayed) {
     EXPECT_EQ(play({"--steps", "60", "--replay", path("b")}), hash);
     EXPECT_EQ(run({"--replay", path("a"), "--what-if", "200"}), Exit::done) << "reproduced";
     const RecordingHeader header = read_recording(path("a")).header;
-    EXPECT_EQ(header.controls, (std::vector<RecordedControl>{{.name = "fire", .positive = Key::j},
-                                                             {.name = "jump", .positive = Key::up},
-                                                             {.name = "aim",
-                                                              .is_axis = true,
-                                                              .negative = Key::left,
-                                                              .positive = Key::d,
-                                                              .stick = Stick::left_x}}));
+    EXPECT_EQ(
+        header.controls,
+        (std::vector<RecordedControl>{
+            {{.positive = Key::j}, "fire"},
+            {{.positive = Key::up}, "jump"},
+            {{.is_axis = true, .negative = Key::left, .positive = Key::d, .stick = Stick::left_x},
+             "aim"}}));
 }
 
 TEST_F(PlayedKeys, AreRefusedWhereTheyHaveNoEffect) {

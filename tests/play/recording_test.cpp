@@ -84,7 +84,7 @@ std::uint64_t record(const std::filesystem::path& path, unsigned seed, bool fini
     Recorder none({}, {}, game.world());
     Playback playback(game, none, Keep::nothing);
     RandomPlayer player(seed);
-    Tape tape(player, path, header_of("game", settings_of(), Game::controls));
+    InputRecorder tape(player, path, header_of("game", settings_of(), Game::controls));
     playback.watch(tape);
     playback.step_to(ten_seconds, tape);
     if (finish) tape.finish(playback.steps(), game);

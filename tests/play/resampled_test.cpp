@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The input of a recording at other rates, compared with plain lists.
-#include "oiler/play/resampled.hpp"
+#include "oiler/play/replay.hpp"
 
 #include <random>
 

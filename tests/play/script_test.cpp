@@ -138,9 +138,9 @@ TEST(Script, HasTimesAndActions) {
     std::vector<std::int64_t> steps;
     for (const ScriptLine& line : lines) steps.push_back(line.step);
     EXPECT_EQ(steps, (std::vector<std::int64_t>{7, 8, 50, 75, 75, 5000}));
-    EXPECT_EQ(lines[0].button, Button(Key::j));
-    EXPECT_EQ(lines[1].button, Button(Key::space));
-    EXPECT_EQ(lines[3].button, Button(Mouse::left));
+    EXPECT_EQ(lines[0].events[0].button, Button(Key::j).id());
+    EXPECT_EQ(lines[1].events[0].button, Button(Key::space).id());
+    EXPECT_EQ(lines[3].events[0].button, Button(Mouse::left).id());
 }
 
 TEST(Script, BeginsWithoutAByteOrderMark) {
@@ -152,8 +152,9 @@ TEST(Script, BeginsWithoutAByteOrderMark) {
                                     "a.txt", {60});
                             }),
               "a.txt, line 1: it begins with a byte order mark; save it as UTF-8 without one");
-    EXPECT_EQ(parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt", {60}).at(0).text,
-              "\"\\\xEF\xBF\xBD");
+    EXPECT_EQ(
+        parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt", {60}).at(0).events.at(0).text,
+        "\"\\\xEF\xBF\xBD");
 }
 
 // Space adds 15 m/s before a step, in numbers and in frames alike.

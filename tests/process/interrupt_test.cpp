@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "oiler/process/guard_main.hpp"
 #include "support/program.hpp"
 #include "support/test.hpp"
 

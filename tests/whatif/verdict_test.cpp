@@ -7,7 +7,6 @@
 
 #include "oiler/app/playback.hpp"
 #include "oiler/whatif/play_along.hpp"
-#include "oiler/whatif/rate_advice.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -38,7 +37,7 @@ WhatIf measured(double distance, double of_verlet, double of_twice) {
     return result;
 }
 Verdict judge(const WhatIf& result, const std::vector<Reading>& before = {}, double begin = 0) {
-    return verdict_of(result, before, begin, name_of);
+    return judge_setting(result, before, begin, name_of);
 }
 
 TEST(Verdict, NamesTheBodyThePixelsAndTheCheapestCure) {

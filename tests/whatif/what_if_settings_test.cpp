@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The settings of --what-if, and its programs.
-#include "oiler/whatif/what_if_settings.hpp"
+#include "oiler/whatif/what_if.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -23,7 +23,7 @@ TEST(WhatIfSettings, AreReadFromWords) {
     std::string list;
     for (const Stepping& stepping :
          parse_what_if("30,velocity_verlet@120@float,kick,exact", recorded))
-        list += describe(stepping) + "\n";
+        list += table_text(stepping) + "\n";
     EXPECT_EQ(list,
               "rk4, 30 Hz, double\nvelocity_verlet, 120 Hz, float\nrk4, 60 Hz, double, kick\n"
               "exact, 60 Hz, double\n");
@@ -42,7 +42,7 @@ TEST(WhatIfSettings, ThatAreUsualChangeOneThing) {
         for (const Stepping& stepping : usual_what_if(
                  Settings{.stepping = recorded},
                  [](const Settings& own) { return std::make_unique<AnyGameOf<Still>>(own); }))
-            list += describe(stepping) + "\n";
+            list += table_text(stepping) + "\n";
         return list;
     };
     EXPECT_EQ(usual({.method = &find_method("velocity_verlet"), .rate = {50}}),

@@ -32,10 +32,6 @@ std::int64_t frames_in(double seconds, int fps) {
     return static_cast<std::int64_t>(frames);
 }
 
-std::string damping_of(const Stepping& stepping) {
-    return stepping.damping ? std::string(name_of(*stepping.damping)) : "";
-}
-
 Manifest describe(const Options& options, const About& about, const Surface& surface,
                   const Renderer& renderer) {
     const Stepping& stepping = options.settings.stepping;
@@ -51,7 +47,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .fps = fps,
             .rate = static_cast<int>(stepping.rate.steps),
             .method = std::string(stepping.method->name),
-            .damping = damping_of(stepping),
+            .damping = std::string(damping_name(stepping)),
             .precision = std::string(name_of(stepping.precision)),
             .scene = std::string(about.name),
             .scene_text = std::string(about.scene_text),

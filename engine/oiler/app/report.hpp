@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oiler/capture/file.hpp"
-#include "oiler/game/reading.hpp"
+#include "oiler/game/loop.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

@@ -16,14 +16,12 @@
 #include "oiler/app/report.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/play/replay.hpp"
 #include "oiler/play/script.hpp"
-#include "oiler/play/tape.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/process/guard_main.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/sim/instructions.hpp"
-#include "oiler/whatif/what_if.hpp"
-#include "oiler/whatif/what_if_settings.hpp"
+#include "oiler/whatif/what_if_runs.hpp"
 
 namespace oiler {
 namespace {
@@ -120,7 +118,7 @@ private:
 
     std::optional<ScriptInput> script_;
     std::optional<Replay> replay_;
-    std::optional<Tape> tape_;
+    std::optional<InputRecorder> tape_;
 };
 
 void run_steps(Playback& playback, InputSource& inputs, const Options& options) {

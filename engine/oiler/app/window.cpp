@@ -50,22 +50,6 @@ bool wants_restart(std::span<const Control> controls, const Input& keys) {
                        [&](const Button& button) { return keys.pressed(button); });
 }
 
-/// The option that needs each step as it was first taken; empty if the player may go back.
-std::string_view no_way_back(const Options& options) {
-    if (!options.script.empty()) return "--script";
-    if (!options.record.empty()) return "--record";
-    if (!options.replay_file.empty()) return "--replay";
-    if (!options.trace.empty()) return "--trace";
-    return options.energy.empty() ? "" : "--energy";
-}
-
-/// Why the setting of a run cannot be changed; empty: it can.
-std::string why_fixed(const Options& options, const About& about) {
-    if (!about.fixed_setting.empty()) return std::string(about.fixed_setting);
-    const std::string_view option = options.json.empty() ? no_way_back(options) : "--json";
-    return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
-}
-
 /// The file with the size of the window. All scenes share one.
 std::filesystem::path size_file(const About& about) {
     return file_of_size(about.scene_text.empty() ? about.name : "oiler");

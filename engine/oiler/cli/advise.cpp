@@ -149,7 +149,7 @@ struct AdviseCommand {
         File applied(file);
         applied.write(apply(read_text(file), file, stepping));
         applied.commit(Sync::disk);
-        remark(scene_options.quiet, "{} now has the setting {}", file, lab::describe(stepping));
+        remark(scene_options.quiet, "{} now has the setting {}", file, describe(stepping));
     }
 
     [[nodiscard]] Exit run() const {

@@ -47,11 +47,12 @@ Json list_of(const std::vector<Item>& items) {
 }
 
 Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) {
+    Json stepping = to_json(scene.stepping);
     return {{"scene", name},
             {"title", scene.title},
-            {"method", scene.stepping.method->name},
-            {"rate", scene.stepping.rate.steps},
-            {"precision", name_of(scene.stepping.precision)},
+            {"method", stepping["method"]},
+            {"rate", stepping["rate"]},
+            {"precision", stepping["precision"]},
             {"axes", scene.axes},
             {"bodies", ledger.bodies},
             {"links", ledger.links},

@@ -15,11 +15,11 @@ namespace {
 std::string heading(const Scene& scene, const std::string& name, const Ledger& ledger,
                     std::int64_t wanted) {
     std::string text = fmt::format(
-        "{}\n  {} at {} Hz in {}, {} {}, {} {}, {} {}, {} steps",
-        scene.title.empty() ? name : scene.title, scene.stepping.method->name,
-        scene.stepping.rate.steps, name_of(scene.stepping.precision), scene.axes,
-        scene.axes == 1 ? "axis" : "axes", ledger.bodies, ledger.bodies == 1 ? "body" : "bodies",
-        ledger.links, ledger.links == 1 ? "link" : "links", ledger.steps);
+        "{}\n  {}, {} {}, {} {}, {} {}, {} steps", scene.title.empty() ? name : scene.title,
+        describe(Stepping{scene.stepping.method, scene.stepping.rate, scene.stepping.precision}),
+        scene.axes, scene.axes == 1 ? "axis" : "axes", ledger.bodies,
+        ledger.bodies == 1 ? "body" : "bodies", ledger.links, ledger.links == 1 ? "link" : "links",
+        ledger.steps);
     if (ledger.steps < wanted && !ledger.diverged)
         text += fmt::format(" of {}: more steps would take too long", wanted);
     return text + "\n";

@@ -24,16 +24,14 @@ About describe(const Scene& scene, const std::string& name, const std::string& t
             .method = scene.stepping.method->name,
             .precision = scene.stepping.precision,
             .duration = scene.duration,
-            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : "",
+            .damping = damping_name(scene.stepping),
             .scene_text = text,
             .controls = SceneGame::controls};
 }
 
-/// Whether somebody looks at the run, and nothing of it is written.
+/// Whether the run is only shown in a window: no file of it depends on its steps.
 bool is_watched(const Options& options) {
-    return !options.headless && !options.steps && options.json.empty() && options.trace.empty() &&
-           options.energy.empty() && options.record.empty() && !options.replay &&
-           options.script.empty();
+    return !options.headless && !options.steps && fixing_option(options).empty();
 }
 
 struct SceneFile {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "oiler/overlay/follower.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
@@ -16,26 +16,11 @@
 namespace oiler::cli {
 namespace {
 
-constexpr double reach = 0.06;            // of the camera's height
 constexpr double highest_frequency = 10;  // Hz, of the spring that drags
 constexpr double most_periods_per_step = 0.05;
 constexpr float widest_click = 3;  // canvas units; moves beyond it drag
 
 constexpr float zoom_of_notch = 0.9F;
-
-/// The body that is nearest to a point, within the mouse's reach.
-std::optional<Entity> nearest_body(const World& world, Point at, float height) {
-    std::optional<Entity> nearest;
-    double least = reach * static_cast<double>(height);
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
-        const Vec3 x = world.bodies().position(row);
-        const double distance = std::hypot(x[0] - at.x, x[1] - at.y);
-        if (distance > least) continue;
-        least = distance;
-        nearest = world.entity_of_row(row);
-    }
-    return nearest;
-}
 
 }  // namespace
 
@@ -83,7 +68,9 @@ void SceneGame::drag(const Input& input) {
     const auto canvas = input.pointer_canvas();
     if (!at || !input.held(pull)) return drag_.reset();
     if (input.pressed(pull))
-        if (const auto body = nearest_body(world_, *at, camera_.height))
+        if (const auto body = body_at(*at, camera_.height, world_, [&](std::size_t row) {
+                return std::optional(world_.bodies().position(row));
+            }))
             drag_ = Drag{.body = *body, .from = *canvas};
     if (!drag_) return;
     drag_->pulls = drag_->pulls ||

@@ -34,7 +34,7 @@ public:
     [[nodiscard]] bool is_over() const override {
         return watched_ && (ends_ || world_.time() >= scene_->duration);
     }
-    /// How many scenes further the user wants to go; negative: back.
+    /// The number of scenes that the user wants to go forward; negative: back.
     [[nodiscard]] int places_to_go() const { return places_to_go_; }
     [[nodiscard]] bool takes_input() const override { return watched_; }
     [[nodiscard]] const World& world() const override { return world_; }

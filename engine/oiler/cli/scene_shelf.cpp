@@ -42,7 +42,7 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
                                              const std::optional<std::string>& dropped) {
     const int places = dynamic_cast<const SceneGame&>(shown).places_to_go();
     if (dropped) return read(*dropped, std::nullopt);
-    // A file that is no scene is tried once. The next press goes on behind it.
+    // An invalid scene file is tried once. The next press takes the file after it.
     if (std::exchange(places_, places) != places && places != 0 && !file_.empty())
         return read(neighbour(places), std::nullopt);
     if (has_changed()) return read(file_, shown.world().settings().stepping);

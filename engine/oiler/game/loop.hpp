@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// What a game and the loop that runs it exchange: requests, input, readings and times.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+#include "oiler/input/input.hpp"
+
 namespace oiler {
 
-/// What a game asks of the loop that runs it: `void update(const Input& input, Loop& loop)`.
+/// The requests of a game to the loop that runs it: `void update(const Input& input, Loop& loop)`.
 class Loop {
 public:
     /// Makes the game anew after this update, with the settings of its world. The picture jumps.
@@ -28,6 +38,74 @@ private:
     bool holds_ = false;
     bool takes_text_ = false;
     bool quits_ = false;
+};
+
+/// The source of the input that the steps of a game see.
+class InputSource {
+public:
+    virtual ~InputSource() = default;
+    InputSource() = default;
+    InputSource(const InputSource&) = delete;
+    InputSource& operator=(const InputSource&) = delete;
+
+    /// The input of a step of the loop, counted from 0. Steps are asked for in their order.
+    [[nodiscard]] virtual Input next(std::int64_t step) = 0;
+};
+
+/// A player in the window. Steps see the camera of the picture that was on screen.
+class LiveInput final : public InputSource {
+public:
+    explicit LiveInput(const ChosenControls& controls = {}) : queue(controls) {}
+
+    [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
+
+    InputQueue queue;
+    Camera shown{};
+};
+
+/// A result of the play that a game offers, such as a score, an apex or the time of a hit:
+/// `std::vector<Reading> readings() const`. --what-if compares them between settings. Whole numbers
+/// count as state of the play: if they differ, it is another play.
+struct Reading {
+    std::string name;
+    double value = 0;
+    std::string unit{};  ///< "m"; empty for a count
+    friend bool operator==(const Reading&, const Reading&) = default;
+};
+
+/// Throws Error{usage} if two readings have one name.
+inline void require_distinct_names(const std::vector<Reading>& readings) {
+    for (std::size_t i = 0; i < readings.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (readings[i].name == readings[j].name)
+                fail(Exit::usage, "two readings are named {}; rename one", readings[i].name);
+}
+
+/// The times that steps of a game take, summed up.
+struct StepTimes {
+    std::chrono::nanoseconds update{0};
+    std::chrono::nanoseconds step{0};  ///< of the world
+};
+
+/// Adds the time from its construction to its destruction to one of the sums. Without sums it
+/// measures nothing.
+class Stopwatch {
+public:
+    Stopwatch(StepTimes* sums, std::chrono::nanoseconds StepTimes::*which)
+        : sum_(sums ? &(sums->*which) : nullptr) {
+        if (sum_) begin_ = Clock::now();
+    }
+    ~Stopwatch() {
+        if (sum_) *sum_ += Clock::now() - begin_;
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::chrono::nanoseconds* sum_;
+    Clock::time_point begin_{};
 };
 
 }  // namespace oiler

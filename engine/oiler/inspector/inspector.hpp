@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/frame_costs.hpp"
 #include "oiler/core/size.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
@@ -27,14 +28,6 @@ struct Inspected {
         std::string cost{};
         std::string forces{};  ///< their evaluations, such as "×4"; empty: not counted
     };
-    /// Times of a frame, ns; all 0: not measured.
-    struct Costs {
-        double update = 0;
-        double step = 0;
-        double picture = 0;
-        double draw = 0;
-    };
-
     /// The spring or damper that is closest to the limit of the method.
     struct Gauge {
         std::string name{};
@@ -73,7 +66,7 @@ struct Inspected {
     std::string rate_advice{};                 ///< which rate would be right
     std::vector<float> errors{};               ///< of the run over time, m
     std::optional<Gauge> stiffest{};
-    Costs costs{};
+    FrameCosts costs{};                    ///< all 0: not measured
     double energy = 0;                     ///< J
     double begin = 0;                      ///< s, since when errors and energies are compared
     std::optional<double> first_energy{};  ///< J, then; empty: it is not known

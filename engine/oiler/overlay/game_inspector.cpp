@@ -11,7 +11,6 @@
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/row_parts.hpp"
-#include "oiler/whatif/rate_advice.hpp"
 
 namespace oiler {
 namespace {
@@ -59,28 +58,14 @@ bool has_figures(const WhatIf& measured) {
 }
 
 Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
-    using Grade = Verdict::Grade;
-    const double unsure = least_certain * measured.uncertainty;
-    std::string error = "?";
-    Grade grade = Grade::unknown;
-    if (!run.failure.empty()) {
-        error = "failed";
-        grade = Grade::bad;
-    } else if (run.other_play_from) {
-        error = "other events";
-        grade = Grade::bad;
-    } else if (run.distance >= unsure) {
-        error = length_text(run.distance);
-        grade = grade_of(run.distance / measured.pixel);
-    } else if (run.distance < unsure) {
-        error = unsure <= part_of_exact * measured.pixel ? "exact" : "< " + length_text(unsure);
-        if (unsure <= measured.pixel) grade = Grade::good;
-    }
-    const double cost = run.costs.update + run.costs.step;
+    const KnownError error = measured.error_of(run);
+    const double cost = run.costs.of_steps();
     const double times = run.evaluations / measured.runs.front().evaluations;
     return {.stepping = run.stepping,
-            .error = std::move(error),
-            .grade = colour_of(grade),
+            .error = !run.failure.empty()  ? "failed"
+                     : run.other_play_from ? "other events"
+                                           : error.text(measured.pixel),
+            .grade = colour_of(run.is_sound() ? error.grade(measured.pixel) : Grade::bad),
             .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }

@@ -74,7 +74,7 @@ private:
     Shown shown_;
     MotionOverlay motion_;
     StepTimes times_;
-    Inspected::Costs costs_;
+    FrameCosts costs_;
     std::vector<const Method*> methods_;
 };
 

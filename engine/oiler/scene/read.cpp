@@ -107,10 +107,9 @@ private:
         section.read("rate", scene_.stepping.rate.steps);
         section.read("duration", scene_.duration);
         if (section.has("method")) scene_.stepping.method = &find_method(section.word("method"));
-        if (section.word("precision") == "float") scene_.stepping.precision = Precision::single;
-        if (section.has("damping"))
-            scene_.stepping.damping =
-                section.word("damping") == "kick" ? Damping::in_kick : Damping::in_drift;
+        if (const auto precision = find_precision(section.word("precision")))
+            scene_.stepping.precision = *precision;
+        scene_.stepping.damping = find_damping(section.word("damping"));
         method_place_ = section.place("method");
     }
 

@@ -11,10 +11,6 @@ namespace oiler {
 
 namespace {
 
-Damping damping_of(const Stepping& stepping) {
-    return stepping.damping.value_or(stepping.method->damping);
-}
-
 bool splits_dampers(const Stepping& stepping) {
     return splits_dampers(*stepping.method, damping_of(stepping));
 }

@@ -86,7 +86,4 @@ void require_judgeable(const Scene& scene, const Reference& reference,
                                                 const Reference& reference,
                                                 const Requirements& requirements);
 
-/// "rk4 at 60 Hz in double"
-[[nodiscard]] std::string describe(const Stepping& choice);
-
 }  // namespace oiler::lab

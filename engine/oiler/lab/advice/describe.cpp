@@ -129,12 +129,6 @@ std::string describe_time(double ns) {
     return fmt::format("{:.3g} {}", ns / unit, name);
 }
 
-std::string describe(const Stepping& choice) {
-    return fmt::format(
-        "{} at {} Hz in {}{}", choice.method->name, choice.rate.steps, name_of(choice.precision),
-        choice.damping ? fmt::format(", damping in the {}", name_of(*choice.damping)) : "");
-}
-
 std::vector<std::string> describe(const Advice& advice, const Scene& scene,
                                   const Reference& reference, const Requirements& requirements) {
     std::vector<std::string> words{conclusion(advice, reference, requirements)};

@@ -17,16 +17,6 @@ Json json_of(const Machine& machine) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-namespace {
-
-/// Null for methods without a choice.
-Json damping_of(const Stepping& choice) {
-    if (!std::holds_alternative<Splitting>(choice.method->rule)) return nullptr;
-    return name_of(choice.damping.value_or(choice.method->damping));
-}
-
-}  // namespace
-
 Json json_of(const ReferenceSummary& reference) {
     return {{"words", reference.words},
             {"closed_form", reference.closed_form},
@@ -41,15 +31,8 @@ Json json_of(const ReferenceSummary& reference) {
             {"period", number_or_null(reference.period)}};
 }
 
-Json json_of(const Stepping& choice) {
-    return {{"method", choice.method->name},
-            {"rate", choice.rate.steps},
-            {"precision", name_of(choice.precision)},
-            {"damping", damping_of(choice)}};
-}
-
 Json json_of(const TradeoffRow& row) {
-    Json json = json_of(row.stepping);
+    Json json = to_json(row.stepping);
     json["stable"] = row.judgement.stable;
     json["below_floor"] = row.judgement.below_floor();
     TradeoffRow copy = row;
@@ -64,7 +47,7 @@ Json json_of(const Tradeoff& tradeoff) {
               {"fingerprint", tradeoff.fingerprint},
               {"complete", tradeoff.complete()},
               {"duration", tradeoff.duration},
-              {"current", json_of(tradeoff.current)},
+              {"current", to_json(tradeoff.current)},
               {"reference", json_of(tradeoff.reference)},
               {"machines", Json::array()},
               {"ladders", Json::array()},

@@ -28,7 +28,6 @@ inline constexpr RowNumber row_numbers[]{
 /// The value, or null if it is not finite.
 [[nodiscard]] Json number_or_null(double value);
 [[nodiscard]] Json json_of(const ReferenceSummary& reference);
-[[nodiscard]] Json json_of(const Stepping& choice);
 [[nodiscard]] Json json_of(const TradeoffRow& row);
 [[nodiscard]] Json json_of(const Tradeoff& tradeoff);
 

@@ -84,8 +84,7 @@ const Method& to_method(const Field& field) {
 }
 
 Precision to_precision(const Field& field) {
-    for (const Precision precision : {Precision::single, Precision::double_})
-        if (field.text() == name_of(precision)) return precision;
+    if (const auto precision = find_precision(field.text())) return *precision;
     field.refuse("float or double");
 }
 
@@ -100,10 +99,9 @@ std::optional<Damping> to_damping(const Field& field, const Method& method) {
         if (!field.is_null()) field.refuse("null for a method that does not split");
         return std::nullopt;
     }
-    for (const Damping damping : {Damping::in_kick, Damping::in_drift})
-        if (field.text() == name_of(damping))
-            return damping == method.damping ? std::nullopt : std::optional(damping);
-    field.refuse("kick or drift");
+    const auto damping = find_damping(field.text());
+    if (!damping) field.refuse("kick or drift");
+    return damping == method.damping ? std::nullopt : damping;
 }
 
 Stepping to_stepping(const Field& field) {
@@ -202,13 +200,9 @@ void check_derived(const Field& field, const Tradeoff& tradeoff) {
     if (field["complete"].flag() != tradeoff.complete())
         field["complete"].refuse("what the ladders say");
     std::set<std::string> front;
-    const auto key = [](const Stepping& choice) {
-        return fmt::format("{} {} {}", choice.method->name, choice.rate.steps,
-                           name_of(choice.precision));
-    };
-    for (const TradeoffRow* row : pareto(tradeoff, time_of)) front.insert(key(row->stepping));
+    for (const TradeoffRow* row : pareto(tradeoff, time_of)) front.insert(describe(row->stepping));
     for (const Field& row : field["rows"].items())
-        if (row["pareto"].flag() != front.contains(key(to_stepping(row))))
+        if (row["pareto"].flag() != front.contains(describe(to_stepping(row))))
             row["pareto"].refuse("what errors and times say");
 }
 

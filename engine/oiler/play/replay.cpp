@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/play/tape.hpp"
+#include "oiler/play/replay.hpp"
 
 #include <fmt/core.h>
+
+#include <numeric>
 
 #include "oiler/core/error.hpp"
 
@@ -47,6 +49,20 @@ void Replay::differ(std::string how) {
     if (!plays_on_)
         fail(Exit::comparison_failed, "{}; if the game was changed, --replay-anyway plays on",
              difference_);
+}
+
+StepRatio::StepRatio(Rate from, Rate to)
+    : numerator_(to.steps * from.seconds), denominator_(from.steps * to.seconds) {
+    const std::int64_t common = std::gcd(numerator_, denominator_);
+    numerator_ /= common;
+    denominator_ /= common;
+}
+
+Input ResampledInput::next(std::int64_t step) {
+    const auto& events = recording_.events;
+    for (; played_ < events.size() && ratio_.reaches(step, events[played_].step); ++played_)
+        player_.play(events[played_].event);
+    return player_.take();
 }
 
 }  // namespace oiler
