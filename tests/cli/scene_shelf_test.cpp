@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The scenes of a folder, as a window takes them.
-#include "oiler/cli/scene_shelf.hpp"
 
 #include <fstream>
 

@@ -7,7 +7,6 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"
-#include "oiler/cli/scene_shelf.hpp"
 #include "oiler/lab/budget.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
