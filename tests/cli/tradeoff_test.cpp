@@ -219,7 +219,7 @@ Tradeoff made_up() {
     tradeoff.reference.extent = 1;
     tradeoff.reference.meaningful_until = 5;
     tradeoff.machines = {{"cpu", 1, "cc"}};
-    tradeoff.ladders = {
+    tradeoff.all_series = {
         {.method = rk4, .rows = {unstable, told, too_small}, .end = "so", .done = true}};
     return tradeoff;
 }
@@ -228,7 +228,7 @@ Tradeoff made_up() {
 // range, 1800 ns, is 5 % of it. 11,250 of 45,000 ns are 25 %. A line begins with its mark.
 TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
     const Desk desk;
-    desk.put("part.json", to_json(made_up()));
+    desk.put("part.json", file_text(made_up()));
     const Outcome run = desk.run("oiler merge part.json --all --out t --size 64x36 --quiet");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 0) << run.err;

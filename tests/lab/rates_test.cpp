@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/rates.hpp"
+#include "oiler/lab/rates/rates.hpp"
 
 #include <functional>
 

@@ -42,10 +42,10 @@ inline std::string named(const Stepping& choice) {
 }
 
 inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
-    ASSERT_EQ(a.ladders.size(), b.ladders.size());
-    for (std::size_t i = 0; i < a.ladders.size(); ++i) {
-        const Ladder& one = a.ladders[i];
-        const Ladder& other = b.ladders[i];
+    ASSERT_EQ(a.all_series.size(), b.all_series.size());
+    for (std::size_t i = 0; i < a.all_series.size(); ++i) {
+        const RateSeries& one = a.all_series[i];
+        const RateSeries& other = b.all_series[i];
         EXPECT_EQ(one.method, other.method);
         EXPECT_EQ(one.precision, other.precision);
         EXPECT_EQ(one.end, other.end);

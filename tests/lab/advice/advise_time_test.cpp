@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/measured_scenes.hpp"
-#include "oiler/lab/advice/json.hpp"
+#include "oiler/lab/advice/advise.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -110,10 +110,10 @@ TEST(AdviceByTime, ThatNoSettingMeetsNamesTheTimePerFrame) {
     EXPECT_TRUE(holds(advice.obstacles[0], "0.96 µs per frame"));
 }
 
-// ---- rates between the rungs
+// ---- rates between the rates
 
 // Velocity Verlet gains ω·(ω·dt)²/24 rad per second: it meets 1 m from about 122 Hz on. The lowest
-// allowed rate decides, on a rung (180 Hz) and between two.
+// allowed rate decides, on a rate (180 Hz) and between two.
 TEST(AdviceByTime, NeverGoesBelowTheLowestRate) {
     for (const auto& [lowest, rung] :
          {std::pair{160, 180}, std::pair{180, 180}, std::pair{181, 240}, std::pair{299, 360}}) {
@@ -229,7 +229,7 @@ TEST(JsonOfAdvice, HasEveryCostForAFrameInMicroseconds) {
         .alternatives = {
             {.row = costing("exact", 18), .method = &find_method("exact"), .why = "so"}}};
     const auto json =
-        nlohmann::json::parse(json_of(advice, spring().scene, spring().reference, both).dump(-1));
+        nlohmann::json::parse(to_json(advice, spring().scene, spring().reference, both).dump(-1));
     const auto us = [](const nlohmann::json& row) { return row.at("us_per_frame").get<double>(); };
     EXPECT_DOUBLE_EQ(us(json.at("advice")), 0.6);
     EXPECT_DOUBLE_EQ(us(json.at("runner_up")), 1.2);

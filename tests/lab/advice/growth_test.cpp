@@ -5,7 +5,7 @@
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
-#include "oiler/lab/advice/json.hpp"
+#include "oiler/lab/advice/advise.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -28,7 +28,7 @@ TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
     EXPECT_TRUE(holds(words.front(), "No setting meets 1e-06 m"));
 }
 
-// For a method of first order, the highest rung is the most accurate.
+// For a method of first order, the highest rate is the most accurate.
 TEST(Advice, ThatDoesNotExistIsTheClosestSetting) {
     const Advice advice = advice_on(
         article_spring,

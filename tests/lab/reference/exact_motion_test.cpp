@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/reference/exact_motions.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
 
 #include <complex>
 

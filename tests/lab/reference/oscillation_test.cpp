@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/motions.hpp"
-#include "oiler/lab/reference/exact_motions.hpp"
-#include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
+#include "oiler/lab/reference/path.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

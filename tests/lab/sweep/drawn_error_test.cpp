@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/drawn_error.hpp"
 
-#include "oiler/lab/reference/exact_motions.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/json.hpp"
 #include "oiler/lab/advice/growth.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
@@ -85,5 +86,8 @@ void require_judgeable(const Scene& scene, const Reference& reference,
 [[nodiscard]] std::vector<std::string> describe(const Advice& advice, const Scene& scene,
                                                 const Reference& reference,
                                                 const Requirements& requirements);
+
+[[nodiscard]] Json to_json(const Advice& advice, const Scene& scene, const Reference& reference,
+                           const Requirements& requirements);
 
 }  // namespace oiler::lab

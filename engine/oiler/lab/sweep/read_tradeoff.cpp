@@ -9,7 +9,6 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
-#include "oiler/lab/sweep/json.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 
 namespace oiler::lab {
@@ -155,44 +154,44 @@ std::string to_fingerprint(const Field& field) {
     return text;
 }
 
-Ladder to_ladder(const Field& field) {
-    Ladder ladder{.method = &to_method(field["method"]),
-                  .precision = to_precision(field["precision"]),
-                  .end = field["end"].text(),
-                  .done = field["done"].flag()};
-    if (ladder.done == ladder.end.empty())
-        field["end"].refuse(ladder.done ? "the reason of the end of a ladder that is done"
+RateSeries to_series(const Field& field) {
+    RateSeries series{.method = &to_method(field["method"]),
+                      .precision = to_precision(field["precision"]),
+                      .end = field["end"].text(),
+                      .done = field["done"].flag()};
+    if (series.done == series.end.empty())
+        field["end"].refuse(series.done ? "the reason of the end of a ladder that is done"
                                         : "no text for a ladder that is not done");
-    return ladder;
+    return series;
 }
 
 /// Each method once in each precision.
-std::vector<Ladder> to_ladders(const Field& field) {
-    std::vector<Ladder> ladders;
+std::vector<RateSeries> to_all_series(const Field& field) {
+    std::vector<RateSeries> all_series;
     std::set<std::pair<const Method*, Precision>> all;
     std::set<const Method*> methods;
     std::set<Precision> precisions;
     for (const Field& item : field.items()) {
-        const Ladder& ladder = ladders.emplace_back(to_ladder(item));
-        methods.insert(ladder.method);
-        precisions.insert(ladder.precision);
-        if (!all.emplace(ladder.method, ladder.precision).second)
+        const RateSeries& series = all_series.emplace_back(to_series(item));
+        methods.insert(series.method);
+        precisions.insert(series.precision);
+        if (!all.emplace(series.method, series.precision).second)
             item.refuse("each method once in each precision");
     }
-    if (ladders.empty() || all.size() != methods.size() * precisions.size())
+    if (all_series.empty() || all.size() != methods.size() * precisions.size())
         field.refuse("each method in each precision");
-    return ladders;
+    return all_series;
 }
 
-void add_row(std::vector<Ladder>& ladders, const Field& field) {
+void add_row(std::vector<RateSeries>& all_series, const Field& field) {
     TradeoffRow row = to_row(field);
-    const auto ladder = std::ranges::find_if(ladders, [&](const Ladder& one) {
+    const auto series = std::ranges::find_if(all_series, [&](const RateSeries& one) {
         return one.method == row.stepping.method && one.precision == row.stepping.precision;
     });
-    if (ladder == ladders.end() || !ladder->done) field.refuse("a row of a ladder that is done");
-    if (!ladder->rows.empty() && row.stepping.rate.steps <= ladder->rows.back().stepping.rate.steps)
+    if (series == all_series.end() || !series->done) field.refuse("a row of a ladder that is done");
+    if (!series->rows.empty() && row.stepping.rate.steps <= series->rows.back().stepping.rate.steps)
         field["rate"].refuse("a higher rate than in the row before");
-    ladder->rows.push_back(std::move(row));
+    series->rows.push_back(std::move(row));
 }
 
 /// Fields that follow from the others must agree with them.
@@ -213,13 +212,13 @@ Tradeoff to_tradeoff(const Field& field) {
                       .duration = field["duration"].positive(),
                       .current = to_stepping(field["current"]),
                       .reference = to_reference(field["reference"]),
-                      .ladders = to_ladders(field["ladders"])};
+                      .all_series = to_all_series(field["ladders"])};
     if (tradeoff.reference.meaningful_until > tradeoff.duration)
         field["reference"]["meaningful_until"].refuse("at most the duration");
     for (const Field& machine : field["machines"].items())
         tradeoff.machines.push_back(to_machine(machine));
     if (tradeoff.machines.empty()) field["machines"].refuse("a machine");
-    for (const Field& row : field["rows"].items()) add_row(tradeoff.ladders, row);
+    for (const Field& row : field["rows"].items()) add_row(tradeoff.all_series, row);
     check_derived(field, tradeoff);
     return tradeoff;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/rates.hpp"
+#include "oiler/lab/rates/rates.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/observed.hpp"
+#include "oiler/lab/rates/observed.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -85,6 +85,23 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
         result.quantities.push_back(std::move(quantity));
     }
     return result;
+}
+
+Json to_json(const Rates& rates) {
+    Json quantities = Json::array();
+    for (const RatesQuantity& quantity : rates.quantities) {
+        Json lines = Json::array();
+        for (const RatesLine& line : quantity.lines)
+            lines.push_back({{"method", line.method->name},
+                             {"values", line.values},
+                             {"spread_percent", line.spread_percent}});
+        quantities.push_back({{"name", quantity.name},
+                              {"unit", quantity.unit},
+                              {"body", rates.body},
+                              {"truth", quantity.truth},
+                              {"methods", std::move(lines)}});
+    }
+    return {{"rates", rates.rates}, {"quantities", std::move(quantities)}};
 }
 
 std::size_t most_oscillating_row(const Reference& reference) {

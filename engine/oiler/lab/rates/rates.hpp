@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/json.hpp"
 #include "oiler/lab/sweep/judge.hpp"
 
 namespace oiler::lab {
@@ -41,6 +42,8 @@ struct Rates {
                                   const std::vector<std::int64_t>& rates,
                                   const std::vector<const Method*>& methods,
                                   const std::function<bool()>& stopped);
+
+[[nodiscard]] Json to_json(const Rates& rates);
 
 /// The row of the body that oscillates most; 0 if none oscillates.
 [[nodiscard]] std::size_t most_oscillating_row(const Reference& reference);

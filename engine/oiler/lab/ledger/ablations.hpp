@@ -8,18 +8,17 @@
 #include <vector>
 
 #include "oiler/lab/ledger/ledger.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 
-// The parts of a ledger.
-
 /// A scene without one of its parts.
 struct Ablation {
-    std::string words;    ///< the part, as in the scene file
-    std::string part_of;  ///< `words` of the ablation that contains this one; empty for a pass
-    std::string pass;  ///< the force's name, "hang", "links", "planes" or "moving"; empty for part
-                       ///< of a pass
+    std::string words;  ///< the part, as in the scene file
+    /// `words` of a larger ablation, which leaves out this part and others; empty if none does.
+    std::string part_of;
+    /// The name in the ledger of an ablation that is timed: the force's, "hang", "links", "planes"
+    /// or "moving". Empty for others.
+    std::string pass;
     Scene scene;
 };
 
@@ -41,9 +40,6 @@ struct ForceDescription {
 /// The description of every force, in the order of the list of forces.
 [[nodiscard]] const std::vector<ForceDescription>& force_descriptions();
 
-/// Enters the stored columns and the absent forces. Returns the names of the bodies' forces.
-std::vector<std::string_view> enter_columns(Ledger& ledger, const Bodies& bodies);
-
 /// The difference between an ablation and the whole scene.
 struct AblationResult {
     double change = 0;                      ///< m, the largest at any sample
@@ -61,30 +57,6 @@ struct Comparison {
 /// Steps the whole scene and all ablations side by side, at most `steps` times.
 [[nodiscard]] Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations,
                                  std::int64_t steps, const LedgerProgress& progress);
-
-/// A median and half the interquartile range. NaN of no values.
-struct Median {
-    double value = LedgerPass::unknown;
-    double spread = LedgerPass::unknown;
-};
-
-/// The median of the finite values.
-[[nodiscard]] Median median_of(std::vector<double> values);
-
-struct Timing {
-    std::int64_t rounds = 0;
-    std::int64_t steps_per_turn = 0;  ///< timed, in one call
-    Median seconds{};                 ///< of a turn of the first scene
-    std::vector<Median> ratios{};     ///< of the others' times to the first's in the same round
-};
-
-/// Times the scenes in many short rounds, within the first `steps` steps of the first scene. In
-/// each round every scene takes a turn; the scene that begins changes. Ratios within a round do not
-/// change if other load slows the whole machine. All turns of a round begin with a state of the
-/// first scene's run: in a run that stays at rest, implicit methods take fewer iterations. In each
-/// turn the first step prepares data and is not timed.
-[[nodiscard]] Timing race(const std::vector<const Scene*>& scenes, std::int64_t steps,
-                          const StepTimer& timer, const LedgerProgress& progress);
 
 /// The fraction of the progress that comes before timing.
 inline constexpr double comparing_share = 0.6;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/observed.hpp"
+#include "oiler/lab/rates/observed.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "oiler/lab/reference/parts.hpp"
 
 namespace oiler::lab {
 namespace {
