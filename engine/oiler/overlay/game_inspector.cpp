@@ -10,7 +10,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
-#include "oiler/sim/row_parts.hpp"
+#include "oiler/sim/steps/row_parts.hpp"
 
 namespace oiler {
 namespace {

@@ -11,8 +11,8 @@
 #include "oiler/core/handle_slots.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "oiler/physics/stepping.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/sim/steps.hpp"
 
 namespace oiler {
 

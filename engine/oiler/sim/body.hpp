@@ -7,10 +7,9 @@
 #include <tuple>
 
 #include "oiler/core/error.hpp"
-#include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
-#include "oiler/physics/precision.hpp"
+#include "oiler/physics/stepping.hpp"
 
 namespace oiler {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 

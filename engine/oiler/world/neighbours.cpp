@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 namespace {
@@ -93,18 +93,18 @@ void World::reserve(std::size_t bodies) {
 void World::remove_body(Entity entity) {
     const std::size_t place = row(entity);
     if (visits_ > 0) {
-        graves_.push_back(rows_.hide(entity.index));
+        removed_rows_.push_back(rows_.hide(entity.index));
         return;
     }
     bodies_.remove(place);
     rows_.remove(entity.index);
 }
 
-void World::bury() {
-    for (const TaggedPool& entry : pools_) entry.pool->bury();
-    for (const std::uint32_t grave : last_first(graves_)) {
-        bodies_.remove(grave);
-        rows_.fill(grave);
+void World::fill_holes() {
+    for (const TaggedPool& entry : pools_) entry.pool->fill_holes();
+    for (const std::uint32_t hole : last_first(removed_rows_)) {
+        bodies_.remove(hole);
+        rows_.fill(hole);
     }
 }
 

@@ -18,8 +18,6 @@
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 #include "oiler/world/entity.hpp"
-#include "oiler/world/impact.hpp"
-#include "oiler/world/moving.hpp"
 #include "oiler/world/pool.hpp"
 #include "oiler/world/timers.hpp"
 
@@ -347,7 +345,7 @@ private:
     public:
         explicit Visit(World& world) : world_(world) { ++world_.visits_; }
         ~Visit() {
-            if (--world_.visits_ == 0) world_.bury();
+            if (--world_.visits_ == 0) world_.fill_holes();
         }
         Visit(const Visit&) = delete;
         Visit& operator=(const Visit&) = delete;
@@ -358,7 +356,7 @@ private:
     void erase(AnyPool& pool, std::uint32_t slot) {
         visits_ > 0 ? pool.hide(slot) : pool.erase(slot);
     }
-    void bury();
+    void fill_holes();
 
     template <class T>
     Pool<T>& pool() {
@@ -400,7 +398,7 @@ private:
     std::vector<TaggedPool> pools_;
     Bodies bodies_;
     SlotSet rows_;
-    std::vector<std::uint32_t> graves_;  ///< rows of bodies that were removed in a visit
+    std::vector<std::uint32_t> removed_rows_;  ///< rows of bodies that were removed in a visit
     std::vector<Impact> impacts_;
     std::vector<TaggedTimers> timers_;
     Random random_;
