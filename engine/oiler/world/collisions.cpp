@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/box_grid.hpp"
 
 namespace oiler {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/box_grid.hpp"
 
 namespace oiler {

@@ -2,6 +2,7 @@
 #include "oiler/lab/reference/perturbation.hpp"
 
 #include "oiler/core/random.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 

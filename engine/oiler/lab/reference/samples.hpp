@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "oiler/lab/reference/perturbation.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/sim/body.hpp"
+#include "oiler/sim/limits.hpp"
 
 #include <cmath>
 #include <limits>
-
-#include "oiler/core/error.hpp"
 
 namespace oiler {
 namespace {
