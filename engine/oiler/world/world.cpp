@@ -66,7 +66,10 @@ World& World::operator=(World&& other) {
     age_ = other.age_;
     slots_ = std::move(other.slots_);
     pools_ = std::move(other.pools_);
-    bodies_ = std::move(other.bodies_);
+    if (bodies_ && other.bodies_)
+        *bodies_ = std::move(*other.bodies_);  // references to the bodies stay valid
+    else
+        bodies_ = std::move(other.bodies_);
     rows_ = std::move(other.rows_);
     impacts_ = std::move(other.impacts_);
     timers_ = std::move(other.timers_);
