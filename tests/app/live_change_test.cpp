@@ -2,6 +2,7 @@
 // A game that is played goes on with another setting at a tick that both rates have.
 #include "oiler/app/live_change.hpp"
 
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

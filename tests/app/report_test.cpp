@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oiler/app/loops.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/state_changes.hpp"
 
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -4,6 +4,7 @@
 #include "oiler/overlay/motion_overlay.hpp"
 
 #include "oiler/game/look.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

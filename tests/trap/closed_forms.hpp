@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "oiler/sim/bodies.hpp"
 #include "trap/system.hpp"
 
 namespace oiler::trap {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/collisions.hpp"
 #include "oiler/world/neighbours.hpp"
 #include "support/counting_new.hpp"

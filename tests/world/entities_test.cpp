@@ -3,6 +3,7 @@
 // visits_test.cpp.
 #include <random>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 #include "support/test.hpp"
 

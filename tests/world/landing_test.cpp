@@ -3,6 +3,7 @@
 // sliding_test.cpp.
 #include <random>
 
+#include "oiler/sim/bodies.hpp"
 #include "world/contacts.hpp"
 
 namespace oiler::test {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 #include "support/test.hpp"
 

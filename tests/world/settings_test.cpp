@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 #include "support/test.hpp"
 

@@ -2,6 +2,7 @@
 // Creating and destroying while entities are visited; timers and random numbers of a world.
 #include <random>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 #include "support/test.hpp"
 

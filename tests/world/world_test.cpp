@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -10,6 +10,7 @@
 #include "oiler/app/report.hpp"
 #include "oiler/app/run.hpp"
 #include "oiler/app/shelf.hpp"
+#include "oiler/core/error.hpp"
 
 namespace oiler {
 
@@ -26,8 +27,8 @@ struct Played {
 };
 
 /// Shows the game in a window in real time until the user quits, the display or a replay ends.
-/// Steps take their input from `inputs`, which may be `live`. `make` makes the games that play along
-/// for the verdict. `shelf` may be null.
+/// Steps take their input from `inputs`, which may be `live`. `make` makes the games that play
+/// along for the verdict. `shelf` may be null.
 Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
                   const About& about, const MakeGame& make, Shelf* shelf, Profile* profile);
 

@@ -20,7 +20,8 @@
 #include "oiler/play/script.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
-#include "oiler/sim/instructions.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/kernels/instructions.hpp"
 #include "oiler/whatif/what_if_runs.hpp"
 
 namespace oiler {

@@ -3,10 +3,8 @@
 
 #include <concepts>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -128,21 +126,19 @@ consteval bool check_game() {
     return true;
 }
 
+/// Throws the exception that is handled as an Error of the game, see guarded.
+[[noreturn]] void throw_error_of_game(const std::string& place, bool in_setup);
+/// Throws the Error of an update that made a world with another rate.
+[[noreturn]] void throw_other_rate(const std::string& place);
+
 /// Calls f(). An exception of a game becomes an Error{diverged} with the text of place(). So does
 /// a wrong number that it gave, unless it is `in_setup`, where options can be the reason.
 template <class Place, class F>
 auto guarded(Place place, F f, bool in_setup = false) {
     try {
         return f();
-    } catch (const Error& error) {
-        if (error.exit() != Exit::usage || in_setup) throw;
-        fail(Exit::diverged, "{}: {}", place(), error.what());
-    } catch (const std::bad_alloc&) {
-        fail(Exit::io, "{}: not enough memory; take fewer bodies or a shorter time", place());
-    } catch (const std::exception& error) {
-        fail(Exit::diverged, "{}: {}", place(), error.what());
     } catch (...) {
-        fail(Exit::diverged, "{}: it threw something that is no std::exception", place());
+        throw_error_of_game(place(), in_setup);
     }
 }
 
@@ -306,9 +302,7 @@ private:
             else
                 game_.update(input);
         });
-        if (game_.world.settings().stepping.rate != rate)
-            fail(Exit::diverged,
-                 "{}: the new world has another rate; make it with world.settings()", place());
+        if (game_.world.settings().stepping.rate != rate) throw_other_rate(place());
     }
     /// A world that was replaced is younger than it would have become.
     void find_cut() {

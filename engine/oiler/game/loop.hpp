@@ -3,12 +3,10 @@
 
 // What a game and the loop that runs it exchange: requests, input, readings and times.
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "oiler/core/error.hpp"
 #include "oiler/input/input.hpp"
 
 namespace oiler {
@@ -74,38 +72,26 @@ struct Reading {
 };
 
 /// Throws Error{usage} if two readings have one name.
-inline void require_distinct_names(const std::vector<Reading>& readings) {
-    for (std::size_t i = 0; i < readings.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (readings[i].name == readings[j].name)
-                fail(Exit::usage, "two readings are named {}; rename one", readings[i].name);
-}
+void require_distinct_names(const std::vector<Reading>& readings);
 
-/// The times that steps of a game take, summed up.
+/// The times that steps of a game take, summed up, in ns.
 struct StepTimes {
-    std::chrono::nanoseconds update{0};
-    std::chrono::nanoseconds step{0};  ///< of the world
+    std::int64_t update = 0;
+    std::int64_t step = 0;  ///< of the world
 };
 
 /// Adds the time from its construction to its destruction to one of the sums. Without sums it
 /// measures nothing.
 class Stopwatch {
 public:
-    Stopwatch(StepTimes* sums, std::chrono::nanoseconds StepTimes::*which)
-        : sum_(sums ? &(sums->*which) : nullptr) {
-        if (sum_) begin_ = Clock::now();
-    }
-    ~Stopwatch() {
-        if (sum_) *sum_ += Clock::now() - begin_;
-    }
+    Stopwatch(StepTimes* sums, std::int64_t StepTimes::*which);
+    ~Stopwatch();
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
 private:
-    using Clock = std::chrono::steady_clock;
-
-    std::chrono::nanoseconds* sum_;
-    Clock::time_point begin_{};
+    std::int64_t* sum_;
+    std::int64_t begin_ = 0;  ///< ns of the steady clock
 };
 
 }  // namespace oiler

@@ -9,6 +9,7 @@
 #include "oiler/game/look.hpp"
 #include "oiler/overlay/help.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

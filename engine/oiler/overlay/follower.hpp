@@ -8,6 +8,7 @@
 #include "oiler/input/input.hpp"
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/picture/picture.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

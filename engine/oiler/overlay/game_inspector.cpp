@@ -10,7 +10,8 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
-#include "oiler/sim/row_parts.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/steps/row_parts.hpp"
 
 namespace oiler {
 namespace {
@@ -116,8 +117,8 @@ void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanose
     const auto mix = [](double& mean, std::chrono::nanoseconds time) {
         mean += weight * (static_cast<double>(time.count()) - mean);
     };
-    mix(costs_.update, times_.update);
-    mix(costs_.step, times_.step);
+    mix(costs_.update, std::chrono::nanoseconds(times_.update));
+    mix(costs_.step, std::chrono::nanoseconds(times_.step));
     mix(costs_.picture, show - time_of_steps());
     mix(costs_.draw, draw);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "oiler/picture/palette.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/whatif/verdict.hpp"
 
 namespace oiler {

@@ -6,6 +6,7 @@
 
 #include "oiler/game/look.hpp"
 #include "oiler/picture/palette.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

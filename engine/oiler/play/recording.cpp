@@ -12,6 +12,7 @@
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

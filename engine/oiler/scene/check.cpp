@@ -6,6 +6,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/scene/grid.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/limits.hpp"
 
 namespace oiler {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "oiler/picture/shapes.hpp"
 #include "oiler/scene/grid.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

@@ -4,6 +4,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
+#include "oiler/sim/limits.hpp"
 
 namespace oiler {
 namespace {
@@ -204,7 +205,7 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
         columns_->of);
 }
 
-void Bodies::attach_given(std::size_t row, std::size_t index, const GivenForces& forces) {
+void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
     std::visit(
         [&](auto& columns) {

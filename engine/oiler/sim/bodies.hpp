@@ -11,8 +11,8 @@
 #include "oiler/core/handle_slots.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "oiler/physics/stepping.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/sim/steps.hpp"
 
 namespace oiler {
 
@@ -76,18 +76,20 @@ public:
     /// Adds a force to row `row`, or replaces the numbers of the one that it has.
     template <BodyForce... Force>
     void attach(std::size_t row, const Force&... force) {
-        attach_given(row, 0, given(force...));
+        attach_at(0, row, given(force...));
     }
     /// Adds or replaces the force of that index among several of one kind, counted from 0.
     template <BodyForce... Force>
     void attach_at(std::size_t index, std::size_t row, const Force&... force) {
-        attach_given(row, index, given(force...));
+        attach_at(index, row, given(force...));
     }
+    void attach_at(std::size_t index, std::size_t row, const GivenForces& forces);
     /// Removes all forces of a kind from row `row`. A kind that no row has any more is not stored.
     template <BodyForce Force>
     void detach(std::size_t row) {
-        detach_kind(row, index_of<std::optional<Force>>(static_cast<GivenForces*>(nullptr)));
+        detach_kind(row, kind_of<Force>);
     }
+    void detach_kind(std::size_t row, std::size_t kind);
     /// Reserves memory for `rows` rows in total, so that adding them copies none.
     void reserve(std::size_t rows);
     /// Removes `row` and its links. The last row, with its links, moves to its place.
@@ -187,24 +189,10 @@ public:
     void hash_into(StateHash& hash) const;
 
 private:
-    /// The number of types in `All` that are `Force`.
-    template <class Force, class... All>
-    static constexpr int count = (int{std::same_as<Force, All>} + ... + 0);
-
-    template <class... Force>
-    static GivenForces given(const Force&... force) {
-        static_assert(((count<Force, Force...> == 1) && ...),
-                      "a body has at most one force of each kind");
-        GivenForces all;
-        ((std::get<std::optional<Force>>(all) = force), ...);
-        return all;
-    }
     void require_row(std::size_t row) const;
     void require_linkable(std::size_t row, const Link& link) const;
     void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
-    void attach_given(std::size_t row, std::size_t index, const GivenForces& forces);
-    void detach_kind(std::size_t row, std::size_t kind);
 
     std::unique_ptr<AnyColumns> columns_;
     std::vector<Plane> planes_;

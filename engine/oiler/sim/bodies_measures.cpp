@@ -4,7 +4,7 @@
 
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
-#include "oiler/sim/link_force.hpp"
+#include "oiler/sim/links/link_force.hpp"
 
 namespace oiler {
 namespace {

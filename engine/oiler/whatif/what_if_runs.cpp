@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -56,7 +57,7 @@ double time_of_stopwatch() {
     for (std::chrono::nanoseconds& time : times) {
         StepTimes sums;
         { const Stopwatch empty(&sums, &StepTimes::step); }
-        time = sums.step;
+        time = std::chrono::nanoseconds(sums.step);
     }
     return middle_mean(times);
 }
@@ -153,8 +154,8 @@ void SettingRun::take_step() {
         if (error.exit() != Exit::diverged && error.exit() != Exit::usage) throw;
         result_.failure = error.what();
     }
-    keep(updates_, times_.update, steps_);
-    if (times_.step.count() > 0) keep(world_steps_, times_.step, steps_);
+    keep(updates_, std::chrono::nanoseconds(times_.update), steps_);
+    if (times_.step > 0) keep(world_steps_, std::chrono::nanoseconds(times_.step), steps_);
 }
 
 void SettingRun::compare(std::int64_t recorded, double time, const Moment& reference,

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 
