@@ -12,6 +12,7 @@
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
+#include "oiler/sim/bodies.hpp"
 
 using namespace oiler;
 
