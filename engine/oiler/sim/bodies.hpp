@@ -19,12 +19,6 @@ namespace oiler {
 class Team;
 struct AnyColumns;
 
-struct Energy {
-    double kinetic = 0;    ///< J
-    double potential = 0;  ///< J
-    [[nodiscard]] double total() const { return kinetic + potential; }
-};
-
 /// The storage of one quantity for all rows.
 struct Stored {
     std::string_view of;         ///< "position", "velocity", "mass", "contact" or the force's name
@@ -32,14 +26,6 @@ struct Stored {
     std::vector<bool> shared{};  ///< each number, in order: true if stored once for all rows
     std::size_t bytes = 0;       ///< per row, in columns
     std::size_t rows = 0;        ///< rows with any number other than 0
-};
-
-/// The ends of a link: a row, and another row or a fixed point.
-struct LinkEnds {
-    std::size_t row = 0;
-    std::optional<std::size_t> other{};  ///< absent for a point
-    Vec3 point{};                        ///< m
-    friend bool operator==(const LinkEnds&, const LinkEnds&) = default;
 };
 
 /// The largest difference between the positions of the same rows in two worlds, m.

@@ -47,6 +47,20 @@ struct LinkHandle {
     friend bool operator==(const LinkHandle&, const LinkHandle&) = default;
 };
 
+/// The ends of a link: a row, and another row or a fixed point.
+struct LinkEnds {
+    std::size_t row = 0;
+    std::optional<std::size_t> other{};  ///< absent for a point
+    Vec3 point{};                        ///< m
+    friend bool operator==(const LinkEnds&, const LinkEnds&) = default;
+};
+
+struct Energy {
+    double kinetic = 0;    ///< J
+    double potential = 0;  ///< J
+    [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
 template <class List>
 struct OptionalOf;
 template <class... Force>
