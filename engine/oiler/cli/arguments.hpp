@@ -11,36 +11,14 @@
 #include <vector>
 
 #include "oiler/capture/paths.hpp"
-#include "oiler/core/error.hpp"
+#include "oiler/cli/command.hpp"
+
 namespace CLI {
 class App;
 }
 
 namespace oiler::cli {
 
-class Arguments;
-
-/// The texts of a command in `oiler --help` and `oiler COMMAND --help`.
-struct CommandTexts {
-    std::string_view name;
-    std::string_view summary;
-    std::string_view example;  ///< a command line without "oiler NAME"
-    std::string_view notes{};  ///< lines below the example
-};
-
-/// A command of the program `oiler`. All functions throw Error and return the exit code.
-struct Command {
-    using Run = std::function<Exit()>;
-
-    CommandTexts texts;
-    /// Declares the arguments and returns the function that runs the command with them.
-    std::function<Run(Arguments&)> declare;
-    /// Replaces `declare` in a command that parses its own arguments; `argv[0]` is its name.
-    std::function<Exit(int argc, char** argv)> parse_and_run{};
-};
-
-/// Runs the command that the command line names, or prints its help.
-[[nodiscard]] Exit run_command(const std::vector<Command>& commands, int argc, char** argv);
 /// The files and folders of a command line.
 struct NamedPaths {
     std::vector<NamedPath> inputs;
@@ -105,10 +83,9 @@ private:
 
 /// A class declares a command with `static constexpr CommandTexts texts`, and either
 /// `void declare(Arguments&)` and `Exit run() const`, or `static Exit parse_and_run(int, char**)`.
-/// Its file ends with `template Command make_command<ItsClass>();`, so that no header lists the
-/// classes.
+/// Its file ends with `template Command make_command<ItsClass>();`.
 template <class Declared>
-[[nodiscard]] Command make_command() {
+Command make_command() {
     if constexpr (requires(char** argv) { Declared::parse_and_run(0, argv); }) {
         return {Declared::texts, {}, Declared::parse_and_run};
     } else {

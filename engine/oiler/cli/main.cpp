@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/cli/arguments.hpp"
+#include "oiler/cli/command.hpp"
 #include "oiler/platform/surface.hpp"
 #include "oiler/process/interrupt.hpp"
 

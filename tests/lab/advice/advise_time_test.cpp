@@ -115,13 +115,13 @@ TEST(AdviceByTime, ThatNoSettingMeetsNamesTheTimePerFrame) {
 // Velocity Verlet gains ω·(ω·dt)²/24 rad per second: it meets 1 m from about 122 Hz on. The lowest
 // allowed rate decides, on a rate (180 Hz) and between two.
 TEST(AdviceByTime, NeverGoesBelowTheLowestRate) {
-    for (const auto& [lowest, rung] :
+    for (const auto& [lowest, allowed] :
          {std::pair{160, 180}, std::pair{180, 180}, std::pair{181, 240}, std::pair{299, 360}}) {
         const Requirements requirements{
             .position_error = 1, .min_rate = lowest, .methods = methods_of({"velocity_verlet"})};
         const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.meets);
-        EXPECT_EQ(advice.best->stepping.rate.steps, rung) << lowest;
+        EXPECT_EQ(advice.best->stepping.rate.steps, allowed) << lowest;
     }
 }
 

@@ -67,8 +67,9 @@ std::int64_t Candidate::least_rate(const TradeoffRow& row, double excess,
     return std::max(rate + 1, static_cast<std::int64_t>(static_cast<double>(rate) * factor));
 }
 
-/// The factor on the rate if the error at the steps falls by one order more than the method's, and
-/// the rest of the error, that of the drawn lines, with the square of the step.
+/// The smallest factor on the rate that may bring the error within the tolerances. At the steps,
+/// the error is taken to fall by one order more than the method's. The rest, that of the drawn
+/// lines, falls with the square of the step.
 double Candidate::least_factor(const Judgement& judgement, double excess,
                                const Requirements& requirements) const {
     constexpr double safety = 0.7;
