@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/ledger/ledger.hpp"
+#include "oiler/cli/ledger_text.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -188,8 +188,13 @@ std::string flags_text(const Ledger& ledger) {
     return ledger.diverged ? "" : "\nWithout effect:\n" + text;
 }
 
-/// Returns the printed form of a ledger. `name` is the scene file's, `wanted` the number of steps
-/// asked for.
+Ledger measure(const Scene& scene, std::int64_t steps, bool quiet) {
+    Percent percent(quiet, "measured");
+    return ledger(scene, steps, [&](double fraction) { percent(fraction); });
+}
+
+}  // namespace
+
 std::string ledger_text(const Scene& scene, const std::string& name, const Ledger& ledger,
                         std::int64_t wanted) {
     std::string text =
@@ -198,13 +203,6 @@ std::string ledger_text(const Scene& scene, const std::string& name, const Ledge
         if (pass.diverged) text += fmt::format("Without {}: {}\n", pass.name, *pass.diverged);
     return text + flags_text(ledger);
 }
-
-Ledger measure(const Scene& scene, std::int64_t steps, bool quiet) {
-    Percent percent(quiet, "measured");
-    return ledger(scene, steps, [&](double fraction) { percent(fraction); });
-}
-
-}  // namespace
 
 struct LedgerCommand {
     static constexpr CommandTexts texts{

@@ -11,8 +11,8 @@ struct BudgetEntry {
     double most = 0;      ///< the limit
     double measured = 0;  ///< infinite for an unstable run, `floor` for an error below it
     bool kept = true;
-    std::string words;  ///< the entry as a sentence
-    double floor = 0;   ///< the smallest error that can be measured
+    std::string words{};  ///< the entry as a sentence
+    double floor = 0;     ///< the smallest error that can be measured
 };
 
 }  // namespace oiler

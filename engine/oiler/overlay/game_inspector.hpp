@@ -39,7 +39,7 @@ public:
     void begin_frame() { times_ = {}; }
     /// Of the updates and steps since begin_frame().
     [[nodiscard]] std::chrono::nanoseconds time_of_steps() const {
-        return times_.update + times_.step;
+        return std::chrono::nanoseconds(times_.update + times_.step);
     }
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);

@@ -72,7 +72,7 @@ std::size_t BoxGrid::number_of_cell(const Item& item) const {
     return number_of_run({item.exponent, per_cell}, x >> run_bits, y, z) + place_in_run(x);
 }
 
-Ball::Ball(const Vec3& centre, double radius, int axes) : radius_(radius) {
+SearchBall::SearchBall(const Vec3& centre, double radius, int axes) : radius_(radius) {
     if (!(radius >= 0 && std::isfinite(radius)))
         fail(Exit::usage, "a query within {} m: give a radius that is finite and 0 or more",
              radius);
@@ -84,7 +84,7 @@ Ball::Ball(const Vec3& centre, double radius, int axes) : radius_(radius) {
     }
 }
 
-Bounds Ball::bounds() const { return bounds_of_path(centre_, centre_, radius_); }
+Bounds SearchBall::bounds() const { return bounds_of_path(centre_, centre_, radius_); }
 
 Bounds bounds_of_path(const Vec3& start, const Vec3& end, double radius) {
     constexpr double largest_number = std::numeric_limits<double>::max();

@@ -61,7 +61,7 @@ void Neighbours::update(const World& world) {
 }
 
 std::vector<Entity> Neighbours::within(const Vec3& point, double radius) const {
-    const Ball ball(point, radius, axes_);
+    const SearchBall ball(point, radius, axes_);
     std::vector<std::uint32_t> rows;
     grid_.for_each_overlap(ball.bounds(), [&](std::size_t i) {
         const BoxGrid::Item& item = grid_.items()[i];

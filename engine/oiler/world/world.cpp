@@ -234,7 +234,7 @@ std::uint32_t World::jumps(Entity entity) const {
 }
 
 std::vector<Entity> World::within(const Vec3& point, double radius) const {
-    const Ball ball(point, radius, bodies_->axes());
+    const SearchBall ball(point, radius, bodies_->axes());
     std::vector<Entity> entities;
     for (std::size_t row = 0; row < bodies_->size(); ++row)
         if (rows_[row] != SlotSet::absent && ball.contains(bodies_->position(row)))
