@@ -12,6 +12,7 @@
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
 #include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/body.hpp"
 
 namespace oiler {

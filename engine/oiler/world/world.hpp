@@ -14,6 +14,7 @@
 #include "oiler/core/random.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/body.hpp"
 #include "oiler/world/entity.hpp"
 #include "oiler/world/pool.hpp"

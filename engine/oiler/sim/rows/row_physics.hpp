@@ -8,7 +8,7 @@
 #include "oiler/math/batch.hpp"
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/plan.hpp"
-#include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/rows/row_views.hpp"
 
 namespace oiler {

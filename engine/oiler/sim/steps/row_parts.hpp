@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "oiler/core/team.hpp"
-#include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/store/column.hpp"
 
 namespace oiler {

@@ -5,7 +5,7 @@
 
 #include "oiler/core/team.hpp"
 #include "oiler/physics/plan.hpp"
-#include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/kernels/kernels.hpp"
 #include "oiler/sim/rows/row_views.hpp"
 
