@@ -129,6 +129,23 @@ TEST(Read, EveryDefaultIsThatOfTheList) {
     }
 }
 
+// The reader finds the numbers of a force by the keys of its fields.
+TEST(Read, TablesOfForcesHaveTheKeysOfTheirFields) {
+    int tables = 0;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
+        std::vector<std::string_view> of_fields{"body"};
+        for_each_field<Force>([&](const auto& field) { of_fields.push_back(field.key); });
+        std::vector<std::string_view> keys;
+        for (const SceneKey& key : scene_keys())
+            if (key.table == Force::name) keys.push_back(key.name);
+        if (keys.empty() || !scene_table(Force::name).is_force) return;
+        EXPECT_EQ(keys, of_fields);
+        ++tables;
+    });
+    EXPECT_EQ(tables, std::ranges::count(scene_tables(), true, &SceneTable::is_force));
+}
+
 TEST(Read, EveryRangeIsThatOfTheList) {
     for (const SceneKey& key : scene_keys()) {
         const bool bounded = key.range.low > -1e300;

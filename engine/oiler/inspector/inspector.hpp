@@ -17,6 +17,21 @@
 
 namespace oiler {
 
+/// "-12.5 J", "4.235 MJ".
+[[nodiscard]] std::string energy_text(double joules);
+
+/// "850 ns", "12.3 µs", "4.5 ms".
+[[nodiscard]] std::string time_text(double nanoseconds);
+
+/// What is drawn over the picture while the inspector is open.
+struct Shown {
+    bool trails = false;
+    bool springs = false;  ///< coloured by their strain
+    bool velocities = false;
+    bool accelerations = false;
+    friend bool operator==(const Shown&, const Shown&) = default;
+};
+
 /// What the inspector shows of a run that is played.
 struct Inspected {
     /// A setting that plays along.
