@@ -71,17 +71,16 @@ void add_link(const Bodies& bodies, std::size_t i, std::size_t a, std::size_t b,
 
 std::vector<OwnMotion> own_motions(const Bodies& bodies) {
     std::vector<OwnMotion> own(bodies.size());
-    const auto add = [](Oscillation& to, double k, double c) { to = {to.k + k, to.c + c}; };
     for (std::size_t row = 0; row < own.size(); ++row)
         for_each_force_on(bodies, row, [&of = own[row]]<class Force>(const Force& force) {
             if constexpr (Linear<Force>) {
-                const auto linear = linear_form(force);
-                for (Oscillation* const sum : {&of.linear, &of.all})
-                    add(*sum, linear.stiffness, linear.damping);
+                const auto one = linear_form(force);
+                of.linear = {of.linear.k + one.stiffness, of.linear.c + one.damping};
+                of.all = {of.all.k + one.stiffness, of.all.c + one.damping};
             } else if constexpr (LineSpring<Force>) {
-                const auto [anchor, stiffness, damping, rest_length] = force.line_spring();
-                of.has_lines = of.has_lines || stiffness != 0 || damping != 0;
-                add(of.all, stiffness, damping);
+                const auto one = force.line_spring();
+                of.has_lines = of.has_lines || one.stiffness != 0 || one.damping != 0;
+                of.all = {of.all.k + one.stiffness, of.all.c + one.damping};
             }
         });
     return own;

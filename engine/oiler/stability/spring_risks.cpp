@@ -176,10 +176,10 @@ private:
     std::vector<WeightedVectors> vectors_{};
 };
 
-/// Tests the stability of a component with the region's method. The test of few
-/// bodies is exact: by the eigenvalues of the stiffness matrix up to 100 freedoms if damping is
-/// even, else by those of the step up to 30. Larger components are tested at their fastest
-/// oscillation and, if damping is uneven, where stiffness and damping are most uneven.
+/// Tests the stability of a component with the region's method. The test of few bodies is exact: by
+/// the eigenvalues of the stiffness matrix up to 100 freedoms if damping is even, else by those of
+/// the step up to 30. Larger components are tested at their fastest oscillation and, if damping is
+/// uneven, where stiffness and damping are most uneven.
 std::optional<Risk> find_risk(Component component, Region& region, double dt) {
     return ComponentTest(std::move(component), region, dt).find_risk();
 }

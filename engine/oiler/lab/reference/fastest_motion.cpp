@@ -9,7 +9,7 @@
 namespace oiler::lab {
 namespace {
 
-/// Drag at the present speed `u` through the air, and at the terminal speed.
+/// The rate of decay by drag, at the present speed through the air or at the terminal speed, 1/s.
 double dragged(const AirDrag<double, 3>& drag, const Vec3& velocity, double gravity) {
     return std::max(2 * drag.coefficient * length(velocity - drag.velocity),
                     2 * std::sqrt(drag.coefficient * gravity));

@@ -20,8 +20,8 @@ struct AttractorForce {
     static constexpr std::string_view plural = "attractors";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"position", &AttractorForce::centre},
-                          Field{"gm", &AttractorForce::gm});
+        return std::tuple(KeyedField{"position", &AttractorForce::centre},
+                          KeyedField{"gm", &AttractorForce::gm});
     }
     constexpr AttractorForce per_unit_mass(V) const { return *this; }
 

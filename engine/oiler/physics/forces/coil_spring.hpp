@@ -20,10 +20,10 @@ struct CoilSpringForce {
     static constexpr std::string_view plural = "coil springs";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"anchor", &CoilSpringForce::anchor},
-                          Field{"stiffness", &CoilSpringForce::stiffness},
-                          Field{"damping", &CoilSpringForce::damping},
-                          Field{"rest_length", &CoilSpringForce::rest_length});
+        return std::tuple(KeyedField{"anchor", &CoilSpringForce::anchor},
+                          KeyedField{"stiffness", &CoilSpringForce::stiffness},
+                          KeyedField{"damping", &CoilSpringForce::damping},
+                          KeyedField{"rest_length", &CoilSpringForce::rest_length});
     }
     constexpr CoilSpringForce per_unit_mass(V mass) const {
         return {anchor, stiffness / mass, damping / mass, rest_length};

@@ -21,9 +21,9 @@ struct DriveForce {
     static constexpr bool everywhere = false;
     static constexpr bool depends_on_time = true;
     static constexpr auto fields() {
-        return std::tuple(Field{"amplitude", &DriveForce::amplitude},
-                          Field{"frequency", &DriveForce::frequency},
-                          Field{"phase", &DriveForce::phase});
+        return std::tuple(KeyedField{"amplitude", &DriveForce::amplitude},
+                          KeyedField{"frequency", &DriveForce::frequency},
+                          KeyedField{"phase", &DriveForce::phase});
     }
     constexpr DriveForce per_unit_mass(V mass) const {
         return {amplitude * (V(1) / mass), frequency, phase};

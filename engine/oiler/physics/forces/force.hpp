@@ -11,12 +11,12 @@ namespace oiler {
 
 /// A number or a vector of a force, with its key in scene files.
 template <class Member>
-struct Field {
+struct KeyedField {
     std::string_view key;
     Member member;
 };
 template <class Member>
-Field(const char*, Member) -> Field<Member>;
+KeyedField(const char*, Member) -> KeyedField<Member>;
 
 /// The derivatives of an acceleration by position (1/s²) and velocity (1/s).
 template <Number V, int Axes>

@@ -14,7 +14,7 @@ struct GravityForce {
     static constexpr std::string_view plural = "gravity";
     static constexpr bool everywhere = true;
     static constexpr auto fields() {
-        return std::tuple(Field{"acceleration", &GravityForce::acceleration});
+        return std::tuple(KeyedField{"acceleration", &GravityForce::acceleration});
     }
     static constexpr auto linear_fields() {
         return LinearFields{&GravityForce::acceleration, Absent{}, Absent{}, Absent{}};

@@ -14,7 +14,7 @@ struct LinearDragForce {
     static constexpr std::string_view plural = "linear drag";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"linear_drag", &LinearDragForce::coefficient});
+        return std::tuple(KeyedField{"linear_drag", &LinearDragForce::coefficient});
     }
     static constexpr auto linear_fields() {
         return LinearFields{Absent{}, Absent{}, Absent{}, &LinearDragForce::coefficient};

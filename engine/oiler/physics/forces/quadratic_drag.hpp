@@ -15,7 +15,7 @@ struct QuadraticDragForce {
     static constexpr std::string_view plural = "quadratic drag";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"quadratic_drag", &QuadraticDragForce::coefficient});
+        return std::tuple(KeyedField{"quadratic_drag", &QuadraticDragForce::coefficient});
     }
     constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
 

@@ -16,9 +16,9 @@ struct SpringForce {
     static constexpr std::string_view plural = "springs";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"anchor", &SpringForce::anchor},
-                          Field{"stiffness", &SpringForce::stiffness},
-                          Field{"damping", &SpringForce::damping});
+        return std::tuple(KeyedField{"anchor", &SpringForce::anchor},
+                          KeyedField{"stiffness", &SpringForce::stiffness},
+                          KeyedField{"damping", &SpringForce::damping});
     }
     static constexpr auto linear_fields() {
         return LinearFields{Absent{}, &SpringForce::anchor, &SpringForce::stiffness,

@@ -15,8 +15,8 @@ struct WindForce {
     static constexpr std::string_view plural = "wind";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(Field{"velocity", &WindForce::velocity},
-                          Field{"drag", &WindForce::coefficient});
+        return std::tuple(KeyedField{"velocity", &WindForce::velocity},
+                          KeyedField{"drag", &WindForce::coefficient});
     }
     constexpr WindForce per_unit_mass(V mass) const { return {velocity, coefficient / mass}; }
 
