@@ -139,7 +139,7 @@ TEST(Read, TablesOfForcesHaveTheKeysOfTheirFields) {
         std::vector<std::string_view> keys;
         for (const SceneKey& key : scene_keys())
             if (key.table == Force::name) keys.push_back(key.name);
-        if (keys.empty() || !scene_table(Force::name).is_force) return;
+        if (keys.empty() || !scene_table(Force::name).is_force()) return;
         EXPECT_EQ(keys, of_fields);
         ++tables;
     });

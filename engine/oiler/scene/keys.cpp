@@ -44,12 +44,21 @@ constexpr double most = double{most_bodies};
 /// Largest whole number that both TOML and a double hold, 2⁵³.
 constexpr double largest_whole = 9007199254740992.0;
 
-constexpr std::array known_tables{
-    SceneTable{"scene"},           SceneTable{"gravity"},          SceneTable{"body", true},
-    SceneTable{"spring", true},    SceneTable{"wind", true, true}, SceneTable{"drive", true, true},
-    SceneTable{"attractor", true}, SceneTable{"plane", true},      SceneTable{"grid", true},
-    SceneTable{"scatter", true},   SceneTable{"camera"},           SceneTable{"budget"},
-};
+using enum SceneTable::Kind;
+constexpr auto known_tables = std::to_array<SceneTable>({
+    {"scene", once},
+    {"gravity", once},
+    {"body", repeated},
+    {"spring", repeated},
+    {"wind", force},
+    {"drive", force},
+    {"attractor", repeated},
+    {"plane", repeated},
+    {"grid", repeated},
+    {"scatter", repeated},
+    {"camera", once},
+    {"budget", once},
+});
 
 constexpr std::array known_keys{
     SceneKey{"scene", "title", text, "", any, "\"\"", "", "title of the window, at most 200 bytes"},

@@ -57,10 +57,17 @@ struct SceneKey {
 
 /// A table of a scene file.
 struct SceneTable {
-    std::string_view name;     ///< "spring"
-    bool is_repeated = false;  ///< a scene may have several, written [[spring]]
-    /// It holds a force of that name on one body: the key `body`, and those of the force's fields.
-    bool is_force = false;
+    enum class Kind {
+        once,      ///< [gravity]
+        repeated,  ///< [[spring]]
+        force,     ///< repeated: a force of that name on one body. It has the key `body`, and those
+                   ///< of the force's fields.
+    };
+    std::string_view name;  ///< "spring"
+    Kind kind;
+
+    [[nodiscard]] bool is_repeated() const { return kind != Kind::once; }
+    [[nodiscard]] bool is_force() const { return kind == Kind::force; }
 };
 
 /// All tables, in the order of scene_keys().

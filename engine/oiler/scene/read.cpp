@@ -112,7 +112,7 @@ private:
     void each(std::string_view table, F f) const {
         const Value* const value = document_.find(table);
         if (!value) return;
-        if (!scene_table(table).is_repeated) return f(section(table, *value));
+        if (!scene_table(table).is_repeated()) return f(section(table, *value));
         if (value->kind != ValueKind::list)
             refuse({file_, value->line}, "{}: expected a list of tables, got {}; write [[{}]]",
                    table, value->shown(), table);
@@ -205,7 +205,7 @@ private:
             using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
             const auto table = std::ranges::find(scene_tables(), Force::name, &SceneTable::name);
             if constexpr (BodyForce<Force>)
-                if (table != scene_tables().end() && table->is_force)
+                if (table != scene_tables().end() && table->is_force())
                     each(Force::name, [&](const Section& section) { read_force<Force>(section); });
         });
     }

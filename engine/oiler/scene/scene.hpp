@@ -66,7 +66,7 @@ auto body_forces_of(const std::tuple<Force...>&) {
 /// A force of any kind on one body.
 using AnyForce = VariantOf<decltype(body_forces_of(ForceList<double, 3>{}))>::type;
 
-/// A force that a scene gives in a table with the name of the force, see SceneTable::is_force.
+/// A force that a scene gives in a table with the name of the force, see SceneTable::Kind.
 struct SceneForce {
     std::size_t body = 0;  ///< index in Scene::bodies
     AnyForce force{};
