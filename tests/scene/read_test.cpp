@@ -30,8 +30,7 @@ bool is(const SceneKey& key, std::string_view table, std::string_view name) {
 
 /// A valid value that differs from the one in `everything`.
 std::string other_value(const SceneKey& key) {
-    if (is(key, "spring", "body") || is(key, "wind", "body")) return "\"c\"";
-    if (is(key, "drive", "body")) return "\"a\"";
+    if (key.name == "body") return key.table == "drive" ? "\"a\"" : "\"c\"";
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
     if (is(key, "scene", "precision")) return "\"float\"";
