@@ -12,7 +12,7 @@
 #include "oiler/oiler.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/stability/region.hpp"
+#include "oiler/stability/stability.hpp"
 
 using namespace oiler;
 

@@ -2,7 +2,6 @@
 #include "oiler/scene/make_world.hpp"
 
 #include "oiler/core/random.hpp"
-#include "oiler/scene/grid.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
 #include "support/oscillator.hpp"

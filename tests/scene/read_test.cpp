@@ -30,8 +30,7 @@ bool is(const SceneKey& key, std::string_view table, std::string_view name) {
 
 /// A valid value that differs from the one in `everything`.
 std::string other_value(const SceneKey& key) {
-    if (is(key, "spring", "body") || is(key, "wind", "body")) return "\"c\"";
-    if (is(key, "drive", "body")) return "\"a\"";
+    if (key.name == "body") return key.table == "drive" ? "\"a\"" : "\"c\"";
     if (is(key, "spring", "to")) return "\"c\"";
     if (is(key, "scene", "method")) return "\"rk4\"";
     if (is(key, "scene", "precision")) return "\"float\"";
@@ -127,6 +126,23 @@ TEST(Read, EveryDefaultIsThatOfTheList) {
         const Scene with = parsed(altered(everything, key.table, key.name, key.value));
         EXPECT_EQ(without == with, key.absent.empty()) << name_of(key);
     }
+}
+
+// The reader finds the numbers of a force by the keys of its fields.
+TEST(Read, TablesOfForcesHaveTheKeysOfTheirFields) {
+    int tables = 0;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
+        std::vector<std::string_view> of_fields{"body"};
+        for_each_field<Force>([&](const auto& field) { of_fields.push_back(field.key); });
+        std::vector<std::string_view> keys;
+        for (const SceneKey& key : scene_keys())
+            if (key.table == Force::name) keys.push_back(key.name);
+        if (keys.empty() || !scene_table(Force::name).is_force()) return;
+        EXPECT_EQ(keys, of_fields);
+        ++tables;
+    });
+    EXPECT_EQ(tables, std::ranges::count(scene_tables(), true, &SceneTable::is_force));
 }
 
 TEST(Read, EveryRangeIsThatOfTheList) {

@@ -50,8 +50,9 @@ std::string default_text(const SceneKey& key) {
 }
 
 std::string row(const SceneKey& key) {
-    const std::string table =
-        is_repeated(key.table) ? fmt::format("[[{}]]", key.table) : fmt::format("[{}]", key.table);
+    const std::string table = scene_table(key.table).is_repeated()
+                                  ? fmt::format("[[{}]]", key.table)
+                                  : fmt::format("[{}]", key.table);
     const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
     return std::regex_replace(
         fmt::format("| `{}` | `{}` | {}{} | {} | {} |", table, key.name, type_text(key), unit,

@@ -18,10 +18,9 @@ Force assorted() {
     double next = 0.4375;
     for_each_number(force,
                     [&](auto& number) { number = next = next < 1.3 ? next + 0.3125 : 0.75; });
-    const auto flatten = [&](auto field) {
-        if constexpr (requires { (force.*field).axis; }) (force.*field)[2] = 0;
-    };
-    std::apply([&](auto... field) { (flatten(field), ...); }, Force::fields());
+    for_each_field<Force>([&](const auto& field) {
+        if constexpr (requires { (force.*field.member).axis; }) (force.*field.member)[2] = 0;
+    });
     return force;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/stability/stability.hpp"
-#include "oiler/stability/region.hpp"
 #include "oiler/stability/stiffest.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"

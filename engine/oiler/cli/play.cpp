@@ -11,7 +11,6 @@
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/read.hpp"
-#include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {

@@ -14,7 +14,6 @@
 #include "oiler/cli/files.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/read.hpp"
-#include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {

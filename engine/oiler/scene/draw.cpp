@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
-#include "oiler/scene/grid.hpp"
 #include "oiler/sim/bodies.hpp"
 
 namespace oiler {

@@ -26,8 +26,8 @@ To stored_form(const From& given, double mass) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         constexpr auto to = To::fields();
         constexpr auto from = From::fields();
-        ((force.*std::get<I>(to) =
-              narrow_field<T, Axes>(specific.*std::get<I>(from), force.*std::get<I>(to))),
+        ((force.*std::get<I>(to).member = narrow_field<T, Axes>(specific.*std::get<I>(from).member,
+                                                                force.*std::get<I>(to).member)),
          ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});

@@ -187,4 +187,11 @@ private:
     HandleSlots link_slots_;
 };
 
+/// Calls f(force) for each force on the body in a row, per unit mass, also for those that are zero.
+template <class F>
+void for_each_force_on(const Bodies& bodies, std::size_t row, F f) {
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        for_each_given(bodies.forces_per_mass(row, index), f);
+}
+
 }  // namespace oiler

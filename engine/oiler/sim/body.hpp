@@ -76,8 +76,7 @@ void for_each_given(const GivenForces& forces, F f) {
     std::apply([&](const auto&... force) { ((force ? f(*force) : void()), ...); }, forces);
 }
 
-/// A force of a single body: Spring, LinearDrag, QuadraticDrag, CoilSpring, Attractor, Wind
-/// or Drive.
+/// A force of a single body: any but Gravity.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);

@@ -47,8 +47,8 @@ void Limits::check(const GivenForces& forces, double mass) const {
     const auto check_given = [&]<class Force>(const std::optional<Force>& force) {
         if (!force) return;
         const Force specific = force->per_unit_mass(mass);
-        std::apply([&](auto... field) { (check(specific.*field, Force::name), ...); },
-                   Force::fields());
+        for_each_field<Force>(
+            [&](const auto& field) { check(specific.*field.member, Force::name); });
     };
     std::apply([&](const auto&... force) { (check_given(force), ...); }, forces);
 }

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/stability/region.hpp"
-#include "oiler/stability/ritz.hpp"
+#include "oiler/stability/modes.hpp"
 
 namespace oiler {
 

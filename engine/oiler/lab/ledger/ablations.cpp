@@ -4,12 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/core/seconds_since.hpp"
-#include "oiler/scene/grid.hpp"
 #include "oiler/scene/make_world.hpp"
 namespace oiler::lab {
 namespace {
@@ -41,6 +42,44 @@ void remove_forces(Scene& scene) {
     std::erase_if(scene.forces, [](const SceneForce& force) {
         return std::holds_alternative<Force>(force.force);
     });
+}
+
+/// A force without a table of its own.
+struct Elsewhere {
+    std::string_view force;
+    std::string_view words;  ///< where scene files give it
+    void (*leave_out)(Scene&);
+};
+constexpr std::array elsewhere{
+    Elsewhere{"gravity", "[gravity]", [](Scene& scene) { scene.gravity.reset(); }},
+    Elsewhere{"spring", "anchored [[spring]] without `rest_length`",
+              [](Scene& scene) { remove_springs(scene, "spring"); }},
+    Elsewhere{"linear_drag", "`linear_drag`",
+              [](Scene& scene) {
+                  for_each_matter(scene, [](SceneMatter& matter) { matter.linear_drag = 0; });
+              }},
+    Elsewhere{"quadratic_drag", "`quadratic_drag`",
+              [](Scene& scene) {
+                  for_each_matter(scene, [](SceneMatter& matter) { matter.quadratic_drag = 0; });
+              }},
+    Elsewhere{"coil_spring", "anchored [[spring]] with `rest_length`",
+              [](Scene& scene) { remove_springs(scene, "coil_spring"); }},
+    Elsewhere{"attractor", "[[attractor]]", [](Scene& scene) { scene.attractors.clear(); }},
+};
+
+template <class Force>
+ForceDescription description_of() {
+    ForceDescription force{.name = Force::name, .plural = Force::plural};
+    for_each_field<Force>([&](const auto& field) { force.numbers.push_back(field.key); });
+    const auto found = std::ranges::find(elsewhere, Force::name, &Elsewhere::force);
+    if (found != elsewhere.end()) {
+        force.words = found->words;
+        force.leave_out = found->leave_out;
+    } else if constexpr (BodyForce<Force>) {
+        force.words = fmt::format("[[{}]]", Force::name);
+        force.leave_out = remove_forces<Force>;
+    }
+    return force;
 }
 
 /// Turns the nodes of a grid into bodies, and its hanging springs into springs; drops the springs
@@ -257,44 +296,14 @@ private:
 }  // namespace
 
 const std::vector<ForceDescription>& force_descriptions() {
-    static const std::vector<ForceDescription> all{
-        {"gravity",
-         "gravity",
-         {"acceleration"},
-         "[gravity]",
-         [](Scene& scene) { scene.gravity.reset(); }},
-        {"spring",
-         "springs",
-         {"anchor", "stiffness", "damping"},
-         "anchored [[spring]] without `rest_length`",
-         [](Scene& scene) { remove_springs(scene, "spring"); }},
-        {"linear_drag",
-         "linear drag",
-         {"linear_drag"},
-         "`linear_drag`",
-         [](Scene& scene) {
-             for_each_matter(scene, [](SceneMatter& matter) { matter.linear_drag = 0; });
-         }},
-        {"quadratic_drag",
-         "quadratic drag",
-         {"quadratic_drag"},
-         "`quadratic_drag`",
-         [](Scene& scene) {
-             for_each_matter(scene, [](SceneMatter& matter) { matter.quadratic_drag = 0; });
-         }},
-        {"coil_spring",
-         "coil springs",
-         {"anchor", "stiffness", "damping", "rest_length"},
-         "anchored [[spring]] with `rest_length`",
-         [](Scene& scene) { remove_springs(scene, "coil_spring"); }},
-        {"attractor",
-         "attractors",
-         {"position", "gm"},
-         "[[attractor]]",
-         [](Scene& scene) { scene.attractors.clear(); }},
-        {"wind", "wind", {"velocity", "drag"}, "[[wind]]", remove_forces<Wind>},
-        {"drive", "drives", {"amplitude", "frequency", "phase"}, "[[drive]]", remove_forces<Drive>},
-    };
+    static const std::vector<ForceDescription> all = [] {
+        std::vector<ForceDescription> descriptions;
+        for_each_index<force_count>([&](auto kind) {
+            descriptions.push_back(
+                description_of<std::tuple_element_t<kind, ForceList<double, 3>>>());
+        });
+        return descriptions;
+    }();
     return all;
 }
 

@@ -30,11 +30,11 @@ struct Ablation {
 
 /// The names of a force for people.
 struct ForceDescription {
-    std::string_view name;                  ///< the force's own
-    std::string_view plural;                ///< "coil springs"
-    std::vector<std::string_view> numbers;  ///< scene keys of its fields
-    std::string_view words;                 ///< all forces of this kind, as in the scene file
-    std::function<void(Scene&)> leave_out;
+    std::string_view name;                    ///< the force's own
+    std::string_view plural;                  ///< "coil springs"
+    std::vector<std::string_view> numbers{};  ///< scene keys of its fields
+    std::string words{};                      ///< all forces of this kind, as in the scene file
+    std::function<void(Scene&)> leave_out{};
 };
 
 /// The description of every force, in the order of the list of forces.

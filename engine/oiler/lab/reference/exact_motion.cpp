@@ -26,8 +26,9 @@ bool may_act(const Force& force) {
     return acts(force);
 }
 
-void add(Influence& influence, const GivenForces& forces) {
-    for_each_given(forces, [&]<class Force>(const Force& force) {
+Influence influence_on(const Bodies& bodies, std::size_t row) {
+    Influence influence;
+    for_each_force_on(bodies, row, [&]<class Force>(const Force& force) {
         if constexpr (Linear<Force>) {
             const LinearForce<double, 3> linear = linear_form(force);
             influence.acceleration = influence.acceleration + to_real(linear.constant) +
@@ -40,6 +41,7 @@ void add(Influence& influence, const GivenForces& forces) {
             influence.other = influence.other || may_act(force);
         }
     });
+    return influence;
 }
 
 State3 state_at(const LinearMotion& motion, Real t) { return motion.at(t); }
@@ -131,9 +133,7 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
 }
 
 std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, Real until) {
-    Influence influence;
-    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
-        add(influence, bodies.forces_per_mass(row, index));
+    const Influence influence = influence_on(bodies, row);
     if (influence.other) return std::nullopt;
     const State3 start = bodies.state(row);
     const std::optional<Contact> contact = bodies.contact(row);

@@ -26,7 +26,7 @@ constexpr std::size_t offset_of(Field field) {
         else
             ++offset;
     };
-    std::apply([&](auto... other) { (visit(other), ...); }, Force::fields());
+    for_each_field<Force>([&](const auto& other) { visit(other.member); });
     return offset;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/scene/grid.hpp"
+#include "oiler/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
