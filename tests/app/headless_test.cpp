@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/core/error.hpp"
 #include "support/folder.hpp"
 
@@ -40,7 +40,7 @@ protected:
         const Folder folder;
         options.out = folder / "film";
         AnyGameOf<G> game(options.settings);
-        Recorder none({}, {}, game.world());
+        TraceWriter none({}, {}, game.world());
         Playback playback(game, none, Keep::hashes, profile);
         About about = Walker::about;
         about.duration = seconds;
@@ -48,7 +48,14 @@ protected:
         const MakeGame make = [](const Settings& settings) {
             return std::make_unique<AnyGameOf<G>>(settings);
         };
-        EXPECT_EQ(run_headless(playback, nobody, options, about, make, profile), Exit::done);
+        Run run{.options = options,
+                .about = about,
+                .make = make,
+                .playback = playback,
+                .live = nobody,
+                .inputs = nobody,
+                .profile = profile};
+        EXPECT_EQ(run_headless(run), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);
         return manifest;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
 

@@ -2,8 +2,8 @@
 // A replay that ends as its recording does, or says what differs.
 #include <gtest/gtest.h>
 
-#include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/play/recording.hpp"
 #include "support/folder.hpp"

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
 

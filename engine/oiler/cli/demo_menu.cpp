@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
