@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "oiler/core/error.hpp"
 #include "oiler/oiler.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/plot/plot.hpp"

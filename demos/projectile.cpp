@@ -12,6 +12,7 @@
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
+#include "oiler/sim/bodies.hpp"
 
 using namespace oiler;
 
@@ -105,13 +106,13 @@ struct Projectile {
     }
 
     void update(const Input&) {
-        world.each_body<Shot, Trail>([&](Entity entity, const Moving& moving, const Shot& shot,
-                                         Trail& trail) {
-            const Vec3 at = moving.position();
-            extend(trail, to_point(at), at[1] < 0);
-            if (shot.drag != Drag::quadratic) measure(shot, at);
-            if (at[1] < 0) land(entity);
-        });
+        world.each_body<Shot, Trail>(
+            [&](Entity entity, const Moving& moving, const Shot& shot, Trail& trail) {
+                const Vec3 at = moving.position();
+                extend(trail, to_point(at), at[1] < 0);
+                if (shot.drag != Drag::quadratic) measure(shot, at);
+                if (at[1] < 0) land(entity);
+            });
         if (world.bodies().size() == 0 && world.time() - last_landing >= pause_after_landing) {
             world.each<Shot>([&](Entity entity, const Shot&) { world.destroy(entity); });
             fire_salvo();
@@ -173,12 +174,10 @@ struct Projectile {
     }
 
     void draw_labels(Picture& picture) const {
-        const Settings& settings = world.settings();
         picture.labels.push_back(
             {.at = {16, 340},
-             .text = fmt::format("{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
-                                 settings.stepping.rate.steps, name_of(settings.stepping.precision),
-                                 world.time()),
+             .text =
+                 fmt::format("{}   t = {:.2f} s", caption(world.settings().stepping), world.time()),
              .size = 13,
              .colour = palette::ink});
         float y = 296;

@@ -161,14 +161,10 @@ struct SpringDamper {
 
     void draw_labels(Picture& picture) const {
         const Sample now = sample();
-        const Settings& settings = world.settings();
-        picture.labels.push_back(
-            {.at = {16, 340},
-             .text =
-                 fmt::format("{} at {} Hz, {}", settings.stepping.method->name,
-                             settings.stepping.rate.steps, name_of(settings.stepping.precision)),
-             .size = 13,
-             .colour = palette::ink});
+        picture.labels.push_back({.at = {16, 340},
+                                  .text = caption(world.settings().stepping),
+                                  .size = 13,
+                                  .colour = palette::ink});
         picture.labels.push_back({.at = {624, 340},
                                   .text = "k = 15 N/m, b = 0.1 N·s/m, m = 1 kg",
                                   .size = 11,

@@ -12,7 +12,7 @@
 #include "oiler/oiler.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/stability/region.hpp"
+#include "oiler/stability/stability.hpp"
 
 using namespace oiler;
 
@@ -147,7 +147,7 @@ struct StabilityMap {
 
     Choice choice() const {
         const Stepping& stepping = world.settings().stepping;
-        return {stepping.method, stepping.damping.value_or(stepping.method->damping)};
+        return {stepping.method, damping_of(stepping)};
     }
     std::vector<Choice> choices() const {
         std::vector<Choice> list;

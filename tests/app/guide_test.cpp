@@ -2,11 +2,9 @@
 // Plays the steps of the guide in demos/README.md. Expected motions are parabolas:
 // velocity_verlet is exact without drag.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "app/played.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -124,15 +122,14 @@ TEST(Guide, Step6IsRecordedReplayedAndComparedWithGoldenFrames) {
     const Folder folder;
     const std::string tape = " '" + (folder / "tape").string() + "'";
     const std::string script = with_script(folder, play_through());
-    EXPECT_EQ(shell("step6 --steps 800 --record" + tape + script).exit, 0);
-    const Outcome replay = shell("step6 --quiet --threads 2 --steps 800 --replay" + tape);
-    EXPECT_EQ(replay.exit, 0) << replay.err;
+    shell("step6 --steps 800 --record" + tape + script, 0);
+    shell("step6 --quiet --threads 2 --steps 800 --replay" + tape, 0);
     const std::string film = "step6 --headless --fps 1 --frames 3 --size 64x36 --golden '" +
                              (folder / "golden").string() + "'";
     const std::string now = " --out '" + (folder / "now").string() + "'";
-    EXPECT_EQ(shell(film + script + "--update-golden --force").exit, 0);
-    EXPECT_EQ(shell(film + script + now).exit, 0);
-    EXPECT_EQ(shell(film + with_script(folder, "11 press Space\n") + now).exit, 1);
+    shell(film + script + "--update-golden --force", 0);
+    shell(film + script + now, 0);
+    shell(film + with_script(folder, "11 press Space\n") + now, 1);
 }
 
 std::string trimmed(const std::string& line) {
@@ -154,7 +151,7 @@ TEST(Guide, ReadmeShowsTheLinesOfItsPrograms) {
         if (line.starts_with("```")) {
             in_code = line == "```cpp";
         } else if (in_code) {
-            EXPECT_NE(program.find(trimmed(line)), std::string::npos) << line;
+            EXPECT_TRUE(holds(program, trimmed(line))) << line;
             ++checked;
         }
     }

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Tests the number of frames of a film, and its manifest.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "oiler/app/run_game.hpp"
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -48,13 +43,13 @@ protected:
         const MakeGame make = [](const Settings& settings) {
             return std::make_unique<AnyGameOf<G>>(settings);
         };
-        Run run{.options = options,
-                .about = about,
-                .make = make,
-                .playback = playback,
-                .live = nobody,
-                .inputs = nobody,
-                .profile = profile};
+        GameRun run{.options = options,
+                    .about = about,
+                    .make = make,
+                    .playback = playback,
+                    .live = nobody,
+                    .inputs = nobody,
+                    .profile = profile};
         EXPECT_EQ(run_headless(run), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);

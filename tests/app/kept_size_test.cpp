@@ -2,13 +2,11 @@
 // The size that a user gave to a window.
 #include "oiler/app/kept_size.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <fstream>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -38,15 +36,10 @@ TEST(KeptSize, IsNamedWithItsFileIfItIsNone) {
     const Folder folder;
     const std::filesystem::path file = folder / "jump.size";
     std::ofstream(file) << "16:9";
-    try {
-        static_cast<void>(read_size(file));
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_EQ(error.what(), file.string() +
-                                    ": expected a size such as 1280x720, got '16:9'; "
-                                    "remove the file");
-    }
+    EXPECT_EQ(line_of_error(Exit::usage, [&] { static_cast<void>(read_size(file)); }),
+              file.string() +
+                  ": expected a size such as 1280x720, got '16:9'; "
+                  "remove the file");
     EXPECT_THROW(write_size(file / "jump.size", {1, 1}), Error);
 }
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <sstream>
-#include <vector>
-
-#include "oiler/core/error.hpp"
-
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 constexpr About about{.name = "demo", .title = "A demo", .rate = 50};
@@ -114,12 +109,45 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     EXPECT_EQ(given.stepping.method->name, "exact");
     EXPECT_EQ(given.stepping.precision, Precision::double_);
     EXPECT_EQ(given.stepping.damping, Damping::in_drift);
-    EXPECT_NE(parse_file({"demo", "--help"}).text.find("SCENE"), std::string::npos);
+    EXPECT_TRUE(holds(parse_file({"demo", "--help"}).text, "SCENE"));
 }
 
 TEST(Options, HelpAndVersionAreText) {
-    EXPECT_NE(parse("--help").text.find("--headless"), std::string::npos);
+    EXPECT_TRUE(holds(parse("--help").text, "--headless"));
     EXPECT_EQ(parse("--version").text.rfind("demo ", 0), 0U);
+}
+
+TEST(Options, MayNeedTheStepsOfARunOrItsSetting) {
+    EXPECT_EQ(no_way_back(parse("--steps 3 --json -").options), "");
+    EXPECT_EQ(no_way_back(parse("--steps 3 --energy e --trace t").options), "--trace");
+    EXPECT_EQ(no_way_back(parse("--steps 3 --trace t --record r").options), "--record");
+    EXPECT_EQ(fixing_option(parse("--steps 3 --profile p").options), "");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --profile p").options, about), "");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --record r --json j").options, about),
+              "--json keeps this setting.");
+    EXPECT_EQ(why_fixed(parse("--steps 3 --energy e").options, about),
+              "--energy keeps this setting.");
+    About fixed = about;
+    fixed.fixed_setting = "Keys choose it.";
+    EXPECT_EQ(why_fixed(parse("--steps 3 --json j").options, fixed), "Keys choose it.");
+}
+
+// Each option that writes a file is compared with each other one.
+TEST(Options, WriteFilesOfTheirOwn) {
+    const std::vector<std::string> outputs{"--record", "--video",  "--sheet", "--junit",
+                                           "--trace",  "--energy", "--json",  "--profile"};
+    for (const std::string& one : outputs)
+        for (const std::string& other : outputs) try {
+                if (one == other) continue;
+                (void)parse("--headless --golden g --update-golden --force " + one + " f.mp4 " +
+                            other + " ./f.mp4");
+                ADD_FAILURE() << one << " and " << other;
+            } catch (const Error& error) {
+                const std::string line = error.what();
+                EXPECT_TRUE(line.find("both write") != line.npos ||
+                            line.find("--junit: --update-golden writes g only") != line.npos)
+                    << line;
+            }
 }
 
 struct Wrong {
@@ -132,15 +160,9 @@ struct Wrong {
 class WrongOptions : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongOptions, AreRefusedInOneLineThatNamesThem) {
-    try {
-        (void)parse(GetParam().words);
-        FAIL() << "accepted: " << GetParam().words;
-    } catch (const Error& error) {
-        const std::string line = error.what();
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_NE(line.find(GetParam().named), std::string::npos) << line;
-        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    }
+    const std::string line = line_of_error(Exit::usage, [&] { (void)parse(GetParam().words); });
+    EXPECT_TRUE(holds(line, GetParam().named));
+    EXPECT_FALSE(holds(line, "\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -182,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"--rate 30 --rate 60", "--rate: given 2 times; give it once (see demo --help)"}));
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What a player sees at the times of frames that do not fit the steps. The test has its own clock:
 // the stamps of the frames.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
-#include <vector>
 
 #include "oiler/app/game_clock.hpp"
 #include "oiler/app/playback.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/core/step_clock.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 using std::chrono::nanoseconds;
@@ -188,4 +185,4 @@ TEST(KeptPace, OneLateFrameIsNoLackOfSpeed) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/playback.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <new>
-#include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include "oiler/core/step_clock.hpp"
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
-
-using test::holds;
-using test::line_of_error;
 
 /// A free body at 1 m/s and 1 step/s, so that its position in m is the tick. `update` counts key
 /// presses.
@@ -236,13 +227,9 @@ TEST(Playback, AnExceptionOfAGameNamesTheTick) {
     AnyGameOf<Thrower> game{Settings{.stepping = {.rate = {1}}}};
     TraceWriter none{{}, {}, game.world()};
     LiveInput input;
-    try {
-        Playback(game, none, Keep::nothing).step_to(10, input);
-        FAIL() << "nothing thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::diverged);
-        EXPECT_STREQ(error.what(), "update at tick 3: no such target");
-    }
+    EXPECT_EQ(line_of_error(Exit::diverged,
+                            [&] { Playback(game, none, Keep::nothing).step_to(10, input); }),
+              "update at tick 3: no such target");
 }
 
 /// A game that does something wrong at tick 3.
@@ -390,4 +377,4 @@ TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

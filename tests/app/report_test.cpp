@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/report.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "oiler/app/run_game.hpp"
-#include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

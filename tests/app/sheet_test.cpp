@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/film.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/capture/png.hpp"
 #include "oiler/picture/palette.hpp"
 #include "render/drawing.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -37,7 +36,7 @@ Picture picture(int index) {
 class SheetOfTiles : public testing::Test {
 protected:
     void SetUp() override {
-        studio = drawing::open_studio(Offscreen::automatic);
+        studio = open_studio(Offscreen::automatic);
         if (!studio) GTEST_SKIP() << "no OpenGL without a screen";
     }
     /// Writes a sheet of `tiles` tiles out of `frames` frames, and reads it back.
@@ -55,7 +54,7 @@ protected:
         const auto& rgb = image.rgb_bottom_up;
         return {rgb.at(at), rgb.at(at + 1), rgb.at(at + 2)};
     }
-    std::unique_ptr<drawing::Studio> studio;
+    std::unique_ptr<Studio> studio;
     Folder folder;
 };
 

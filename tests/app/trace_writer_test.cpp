@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/trace_writer.hpp"
 
-#include <gtest/gtest.h>
-
 #include <charconv>
-#include <sstream>
-#include <vector>
 
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -288,8 +288,8 @@ Sweep sweep_all(const Scene& scene, const Requirements& requirements) {
     };
     sweep(sweep_of.tradeoff, scene, reference, plan, watch);
     std::vector<TradeoffRow*> rows;
-    for (Ladder& ladder : sweep_of.tradeoff.ladders)
-        for (TradeoffRow& row : ladder.rows) rows.push_back(&row);
+    for (RateSeries& series : sweep_of.tradeoff.all_series)
+        for (TradeoffRow& row : series.rows) rows.push_back(&row);
     time_rows(scene, rows, 7, watch);
     fmt::print(stderr, "\r");
     sweep_of.seconds = seconds_since(start);

@@ -11,7 +11,7 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/process/guard_main.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse.hpp"
 
 namespace oiler::bench {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bench/peers.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::bench {
 namespace {

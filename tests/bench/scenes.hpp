@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/limits.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler::bench {

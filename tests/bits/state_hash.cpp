@@ -3,6 +3,7 @@
 #include <string>
 
 #include "oiler/core/state_hash.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 
 // Prints a line for each method, scene, precision and number of axes with the state hash after 200

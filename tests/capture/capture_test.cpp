@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/capture.hpp"
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "support/folder.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
 namespace fs = std::filesystem;
-using oiler::Capture;
-using oiler::Error;
-using oiler::Exit;
-using oiler::Manifest;
-using oiler::Shot;
-using oiler::test::Folder;
-using oiler::test::names_in;
-using oiler::test::put;
-using oiler::test::text_of;
 using Names = std::vector<std::string>;
 
-constexpr oiler::Size size{1, 2};
+constexpr Size size{1, 2};
 const std::vector<std::uint8_t> bottom_up = {1, 2, 3, 4, 5, 6};
 
 Manifest header() {
@@ -68,12 +58,7 @@ void capture(const fs::path& folder, int frames) {
 }
 
 void expect_io_error(const fs::path& folder) {
-    try {
-        capture(folder, 1);
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
-    }
+    (void)line_of_error(Exit::io, [&] { capture(folder, 1); });
 }
 
 TEST(Capture, WritesFramesAndAManifestThatNamesThem) {
@@ -90,9 +75,9 @@ TEST(Capture, WritesFramesAndAManifestThatNamesThem) {
     EXPECT_EQ(frame["alpha"], 0.1);
     EXPECT_EQ(frame["state_hash"], "fedcba9876543210");
     const std::string_view top_down = "\4\5\6\1\2\3";
-    oiler::StateHash expected;
+    StateHash expected;
     expected.add(std::as_bytes(std::span(top_down)));
-    EXPECT_EQ(frame["pixel_hash"], oiler::hash_text(expected.value()));
+    EXPECT_EQ(frame["pixel_hash"], hash_text(expected.value()));
 }
 
 // All numbers and all texts of the header are different.
@@ -123,11 +108,10 @@ TEST(Capture, ManifestHasOneLinePerFrame) {
     const Folder folder;
     capture(folder / "out", 2);
     const std::string text = text_of(folder / "out/manifest.json");
-    EXPECT_NE(text.find("\n    {\"index\":1,\"file\":\"frame_000001.png\",\"tick\":1,\"alpha\":0.1,"
-                        "\"state_hash\":\"fedcba9876543210\",\"picture_hash\":\"0123456789abcdef\","
-                        "\"pixel_hash\":\""),
-              std::string::npos)
-        << text;
+    EXPECT_TRUE(holds(text,
+                      "\n    {\"index\":1,\"file\":\"frame_000001.png\",\"tick\":1,\"alpha\":0.1,"
+                      "\"state_hash\":\"fedcba9876543210\",\"picture_hash\":\"0123456789abcdef\","
+                      "\"pixel_hash\":\""));
     EXPECT_TRUE(text.ends_with("}\n  ]\n}\n"));
 }
 
@@ -146,15 +130,9 @@ TEST(Capture, ACaptureOfAnotherSceneStays) {
     const std::string manifest = text_of(folder / "out/manifest.json");
     Manifest other = header(1);
     other.scene = "jump";
-    try {
-        const Capture refused(folder / "out", other);
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
-        EXPECT_TRUE(
-            oiler::test::holds(error.what(), "not of jump; remove it or choose another folder"))
-            << error.what();
-    }
+    EXPECT_TRUE(
+        holds(line_of_error(Exit::io, [&] { const Capture refused(folder / "out", other); }),
+              "not of jump; remove it or choose another folder"));
     EXPECT_EQ(names_in(folder / "out"),
               (Names{"frame_000000.png", "frame_000001.png", "manifest.json"}));
     EXPECT_EQ(text_of(folder / "out/manifest.json"), manifest);
@@ -244,15 +222,9 @@ TEST(Capture, ASecondCaptureIntoTheFolderIsRefusedWithTheOwner) {
     const Folder folder;
     Capture first(folder / "out", header(1));
     first.add(shot(0));
-    try {
-        const Capture second(folder / "out", header(1));
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
-        EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid())),
-                  std::string::npos)
-            << error.what();
-    }
+    const std::string line =
+        line_of_error(Exit::io, [&] { const Capture second(folder / "out", header(1)); });
+    EXPECT_TRUE(holds(line, "process " + std::to_string(getpid())));
     first.finish();
     EXPECT_EQ(names_in(folder / "out"),
               (Names{".oiler-capture", "frame_000000.png", "manifest.json"}));
@@ -280,7 +252,7 @@ TEST(Capture, TemporaryFilesOfKilledRunsAreRemoved) {
     fs::create_directories(folder / "out/.oiler-3-0.tmp");
     for (const char* name : {"out/.oiler-1-0.tmp", "out/.oiler-2-7.tmp", "out/.oiler-notes"})
         put(folder / name, "half");
-    oiler::File mine(folder / "out/notes.txt");
+    File mine(folder / "out/notes.txt");
     mine.write("mine");
     capture(folder / "out", 1);
     mine.commit();
@@ -312,8 +284,8 @@ TEST(Capture, AFolderThatStayedEmptyIsRemoved) {
 /// Captures three frames with records, of which one cannot get its name.
 void capture_with_a_failure(const fs::path& folder, int failing) {
     Capture capture(folder, header(3));
-    fs::create_directory(folder / oiler::frame_name(failing));
-    put(folder / oiler::frame_name(failing) / "kept", "");
+    fs::create_directory(folder / frame_name(failing));
+    put(folder / frame_name(failing) / "kept", "");
     try {
         for (int i = 0; i < 3; ++i) {
             Shot next = shot(i);
@@ -331,11 +303,11 @@ TEST(Capture, AFailedFrameEndsTheCaptureBeforeIt) {
         const Folder folder;
         EXPECT_THROW(capture_with_a_failure(folder / "out", failing), Error);
         Names expected;
-        for (int i = 0; i <= failing; ++i) expected.push_back(oiler::frame_name(i));
+        for (int i = 0; i <= failing; ++i) expected.push_back(frame_name(i));
         if (failing > 0) expected.push_back("manifest.json");
         EXPECT_EQ(names_in(folder / "out"), expected) << "neither later frames nor records";
         if (failing == 0) continue;
-        const Manifest manifest = oiler::read_manifest(folder / "out");
+        const Manifest manifest = read_manifest(folder / "out");
         EXPECT_FALSE(manifest.is_finished());
         EXPECT_EQ(manifest.frames.size(), static_cast<std::size_t>(failing));
     }
@@ -352,3 +324,4 @@ TEST(Capture, AFrameThatCannotBeWrittenIsAnError) {
 }
 
 }  // namespace
+}  // namespace oiler::test

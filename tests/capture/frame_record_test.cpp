@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/frame_record.hpp"
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "oiler/core/error.hpp"
 #include "oiler/picture/picture.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Align;
-using oiler::Colour;
-using oiler::Error;
-using oiler::Exit;
-using oiler::FrameRecord;
-using oiler::parse_frame_records;
-using oiler::Picture;
-using oiler::Space;
-using oiler::test::holds;
 using Json = nlohmann::json;
 
 std::mt19937_64 bits{7};
@@ -43,14 +30,14 @@ Colour colour() {
             static_cast<std::uint8_t>(b >> 16U), static_cast<std::uint8_t>(b >> 24U)};
 }
 
-oiler::ElementKey key() {
+ElementKey key() {
     return {bits(), static_cast<std::uint32_t>(bits()), static_cast<std::uint32_t>(bits())};
 }
 
 Space space() { return bits() % 2 == 0 ? Space::world : Space::canvas; }
 
-std::vector<oiler::Point> points(int count) {
-    std::vector<oiler::Point> points;
+std::vector<Point> points(int count) {
+    std::vector<Point> points;
     for (int i = 0; i < count; ++i) points.push_back({single(), single()});
     return points;
 }
@@ -64,8 +51,8 @@ void add_rich(Picture& picture) {
         picture.sprites.push_back({.key = key(),
                                    .centre = {single(), single()},
                                    .size = {single(), single()},
-                                   .bitmap = std::make_shared<const oiler::Bitmap>(
-                                       oiler::Bitmap{.size = {}, .rgba = {}, .hash = bits()}),
+                                   .bitmap = std::make_shared<const Bitmap>(
+                                       Bitmap{.size = {}, .rgba = {}, .hash = bits()}),
                                    .angle = single(),
                                    .colour = colour(),
                                    .space = space(),
@@ -134,14 +121,14 @@ TEST(FrameRecord, IsALineOfJson) {
     record.picture.polylines = {
         {.points = {{1, 2}, {3, 4.5F}}, .width = 0.1F, .space = Space::canvas}};
     const std::string line = to_json(record);
-    EXPECT_EQ(oiler::test::lines(line), 1);
+    EXPECT_EQ(lines(line), 1);
     EXPECT_EQ(line.back(), '\n');
     const Json json = Json::parse(line);
     EXPECT_EQ(json.at("frame"), 5);
     EXPECT_EQ(json.at("bodies"), Json::parse(R"([["bob", 1.0, 2.0, 3.0, 4.0, 5.0, -0.0]])"));
     EXPECT_EQ(json.at("picture").at("lines")[0].at("points"), (Json{1.0, 2.0, 3.0, 4.5}));
     EXPECT_EQ(json.at("picture").at("lines")[0].at("space"), "canvas");
-    EXPECT_TRUE(holds(line, "\"width\":0.1,")) << line;
+    EXPECT_TRUE(holds(line, "\"width\":0.1,"));
     EXPECT_EQ(json.at("picture").at("labels")[0].at("align"), 1);
     EXPECT_EQ(json.at("picture").at("background"), (Json{255, 255, 255, 255}));
 }
@@ -161,36 +148,31 @@ TEST(FrameRecord, NumbersThatAreNotFiniteReadBackAsNan) {
 
 TEST(FrameRecord, IsKeptUpToItsLimits) {
     Picture picture;
-    EXPECT_TRUE(oiler::is_recordable(1000, picture));
-    EXPECT_FALSE(oiler::is_recordable(1001, picture));
+    EXPECT_TRUE(is_recordable(1000, picture));
+    EXPECT_FALSE(is_recordable(1001, picture));
     picture.labels.resize(1);
     picture.discs.resize(2);
     picture.polylines.resize(2);
     picture.polylines[0].points.resize(9'997);
     picture.polylines[1].points.resize(10'000);
-    EXPECT_TRUE(oiler::is_recordable(1000, picture));
+    EXPECT_TRUE(is_recordable(1000, picture));
     picture.discs.emplace_back();
-    EXPECT_FALSE(oiler::is_recordable(0, picture));
+    EXPECT_FALSE(is_recordable(0, picture));
     picture.discs.clear();
     picture.sprites.resize(1);
     picture.polygons = {{.points = {{}}}};
-    EXPECT_TRUE(oiler::is_recordable(0, picture));
+    EXPECT_TRUE(is_recordable(0, picture));
     picture.polygons[0].points.emplace_back();
-    EXPECT_FALSE(oiler::is_recordable(0, picture));
+    EXPECT_FALSE(is_recordable(0, picture));
     picture.polygons.clear();
     picture.sprites.resize(3);
-    EXPECT_FALSE(oiler::is_recordable(0, picture));
+    EXPECT_FALSE(is_recordable(0, picture));
 }
 
 void expect_refused(const std::string& lines) {
-    try {
-        (void)parse_frame_records(lines, "some/frames.jsonl.gz");
-        ADD_FAILURE() << "accepted: " << lines;
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(std::string(error.what()).starts_with("some/frames.jsonl.gz: "))
-            << error.what();
-    }
+    const std::string line = line_of_error(
+        Exit::usage, [&] { (void)parse_frame_records(lines, "some/frames.jsonl.gz"); });
+    EXPECT_TRUE(line.starts_with("some/frames.jsonl.gz: ")) << line;
 }
 
 TEST(FrameRecord, DamagedLinesAreRefused) {
@@ -210,3 +192,4 @@ TEST(FrameRecord, DamagedLinesAreRefused) {
 }
 
 }  // namespace
+}  // namespace oiler::test

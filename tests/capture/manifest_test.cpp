@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/manifest.hpp"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Error;
-using oiler::Exit;
-using oiler::Manifest;
-using oiler::parse_manifest;
-using oiler::test::Folder;
-using oiler::test::holds;
-using oiler::test::put;
 using Json = nlohmann::json;
 
 /// No two fields have the same value.
@@ -88,7 +79,7 @@ std::string refusal_of(const std::string& text) {
         const std::string line = error.what();
         EXPECT_TRUE(line.starts_with("some/manifest.json: ")) << line;
         EXPECT_TRUE(line.ends_with("; capture again")) << line;
-        EXPECT_FALSE(holds(line, "\n")) << line;
+        EXPECT_FALSE(holds(line, "\n"));
         return line.substr(line.find(": ") + 2);
     }
     ADD_FAILURE() << "accepted: " << text;
@@ -109,14 +100,14 @@ TEST(Manifest, ReadsBack) {
 TEST(Manifest, ReadsTheFolderAndTheFile) {
     const Folder folder;
     put(folder / "manifest.json", to_json(manifest()));
-    expect_equal(oiler::read_manifest(folder.path()), manifest());
-    expect_equal(oiler::read_manifest(folder / "manifest.json"), manifest());
+    expect_equal(read_manifest(folder.path()), manifest());
+    expect_equal(read_manifest(folder / "manifest.json"), manifest());
     for (const char* none : {"none", "none/manifest.json"}) try {
-            (void)oiler::read_manifest(folder / none);
+            (void)read_manifest(folder / none);
             ADD_FAILURE() << none;
         } catch (const Error& error) {
             EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_TRUE(holds(error.what(), (folder / none).string())) << error.what();
+            EXPECT_TRUE(holds(error.what(), (folder / none).string()));
         }
 }
 
@@ -146,7 +137,7 @@ TEST(Manifest, NamesEachDamagedFieldOfTheHeader) {
             damaged[field] = wrong;
             const std::string line = refusal_of(damaged.dump());
             EXPECT_TRUE(line.starts_with(field + ": expected ")) << field << " = " << wrong;
-            EXPECT_TRUE(holds(line, ", got " + wrong.dump() + ";")) << line;
+            EXPECT_TRUE(holds(line, ", got " + wrong.dump() + ";"));
         }
     }
 }
@@ -216,3 +207,4 @@ TEST(Manifest, RefusesDamagedText) {
 }
 
 }  // namespace
+}  // namespace oiler::test

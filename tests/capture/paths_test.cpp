@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/paths.hpp"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -79,8 +75,8 @@ TEST_F(Paths, ThePlaceOfStandardOutputCounts) {
     dup2(saved, STDOUT_FILENO);
     close(saved);
     fclose(redirected);
-    EXPECT_NE(input.find("SCENE"), std::string::npos) << input;
-    EXPECT_NE(output.find("--trace"), std::string::npos) << output;
+    EXPECT_TRUE(holds(input, "SCENE"));
+    EXPECT_TRUE(holds(output, "--trace"));
 }
 
 TEST_F(Paths, FilesOfAnOutputFolderCount) {

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/png.hpp"
 
-#include <gtest/gtest.h>
 #include <png.h>
 
 #include <cstdlib>
 #include <random>
-#include <string>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::encode_png;
-using oiler::Error;
-using oiler::Exit;
-using oiler::Size;
 using Pixels = std::vector<std::uint8_t>;
 
 /// Decodes a PNG with libpng, top row first.
@@ -79,10 +74,11 @@ TEST(EncodePng, RefusesEmptyAndTooLargeFrames) {
 TEST(EncodePng, PassesPngcheck) {
     if (std::system("command -v pngcheck > /dev/null") != 0)
         GTEST_SKIP() << "pngcheck is not installed";
-    const oiler::test::Folder folder;
+    const Folder folder;
     const auto png = encode_png({33, 17}, noise({33, 17}));
-    oiler::test::put(folder / "a.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+    put(folder / "a.png", {reinterpret_cast<const char*>(png.data()), png.size()});
     EXPECT_EQ(std::system(("pngcheck -q " + (folder / "a.png").string()).c_str()), 0);
 }
 
 }  // namespace
+}  // namespace oiler::test

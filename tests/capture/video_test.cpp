@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/video.hpp"
 
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -9,9 +8,8 @@
 #include <fstream>
 #include <random>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -139,20 +137,16 @@ TEST_F(Videos, AnotherEndingIsRefusedBeforeAnyFolderIsMade) {
             ADD_FAILURE() << name;
         } catch (const Error& error) {
             EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_TRUE(holds(error.what(), ".mp4, .gif or .apng")) << error.what();
+            EXPECT_TRUE(holds(error.what(), ".mp4, .gif or .apng"));
         }
     EXPECT_EQ(names_in(folder.path()), Names{});
 }
 
 TEST_F(Videos, WithoutFfmpegNameThePackage) {
     const Variable path("PATH", folder.path().string());
-    try {
-        const Video video(folder / "a.mp4", size, 25);
-        ADD_FAILURE() << "started";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
-        EXPECT_TRUE(holds(error.what(), "install the Debian package ffmpeg")) << error.what();
-    }
+    EXPECT_TRUE(
+        holds(line_of_error(Exit::io, [&] { const Video video(folder / "a.mp4", size, 25); }),
+              "install the Debian package ffmpeg"));
     EXPECT_EQ(names_in(folder.path()), Names{});
 }
 
@@ -228,7 +222,7 @@ TEST_F(Videos, AFileThatCannotBeCompletedIsAnError) {
             ADD_FAILURE() << name << ": no error";
         } catch (const Error& error) {
             EXPECT_EQ(error.exit(), Exit::io);
-            EXPECT_TRUE(holds(error.what(), "File too large")) << error.what();
+            EXPECT_TRUE(holds(error.what(), "File too large"));
         }
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
 }

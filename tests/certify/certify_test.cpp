@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/certify/certify.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <algorithm>
-#include <string>
-
+namespace oiler::test {
 namespace {
 
-using oiler::Damping;
-using oiler::find_method;
-using oiler::Method;
-using oiler::Move;
-using oiler::Splitting;
-using oiler::Stage;
-using oiler::Tableau;
-using oiler::certify::Certificate;
-using oiler::certify::certify;
+using certify::Certificate;
+using certify::certify;
 
 constexpr std::int64_t steps = 50'000;
 
@@ -31,7 +22,7 @@ TEST_P(EachMethod, IsWhatItsTableClaims) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Certificate, EachMethod,
-                         testing::ValuesIn(oiler::methods().begin(), oiler::methods().end()),
+                         testing::ValuesIn(methods().begin(), methods().end()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 // With damping in the kicks, all splittings claim order 1 on the damped spring.
@@ -140,3 +131,4 @@ TEST(FalseClaim, OfExplicitEulerToBeSemiImplicitFails) {
 }
 
 }  // namespace
+}  // namespace oiler::test

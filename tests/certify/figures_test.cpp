@@ -2,22 +2,15 @@
 #include "oiler/certify/figures.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
-using namespace oiler::certify;
+namespace oiler::test {
+using namespace certify;
 namespace {
 
 /// The expected contents of the figures, in order.
@@ -215,7 +208,7 @@ TEST(ArticleFigures, HaveLabelsThatDoNotOverlapOnTheCanvas) {
 void expect_caption(std::size_t figure, const std::vector<std::string>& parts) {
     const std::string words = caption(figures().at(figure - 1).picture);
     for (const std::string& part : parts)
-        EXPECT_NE(words.find(part), std::string::npos) << '"' << part << "\" in: " << words;
+        EXPECT_TRUE(holds(words, part)) << '"' << part << "\" in: " << words;
 }
 
 double degrees(const nlohmann::json& radians) {
@@ -311,4 +304,4 @@ TEST(FigureCaptions, SayBetweenWhichLimitsSemiImplicitEulersEnergyOscillates) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/certify/region.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <functional>
 
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
-using oiler::Damping;
-using oiler::find_method;
-using oiler::certify::measure_region;
-using oiler::certify::StabilityGrid;
-using oiler::certify::StabilityRegion;
+using certify::measure_region;
+using certify::StabilityGrid;
+using certify::StabilityRegion;
 
 constexpr StabilityGrid grid{.columns = 30, .rows = 12};
 
@@ -46,7 +43,7 @@ TEST(Region, HasALineOfCsvPerCell) {
                                  .stable = {true},
                                  .bounded_double = {false},
                                  .bounded_float = {true}};
-    EXPECT_EQ(oiler::certify::to_csv({region}, {.columns = 1, .rows = 1}),
+    EXPECT_EQ(certify::to_csv({region}, {.columns = 1, .rows = 1}),
               "method,damping,omega_dt,zeta,spectral_radius,stable,bounded_double,bounded_float\n"
               "rk4,drift,3,0,0.5,1,0,1\n");
 }
@@ -95,15 +92,14 @@ TEST(Region, IsWrittenAsALineForEachCell) {
 
 const StabilityGrid small{.columns = 6, .rows = 4};
 
-oiler::Picture atlas_of(std::size_t panels) {
+Picture atlas_of(std::size_t panels) {
     static const std::vector<StabilityRegion> all = [] {
         std::vector<StabilityRegion> regions;
-        for (const oiler::Method& method : oiler::methods())
+        for (const Method& method : methods())
             regions.push_back(measure_region(method, method.damping, small));
         return regions;
     }();
-    return oiler::certify::atlas({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(panels)},
-                                 small);
+    return certify::atlas({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(panels)}, small);
 }
 
 struct Area {
@@ -113,47 +109,45 @@ struct Area {
     }
 };
 
-Area area_of(const oiler::Sprite& panel) {
+Area area_of(const Sprite& panel) {
     return {panel.centre.x - panel.size.x / 2, panel.centre.x + panel.size.x / 2,
             panel.centre.y - panel.size.y / 2, panel.centre.y + panel.size.y / 2};
 }
 
 /// Its letters of DejaVu Sans are 0.49 em wide on average, as those of the longest name and the
 /// longest line of the legend, and 0.76 em high.
-Area area_of(const oiler::Label& label) {
+Area area_of(const Label& label) {
     const auto letters = static_cast<float>(std::count_if(
         label.text.begin(), label.text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
     const float width = 0.49F * label.size * letters;
-    const float part = label.align == oiler::Align::left    ? 0
-                       : label.align == oiler::Align::right ? 1
-                                                            : 0.5F;
+    const float part = label.align == Align::left ? 0 : label.align == Align::right ? 1 : 0.5F;
     return {label.at.x - part * width, label.at.x + (1 - part) * width, label.at.y,
             label.at.y + 0.76F * label.size};
 }
 
 TEST(Atlas, HasAPanelWithANameForEachMethod) {
-    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
-        const oiler::Picture picture = atlas_of(panels);
+    for (std::size_t panels = 1; panels <= methods().size(); ++panels) {
+        const Picture picture = atlas_of(panels);
         EXPECT_EQ(picture.sprites.size(), panels);
         std::size_t named = 0;
         for (const auto& label : picture.labels)
-            named += static_cast<std::size_t>(
-                std::ranges::count(oiler::methods(), label.text, &oiler::Method::name));
+            named +=
+                static_cast<std::size_t>(std::ranges::count(methods(), label.text, &Method::name));
         EXPECT_EQ(named, panels);
     }
 }
 
 TEST(Atlas, HasPanelsAndLabelsThatDoNotMeetOnTheCanvas) {
-    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
-        const oiler::Picture picture = atlas_of(panels);
+    for (std::size_t panels = 1; panels <= methods().size(); ++panels) {
+        const Picture picture = atlas_of(panels);
         std::vector<Area> areas;
         for (const auto& sprite : picture.sprites) areas.push_back(area_of(sprite));
         for (const auto& label : picture.labels) areas.push_back(area_of(label));
         for (std::size_t i = 0; i < areas.size(); ++i) {
             EXPECT_GE(areas[i].left, 0) << panels << " panels, " << i;
-            EXPECT_LE(areas[i].right, oiler::canvas_width) << panels << " panels, " << i;
+            EXPECT_LE(areas[i].right, canvas_width) << panels << " panels, " << i;
             EXPECT_GE(areas[i].low, 2) << panels << " panels, " << i;
-            EXPECT_LE(areas[i].high, oiler::canvas_height) << panels << " panels, " << i;
+            EXPECT_LE(areas[i].high, canvas_height) << panels << " panels, " << i;
             for (std::size_t k = 0; k < i; ++k)
                 EXPECT_FALSE(areas[i].meets(areas[k]))
                     << panels << " panels, " << i << " and " << k;
@@ -163,19 +157,20 @@ TEST(Atlas, HasPanelsAndLabelsThatDoNotMeetOnTheCanvas) {
 
 // The panels of a few methods cover what those of all methods do, at least: no place is lost.
 TEST(Atlas, FillsTheCanvasWithAnyNumberOfPanels) {
-    for (std::size_t panels = 1; panels <= oiler::methods().size(); ++panels) {
+    for (std::size_t panels = 1; panels <= methods().size(); ++panels) {
         float covered = 0;
         for (const auto& sprite : atlas_of(panels).sprites)
             covered += sprite.size.x * sprite.size.y;
-        EXPECT_GT(covered, 0.36F * oiler::canvas_width * oiler::canvas_height) << panels;
+        EXPECT_GT(covered, 0.36F * canvas_width * canvas_height) << panels;
     }
 }
 
 // A texel for each cell, so that there is no seam between cells.
 TEST(Atlas, ShowsCellsAsOneImage) {
-    const oiler::Picture picture = atlas_of(1);
+    const Picture picture = atlas_of(1);
     ASSERT_TRUE(picture.sprites.at(0).bitmap);
     EXPECT_FALSE(picture.sprites[0].is_smooth);
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Captures scenes with one change each, and compares the cause that `oiler compare` names.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <sstream>
-
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -144,7 +138,7 @@ TEST_P(CompareForces, NamesTheFirstTickThatDiffers) {
     EXPECT_TRUE(text.starts_with(start + ": ") || text.starts_with(start + "; ")) << text << start;
     const bool has_records = !holds(constant.options, "--png none");
     EXPECT_EQ(holds(text.substr(0, text.find('\n')), "body '"), has_records) << text;
-    EXPECT_TRUE(holds(text, "scene file changed, line ")) << text;
+    EXPECT_TRUE(holds(text, "scene file changed, line "));
     RecordProperty("tick", std::to_string(tick));
 }
 
@@ -171,10 +165,9 @@ TEST_F(Compare, NamesBodyAndFieldOfAChangedForce) {
     const std::string text =
         change(two_bodies, with(two_bodies, "-9.81", "-9.82"), "--fps 100 --frames 3");
     EXPECT_TRUE(text.starts_with("simulation changed at tick 1: body 'a', vy: -0.0981")) << text;
-    EXPECT_TRUE(holds(text, ", by 0.0001 m/s\n")) << text;
-    EXPECT_TRUE(holds(text, "scene file changed, line 6: `acceleration = [0.0, -9.81]` → "))
-        << text;
-    EXPECT_TRUE(holds(text, "3 frames: 1 equal; 2 simulation\n")) << text;
+    EXPECT_TRUE(holds(text, ", by 0.0001 m/s\n"));
+    EXPECT_TRUE(holds(text, "scene file changed, line 6: `acceleration = [0.0, -9.81]` → "));
+    EXPECT_TRUE(holds(text, "3 frames: 1 equal; 2 simulation\n"));
     EXPECT_EQ(desk.json("result.json").at("counts").at("simulation"), 2);
 }
 
@@ -184,7 +177,7 @@ TEST_F(Compare, NamesAColour) {
     EXPECT_TRUE(text.starts_with(
         "picture changed at frame 0: 1 disc of another colour, by at most 3/255\n"))
         << text;
-    EXPECT_TRUE(holds(text, "\n4 frames: 4 picture\n")) << text;
+    EXPECT_TRUE(holds(text, "\n4 frames: 4 picture\n"));
 }
 
 TEST_F(Compare, NamesALabel) {
@@ -246,11 +239,11 @@ TEST_F(Compare, GoldenOfARunNamesTheCauseAndThePage) {
     desk.put("golden/scene.toml", with(two_bodies, "#0072b2", "#0072b5"));
     const Outcome run = desk.run(
         "cd golden; oiler play scene.toml --headless --quiet --size 64x36 --frames 3 --golden "
-        "frames --out ../new --junit ../new.xml");
-    EXPECT_EQ(run.exit, 1);
+        "frames --out ../new --junit ../new.xml",
+        1);
     EXPECT_TRUE(run.err.starts_with("picture changed at frame 0: 1 disc of another colour"))
         << run.err;
-    EXPECT_TRUE(holds(run.err, "differences: ../new-differences/index.html\n")) << run.err;
+    EXPECT_TRUE(holds(run.err, "differences: ../new-differences/index.html\n"));
     EXPECT_TRUE(std::filesystem::exists(desk.folder() / "new-differences/index.html"));
     EXPECT_TRUE(holds(desk.text("new.xml"), "failures=\"1\""));
 }
@@ -261,15 +254,14 @@ TEST_F(Compare, AChangedGoldenHasARemedyAndAJunitWithTheCauseAndTheBudget) {
     desk.put("golden/scene.toml", with(two_bodies, "#0072b2", "#0072b5") + budget);
     const Outcome run = desk.run(
         "cd golden; oiler play scene.toml --headless --quiet --size 64x36 --frames 3 --golden "
-        "frames --out ../new --junit ../new.xml");
-    EXPECT_EQ(run.exit, 1);
+        "frames --out ../new --junit ../new.xml",
+        1);
     EXPECT_TRUE(holds(run.err,
                       "If the change is intended, write the golden again with "
-                      "--update-golden.\n"))
-        << run.err;
+                      "--update-golden.\n"));
     const std::string junit = desk.text("new.xml");
-    EXPECT_TRUE(holds(junit, "#0072b5")) << junit;
-    EXPECT_TRUE(holds(junit, "classname=\"[budget]\" name=\"position_error\"><failure")) << junit;
+    EXPECT_TRUE(holds(junit, "#0072b5"));
+    EXPECT_TRUE(holds(junit, "classname=\"[budget]\" name=\"position_error\"><failure"));
 }
 
 /// Names and bytes of a folder's files.
@@ -286,13 +278,13 @@ TEST_F(Compare, AGoldenIsReplacedOnlyByACompleteOne) {
         "cd golden; env -u CI -u JENKINS_URL oiler play scene.toml --headless --quiet --size 64x36 "
         "--golden frames --update-golden ";
     desk.put("golden/scene.toml", with(pendulum, "200.0", "900000000.0"));
-    EXPECT_EQ(desk.run(update + "--fps 30 --frames 20").exit, 5);
+    desk.run(update + "--fps 30 --frames 20", 5);
     EXPECT_EQ(contents_of(desk, "golden/frames"), before);
     desk.put("golden/scene.toml", with(pendulum, "200.0", "201.0"));
-    EXPECT_EQ(desk.run(update + "--frames 100000 & sleep 1; kill -TERM $!; wait $!").exit, 130);
+    desk.run(update + "--frames 100000 & sleep 1; kill -TERM $!; wait $!", 130);
     EXPECT_EQ(contents_of(desk, "golden/frames"), before);
     EXPECT_EQ(desk.names("golden"), files);
-    EXPECT_EQ(desk.run(update + "--fps 30 --frames 2").exit, 0);
+    desk.run(update + "--fps 30 --frames 2", 0);
     EXPECT_EQ(
         desk.run(
                 "mkdir other; cp golden/scene.toml other; cd other; env -u CI -u JENKINS_URL oiler "
@@ -304,10 +296,10 @@ TEST_F(Compare, AGoldenIsReplacedOnlyByACompleteOne) {
               (std::vector<std::string>{"frame_000000.png", "frame_000001.png", "frames.jsonl.gz",
                                         "manifest.json"}));
     EXPECT_EQ(desk.names("golden"), files);
-    EXPECT_EQ(desk.run("cd golden; oiler play scene.toml --headless --quiet --size 64x36 --fps 30 "
-                       "--frames 2 --golden frames/ --out ../now")
-                  .exit,
-              0);
+    desk.run(
+        "cd golden; oiler play scene.toml --headless --quiet --size 64x36 --fps 30 "
+        "--frames 2 --golden frames/ --out ../now",
+        0);
 }
 
 TEST_F(Compare, AnUnfinishedGoldenIsRefused) {
@@ -319,8 +311,7 @@ TEST_F(Compare, AnUnfinishedGoldenIsRefused) {
                   "\"finished\": true", "\"finished\": false"));
     const Outcome run = compare();
     EXPECT_EQ(run.exit, 2);
-    EXPECT_TRUE(holds(run.err, "golden/frames: the capture was not finished (3 of 4 frames)"))
-        << run.err;
+    EXPECT_TRUE(holds(run.err, "golden/frames: the capture was not finished (3 of 4 frames)"));
 }
 
 }  // namespace

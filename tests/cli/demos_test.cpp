@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lists and starts demos and scenes with `oiler demos`.
-#include <gtest/gtest.h>
-
-#include <set>
-#include <sstream>
-
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -43,8 +38,7 @@ public:
 };
 
 TEST(Demos, ListsEveryDemoThatIsBuiltAndEveryScene) {
-    const Outcome run = shell("oiler demos");
-    EXPECT_EQ(run.exit, 0) << run.err;
+    const Outcome run = shell("oiler demos", 0);
     EXPECT_EQ(run.err, "");
     std::set<std::string> names;
     for (const auto& [name, sentence] : listed(run.out)) {
@@ -72,8 +66,7 @@ TEST(Demos, AllAreInTheList) {
 
 TEST(Demos, FindsThoseOfAnInstalledOiler) {
     const Installed desk;
-    const Outcome run = desk.run("bin/oiler demos");
-    EXPECT_EQ(run.exit, 0) << run.err;
+    const Outcome run = desk.run("bin/oiler demos", 0);
     EXPECT_EQ(listed(run.out), (std::vector<std::pair<std::string, std::string>>{
                                    {"toy", "A toy"}, {"spring.toml", "A <spring> & \"damper\""}}))
         << run.out;
@@ -82,8 +75,7 @@ TEST(Demos, FindsThoseOfAnInstalledOiler) {
 // Its exit code is that of `oiler demos`, and its options are not those of `oiler`.
 TEST(Demos, StartsADemoWithItsOwnOptions) {
     const Installed desk;
-    const Outcome run = desk.run("bin/oiler demos toy --help --rate 30 'two words' --window");
-    EXPECT_EQ(run.exit, 7) << run.err;
+    const Outcome run = desk.run("bin/oiler demos toy --help --rate 30 'two words' --window", 7);
     EXPECT_EQ(run.out, "demo|--help --rate 30 two words --window\n");
     EXPECT_EQ(desk.run("bin/oiler demos toy").out, "demo|\n");
 }
@@ -92,8 +84,7 @@ TEST(Demos, StartsASceneByItsNameOrItsFile) {
     const Installed desk;
     for (const std::string name : {"spring", "spring.toml"}) {
         const Outcome run =
-            desk.run("bin/oiler demos " + name + " --steps 7 --rate 50 --quiet --json -");
-        EXPECT_EQ(run.exit, 0) << run.err;
+            desk.run("bin/oiler demos " + name + " --steps 7 --rate 50 --quiet --json -", 0);
         EXPECT_EQ(Json::parse(run.out).at("time"), 0.14);
         EXPECT_EQ(Json::parse(run.out).at("scene"), "spring");
     }
@@ -104,12 +95,11 @@ TEST(Demos, StartsASceneByItsNameOrItsFile) {
 TEST(Demos, ListsASceneThatIsBroken) {
     const Installed desk;
     desk.put("share/oiler/scenes/broken.toml", "[scene]\naxis = 1\n");
-    const Outcome run = desk.run("bin/oiler demos");
-    EXPECT_EQ(run.exit, 0) << run.err;
+    const Outcome run = desk.run("bin/oiler demos", 0);
     const auto all = listed(run.out);
     ASSERT_EQ(all.size(), 3U) << run.out;
     EXPECT_EQ(all[1].first, "broken.toml");
-    EXPECT_TRUE(holds(all[1].second, "broken.toml:2")) << all[1].second;
+    EXPECT_TRUE(holds(all[1].second, "broken.toml:2"));
 }
 
 TEST(Demos, RefusesWhatItCannotStart) {
@@ -120,26 +110,22 @@ TEST(Demos, RefusesWhatItCannotStart) {
           std::pair{"../toy", "NAME ../toy: no such demo or scene"},
           std::pair{"--windw", "--windw: no such option; did you mean `--window`?"},
           std::pair{"''", "no such demo or scene"}}) {
-        const Outcome run = desk.run(std::string("bin/oiler demos ") + words);
-        EXPECT_EQ(run.exit, 2) << words;
+        const Outcome run = desk.run(std::string("bin/oiler demos ") + words, 2);
         EXPECT_EQ(lines(run.err), 1) << run.err;
-        EXPECT_TRUE(holds(run.err, named)) << run.err;
+        EXPECT_TRUE(holds(run.err, named));
         EXPECT_EQ(run.out, "");
     }
     ASSERT_EQ(desk.run("chmod -x libexec/oiler/toy").exit, 0);
-    const Outcome run = desk.run("bin/oiler demos toy");
-    EXPECT_EQ(run.exit, 4);
+    const Outcome run = desk.run("bin/oiler demos toy", 4);
     EXPECT_TRUE(holds(run.err, "cannot start ") && holds(run.err, "Permission denied")) << run.err;
     EXPECT_EQ(desk.run("mkdir alone; cp bin/oiler alone; alone/oiler demos").exit, 0)
         << "alone/ is beside share/, as bin/ is";
-    const Outcome lost = desk.run("mkdir -p a/b; cp bin/oiler a/b; a/b/oiler demos");
-    EXPECT_EQ(lost.exit, 2);
-    EXPECT_TRUE(holds(lost.err, "neither installed nor in its build folder")) << lost.err;
+    const Outcome lost = desk.run("mkdir -p a/b; cp bin/oiler a/b; a/b/oiler demos", 2);
+    EXPECT_TRUE(holds(lost.err, "neither installed nor in its build folder"));
 }
 
 TEST(Demos, NeedsADisplayForItsWindow) {
-    const Outcome run = shell("oiler demos --window");
-    EXPECT_EQ(run.exit, 3);
+    const Outcome run = shell("oiler demos --window", 3);
     EXPECT_EQ(lines(run.err), 1) << run.err;
 }
 

@@ -34,6 +34,10 @@ public:
     [[nodiscard]] Outcome run(const std::string& line) const {
         return shell("cd '" + folder_.path().string() + "'; " + line);
     }
+    /// The same; the command must end with this exit code.
+    Outcome run(const std::string& line, int exit) const {
+        return shell("cd '" + folder_.path().string() + "'; " + line, exit);
+    }
     [[nodiscard]] std::string text(const std::string& name) const {
         return text_of(folder_.path() / name);
     }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler diverge` on hand-made traces and on traces of real runs.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -166,8 +163,7 @@ TEST(DivergeCommand, MatchesRowsByBody) {
 TEST(DivergeCommand, ReadsPipes) {
     const Desk desk;
     compare(desk, "0,0,3,1,2,3,4\n", "0,0,3,1,2,3,4\n");
-    const Outcome run = desk.run("cat a.csv | oiler diverge /dev/stdin b.csv");
-    EXPECT_EQ(run.exit, 0) << run.err;
+    desk.run("cat a.csv | oiler diverge /dev/stdin b.csv", 0);
 }
 
 TEST(DivergeCommand, RefusesMalformedAndMissingFiles) {
@@ -179,16 +175,14 @@ TEST(DivergeCommand, RefusesMalformedAndMissingFiles) {
               "truncated\n");
     EXPECT_EQ(cut.out, "");
     desk.put("one.csv", "tick,time,body,x,vx\n0,0,0,1,2\n");
-    const Outcome axes = desk.run("oiler diverge one.csv a.csv");
-    EXPECT_EQ(axes.exit, 2);
+    const Outcome axes = desk.run("oiler diverge one.csv a.csv", 2);
     EXPECT_EQ(axes.err, "oiler: one.csv has 1 axis and a.csv has 2; give runs of the same scene\n");
     for (const char* files : {"none.csv a.csv", "a.csv none.csv"}) {
-        const Outcome missing = desk.run(std::string("oiler diverge ") + files);
-        EXPECT_EQ(missing.exit, 4);
+        const Outcome missing = desk.run(std::string("oiler diverge ") + files, 4);
         EXPECT_EQ(missing.err, "oiler: none.csv: cannot be read: No such file or directory\n");
     }
-    EXPECT_EQ(desk.run("oiler diverge a.csv").exit, 2);
-    EXPECT_EQ(desk.run("oiler diverge a.csv a.csv a.csv").exit, 2);
+    desk.run("oiler diverge a.csv", 2);
+    desk.run("oiler diverge a.csv a.csv a.csv", 2);
 }
 
 using Lines = std::vector<std::string>;
@@ -218,10 +212,10 @@ std::pair<Lines, Lines> play_orbits(const Desk& desk, const std::string& gm,
     const std::string before = "gm = 1.0";
     desk.put("changed.toml", scene.replace(scene.find(before), before.size(), "gm = " + gm));
     for (const std::string name : {"orbit", "changed"}) {
-        const Outcome run = desk.run(
-            "oiler play " + name + ".toml --steps 2000 --quiet --method velocity_verlet --trace " +
-            name + ".csv " + options);
-        EXPECT_EQ(run.exit, 0) << run.err;
+        desk.run("oiler play " + name +
+                     ".toml --steps 2000 --quiet --method velocity_verlet --trace " + name +
+                     ".csv " + options,
+                 0);
     }
     return {split(desk.text("orbit.csv"), '\n'), split(desk.text("changed.csv"), '\n')};
 }
@@ -234,8 +228,7 @@ void expect_first_difference_of_orbits(const std::string& gm, const std::string&
     ASSERT_EQ(b.size(), a.size());
     std::size_t tick = 0;
     while (tick < 2000 && a[tick + 1] == b[tick + 1]) ++tick;
-    const Outcome run = desk.run("oiler diverge orbit.csv changed.csv --json -");
-    EXPECT_EQ(run.exit, 1) << run.err;
+    const Outcome run = desk.run("oiler diverge orbit.csv changed.csv --json -", 1);
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json.at("precision"), precision);
     const Json& value = json.at("value");
@@ -259,7 +252,7 @@ void expect_first_difference_of_orbits(const std::string& gm, const std::string&
         EXPECT_NEAR(row.at("distance").get<double>(), expected,
                     precision == "float" ? 1e-7 : 1e-12 * expected);
     }
-    EXPECT_EQ(desk.run("oiler diverge orbit.csv orbit.csv").exit, 0);
+    desk.run("oiler diverge orbit.csv orbit.csv", 0);
 }
 
 TEST(DivergeCommand, FindsTheFirstDifferenceOfOrbits) {
@@ -272,11 +265,10 @@ TEST(DivergeCommand, RunsWithAnyNumberOfThreadsAreTheSame) {
     for (const std::string threads : {"1", "2"}) {
         const Outcome run =
             desk.run("oiler play " + scenes + "hundred_thousand.toml --steps 2 --quiet --threads " +
-                     threads + " --trace " + threads + ".csv");
-        EXPECT_EQ(run.exit, 0) << run.err;
+                         threads + " --trace " + threads + ".csv",
+                     0);
     }
-    const Outcome run = desk.run("oiler diverge 1.csv 2.csv");
-    EXPECT_EQ(run.exit, 0);
+    const Outcome run = desk.run("oiler diverge 1.csv 2.csv", 0);
     EXPECT_TRUE(run.out.starts_with("The runs are the same: ticks 0 to 2 (")) << run.out;
     EXPECT_TRUE(run.out.ends_with(", 100000 bodies.\n")) << run.out;
 }
@@ -294,17 +286,14 @@ TEST(DivergeCommand, ComparesFramesThatShowTheSameTick) {
     const Desk desk;
     capture(desk, "a", "--fps 60 --frames 10");
     capture(desk, "b", "--fps 40 --frames 10");
-    const Outcome same = desk.run("oiler diverge a b");
-    EXPECT_EQ(same.exit, 0) << same.out;
+    const Outcome same = desk.run("oiler diverge a b", 0);
     EXPECT_TRUE(same.out.starts_with("The runs are the same: ticks 0 to 18 (0.15 s), 1 body.\n"))
         << same.out;
-    EXPECT_TRUE(holds(same.out, "b continues to tick 27")) << same.out;
+    EXPECT_TRUE(holds(same.out, "b continues to tick 27"));
     capture(desk, "c", "--fps 40 --frames 10 --method explicit_euler");
-    const Outcome other = desk.run("oiler diverge a c/manifest.json");
-    EXPECT_EQ(other.exit, 1);
-    EXPECT_TRUE(holds(other.out, "The hashes first differ at tick 1.")) << other.out;
-    EXPECT_TRUE(holds(other.out, "The frames first differ at tick 6 (0.05 s): body '"))
-        << other.out;
+    const Outcome other = desk.run("oiler diverge a c/manifest.json", 1);
+    EXPECT_TRUE(holds(other.out, "The hashes first differ at tick 1."));
+    EXPECT_TRUE(holds(other.out, "The frames first differ at tick 6 (0.05 s): body '"));
 }
 
 // The frames show the same, but a tick between them does not.
@@ -317,8 +306,7 @@ TEST(DivergeCommand, FindsHashesThatDifferBetweenTheFrames) {
     hashes[0] = hashes[0] == '0' ? '1' : '0';
     manifest.at("frames").at(2).at("tick_hashes") = hashes;
     desk.put("b/manifest.json", manifest.dump());
-    const Outcome run = desk.run("oiler diverge a b");
-    EXPECT_EQ(run.exit, 1);
+    const Outcome run = desk.run("oiler diverge a b", 1);
     EXPECT_EQ(run.out,
               "The hashes first differ at tick 3. States are those of the frames.\n"
               "The frames have the same positions and velocities.\n");
@@ -337,10 +325,8 @@ TEST(DivergeCommand, RefusesCapturesWithoutAStateInCommon) {
     const Desk desk;
     capture(desk, "a", "--fps 60 --frames 3");
     capture(desk, "none", "--fps 60 --frames 3 --png none");
-    const Outcome run = desk.run("oiler diverge a none");
-    EXPECT_EQ(run.exit, 2);
-    EXPECT_TRUE(holds(run.err, "none: no states there, because frames.jsonl.gz is missing"))
-        << run.err;
+    const Outcome run = desk.run("oiler diverge a none", 2);
+    EXPECT_TRUE(holds(run.err, "none: no states there, because frames.jsonl.gz is missing"));
 }
 
 TEST(DivergeCommand, IsListedWithAnExample) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Tests the help and the usage errors of the lab's commands.
-#include <gtest/gtest.h>
-
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "oiler/cli/ledger_text.hpp"
+#include "oiler/scene/read.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
+
+using namespace lab;
 
 class WrongUseOfTheLab : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
@@ -16,10 +18,9 @@ TEST_P(WrongUseOfTheLab, IsRefusedInOneLineThatNamesIt) {
     desk.put("tight.toml", spring_scene("[budget]\nenergy_drift = 1e-15\n"));
     desk.put("tighter.toml", spring_scene("[budget]\nposition_error = 1e-15\n"));
     const auto before = desk.names();
-    const Outcome run = desk.run(std::string("oiler ") + words);
-    EXPECT_EQ(run.exit, 2);
+    const Outcome run = desk.run(std::string("oiler ") + words, 2);
     EXPECT_EQ(lines(run.err), 1) << run.err;
-    EXPECT_TRUE(holds(run.err, named)) << run.err;
+    EXPECT_TRUE(holds(run.err, named));
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(desk.names(), before);
 }
@@ -83,11 +84,50 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Lab, CommandsHaveExamples) {
     for (const std::string command : {"tradeoff", "merge", "advise", "rates", "check", "report"}) {
-        const Outcome run = shell("oiler " + command + " --help");
-        EXPECT_EQ(run.exit, 0);
+        const Outcome run = shell("oiler " + command + " --help", 0);
         EXPECT_TRUE(holds(run.out, "Example: oiler " + command + " ")) << command;
         EXPECT_LE(lines(run.out), 25) << command;  // of a text screen
     }
+}
+
+// Shares of 25 ± 0.5 %, 0.4 ± 0.5 %, −30 ± 2 % and none.
+std::string printed() {
+    lab::Ledger ledger;
+    ledger.bodies = 1;
+    ledger.steps = ledger.samples = 40;
+    ledger.timed_steps = 19;
+    ledger.rounds = 300;
+    ledger.ns = 20;
+    ledger.spread_ns = 0.1;
+    const auto add = [&](const char* name, double percent, double spread) {
+        ledger.passes.push_back({.name = name,
+                                 .ns = std::max(0.0, 20 * percent / 100),
+                                 .saves_ns = 20 * percent / 100,
+                                 .saves_percent = percent,
+                                 .spread_percent = spread,
+                                 .changes_position = 1.5});
+    };
+    add("spring", 25, 0.5);
+    add("linear_drag", 0.4, 0.5);
+    add("gravity", -30, 2);
+    ledger.passes.push_back({.name = "attractor", .diverged = "diverged at step 7"});
+    ledger.passes.push_back({.name = "moving", .ns = 12});
+    const Scene scene = parse_scene("[scene]\naxes = 1\nrate = 100\n[[body]]\n", "test.toml");
+    return cli::ledger_text(scene, "test", ledger, 40);
+}
+
+bool has_line(const std::string& text, const std::string& line) {
+    return text.find("\n" + line + "\n") != std::string::npos;
+}
+
+TEST(LedgerText, HasASpreadInEachRow) {
+    const std::string text = printed();
+    EXPECT_TRUE(holds(text, "A step takes 20 ± 0.1 ns per body."));
+    EXPECT_TRUE(has_line(text, "  spring                 5 ns,   25.0 ±  0.5 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  linear_drag      within the spread, ±  0.5 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  gravity               -6 ns,  -30.0 ±    2 %  1.5 m")) << text;
+    EXPECT_TRUE(has_line(text, "  attractor                                  -  diverges")) << text;
+    EXPECT_TRUE(holds(text, " 300 rounds of 19 steps"));
 }
 
 }  // namespace

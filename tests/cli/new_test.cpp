@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes projects with `oiler new`. tests/install builds one.
-#include <gtest/gtest.h>
-
-#include <set>
-#include <sstream>
-
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -39,8 +34,7 @@ public:
 
 TEST(New, WritesAProjectOfThatName) {
     const EmptyDesk desk;
-    const Outcome run = desk.run("oiler new 'my games/cannon-2'");
-    EXPECT_EQ(run.exit, 0) << run.err;
+    const Outcome run = desk.run("oiler new 'my games/cannon-2'", 0);
     EXPECT_EQ(run.err, "");
     const Names files = files_in(desk.folder());
     EXPECT_EQ(files, (Names{"my games/cannon-2/.github/workflows/frames.yml",
@@ -76,7 +70,7 @@ TEST(New, UsesTheSourceOfAProgramInItsBuildFolder) {
     const Outcome run = desk.run("oiler new cannon");
     EXPECT_TRUE(holds(desk.text("cannon/local.cmake"),
                       "\nset(OILER_SOURCE [==[" OILER_SOURCE "]==] CACHE PATH\n"));
-    EXPECT_TRUE(holds(run.out, "It compiles the Oiler in " OILER_SOURCE ":")) << run.out;
+    EXPECT_TRUE(holds(run.out, "It compiles the Oiler in " OILER_SOURCE ":"));
 }
 
 TEST(New, UsesTheInstalledOilerOfTheProgramAlsoIfThatWasMoved) {
@@ -90,7 +84,7 @@ TEST(New, UsesTheInstalledOilerOfTheProgramAlsoIfThatWasMoved) {
     const std::string prefix = (desk.folder() / "moved here").string();
     EXPECT_TRUE(holds(desk.text("cannon/local.cmake"),
                       "\nlist(APPEND CMAKE_PREFIX_PATH [==[" + prefix + "]==])\n"));
-    EXPECT_TRUE(holds(run.out, "installed in " + prefix + ".\n")) << run.out;
+    EXPECT_TRUE(holds(run.out, "installed in " + prefix + ".\n"));
 }
 
 TEST(New, SaysHowToNameAnOilerThatItDoesNotKnow) {
@@ -99,7 +93,7 @@ TEST(New, SaysHowToNameAnOilerThatItDoesNotKnow) {
     const Outcome run = desk.run("bin/oiler new cannon");
     ASSERT_EQ(run.exit, 0) << run.err;
     EXPECT_FALSE(fs::exists(desk.folder() / "cannon/local.cmake"));
-    EXPECT_TRUE(holds(run.out, "-DCMAKE_PREFIX_PATH=DIR")) << run.out;
+    EXPECT_TRUE(holds(run.out, "-DCMAKE_PREFIX_PATH=DIR"));
 }
 
 // Programs in the places of CMake, CTest and the game print their folder and their words.
@@ -134,7 +128,7 @@ TEST(New, TheTestWritesGoldenFramesAndThenComparesThem) {
     };
     const Outcome in_ci = test("export CI=true");
     EXPECT_EQ(in_ci.exit, 2);
-    EXPECT_TRUE(holds(in_ci.out, "no frames in tests/golden/game")) << in_ci.out;
+    EXPECT_TRUE(holds(in_ci.out, "no frames in tests/golden/game"));
     const Outcome first = test("true");
     if (first.exit == 3) GTEST_SKIP() << first.err;
     EXPECT_EQ(first.exit, 0) << first.err;
@@ -143,7 +137,7 @@ TEST(New, TheTestWritesGoldenFramesAndThenComparesThem) {
     EXPECT_EQ(test("export CI=true").exit, 0);
     const Outcome changed = test("echo '100 press Space' >tests/play.txt");
     EXPECT_EQ(changed.exit, 1);
-    EXPECT_TRUE(holds(changed.err, "simulation changed at tick 31;")) << changed.err;
+    EXPECT_TRUE(holds(changed.err, "simulation changed at tick 31;"));
     EXPECT_TRUE(fs::exists(desk.folder() / "game/frames/game-differences/index.html"));
     EXPECT_TRUE(holds(desk.text("game/frames/game.xml"), "<failure"));
     EXPECT_EQ(desk.text("game/tests/golden/game/manifest.json"), golden);
@@ -167,10 +161,9 @@ TEST(New, RefusesNamesThatAreNotUsable) {
     const EmptyDesk desk;
     for (const std::string name :
          {"''", "/", "2d", "_x", "a.b", "'a b'", "games/a+b", "'ü'", "'a;b'", "'a\"b'", "'a$b'"}) {
-        const Outcome run = desk.run("oiler new " + name);
-        EXPECT_EQ(run.exit, 2) << name;
+        const Outcome run = desk.run("oiler new " + name, 2);
         EXPECT_EQ(lines(run.err), 1) << run.err;
-        EXPECT_TRUE(holds(run.err, "letters a to z and A to Z, digits, _ and -")) << run.err;
+        EXPECT_TRUE(holds(run.err, "letters a to z and A to Z, digits, _ and -"));
         EXPECT_EQ(run.out, "");
     }
     EXPECT_EQ(desk.names(), std::vector<std::string>{});
@@ -183,10 +176,9 @@ TEST(New, RefusesPlacesThatAreTaken) {
          {std::pair{"full", "NAME full: the folder is not empty"},
           std::pair{"full/", "NAME full/: the folder is not empty"},
           std::pair{"file", "NAME file: there is a file of that name"}}) {
-        const Outcome run = desk.run("oiler new " + std::string(name));
-        EXPECT_EQ(run.exit, 2) << name;
+        const Outcome run = desk.run("oiler new " + std::string(name), 2);
         EXPECT_EQ(lines(run.err), 1) << run.err;
-        EXPECT_TRUE(holds(run.err, words)) << run.err;
+        EXPECT_TRUE(holds(run.err, words));
     }
     EXPECT_EQ(files_in(desk.folder()), (Names{"file", "full/.keep"}));
 }
@@ -197,8 +189,7 @@ TEST(New, LeavesNothingIfItCannotWrite) {
     for (const std::string line :
          {"oiler new /proc/cannon", "oiler new file/cannon", "oiler new games/cannon >&-",
           "ulimit -f 2; oiler new games/of/mine/cannon", "ulimit -f 2; oiler new empty"}) {
-        const Outcome run = desk.run(line);
-        EXPECT_EQ(run.exit, 4) << line;
+        const Outcome run = desk.run(line, 4);
         EXPECT_EQ(lines(run.err), 1) << line << run.err;
         EXPECT_EQ(run.out, "") << line;
         EXPECT_EQ(desk.names(), (std::vector<std::string>{"empty", "file"})) << line;

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Names the input of each command as each of its outputs. Commands and options are those of --help.
-#include <gtest/gtest.h>
-
 #include <regex>
-#include <set>
-#include <sstream>
 
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -63,8 +59,7 @@ TEST(OutputPaths, TheInputOfACommandIsNoneOfItsOutputs) {
             for (const std::string path :
                  {"scene.toml", "./scene.toml", "hard", "soft", "$PWD/hard"}) {
                 const std::string line = line_of(command) + option + " " + path;
-                const Outcome run = desk.run(line);
-                EXPECT_EQ(run.exit, 2) << line;
+                const Outcome run = desk.run(line, 2);
                 EXPECT_EQ(lines(run.err), 1) << line << run.err;
                 EXPECT_TRUE(holds(run.err, option + ": ") && holds(run.err, command.input))
                     << line << run.err;
@@ -91,14 +86,13 @@ TEST(OutputPaths, TwoOutputsOfACommandAreTwoFiles) {
             const std::string& second = command.outputs.at(1);
             const std::string line =
                 line_of(command) + first + " " + path + " " + second + " " + path;
-            const Outcome run = desk.run(line);
-            EXPECT_EQ(run.exit, 2) << line;
+            const Outcome run = desk.run(line, 2);
             EXPECT_TRUE(holds(run.err, first) && holds(run.err, second)) << line << run.err;
             EXPECT_EQ(run.out, "") << line;
         }
     }
     EXPECT_EQ(desk.names(), std::vector<std::string>{"scene.toml"});
-    EXPECT_EQ(desk.run("oiler check scene.toml --json /dev/null --junit /dev/null").exit, 0);
+    desk.run("oiler check scene.toml --json /dev/null --junit /dev/null", 0);
 }
 
 // Fails before the work, which prints a table.
@@ -108,15 +102,14 @@ TEST(OutputPaths, ThatCannotBeWrittenAreNamedBeforeTheWork) {
     for (const char* const path : {"/proc/none", "folder"})
         for (const std::string command :
              {"check scene.toml", "rates scene.toml", "certify exact --steps 1000"}) {
-            const Outcome run = desk.run("oiler " + command + " --json " + path);
-            EXPECT_EQ(run.exit, 4) << command;
+            const Outcome run = desk.run("oiler " + command + " --json " + path, 4);
             EXPECT_EQ(lines(run.err), 1) << run.err;
-            EXPECT_TRUE(holds(run.err, path)) << run.err;
+            EXPECT_TRUE(holds(run.err, path));
             EXPECT_EQ(run.out, "") << command;
         }
-    EXPECT_EQ(desk.run("oiler rates scene.toml --rates 0 --json new/a.json").exit, 2);
+    desk.run("oiler rates scene.toml --rates 0 --json new/a.json", 2);
     EXPECT_EQ(desk.names(), (std::vector<std::string>{"folder", "scene.toml"}));
-    EXPECT_EQ(desk.run("oiler methods --json new/a.json").exit, 0);
+    desk.run("oiler methods --json new/a.json", 0);
     EXPECT_EQ(desk.names("new"), std::vector<std::string>{"a.json"});
 }
 
@@ -125,8 +118,7 @@ TEST(OutputPaths, AreNotEmpty) {
     for (const CommandOfHelp& command : commands())
         for (const std::string& option : command.outputs) {
             const std::string line = line_of(command) + option + " ''";
-            const Outcome run = desk.run(line);
-            EXPECT_EQ(run.exit, 2) << line;
+            const Outcome run = desk.run(line, 2);
             EXPECT_TRUE(holds(run.err, option + ": ")) << line << run.err;
         }
 }
@@ -146,7 +138,7 @@ TEST(OutputPaths, NamesInAnOutputFolderReplaceLinks) {
                      "md5sum old-* >sums; rm -f l/tradeoff.json")
                 .exit,
             0);
-        EXPECT_EQ(desk.run(line + "l").exit, 0) << command;
+        desk.run(line + "l", 0);
         EXPECT_EQ(desk.names("l"), names);
         EXPECT_EQ(desk.run("md5sum --quiet -c sums && test -z \"$(find l -type l)\"").exit, 0)
             << command;
@@ -165,8 +157,7 @@ TEST(OutputPaths, AFileOfTheGoldenIsNoOutput) {
           std::string("oiler compare golden actual --json golden/manifest.json"),
           std::string("oiler compare actual golden --junit golden/frames.jsonl.gz"),
           std::string("oiler diverge golden actual --json golden/manifest.json")}) {
-        const Outcome run = desk.run(line);
-        EXPECT_EQ(run.exit, 2) << line;
+        const Outcome run = desk.run(line, 2);
         EXPECT_TRUE(holds(run.err, "would overwrite")) << line << run.err;
     }
     EXPECT_EQ(desk.text("golden/manifest.json"), "{}\n");
@@ -178,11 +169,9 @@ TEST(OutputPaths, AReadOnlySceneIsNotReplacedByAdvice) {
     const std::string scene = desk.text("scene.toml");
     ASSERT_EQ(desk.run("chmod a-w scene.toml").exit, 0);
     const Outcome run =
-        desk.run("oiler advise scene.toml --position-error 1 --methods exact --quiet --apply");
-    EXPECT_EQ(run.exit, 4);
+        desk.run("oiler advise scene.toml --position-error 1 --methods exact --quiet --apply", 4);
     EXPECT_EQ(run.out, "");
-    EXPECT_TRUE(holds(run.err, "scene.toml: it is read-only; allow it with `chmod u+w`"))
-        << run.err;
+    EXPECT_TRUE(holds(run.err, "scene.toml: it is read-only; allow it with `chmod u+w`"));
     EXPECT_EQ(desk.text("scene.toml"), scene);
 }
 
@@ -190,11 +179,10 @@ TEST(OutputPaths, DataForAClosedStandardOutputAreAnError) {
     const Desk desk;
     for (const std::string command :
          {"methods", "--help", "check scene.toml", "play scene.toml --steps 2 --json -"}) {
-        const Outcome run = desk.run("oiler " + command + " >&-");
-        EXPECT_EQ(run.exit, 4) << command;
-        EXPECT_TRUE(holds(run.err, "cannot write the standard output")) << run.err;
+        const Outcome run = desk.run("oiler " + command + " >&-", 4);
+        EXPECT_TRUE(holds(run.err, "cannot write the standard output"));
     }
-    EXPECT_EQ(desk.run("oiler play scene.toml --steps 2 --trace t.csv >&-").exit, 0);
+    desk.run("oiler play scene.toml --steps 2 --trace t.csv >&-", 0);
     EXPECT_EQ(desk.names(), (std::vector<std::string>{"scene.toml", "t.csv"}));
 }
 

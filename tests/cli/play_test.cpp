@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler play` as users do.
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "oiler/core/error.hpp"
 #include "scene/bad_files.hpp"
 #include "scene/everything.hpp"
 #include "support/program.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -92,13 +89,13 @@ TEST(Play, FilmWithoutDurationNeedsFrames) {
                              "' --headless --quiet --out '" + (folder / "o").string() + "'");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 2);
-    EXPECT_TRUE(holds(run.err, "--frames")) << run.err;
+    EXPECT_TRUE(holds(run.err, "--frames"));
 }
 
 TEST(Play, RefusesAMethodOfTheCommandLineThatCannotStepTheScene) {
     const Outcome run = play(scene("orbit") + " --method exact --steps 1");
     EXPECT_EQ(run.exit, 2);
-    EXPECT_TRUE(holds(run.err, "attractor has no exact flow")) << run.err;
+    EXPECT_TRUE(holds(run.err, "attractor has no exact flow"));
 }
 
 TEST(Play, EscapesNamesThatAreNotUtf8) {

@@ -9,13 +9,13 @@ Needs Debian's chromium and nothing else.
 import json
 import re
 import sys
-import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from browser import Browser
+from browser import failures_of
 
+DATA = r'<script type="application/json" id="data">(.*?)</script>'
 RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
 PREFIX = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1}
 
@@ -338,41 +338,11 @@ def micro(ns):
     return None if ns is None else ns / 1000
 
 
-def own_data(page):
-    """As Python reads it from the file, not as the page's script understands it."""
-    text = page.read_text(encoding="utf-8")
-    found = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)
-    if len(found) != 1:
-        raise ValueError(f"{len(found)} elements of data")
-    return json.loads(found[0])
-
-
-def test(page):
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = Browser(profile)
-        try:
-            browser.resize(1280)
-            browser.open(page.resolve().as_uri())
-            if not browser.value("window.oilerReport?.ready === true"):
-                return ["the page did not become ready", *browser.complaints()]
-            check = Check(browser, own_data(page))
-            try:
-                check.all()
-            except (RuntimeError, ValueError, LookupError, TypeError) as error:
-                check.failures.append(f"stopped: {type(error).__name__}: {error}")
-            return check.failures + list(browser.complaints())
-        finally:
-            browser.close()
-
-
 def main(arguments):
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
         return 2
-    try:
-        failures = test(Path(arguments[0]))
-    except (OSError, RuntimeError, ValueError) as error:
-        failures = [f"{type(error).__name__}: {error}"]
+    failures = failures_of(Path(arguments[0]), 1280, DATA, Check, "window.oilerReport?.ready === true")
     for failure in failures:
         print(" ".join(str(failure).split()))
     return 1 if failures else 0

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler rates` and `oiler report` as users do.
-#include <gtest/gtest.h>
-
 #include "cli/desk.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -14,8 +12,8 @@ TEST(RatesCommand, JsonHasTheKeysOfTheContract) {
     const Outcome run =
         shell("oiler rates '" OILER_SOURCE
               "/assets/scenes/jump.toml' --rates 50,60 --methods semi_implicit_euler,exact "
-              "--json - --quiet");
-    EXPECT_EQ(run.exit, 0) << run.err;
+              "--json - --quiet",
+              0);
     EXPECT_EQ(run.err, "");
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json.at("scene"), "jump");
@@ -36,11 +34,11 @@ TEST(RatesCommand, JsonHasTheKeysOfTheContract) {
 TEST(RatesCommand, PrintsEachQuantityInItsUnit) {
     const Outcome run =
         shell("oiler rates '" OILER_SOURCE
-              "/assets/scenes/jump.toml' --rates 50,60 --methods semi_implicit_euler --quiet");
-    EXPECT_EQ(run.exit, 0) << run.err;
-    EXPECT_TRUE(holds(run.out, ", m: 2.025\n")) << run.out;
-    EXPECT_TRUE(holds(run.out, " 50       60  spread\n")) << run.out;
-    EXPECT_TRUE(holds(run.out, " 1.936     1.95   0.69%\n")) << run.out;
+              "/assets/scenes/jump.toml' --rates 50,60 --methods semi_implicit_euler --quiet",
+              0);
+    EXPECT_TRUE(holds(run.out, ", m: 2.025\n"));
+    EXPECT_TRUE(holds(run.out, " 50       60  spread\n"));
+    EXPECT_TRUE(holds(run.out, " 1.936     1.95   0.69%\n"));
 }
 
 /// A body at rest, one on a spring of ω = 2π rad/s, and a third with a smaller amplitude.
@@ -56,8 +54,7 @@ const std::string still_and_swinging =
 Json rates_with(const std::string& options) {
     const Desk desk(still_and_swinging);
     const Outcome run = desk.run(
-        "oiler rates scene.toml --rates 50,100 --methods exact --json - --quiet " + options);
-    EXPECT_EQ(run.exit, 0) << run.err;
+        "oiler rates scene.toml --rates 50,100 --methods exact --json - --quiet " + options, 0);
     return Json::parse(run.out);
 }
 
@@ -134,8 +131,7 @@ TEST(Report, IsOneSelfContainedFile) {
 
 TEST(Report, OfAnInvalidSceneWritesNothing) {
     const Desk desk("[scene]\naxes = 7\n");
-    const Outcome run = desk.run("oiler report scene.toml --out page.html --json a.json");
-    EXPECT_EQ(run.exit, 2);
+    const Outcome run = desk.run("oiler report scene.toml --out page.html --json a.json", 2);
     EXPECT_EQ(lines(run.err), 1) << run.err;
     EXPECT_EQ(desk.names(), std::vector<std::string>{"scene.toml"});
 }

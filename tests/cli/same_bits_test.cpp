@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Plays every scene in assets/scenes with several numbers of threads and instruction sets.
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "support/program.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -45,11 +42,9 @@ TEST(SameBits, InEveryScene) {
 }
 
 TEST(SameBits, RefusesAnUnknownInstructionSet) {
-    const Outcome run = shell("OILER_INSTRUCTIONS=mmx oiler play " +
-                              (scenes / "orbit.toml").string() + " --steps 1");
-    EXPECT_EQ(run.exit, 2);
-    EXPECT_NE(run.err.find("OILER_INSTRUCTIONS=mmx: expected one of baseline"), std::string::npos)
-        << run.err;
+    const Outcome run = shell(
+        "OILER_INSTRUCTIONS=mmx oiler play " + (scenes / "orbit.toml").string() + " --steps 1", 2);
+    EXPECT_TRUE(holds(run.err, "OILER_INSTRUCTIONS=mmx: expected one of baseline"));
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 // Scenes that are watched in a window: they repeat, and their bodies can be dragged.
 #include "oiler/cli/scene_game.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
-#include <numbers>
 
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

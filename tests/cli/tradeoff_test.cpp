@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler tradeoff` and `oiler merge` as users do.
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "cli/desk.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -42,7 +38,7 @@ TEST(TradeoffCommand, WritesATableAndItsPictures) {
               static_cast<std::ptrdiff_t>(1 + json.at("rows").size()));
     for (const Json& row : json.at("rows"))
         EXPECT_EQ(row.at("ns_per_second").is_number(), row.at("stable").get<bool>());
-    EXPECT_TRUE(holds(run.out, "\n> semi_implicit_euler ")) << run.out;
+    EXPECT_TRUE(holds(run.out, "\n> semi_implicit_euler "));
     const Outcome all = desk.run("oiler tradeoff scene.toml " + few +
                                  "--out t --size 64x36 --quiet --all --json copy.json");
     EXPECT_GE(lines(all.out), static_cast<std::ptrdiff_t>(json.at("rows").size()));
@@ -56,10 +52,11 @@ TEST(TradeoffCommand, InterruptedIsResumed) {
         "oiler tradeoff scene.toml --methods "
         "semi_implicit_euler,velocity_verlet,pefrl,forest_ruth4 "
         "--max-rate 6400 --size 64x36 --quiet --out ";
-    const Outcome run = desk.run(command +
-                                 "a & program=$!; while ! test -e a/tradeoff.json; do sleep 0.01; "
-                                 "done; kill -TERM $program; wait $program");
-    EXPECT_EQ(run.exit, 130) << run.err;
+    const Outcome run =
+        desk.run(command +
+                     "a & program=$!; while ! test -e a/tradeoff.json; do sleep 0.01; "
+                     "done; kill -TERM $program; wait $program",
+                 130);
     const Json part = desk.json("a/tradeoff.json");
     EXPECT_EQ(desk.names("a"), std::vector<std::string>{"tradeoff.json"});
     EXPECT_GE(part.at("rows").size(), 1U);
@@ -70,7 +67,7 @@ TEST(TradeoffCommand, InterruptedIsResumed) {
     const Outcome rest = desk.run(command + "a");
     if (rest.exit == 3) GTEST_SKIP() << rest.err;
     EXPECT_EQ(rest.exit, 0) << rest.err;
-    EXPECT_EQ(desk.run(command + "b").exit, 0);
+    desk.run(command + "b", 0);
     Json resumed = accuracy_of(desk.json("a/tradeoff.json"));
     const Json whole = accuracy_of(desk.json("b/tradeoff.json"));
     std::size_t marks = 0;
@@ -103,10 +100,9 @@ protected:
     /// Returns the rows of the finished file.
     [[nodiscard]] Json measure(const std::string& options = "--max-rate 60 --duration 1",
                                const std::string& folder = "a") const {
-        const Outcome run =
-            desk_.run("oiler tradeoff scene.toml --methods rk4,exact --shard 1/2 --quiet --out " +
-                      folder + " " + options);
-        EXPECT_EQ(run.exit, 0) << run.err;
+        desk_.run("oiler tradeoff scene.toml --methods rk4,exact --shard 1/2 --quiet --out " +
+                      folder + " " + options,
+                  0);
         return desk_.json(folder + "/part-1-of-2.json");
     }
     static std::string changed(const std::string& what, const std::string& with) {
@@ -142,35 +138,33 @@ TEST(TradeoffCommand, MergedShardsEqualOneRun) {
     const Desk desk;
     const std::string command = "oiler tradeoff scene.toml " + few + "--size 64x36 --quiet --out ";
     for (const char* shard : {"1/4", "2/4", "3/4", "4/4"}) {
-        const Outcome run = desk.run(command + "parts --shard " + shard);
-        EXPECT_EQ(run.exit, 0) << run.err;
+        const Outcome run = desk.run(command + "parts --shard " + shard, 0);
         EXPECT_EQ(run.out, "");
     }
     EXPECT_EQ(desk.names("parts"),
               (std::vector<std::string>{"part-1-of-4.json", "part-2-of-4.json", "part-3-of-4.json",
                                         "part-4-of-4.json"}));
-    const Outcome missing = desk.run("oiler merge parts/part-[123]*.json --out merged");
-    EXPECT_EQ(missing.exit, 2);
+    const Outcome missing = desk.run("oiler merge parts/part-[123]*.json --out merged", 2);
     EXPECT_EQ(lines(missing.err), 1) << missing.err;
     const Outcome merge =
         desk.run("oiler merge parts/part-*.json --out merged --size 64x36 --quiet");
     if (merge.exit == 3) GTEST_SKIP() << merge.err;
     EXPECT_EQ(merge.exit, 0) << merge.err;
-    EXPECT_EQ(desk.run(command + "whole").exit, 0);
+    desk.run(command + "whole", 0);
     EXPECT_EQ(accuracy_of(desk.json("merged/tradeoff.json")),
               accuracy_of(desk.json("whole/tradeoff.json")));
     EXPECT_EQ(desk.text("merged/tradeoff.csv").substr(0, 60),
               desk.text("whole/tradeoff.csv").substr(0, 60));
     const Outcome twice = desk.run(
         "cp parts/part-2-of-4.json copy.json; oiler merge parts/part-*.json copy.json --out "
-        "merged");
-    EXPECT_EQ(twice.exit, 2);
+        "merged",
+        2);
     EXPECT_TRUE(holds(twice.err, "oiler: copy.json: ") &&
                 holds(twice.err, "parts/part-2-of-4.json"))
         << twice.err;
     // Parts with another duration cannot be merged.
-    EXPECT_EQ(desk.run(command + "parts --shard 2/4 --duration 9").exit, 0);
-    EXPECT_EQ(desk.run("oiler merge parts/part-*.json --out merged").exit, 2);
+    desk.run(command + "parts --shard 2/4 --duration 9", 0);
+    desk.run("oiler merge parts/part-*.json --out merged", 2);
 }
 
 TEST(TradeoffCommand, MeasuresARepeatedMethodOnce) {
@@ -225,7 +219,7 @@ Tradeoff made_up() {
     tradeoff.reference.extent = 1;
     tradeoff.reference.meaningful_until = 5;
     tradeoff.machines = {{"cpu", 1, "cc"}};
-    tradeoff.ladders = {
+    tradeoff.all_series = {
         {.method = rk4, .rows = {unstable, told, too_small}, .end = "so", .done = true}};
     return tradeoff;
 }
@@ -234,7 +228,7 @@ Tradeoff made_up() {
 // range, 1800 ns, is 5 % of it. 11,250 of 45,000 ns are 25 %. A line begins with its mark.
 TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
     const Desk desk;
-    desk.put("part.json", to_json(made_up()));
+    desk.put("part.json", file_text(made_up()));
     const Outcome run = desk.run("oiler merge part.json --all --out t --size 64x36 --quiet");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 0) << run.err;
@@ -250,9 +244,8 @@ TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
 // Worker threads write the file; a write error is one line from any of them.
 TEST(TradeoffCommand, ReportsAWriteError) {
     const Desk desk;
-    const Outcome run =
-        desk.run("trap '' XFSZ; ulimit -f 4; oiler tradeoff scene.toml " + few + "--out t --quiet");
-    EXPECT_EQ(run.exit, 4) << run.err;
+    const Outcome run = desk.run(
+        "trap '' XFSZ; ulimit -f 4; oiler tradeoff scene.toml " + few + "--out t --quiet", 4);
     EXPECT_EQ(lines(run.err), 1) << run.err;
 }
 
@@ -264,8 +257,7 @@ TEST(TradeoffCommand, FileOfASceneAtRestCanBeRead) {
         "--size 64x36 --quiet");
     if (run.exit == 3) GTEST_SKIP() << run.err;
     EXPECT_EQ(run.exit, 0) << run.err;
-    const Outcome merge = desk.run("oiler merge t/tradeoff.json --out u --size 64x36 --quiet");
-    EXPECT_EQ(merge.exit, 0) << merge.err;
+    desk.run("oiler merge t/tradeoff.json --out u --size 64x36 --quiet", 0);
 }
 
 }  // namespace

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/comparison.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "capture/captures.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/compare/captures/picture_changes.hpp"
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -246,8 +242,7 @@ TEST_F(ComparisonOfFilms, ToleratedFramesAreNotCountedAsFailures) {
         film.shots[1].rgb[0] += 1;
         film.shots[2].rgb[0] += 9;
     });
-    EXPECT_TRUE(holds(describe(both), "\n5 frames: 3 equal; 1 pixels; 1 tolerated\n"))
-        << describe(both);
+    EXPECT_TRUE(holds(describe(both), "\n5 frames: 3 equal; 1 pixels; 1 tolerated\n"));
 }
 
 TEST_F(ComparisonOfFilms, OnlyPixelsAreTolerated) {
@@ -346,7 +341,7 @@ TEST_F(ComparisonOfFilms, AMissingFileOfTheGoldenIsNamed) {
     std::filesystem::remove(folder / "golden/frame_000003.png");
     const Comparison gap = compare_captures(folder / "golden", folder / "actual", {});
     EXPECT_FALSE(gap.passed());
-    EXPECT_TRUE(holds(gap.verdict, "frame_000003.png of the golden is missing")) << gap.verdict;
+    EXPECT_TRUE(holds(gap.verdict, "frame_000003.png of the golden is missing"));
 }
 
 TEST_F(ComparisonOfFilms, AMissingFileOfTheActualCaptureIsNamed) {
@@ -354,8 +349,7 @@ TEST_F(ComparisonOfFilms, AMissingFileOfTheActualCaptureIsNamed) {
     std::filesystem::remove(folder / "actual/frame_000001.png");
     const Comparison gap = compare_captures(folder / "golden", folder / "actual", {});
     EXPECT_FALSE(gap.passed());
-    EXPECT_TRUE(holds(gap.verdict, "frame_000001.png of the actual capture is missing"))
-        << gap.verdict;
+    EXPECT_TRUE(holds(gap.verdict, "frame_000001.png of the actual capture is missing"));
 }
 
 // The manifests of both are equal, but somebody put another picture in a file.
@@ -365,8 +359,7 @@ TEST_F(ComparisonOfFilms, FilesHoldWhatTheirManifestSays) {
         std::filesystem::copy_file(folder / owner / "frame_000001.png",
                                    folder / owner / "frame_000002.png",
                                    std::filesystem::copy_options::overwrite_existing);
-        EXPECT_TRUE(holds(refusal(), std::string(owner) + "/frame_000002.png: its pixels are not"))
-            << refusal();
+        EXPECT_TRUE(holds(refusal(), std::string(owner) + "/frame_000002.png: its pixels are not"));
     }
 }
 
@@ -391,24 +384,22 @@ TEST_F(ComparisonOfFilms, DamagedFilesAreRefused) {
     (void)changed(paint<1, 1>);
     const std::string png = text_of(folder / "golden/frame_000002.png");
     put(folder / "golden/frame_000002.png", png.substr(0, png.size() / 2));
-    EXPECT_TRUE(holds(refusal(), "golden/frame_000002.png: not a valid PNG")) << refusal();
+    EXPECT_TRUE(holds(refusal(), "golden/frame_000002.png: not a valid PNG"));
     std::filesystem::copy_file(folder / "golden/frame_000001.png",
                                folder / "golden/frame_000002.png",
                                std::filesystem::copy_options::overwrite_existing);
-    EXPECT_TRUE(holds(refusal(), "frame_000002.png: its pixels are not those of manifest.json"))
-        << refusal();
+    EXPECT_TRUE(holds(refusal(), "frame_000002.png: its pixels are not those of manifest.json"));
     put(folder / "actual/frames.jsonl.gz", "text");
-    EXPECT_TRUE(holds(refusal(), "actual/frames.jsonl.gz: damaged gzip file")) << refusal();
+    EXPECT_TRUE(holds(refusal(), "actual/frames.jsonl.gz: damaged gzip file"));
     std::filesystem::remove(folder / "actual/manifest.json");
-    EXPECT_TRUE(holds(refusal(), "actual: no capture there")) << refusal();
+    EXPECT_TRUE(holds(refusal(), "actual: no capture there"));
 }
 
 TEST_F(ComparisonOfFilms, AnUnfinishedGoldenIsRefused) {
     golden.header.planned_frames = 9;
     write(golden, folder / "golden");
     write(film_of(5), folder / "actual");
-    EXPECT_TRUE(holds(refusal(), "golden: the capture was not finished (5 of 9 frames)"))
-        << refusal();
+    EXPECT_TRUE(holds(refusal(), "golden: the capture was not finished (5 of 9 frames)"));
 }
 
 TEST_F(ComparisonOfFilms, JsonHasTheFacts) {

@@ -8,7 +8,6 @@ Two pages with known pixels and hostile names are made from the template and tes
 Needs Debian's chromium and nothing else.
 """
 import json
-import re
 import sys
 import tempfile
 import time
@@ -16,10 +15,11 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from browser import Browser
+from browser import failures_of
 from differences_viewer import Viewer, decoded, gaps
 from pictures import hostile_data, plain_data
 
+DATA = r"<script>const data = (.*?);</script>"
 TEMPLATE = Path(__file__).resolve().parents[2] / "engine/oiler/compare/differences.html"
 NAMES = {"=": "equal", "s": "simulation", "p": "picture", "x": "pixels beyond the tolerance",
          "~": "pixels within the tolerance", "m": "missing"}
@@ -269,31 +269,6 @@ class Check(Viewer):
         self.expect(self.browser.value("window.hostile === undefined"), "a text was executed")
 
 
-def own_data(page):
-    """As Python reads it from the file, not as the page's script understands it."""
-    found = re.findall(r"<script>const data = (.*?);</script>", page.read_text(encoding="utf-8"),
-                       re.S)
-    if len(found) != 1:
-        raise ValueError(f"{len(found)} scripts with data")
-    return json.loads(found[0])
-
-
-def test(page):
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = Browser(profile)
-        try:
-            browser.resize(1000)
-            check = Check(browser, own_data(page))
-            browser.open(page.resolve().as_uri())
-            try:
-                check.all()
-            except (RuntimeError, ValueError, LookupError, TypeError) as error:
-                check.failures.append(f"stopped: {type(error).__name__}: {error}")
-            return check.failures + list(browser.complaints())
-        finally:
-            browser.close()
-
-
 def write_page(folder, name, data):
     text = json.dumps(data).replace("<", "\\u003c")
     page = Path(folder) / name
@@ -307,10 +282,7 @@ def main(arguments):
         pages = [write_page(folder, "hostile.html", hostile_data()),
                  write_page(folder, "plain.html", plain_data()), *map(Path, arguments)]
         for page in pages:
-            try:
-                failures = test(page)
-            except (OSError, RuntimeError, ValueError) as error:
-                failures = [f"{type(error).__name__}: {error}"]
+            failures = failures_of(page, 1000, DATA, Check)
             for failure in failures:
                 print(f"{page.name}:", " ".join(str(failure).split()))
             failed = failed or bool(failures)

@@ -2,15 +2,13 @@
 #include "oiler/compare/captures/differences.hpp"
 #include "oiler/compare/captures/comparison.hpp"
 
-#include <gtest/gtest.h>
 #include <png.h>
 
 #include <nlohmann/json.hpp>
 
 #include "capture/captures.hpp"
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -97,13 +95,9 @@ TEST_F(Differences, ThePageOfAnotherProgramIsNotReplaced) {
     std::filesystem::create_directory(folder / "out");
     put(folder / "out/index.html", "<!doctype html>mine");
     put(folder / "out/actual_000001.png", "mine");
-    try {
-        write_differences(compare_two_frames(), folder / "out");
-        ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::io);
-        EXPECT_TRUE(holds(error.what(), (folder / "out/index.html").string())) << error.what();
-    }
+    EXPECT_TRUE(holds(
+        line_of_error(Exit::io, [&] { write_differences(compare_two_frames(), folder / "out"); }),
+        (folder / "out/index.html").string()));
     EXPECT_EQ(text_of(folder / "out/index.html"), "<!doctype html>mine");
     EXPECT_EQ(text_of(folder / "out/actual_000001.png"), "mine");
 }
@@ -168,14 +162,14 @@ TEST(DifferencesFolder, IsBesideTheFrames) {
 
 TEST_F(Differences, JunitHasACaseForEachCause) {
     const std::string xml = suite_of(compare_two_frames()).xml();
-    EXPECT_TRUE(holds(xml, "tests=\"4\" failures=\"1\"")) << xml;
+    EXPECT_TRUE(holds(xml, "tests=\"4\" failures=\"1\""));
     EXPECT_TRUE(
         holds(xml,
               "name=\"pixels\"><failure message=\"1 of 2 frames, the first is frame 1: "
               "2 of 2 pixels differ (100 %), by at most 60; tolerated are 1 %, by at most 2\"/>"))
         << xml;
     for (const char* passed : {"simulation", "picture", "missing"})
-        EXPECT_TRUE(holds(xml, "name=\"" + std::string(passed) + "\"><system-out>")) << xml;
+        EXPECT_TRUE(holds(xml, "name=\"" + std::string(passed) + "\"><system-out>"));
     EXPECT_TRUE(holds(suite_of(compare(film_of(2), film_of(2))).xml(), "failures=\"0\""));
 }
 

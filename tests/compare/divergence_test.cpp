@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/runs/divergence.hpp"
 
-#include <gtest/gtest.h>
-
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <random>
-#include <tuple>
 
-#include "oiler/core/error.hpp"
 #include "oiler/core/ulps.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -243,13 +238,8 @@ TEST(Divergence, RefusesRunsWithOtherAxes) {
     StateLog b = log_of({{0, 1, {1, 2, 3, 4}}});
     a.name = "a.csv";
     b.name = "b.csv";
-    try {
-        static_cast<void>(find_divergence(a, b));
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_STREQ(error.what(), "a.csv has 1 axis and b.csv has 2; give runs of the same scene");
-    }
+    EXPECT_EQ(line_of_error(Exit::usage, [&] { static_cast<void>(find_divergence(a, b)); }),
+              "a.csv has 1 axis and b.csv has 2; give runs of the same scene");
 }
 
 /// Two bodies for `last` ticks after tick 5. From there, body 2 is n·(3, 4, 0)·2^-20 m away in the

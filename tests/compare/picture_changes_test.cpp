@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/picture_changes.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/plot/plot.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Align;
-using oiler::describe_picture_change;
-using oiler::Picture;
-using oiler::Space;
-
 /// At this size a unit of the canvas is two pixels.
-constexpr oiler::Size size{1280, 720};
+constexpr Size size{1280, 720};
 
 /// The canvas shows 36 m, so that a metre is ten units: 20 pixels.
 Picture picture() {
@@ -82,10 +77,10 @@ TEST(PictureChanges, NameAMissingLabel) {
 
 // The labels of a real plot: one tick fewer.
 TEST(PictureChanges, NameAMissingTickOfAPlot) {
-    const oiler::Plot plot{.box = {{80, 60}, {600, 300}},
-                           .x = {0, 1},
-                           .y = {0, 2},
-                           .series = {{.points = {{0, 0}, {1, 2}}}}};
+    const Plot plot{.box = {{80, 60}, {600, 300}},
+                    .x = {0, 1},
+                    .y = {0, 2},
+                    .series = {{.points = {{0, 0}, {1, 2}}}}};
     Picture whole;
     plot.draw(whole, {.object = 1});
     ASSERT_GE(whole.labels.size(), 8U);
@@ -163,3 +158,4 @@ TEST(PictureChanges, AreJoined) {
 }
 
 }  // namespace
+}  // namespace oiler::test

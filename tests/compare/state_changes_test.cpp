@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/state_changes.hpp"
 
-#include <gtest/gtest.h>
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
-#include <array>
-#include <cmath>
-
+namespace oiler::test {
 namespace {
 
-using oiler::BodyState;
-using oiler::describe_state_change;
 using Bodies = std::vector<BodyState>;
 
 const Bodies bodies{{"a", {1, 2, 3}, {4, 5, 6}},
@@ -102,3 +99,4 @@ TEST(StateChanges, NameAnotherOrder) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -2,14 +2,12 @@
 #include "oiler/compare/runs/trace_file.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <bit>
-#include <cmath>
 #include <random>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/floating_point.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cfenv>
-
-#include "oiler/core/error.hpp"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
 
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
-using oiler::Error;
-using oiler::Exit;
-using oiler::require_ieee_arithmetic;
-
 void expect_refusal() {
-    try {
-        require_ieee_arithmetic();
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    }
+    EXPECT_EQ(line_of_error(Exit::usage, [&] { require_ieee_arithmetic(); }).find('\n'),
+              std::string::npos);
 }
 
 TEST(RequireIeeeArithmetic, AcceptsTheDefaultMode) { EXPECT_NO_THROW(require_ieee_arithmetic()); }
@@ -59,3 +49,4 @@ TEST(RequireIeeeArithmetic, AcceptsExceptionFlagsAndMasks) {
 #endif
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/handle_slots.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace {
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/junit.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <algorithm>
-
+namespace oiler::test {
 namespace {
-
-using oiler::JunitSuite;
 
 TEST(Junit, HasEachOutcome) {
     JunitSuite suite("oiler check");
@@ -66,3 +63,4 @@ TEST(Junit, KeepsItsShapeWithAnyByte) {
 }
 
 }  // namespace
+}  // namespace oiler::test

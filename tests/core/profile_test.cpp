@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/profile.hpp"
 
-#include <gtest/gtest.h>
-
-#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 using namespace std::chrono_literals;
-using oiler::Profile;
-using oiler::Span;
 using Json = nlohmann::json;
 
 Json events_of(const Profile& profile) {
@@ -92,3 +90,4 @@ TEST(Span, LastsFromItsConstructionToItsDestruction) {
 TEST(Span, OfNoProfileMeasuresNothing) { const Span span(nullptr, "draw"); }
 
 }  // namespace
+}  // namespace oiler::test

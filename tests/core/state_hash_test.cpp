@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/state_hash.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <string_view>
-#include <utility>
-#include <vector>
-
+namespace oiler::test {
 namespace {
 
-using oiler::hash_text;
-using oiler::StateHash;
 using namespace std::string_view_literals;
 
 std::uint64_t hash_of(std::string_view text) {
@@ -86,9 +81,8 @@ TEST(StateHash, AddsValuesAsTheirBytes) {
         "\2\0\0\0\0\0\0\0"
         "ab"sv;
     EXPECT_EQ(hash.value(), hash_of(bytes));
-    static_assert(!oiler::Hashed<const char*> && !oiler::Hashed<std::vector<int>>,
-                  "an address is no value");
-    static_assert(!oiler::Hashed<std::pair<char, int>>, "its gap has any bytes");
+    static_assert(!Hashed<const char*> && !Hashed<std::vector<int>>, "an address is no value");
+    static_assert(!Hashed<std::pair<char, int>>, "its gap has any bytes");
 }
 
 TEST(StateHash, DependsOnOrder) {
@@ -130,3 +124,4 @@ TEST(HashText, HasSixteenDigits) {
 }
 
 }  // namespace
+}  // namespace oiler::test

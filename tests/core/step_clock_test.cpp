@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/step_clock.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
 #include <random>
-#include <utility>
 
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 using namespace std::chrono_literals;
-using oiler::headless_frame;
-using oiler::StepClock;
 using std::chrono::nanoseconds;
 
 constexpr std::int64_t frames_in_an_hour = std::int64_t{144} * 3600;
@@ -262,3 +258,4 @@ TEST(HeadlessFrame, HasAnExactAlphaBetweenSteps) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/game/look.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/game/game.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// A game that only says how its bodies look.
@@ -93,4 +92,4 @@ TEST(Look, IsPartOfTheStateHash) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

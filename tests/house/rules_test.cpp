@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "house/rules.hpp"
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace oiler::house {
 namespace {
@@ -32,8 +31,8 @@ TEST(HouseRules, FindIncludesBetweenFloors) {
     EXPECT_EQ(wrong_includes("lab/sweep/a.hpp", "oiler/lab/reference/path.hpp"), 0U);
     EXPECT_EQ(wrong_includes("lab/reference/a.hpp", "oiler/lab/sweep/judge.hpp"), 1U);
     EXPECT_EQ(wrong_includes("lab/ledger/a.hpp", "oiler/lab/advice/search.hpp"), 1U);
-    EXPECT_EQ(wrong_includes("lab/rates.cpp", "oiler/lab/ledger/ledger.hpp"), 0U);
-    EXPECT_EQ(wrong_includes("lab/sweep/a.hpp", "oiler/lab/budget.hpp"), 1U);
+    EXPECT_EQ(wrong_includes("lab/a.cpp", "oiler/lab/ledger/ledger.hpp"), 0U);
+    EXPECT_EQ(wrong_includes("lab/sweep/a.hpp", "oiler/lab/rates/budget.hpp"), 1U);
     EXPECT_EQ(wrong_includes("lab/sweep/a.hpp", "oiler/scene/scene.hpp"), 0U);
     EXPECT_EQ(wrong_includes("lab/sweep/a.hpp", "oiler/render/gl.hpp"), 1U);
     EXPECT_EQ(wrong_includes("cli/a.cpp", "oiler/lab/sweep/judge.hpp"), 0U);
@@ -41,7 +40,7 @@ TEST(HouseRules, FindIncludesBetweenFloors) {
 }
 
 TEST(HouseRules, FindPlacesThatThePlanLacks) {
-    for (const char* file : {"lab/rates.cpp", "lab/sweep/a.cpp", "physics/forces/a.hpp"})
+    for (const char* file : {"lab/rates/a.cpp", "lab/sweep/a.cpp", "physics/forces/a.hpp"})
         EXPECT_EQ(check_place(file).size(), 0U) << file;
     for (const char* file : {"cellar/a.cpp", "lab/cellar/a.cpp", "all.hpp"})
         EXPECT_EQ(check_place(file).size(), 1U) << file;

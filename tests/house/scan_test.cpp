@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "house/scan.hpp"
-
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace oiler::house {
 namespace {

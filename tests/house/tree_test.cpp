@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Checks this source tree. A fault is one line; a sound tree prints none.
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
 #include "house/plan.hpp"
 #include "house/rules.hpp"
+#include "support/test.hpp"
 
 namespace oiler::house {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
 #include "house/rules.hpp"
+#include "support/test.hpp"
 
 namespace oiler::house {
 namespace {

@@ -2,11 +2,11 @@
 // Input as events, and events as bytes.
 #include "oiler/input/input_event.hpp"
 
-#include <gtest/gtest.h>
-
 #include <random>
 
-namespace oiler {
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 /// A step's worth of random input.
@@ -97,4 +97,4 @@ TEST(InputEvents, NumbersHaveOneForm) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

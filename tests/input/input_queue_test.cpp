@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a fixed step sees of a keyboard, a mouse and a controller.
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
 #include <random>
-#include <vector>
 
 #include "oiler/core/step_clock.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 constexpr std::array<Button, 3> buttons{Key::space, Mouse::left, Pad::south};
@@ -334,4 +329,4 @@ TEST(Buttons, AreNumberedAsInTheUsbTable) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -2,14 +2,10 @@
 // The panel is used as a user does: by clicking on every place of it.
 #include "oiler/inspector/inspector.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <functional>
-#include <optional>
-#include <set>
 
 #include "oiler/render/renderer.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

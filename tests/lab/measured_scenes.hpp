@@ -37,4 +37,10 @@ struct MeasuredScene {
     Reference reference;
 };
 
+/// The article's spring, measured once.
+inline const MeasuredScene& spring() {
+    static const MeasuredScene measured(article_spring);
+    return measured;
+}
+
 }  // namespace oiler::test

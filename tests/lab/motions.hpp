@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <vector>
-
 #include "oiler/lab/reference/exact_motion.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 
-using Real = long double;
 using State3 = State<Real, 3>;
 
 /// The motion of every body.

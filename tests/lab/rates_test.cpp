@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/rates.hpp"
+#include "oiler/lab/rates/rates.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "lab/measured_scenes.hpp"
-#include "oiler/core/error.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
 namespace {
 
 using Rate = std::int64_t;
@@ -437,15 +431,9 @@ TEST(FindBody, ByNameOrNumber) {
     EXPECT_EQ(find_body(scene, "1"), 1U);
     EXPECT_EQ(find_body(scene, "6"), 6U);
     for (const char* name : {"7", "-1", "b", "1x", " 1", "1.0", "99999999999999999999"}) {
-        try {
-            (void)find_body(scene, name);
-            ADD_FAILURE() << name;
-        } catch (const Error& error) {
-            const std::string line = error.what();
-            EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_NE(line.find(name), std::string::npos) << line;
-            EXPECT_NE(line.find("from 0 to 6"), std::string::npos) << line;
-        }
+        const std::string line = line_of_error(Exit::usage, [&] { (void)find_body(scene, name); });
+        EXPECT_TRUE(holds(line, name));
+        EXPECT_TRUE(holds(line, "from 0 to 6"));
     }
 }
 

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <bit>
-#include <cmath>
-#include <cstdint>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "lab/measured_scenes.hpp"
-#include "oiler/core/error.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
-
-inline const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
+using namespace lab;
 
 inline SweepPlan small_plan() {
     return {.methods = methods_of({"explicit_euler", "semi_implicit_euler", "velocity_verlet",
@@ -54,10 +42,10 @@ inline std::string named(const Stepping& choice) {
 }
 
 inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
-    ASSERT_EQ(a.ladders.size(), b.ladders.size());
-    for (std::size_t i = 0; i < a.ladders.size(); ++i) {
-        const Ladder& one = a.ladders[i];
-        const Ladder& other = b.ladders[i];
+    ASSERT_EQ(a.all_series.size(), b.all_series.size());
+    for (std::size_t i = 0; i < a.all_series.size(); ++i) {
+        const RateSeries& one = a.all_series[i];
+        const RateSeries& other = b.all_series[i];
         EXPECT_EQ(one.method, other.method);
         EXPECT_EQ(one.precision, other.precision);
         EXPECT_EQ(one.end, other.end);
@@ -72,15 +60,9 @@ inline void expect_same_errors(const Tradeoff& a, const Tradeoff& b) {
 }
 
 inline void expect_usage(const std::function<void()>& wrong, const std::string& words) {
-    try {
-        wrong();
-        ADD_FAILURE() << "is not refused";
-    } catch (const Error& error) {
-        const std::string line = error.what();
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(holds(line, words)) << line;
-        EXPECT_FALSE(holds(line, "\n")) << line;
-    }
+    const std::string line = line_of_error(Exit::usage, [&] { wrong(); });
+    EXPECT_TRUE(holds(line, words));
+    EXPECT_FALSE(holds(line, "\n"));
 }
 
 }  // namespace oiler::test

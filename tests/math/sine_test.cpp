@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/math/sine.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
 
-namespace oiler {
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 /// Round-offs of `turns` and of `sine_of_turns`, as their comments promise.
@@ -123,4 +120,4 @@ TYPED_TEST(Sine, HasThePeriodOfOneTurn) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

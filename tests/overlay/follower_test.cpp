@@ -3,10 +3,9 @@
 // camera is 36 m high, so that a unit is 0.1 m, and the canvas point (320, 180) is its centre.
 #include "oiler/overlay/follower.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/game/look.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -2,13 +2,9 @@
 // The rings that show where bodies truly are.
 #include "oiler/overlay/drawn_bodies.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "oiler/game/look.hpp"
 #include "oiler/world/world.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/overlay/help.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <functional>
 
 #include "oiler/picture/palette.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 constexpr Action fire{"fire", Key::q, Mouse::left};
@@ -97,4 +95,4 @@ TEST(Help, ALongListFitsTheCanvas) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -3,12 +3,9 @@
 // acceleration is a step of the engine: explicit kicks change a velocity by acceleration·dt.
 #include "oiler/overlay/motion_overlay.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "oiler/game/look.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

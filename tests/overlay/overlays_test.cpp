@@ -2,10 +2,7 @@
 // Where the loop writes over a window, and in which size.
 #include "oiler/overlay/overlays.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

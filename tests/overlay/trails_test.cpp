@@ -2,11 +2,8 @@
 // The paths of bodies as drawn. The oracle is the path itself: a body that moves along x = t.
 #include "oiler/overlay/trails.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "oiler/game/look.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/closed_forms.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::constant_acceleration;
-using oiler::damped_oscillator;
-using oiler::linear_drag_motion;
-using oiler::Motion;
 
 template <class T>
 constexpr T round_off = std::numeric_limits<T>::epsilon() / 2;
@@ -256,3 +245,4 @@ TEST(LinearDragMotion, IsContinuousWhereItsFormulaChanges) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/forces/forces.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <tuple>
-
 #include "oiler/physics/forces/forces.hpp"
 
-namespace {
+#include "support/test.hpp"
 
-using oiler::AttractorForce;
-using oiler::CoilSpringForce;
-using oiler::for_each_number;
-using oiler::Forces;
-using oiler::Jacobian;
-using oiler::QuadraticDragForce;
-using oiler::State;
-using oiler::Vec;
-using Real = long double;
+namespace oiler::test {
+namespace {
 
 /// Numbers of size 1 without a pattern that could hide a wrong formula.
 class Assorted {
@@ -60,7 +45,7 @@ void for_each_force_of(F f) {
             };
             (visit(force), ...);
         },
-        oiler::ForceList<Real, Axes>{});
+        ForceList<Real, Axes>{});
 }
 template <class F>
 void for_each_force(F f) {
@@ -118,7 +103,7 @@ Vec<Real, Axes> field_of(const Force& force, const State<Real, Axes>& state) {
 // A force that depends on time has no potential.
 TEST(Forces, HaveFieldsThatAreMinusTheGradientOfTheirPotentials) {
     for_each_force([]<class Force, int Axes>(const Force& force, const State<Real, Axes>& state) {
-        if (oiler::DependsOnTime<Force>) return;
+        if (DependsOnTime<Force>) return;
         const Vec<Real, Axes> field = field_of(force, state);
         for (int j = 0; j < Axes; ++j) {
             const Real slope = derivative([&](Real h) {
@@ -134,9 +119,9 @@ TEST(Forces, HaveFieldsThatAreMinusTheGradientOfTheirPotentials) {
 /// The velocity after `tau` s of the force's damping at a fixed position.
 template <class Force, int Axes>
 Vec<Real, Axes> slowed(const Force& force, State<Real, Axes> state, Real tau) {
-    if constexpr (oiler::Linear<Force>)
+    if constexpr (Linear<Force>)
         return state.v * std::exp(-linear_form(force).damping * tau);
-    else if constexpr (oiler::Damps<Force, State<Real, Axes>, Real>)
+    else if constexpr (Damps<Force, State<Real, Axes>, Real>)
         force.damp(state, force.prepare_damping(tau));
     return state.v;
 }
@@ -193,7 +178,7 @@ TEST(CoilSpring, DampsOnlyAlongItsLine) {
 
 /// Gravity and attractors accelerate all masses equally. Other accelerations are force over mass.
 template <class Force, int Axes>
-constexpr bool pulls_all_masses_alike = std::is_same_v<Force, oiler::GravityForce<Real, Axes>> ||
+constexpr bool pulls_all_masses_alike = std::is_same_v<Force, GravityForce<Real, Axes>> ||
                                         std::is_same_v<Force, AttractorForce<Real, Axes>>;
 
 TEST(Forces, AreDividedByMass) {
@@ -210,7 +195,7 @@ TEST(Forces, AreDividedByMass) {
 
 /// A coil spring is not linear if its direction can turn; a drive does not depend on the state.
 template <class Force, int Axes>
-constexpr bool bends = !oiler::Linear<Force> && !oiler::DependsOnTime<Force> &&
+constexpr bool bends = !Linear<Force> && !DependsOnTime<Force> &&
                        (Axes > 1 || !std::is_same_v<Force, CoilSpringForce<Real, Axes>>);
 
 // A force is linear if the acceleration halfway between two states is the mean of theirs.
@@ -220,7 +205,7 @@ TEST(Forces, AreLinearIfTheySaySo) {
         const State<Real, Axes> middle{(state.x + other.x) * 0.5L, (state.v + other.v) * 0.5L};
         const auto mean = (accelerate(force, state, time) + accelerate(force, other, time)) * 0.5L;
         const Real bend = largest(accelerate(force, middle, time) - mean);
-        if (oiler::Linear<Force>) {
+        if (Linear<Force>) {
             EXPECT_LE(bend, 100 * epsilon);
         }
         if (bends<Force, Axes>) {
@@ -231,7 +216,7 @@ TEST(Forces, AreLinearIfTheySaySo) {
 
 // F·sin(2π·f·t + φ); the C library's sine of an angle below 2π is right to an ulp.
 TEST(Drive, FollowsTheSine) {
-    const oiler::DriveForce<Real, 2> drive{{3, -2}, 1.75L, 0.5L};
+    const DriveForce<Real, 2> drive{{3, -2}, 1.75L, 0.5L};
     for (const double t : {0.0, 0.125, 0.5, 1.0}) {
         const Real sine = std::sin(2 * std::numbers::pi_v<Real> * 1.75L * Real(t) + 0.5L);
         expect_near<2>(drive.field({}, t), Vec<Real, 2>{3, -2} * sine, 20 * epsilon);
@@ -241,20 +226,19 @@ TEST(Drive, FollowsTheSine) {
 // Wind of the velocity of the body has no effect; in still air it is quadratic drag.
 TEST(Wind, IsDragThroughMovingAir) {
     const State<Real, 2> state{{}, {3, -4}};
-    EXPECT_EQ((oiler::WindForce<Real, 2>{{3, -4}, 5}.accelerate(state, 0)), (Vec<Real, 2>{}));
-    EXPECT_EQ((oiler::WindForce<Real, 2>{{}, 5}.accelerate(state, 0)),
+    EXPECT_EQ((WindForce<Real, 2>{{3, -4}, 5}.accelerate(state, 0)), (Vec<Real, 2>{}));
+    EXPECT_EQ((WindForce<Real, 2>{{}, 5}.accelerate(state, 0)),
               (QuadraticDragForce<Real, 2>{5}.accelerate(state, 0)));
 }
 
 /// The forces that are not linear as a test lists them; the number of a damping is the duration.
 template <int Axes>
 struct Listed {
-    oiler::ForceList<Real, Axes> list{};
-    std::array<std::size_t, oiler::force_count> counts{};
+    ForceList<Real, Axes> list{};
+    std::array<std::size_t, force_count> counts{};
 
     template <class Force>
-    static constexpr std::size_t at =
-        oiler::index_of<Force>(static_cast<oiler::ForceList<Real, Axes>*>(nullptr));
+    static constexpr std::size_t at = index_of<Force>(static_cast<ForceList<Real, Axes>*>(nullptr));
     template <class Force>
     [[nodiscard]] std::size_t count() const {
         return counts[at<Force>];
@@ -273,20 +257,20 @@ struct Listed {
 TEST(Forces, AddUpAllThatArePresent) {
     Assorted assorted;
     const State<Real, 2> state = assorted.state<2>();
-    for (unsigned set = 0; set < 1U << oiler::force_count; ++set) {
+    for (unsigned set = 0; set < 1U << force_count; ++set) {
         Listed<2> listed;
-        oiler::LinearForce<Real, 2> linear;
+        LinearForce<Real, 2> linear;
         Vec<Real, 2> acceleration{};
         Vec<Real, 2> fields{};
         Jacobian<Real, 2> jacobians;
-        oiler::for_each_index<oiler::force_count>([&](auto i) {
+        for_each_index<force_count>([&](auto i) {
             auto& force = std::get<i>(listed.list);
             listed.counts[i] = (set >> i & 1U) * (1 + set % 2);
             for_each_number(force, [&](Real& number) {
                 number = listed.counts[i] > 0 ? assorted.positive() : std::nanl("");
             });
             for (std::size_t index = 0; index < listed.counts[i]; ++index) {
-                if constexpr (oiler::Linear<std::decay_t<decltype(force)>>)
+                if constexpr (Linear<std::decay_t<decltype(force)>>)
                     linear = linear + linear_form(force);
                 acceleration = acceleration + accelerate(force, state, time);
                 fields = fields + field_of(force, state);
@@ -294,8 +278,7 @@ TEST(Forces, AddUpAllThatArePresent) {
                 jacobians = {jacobians.dx + one.dx, jacobians.dv + one.dv};
             }
         });
-        const Forces<Real, 2, oiler::LinearParts, Listed<2>> forces{
-            linear, {true, true, true}, listed};
+        const Forces<Real, 2, LinearParts, Listed<2>> forces{linear, {true, true, true}, listed};
         // Each of up to 16 terms is at most 40 m/s² and is rounded a few times.
         constexpr Real tolerance = 16 * 40 * 4 * epsilon;
         EXPECT_LE(largest(forces.accelerate(state, time) - acceleration), tolerance) << set;
@@ -319,7 +302,7 @@ TEST(Forces, DampInReverseOrderAfterTheStages) {
     std::get<3>(listed.list) = {0.5L};
     std::get<4>(listed.list) = {{1, 1}, 7, 2, 4};
     std::get<6>(listed.list) = {{2, -1}, 0.75L};
-    const Forces<Real, 2, oiler::LinearParts, Listed<2>> forces{{}, {}, listed};
+    const Forces<Real, 2, LinearParts, Listed<2>> forces{{}, {}, listed};
     const State<Real, 2> start{{4, 5}, {5, 2}};
     State<Real, 2> forwards = start;
     std::get<3>(listed.list).damp(forwards, 0.25L);
@@ -360,7 +343,7 @@ struct TwoCoils {
 // Dampers along different lines do not commute either.
 TEST(Forces, DampInReverseOrderAmongThoseOfOneKind) {
     const TwoCoils two;
-    const Forces<Real, 2, oiler::LinearParts, TwoCoils> forces{{}, {}, two};
+    const Forces<Real, 2, LinearParts, TwoCoils> forces{{}, {}, two};
     const State<Real, 2> start{{4, 5}, {5, 2}};
     const auto damped = [&](std::size_t first, std::size_t second) {
         State<Real, 2> state = start;
@@ -378,3 +361,4 @@ TEST(Forces, DampInReverseOrderAmongThoseOfOneKind) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "oiler/physics/closed_forms.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::dot;
-using oiler::is_elliptic;
-using oiler::kepler;
-using oiler::State;
-using oiler::Vec;
-using Real = long double;
 using State3 = State<Real, 3>;
 using Vec3l = Vec<Real, 3>;
 
@@ -212,7 +198,7 @@ TEST(Kepler, AgreesWithTheOrbitFromItsNearestPoint) {
         const Real speed = std::sqrt(gm_of_ellipses / nearest * (1 + e));
         const State3 start{{nearest, 0, 0}, {0, speed, 0}};
         for (const Real t : times) {
-            const auto flat = oiler::orbit(gm_of_ellipses, nearest, speed, t);
+            const auto flat = orbit(gm_of_ellipses, nearest, speed, t);
             SCOPED_TRACE(testing::Message() << "e = " << e);
             expect_state(gm_of_ellipses, start, t,
                          {{flat.x[0], flat.x[1], 0}, {flat.v[0], flat.v[1], 0}});
@@ -251,3 +237,4 @@ TEST(IsElliptic, RejectsFallsAndRepulsion) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,36 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/methods/methods.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-#include <span>
-#include <string>
-
-#include "oiler/core/error.hpp"
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/physics/stepping.hpp"
 #include "oiler/stability/stability.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::advance;
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::find_method;
-using oiler::make_plan;
-using oiler::Method;
-using oiler::methods;
-using oiler::Move;
-using oiler::Precision;
-using oiler::Splitting;
-using oiler::State;
-using oiler::Vec;
+TEST(Stepping, IsDescribedAsItIsRead) {
+    const Stepping full{&find_method("rk4"), {60}, Precision::single, Damping::in_kick};
+    const Stepping usual{&find_method("exact"), {120}};
+    EXPECT_EQ(describe(full), "rk4 at 60 Hz in float, damping in the kick");
+    EXPECT_EQ(table_text(full), "rk4, 60 Hz, float, kick");
+    EXPECT_EQ(table_text(usual), "exact, 120 Hz, double");
+    EXPECT_EQ(caption(full), "rk4 at 60 Hz, float");
+    EXPECT_EQ(short_text(usual), "120 Hz exact");
+    EXPECT_EQ(difference_text(usual, full), "exact, 120 Hz, double");
+    EXPECT_EQ(difference_text(full, full), "");
+    for (const Precision precision : {Precision::single, Precision::double_})
+        EXPECT_EQ(find_precision(name_of(precision)), precision);
+    for (const Damping damping : {Damping::in_kick, Damping::in_drift})
+        EXPECT_EQ(find_damping(name_of(damping)), damping);
+    EXPECT_FALSE(find_precision("long double") || find_precision(""));
+    EXPECT_FALSE(find_damping("Kick") || find_damping(""));
+}
 
 TEST(Methods, HaveUniqueNames) {
     std::set<std::string_view> names;
@@ -55,8 +53,8 @@ TEST(Methods, AreFoundByName) {
 std::string refusal_of(const char* name) {
     try {
         static_cast<void>(find_method(name));
-    } catch (const oiler::Error& error) {
-        EXPECT_EQ(error.exit(), oiler::Exit::usage);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
         return error.what();
     }
     ADD_FAILURE() << "found";
@@ -85,15 +83,15 @@ struct Errors {
 
 Errors errors_at(const Method& method, Damping damping, double b, int steps) {
     Bodies bodies(1, Precision::extended);
-    const std::array<oiler::Motion<long double>, 2> starts{{{1, 0}, {0, 4}}};
+    const std::array<Motion<long double>, 2> starts{{{1, 0}, {0, 4}}};
     for (const auto& start : starts)
         bodies.add({.position = {static_cast<double>(start.x)},
                     .velocity = {static_cast<double>(start.v)}},
-                   oiler::Spring{.stiffness = k, .damping = b});
+                   Spring{.stiffness = k, .damping = b});
     bodies.step(method, {.rate = {steps}, .count = steps, .damping = damping});
     Errors largest;
     for (std::size_t i = 0; i < starts.size(); ++i) {
-        const auto exact = oiler::damped_oscillator<long double>(1, k, b, starts[i], 1);
+        const auto exact = damped_oscillator<long double>(1, k, b, starts[i], 1);
         largest.x = std::max(largest.x, std::abs(bodies.state(i).x[0] - exact.x));
         largest.v = std::max(largest.v, std::abs(bodies.state(i).v[0] - exact.v));
     }
@@ -115,7 +113,7 @@ bool kicks_at_both_ends(const Method& method) {
     const auto stages = std::get<Splitting>(method.rule).stages();
     return stages.front().move == Move::kick && stages.back().move == Move::kick;
 }
-bool is_exact(const Method& method) { return method.order == oiler::exact_order; }
+bool is_exact(const Method& method) { return method.order == exact_order; }
 bool is_splitting(const Method& method) { return std::holds_alternative<Splitting>(method.rule); }
 
 TEST(Methods, HaveTheirOrderOnTheSpring) {
@@ -161,10 +159,9 @@ TEST(Methods, EvaluateAtEveryKickIfForcesDependOnVelocity) {
 // A step that conserves area has an error of round-off, about 1e-18. Other methods of order p have
 // an error of about h^(p+1) or h^(p+2)/72, at h = 0.8 far more than 1e-9.
 TEST(Methods, ConserveAreaIfTheySaySo) {
-    const oiler::Oscillation oscillation{0.64, 0};
+    const Oscillation oscillation{0.64, 0};
     for (const Method& method : methods()) {
-        const auto matrix =
-            oiler::step_matrices(method, method.damping, std::span(&oscillation, 1))[0];
+        const auto matrix = step_matrices(method, method.damping, std::span(&oscillation, 1))[0];
         if (method.symplectic)
             EXPECT_LT(std::abs(matrix.determinant() - 1), 1e-17L) << method.name;
         else
@@ -195,7 +192,7 @@ TEST(Splittings, AreThePublishedOnes) {
 }
 
 /// At most `operations` roundings per step, each no larger than the amplitude.
-void expect_reference(const Method& method, double b, oiler::Rate rate, int steps, const char* run,
+void expect_reference(const Method& method, double b, Rate rate, int steps, const char* run,
                       const char* name, int operations) {
     const auto state = reference("spring_states").at(run).at("state").at(name);
     Bodies bodies = article_spring(b);
@@ -274,3 +271,4 @@ TEST(Stages, KnowTheirTime) {
 }
 
 }  // namespace
+}  // namespace oiler::test

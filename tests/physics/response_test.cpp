@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/response.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::oscillator_response;
-using oiler::Response;
 
 template <class T>
 class OscillatorResponse : public testing::Test {};
@@ -165,3 +156,4 @@ TEST(OscillatorResponse, IsNotFiniteWhereTheResultOverflows) {
 }
 
 }  // namespace
+}  // namespace oiler::test

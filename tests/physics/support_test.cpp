@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/contacts/support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
 #include <random>
 
-namespace oiler {
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 template <class T>
@@ -48,4 +45,4 @@ TYPED_TEST(Supports, OfANarrowWedgeAreBothPlanes) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/picture/bitmap.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <fstream>
 #include <functional>
-#include <string>
 
-#include "oiler/core/error.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 using Texels = std::vector<std::uint8_t>;
@@ -38,12 +34,12 @@ void expect_error(Exit exit, const std::string& words, const std::function<void(
         ADD_FAILURE() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), exit);
-        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+        EXPECT_TRUE(holds(error.what(), words));
     }
 }
 
 TEST(Bitmap, IsReadFromItsTopRowWithItsAlpha) {
-    const test::Folder folder;
+    const Folder folder;
     write(folder / "ship.png", png.size());
     const auto bitmap = load_bitmap(folder / "ship.png");
     EXPECT_EQ(bitmap->size, (Size{2, 2}));
@@ -60,7 +56,7 @@ TEST(Bitmap, HasAHashOfItsSizeAndTexels) {
 }
 
 TEST(Bitmap, NamesWhatIsWrong) {
-    const test::Folder folder;
+    const Folder folder;
     write(folder / "cut.png", 40);
     expect_error(Exit::usage, "cut.png: not a PNG or JPEG image",
                  [&] { (void)load_bitmap(folder / "cut.png"); });
@@ -78,4 +74,4 @@ TEST(Bitmap, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

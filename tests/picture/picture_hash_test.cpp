@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/picture/picture.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
-#include <memory>
-#include <set>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "oiler/core/state_hash.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Align;
-using oiler::hash_of;
-using oiler::Picture;
-using oiler::Space;
 using Change = std::function<void(Picture&)>;
 
 /// Two elements of each kind.
@@ -35,8 +25,8 @@ Picture picture() {
     return picture;
 }
 
-std::shared_ptr<const oiler::Bitmap> bitmap(std::uint8_t shade) {
-    return oiler::make_bitmap({1, 1}, {shade, 2, 3, 4});
+std::shared_ptr<const Bitmap> bitmap(std::uint8_t shade) {
+    return make_bitmap({1, 1}, {shade, 2, 3, 4});
 }
 
 /// With two elements of the kinds that older pictures lack, too.
@@ -169,7 +159,7 @@ TEST(PictureHash, KeepsElementsApart) {
 TEST(PictureHash, IsThatOfItsWordsInOrder) {
     const std::uint32_t ten = 0x41200000;
     std::vector<std::uint32_t> words{0xffffffff, 0, 0, ten, 0, 0, 0, 0, 0, 0};
-    oiler::StateHash blank;
+    StateHash blank;
     blank.add(std::as_bytes(std::span(words)));
     EXPECT_EQ(hash_of(Picture{}), blank.value());
 
@@ -178,9 +168,10 @@ TEST(PictureHash, IsThatOfItsWordsInOrder) {
     const std::uint32_t text = 0x74786574;
     words[8] = 1;
     words.insert(words.end(), {2, 1, 3, 4, 1, ten, 0, ten, 0x01020304, 2, 4, text});
-    oiler::StateHash expected;
+    StateHash expected;
     expected.add(std::as_bytes(std::span(words)));
     EXPECT_EQ(hash_of(labelled), expected.value());
 }
 
 }  // namespace
+}  // namespace oiler::test

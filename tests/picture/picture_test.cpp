@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/picture/picture.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 Disc disc(ElementKey key, Point centre, float radius = 1, Colour colour = {}) {
@@ -231,4 +228,4 @@ TEST(Between, MovesTheCamera) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -3,11 +3,11 @@
 #define SDL_MAIN_HANDLED
 #include "oiler/platform/sdl2_events.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 
-namespace oiler {
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
 constexpr const char* soname = "libSDL2-2.0.so.0";
@@ -165,4 +165,4 @@ TEST_F(Sdl2Events, ReadAController) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

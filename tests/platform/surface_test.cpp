@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/platform/surface.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cfenv>
 #include <cstdlib>
 #include <filesystem>
@@ -10,11 +8,11 @@
 #include <xmmintrin.h>
 #endif
 
-#include "oiler/core/error.hpp"
 #include "oiler/platform/providers.hpp"
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// The control bits that affect sums: rounding, and whether subnormal numbers are flushed. The six
@@ -35,21 +33,21 @@ protected:
 };
 
 TEST_P(Provider, DrawsAPictureWithOpenGl33) {
-    const auto studio = drawing::open_studio(GetParam());
+    const auto studio = open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
     EXPECT_EQ(studio->surface->provider(), expected_name());
     EXPECT_NE(studio->surface->procedure("glDrawElements"), nullptr);
     EXPECT_GE(studio->renderer.gl_version(), "3.3");
     EXPECT_FALSE(studio->renderer.gl_renderer().empty());
-    EXPECT_EQ(drawing::total_coverage(studio->draw(Picture{}, {3, 2})), 0);
+    EXPECT_EQ(total_coverage(studio->draw(Picture{}, {3, 2})), 0);
 }
 
 TEST_P(Provider, OpensAgainAndAgain) {
     Pixels first;
     for (int i = 0; i < 5; ++i) {
-        const auto studio = drawing::open_studio(GetParam());
+        const auto studio = open_studio(GetParam());
         if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
-        const Pixels pixels = studio->draw(drawing::rich_picture(), {160, 90});
+        const Pixels pixels = studio->draw(rich_picture(), {160, 90});
         if (i == 0) first = pixels;
         EXPECT_EQ(pixels.rgb, first.rgb);
     }
@@ -57,10 +55,10 @@ TEST_P(Provider, OpensAgainAndAgain) {
 
 TEST_P(Provider, DoesNotChangeTheArithmetic) {
     const unsigned before = arithmetic();
-    const auto studio = drawing::open_studio(GetParam());
+    const auto studio = open_studio(GetParam());
     if (!studio) GTEST_SKIP() << expected_name() << " is not installed";
     EXPECT_EQ(arithmetic(), before);
-    static_cast<void>(studio->draw(drawing::rich_picture()));
+    static_cast<void>(studio->draw(rich_picture()));
     EXPECT_EQ(arithmetic(), before);
 }
 
@@ -70,9 +68,9 @@ INSTANTIATE_TEST_SUITE_P(Offscreen, Provider, testing::Values(Offscreen::osmesa,
                          });
 
 TEST(Automatic, SelectsAnInstalledProvider) {
-    const auto studio = drawing::open_studio(Offscreen::automatic);
+    const auto studio = open_studio(Offscreen::automatic);
     if (!studio) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
-    const auto osmesa = drawing::open_studio(Offscreen::osmesa);
+    const auto osmesa = open_studio(Offscreen::osmesa);
     EXPECT_EQ(studio->surface->provider(), osmesa ? "osmesa" : "egl");
 }
 
@@ -83,9 +81,9 @@ void expect_no_window() {
     } catch (const Error& error) {
         EXPECT_EQ(error.exit(), Exit::no_display);
         const std::string line = error.what();
-        EXPECT_NE(line.find("--headless"), std::string::npos) << line;
-        EXPECT_NE(line.find("no display"), std::string::npos) << line;
-        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        EXPECT_TRUE(holds(line, "--headless"));
+        EXPECT_TRUE(holds(line, "no display"));
+        EXPECT_FALSE(holds(line, "\n"));
     }
 }
 
@@ -101,15 +99,11 @@ TEST(Window, WithoutADisplayNamesHeadless) {
 }
 
 TEST(Library, NamesThePackageToInstall) {
-    try {
+    const std::string line = line_of_error(Exit::no_display, [&] {
         const Library library("libOilerHasNoSuchThing.so.9", "install the Debian package x");
-        FAIL() << "loaded a library that does not exist";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::no_display);
-        const std::string line = error.what();
-        EXPECT_NE(line.find("libOilerHasNoSuchThing.so.9"), std::string::npos) << line;
-        EXPECT_NE(line.find("install the Debian package x"), std::string::npos) << line;
-    }
+    });
+    EXPECT_TRUE(holds(line, "libOilerHasNoSuchThing.so.9"));
+    EXPECT_TRUE(holds(line, "install the Debian package x"));
 }
 
 TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
@@ -122,4 +116,4 @@ TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -2,11 +2,10 @@
 // The buttons that a player chooses for the actions of a game.
 #include "oiler/play/keys.hpp"
 
-#include <gtest/gtest.h>
-
 #include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -61,7 +60,7 @@ TEST(Keys, NameTheWrongLine) {
         const std::string line = line_of_error(Exit::usage, [&] {
             (void)parse_keys(std::string("# mine\n") + wrong.line, "my.toml", controls);
         });
-        EXPECT_NE(line.find(wrong.said), std::string::npos) << line;
+        EXPECT_TRUE(holds(line, wrong.said));
         EXPECT_TRUE(line.starts_with("my.toml:2: ")) << line;
     }
 }
@@ -71,10 +70,9 @@ TEST(Keys, OfAGameHaveDifferentNamesAndNoKeyOfTheLoop) {
         return line_of_error(Exit::usage, [&] { check_controls(list); });
     };
     check_controls(controls);
-    EXPECT_NE(line({fire, aim, Action{"fire", Key::a}}).find("two are named fire"),
-              std::string::npos);
-    EXPECT_NE(line({fire, Action{"", Key::a}}).find("number 2 has no name"), std::string::npos);
-    EXPECT_NE(line({Axis{"aim", Key::f7, Key::a}}).find("aim has F7"), std::string::npos);
+    EXPECT_TRUE(holds(line({fire, aim, Action{"fire", Key::a}}), "two are named fire"));
+    EXPECT_TRUE(holds(line({fire, Action{"", Key::a}}), "number 2 has no name"));
+    EXPECT_TRUE(holds(line({Axis{"aim", Key::f7, Key::a}}), "aim has F7"));
 }
 
 /// Pushes a body while an action or an axis is held.
@@ -135,13 +133,13 @@ TEST_F(PlayedKeys, AreRecordedAndReplayed) {
     EXPECT_EQ(play({"--steps", "60", "--replay", path("b")}), hash);
     EXPECT_EQ(run({"--replay", path("a"), "--what-if", "200"}), Exit::done) << "reproduced";
     const RecordingHeader header = read_recording(path("a")).header;
-    EXPECT_EQ(header.controls, (std::vector<RecordedControl>{{.name = "fire", .positive = Key::j},
-                                                             {.name = "jump", .positive = Key::up},
-                                                             {.name = "aim",
-                                                              .is_axis = true,
-                                                              .negative = Key::left,
-                                                              .positive = Key::d,
-                                                              .stick = Stick::left_x}}));
+    EXPECT_EQ(
+        header.controls,
+        (std::vector<RecordedControl>{
+            {{.positive = Key::j}, "fire"},
+            {{.positive = Key::up}, "jump"},
+            {{.is_axis = true, .negative = Key::left, .positive = Key::d, .stick = Stick::left_x},
+             "aim"}}));
 }
 
 TEST_F(PlayedKeys, AreRefusedWhereTheyHaveNoEffect) {
@@ -156,9 +154,9 @@ TEST_F(PlayedKeys, AreRefusedWhereTheyHaveNoEffect) {
     EXPECT_EQ(
         line({"--steps", "1", "--keys", path("keys.toml")}, std::type_identity<WithoutControls>{}),
         "--keys: game has no actions to choose buttons for; leave it out");
-    EXPECT_NE(line({"--steps", "1", "--keys", path("none.toml")}, std::type_identity<Game>{})
-                  .find("none.toml"),
-              std::string::npos);
+    EXPECT_TRUE(
+        holds(line({"--steps", "1", "--keys", path("none.toml")}, std::type_identity<Game>{}),
+              "none.toml"));
 }
 
 TEST_F(PlayedKeys, OfADamagedHeaderAreRefused) {
@@ -171,15 +169,13 @@ TEST_F(PlayedKeys, OfADamagedHeaderAreRefused) {
         const std::size_t at = changed.find(from);
         ASSERT_NE(at, std::string::npos) << text;
         put(path("b"), changed.replace(at, std::string(from).size(), to));
-        EXPECT_NE(line_of_error(Exit::usage, [&] { (void)read_recording(path("b")); })
-                      .find("its second line is damaged"),
-                  std::string::npos);
+        EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)read_recording(path("b")); }),
+                          "its second line is damaged"));
     }
     std::string old = text;
     put(path("b"), old.replace(old.find("OILERREC 3"), 10, "OILERREC 2"));
-    EXPECT_NE(
-        line_of_error(Exit::usage, [&] { (void)read_recording(path("b")); }).find("another format"),
-        std::string::npos);
+    EXPECT_TRUE(holds(line_of_error(Exit::usage, [&] { (void)read_recording(path("b")); }),
+                      "another format"));
 }
 
 }  // namespace

@@ -2,15 +2,13 @@
 // Recordings of games: what is replayed is what was played, or the difference is named.
 #include "oiler/play/recording.hpp"
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "oiler/app/playback.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -86,7 +84,7 @@ std::uint64_t record(const std::filesystem::path& path, unsigned seed, bool fini
     TraceWriter none({}, {}, game.world());
     Playback playback(game, none, Keep::nothing);
     RandomPlayer player(seed);
-    Tape tape(player, path, header_of("game", settings_of(), Game::controls));
+    InputRecorder tape(player, path, header_of("game", settings_of(), Game::controls));
     playback.watch(tape);
     playback.step_to(ten_seconds, tape);
     if (finish) tape.finish(playback.steps(), game);
@@ -147,10 +145,9 @@ TEST(Recordings, NameThePartThatDiffers) {
     for (auto& event : recording.events)
         if (event.event.what == InputEvent::What::text) {
             event.event.text += "!";
-            EXPECT_NE(
-                line_of_error(Exit::comparison_failed, [&] { (void)replay(recording); })
-                    .find("differs in components, timers, random numbers or members of the game"),
-                std::string::npos);
+            EXPECT_TRUE(
+                holds(line_of_error(Exit::comparison_failed, [&] { (void)replay(recording); }),
+                      "differs in components, timers, random numbers or members of the game"));
             return;
         }
     FAIL() << "no text";
@@ -213,7 +210,7 @@ TEST(Recordings, SurviveAKilledProgram) {
             longest = cut.steps;
         } catch (const Error& error) {
             EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_TRUE(holds(error.what(), "it ends before its first step")) << error.what();
+            EXPECT_TRUE(holds(error.what(), "it ends before its first step"));
             EXPECT_EQ(longest, 0);
             ++in_first_second;
         }
@@ -269,13 +266,13 @@ TEST(Recordings, OfAnotherGameAreRefused) {
     const auto line = [&] {
         return line_of_error(Exit::usage, [&] { require_same_game(other, now, false); });
     };
-    EXPECT_NE(line().find("is of chess, not of game"), std::string::npos);
+    EXPECT_TRUE(holds(line(), "is of chess, not of game"));
     other = now;
     other.controls.pop_back();
-    EXPECT_NE(line().find("other actions then: action fire"), std::string::npos);
+    EXPECT_TRUE(holds(line(), "other actions then: action fire"));
     other = now;
     other.version = "0.0";
-    EXPECT_NE(line().find("--replay-anyway"), std::string::npos);
+    EXPECT_TRUE(holds(line(), "--replay-anyway"));
     require_same_game(other, now, true);
     require_same_game(now, now, false);
 }
@@ -285,8 +282,7 @@ TEST(Recordings, AreMadeAndReplayedByPrograms) {
     const auto path = [&](const char* name) { return "'" + (folder / name).string() + "' "; };
     put(folder / "kick.txt", "10 press Space\n40 press Space\n");
     const auto final_hash = [&](const std::string& options) {
-        const Outcome run = shell("hello --json " + path("report") + options);
-        EXPECT_EQ(run.exit, 0) << run.err;
+        shell("hello --json " + path("report") + options, 0);
         const std::string report = text_of(folder / "report");
         const std::size_t at = report.find("\"state_hash\"");
         EXPECT_NE(at, std::string::npos) << report;
@@ -299,17 +295,15 @@ TEST(Recordings, AreMadeAndReplayedByPrograms) {
                          "--replay " + path("a")),
               hash);
     const Outcome equal = shell("hello --steps 120 --replay " + path("a"));
-    EXPECT_NE(equal.err.find("the replay equals the recording: 120 of 120 steps"),
-              std::string::npos)
-        << equal.err;
+    EXPECT_TRUE(holds(equal.err, "the replay equals the recording: 120 of 120 steps"));
     const Outcome film = shell("hello --headless --fps 10 --size 64x36 --png none --out " +
                                path("film") + "--replay " + path("a"));
-    EXPECT_NE(film.err.find("120 of 120 steps"), std::string::npos) << film.err;
-    EXPECT_EQ(shell("hello --steps 9 --rate 60 --replay " + path("a")).exit, 2);
-    EXPECT_EQ(shell("jump --steps 9 --replay " + path("a")).exit, 2);
-    EXPECT_EQ(shell("hello --steps 9 --replay " + path("kick.txt")).exit, 2);
-    EXPECT_EQ(shell("hello --steps 9 --record " + path("new/a")).exit, 0);
-    EXPECT_EQ(shell("hello --steps 9 --replay " + path("new/a")).exit, 0);
+    EXPECT_TRUE(holds(film.err, "120 of 120 steps"));
+    shell("hello --steps 9 --rate 60 --replay " + path("a"), 2);
+    shell("jump --steps 9 --replay " + path("a"), 2);
+    shell("hello --steps 9 --replay " + path("kick.txt"), 2);
+    shell("hello --steps 9 --record " + path("new/a"), 0);
+    shell("hello --steps 9 --replay " + path("new/a"), 0);
     EXPECT_EQ(shell("hello --steps 9 --record " + path("a/file")).exit, 4) << "a is no folder";
     EXPECT_EQ(shell("hello --steps 9 --record " + path("new")).exit, 2) << "new is a folder";
 }

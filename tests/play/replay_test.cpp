@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A replay that ends as its recording does, or says what differs.
-#include <gtest/gtest.h>
-
+#include "oiler/app/run_game.hpp"
 #include "oiler/app/options.hpp"
 #include "oiler/app/run_game.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/play/recording.hpp"
 #include "support/folder.hpp"
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -87,9 +87,9 @@ TEST_F(Replays, EndWhereTheGameQuits) {
     record(100);
     EXPECT_EQ(recording().steps, 30);
     EXPECT_TRUE(recording().quits);
-    EXPECT_NE(replay(30).find("equals the recording: 30 of 30 steps\n"), std::string::npos);
-    EXPECT_NE(replay(100).find("equals the recording: 30 of 30 steps\n"), std::string::npos);
-    EXPECT_NE(replay(20).find("equals the recording: 20 of 30 steps\n"), std::string::npos);
+    EXPECT_TRUE(holds(replay(30), "equals the recording: 30 of 30 steps\n"));
+    EXPECT_TRUE(holds(replay(100), "equals the recording: 30 of 30 steps\n"));
+    EXPECT_TRUE(holds(replay(20), "equals the recording: 20 of 30 steps\n"));
 }
 
 TEST_F(Replays, NameAGameThatQuitsAtAnotherStep) {
@@ -120,10 +120,10 @@ TEST_F(Replays, NameTheTypesThatAreNotCompared) {
     has_colours = true;
     record(9);
     const std::string remarks = replay(9);
-    EXPECT_NE(remarks.find("not compared, because they have no hash(): "), std::string::npos);
-    EXPECT_NE(remarks.find("Colouring"), std::string::npos);
+    EXPECT_TRUE(holds(remarks, "not compared, because they have no hash(): "));
+    EXPECT_TRUE(holds(remarks, "Colouring"));
     has_colours = false;
-    EXPECT_EQ(replay(9).find("not compared"), std::string::npos);
+    EXPECT_FALSE(holds(replay(9), "not compared"));
 }
 
 TEST_F(Replays, OfAChangedGamePlayOnIfAsked) {
@@ -134,13 +134,12 @@ TEST_F(Replays, OfAChangedGamePlayOnIfAsked) {
         "a: the replay differs in the bodies after step 21; it is equal after 20; if the game "
         "was changed, --replay-anyway plays on");
     const std::string remarks = replay(60, true);
-    EXPECT_NE(
-        remarks.find("a: the replay differs in the bodies after step 21; it is equal after 20\n"),
-        std::string::npos);
-    EXPECT_EQ(remarks.find("equals"), std::string::npos);
+    EXPECT_TRUE(holds(remarks,
+                      "a: the replay differs in the bodies after step 21; it is equal after 20\n"));
+    EXPECT_FALSE(holds(remarks, "equals"));
     pushed_at = -1;
     quits_at = 40;
-    EXPECT_NE(replay(60, true).find("quits after step 40"), std::string::npos);
+    EXPECT_TRUE(holds(replay(60, true), "quits after step 40"));
 }
 
 // 2500 bodies are hashed after each third step, at the end of each second, and at the end.
@@ -149,13 +148,12 @@ TEST_F(Replays, OfManyBodiesCompareTheEnd) {
     record(62);
     EXPECT_EQ(recording().states.size(), 20U + 1U);
     EXPECT_EQ(recording().states.count(61), 1U);
-    EXPECT_NE(replay(62).find("62 of 62 steps, of which 21 were compared"), std::string::npos);
+    EXPECT_TRUE(holds(replay(62), "62 of 62 steps, of which 21 were compared"));
     EXPECT_EQ(difference(2),
               "a: none of the 2 steps was compared, because the recording has no state of them; "
               "replay more of it");
     pushed_at = 61;
-    EXPECT_NE(difference(62).find("differs in the bodies after step 62; it is equal after 60"),
-              std::string::npos);
+    EXPECT_TRUE(holds(difference(62), "differs in the bodies after step 62; it is equal after 60"));
     bodies = 100'000;
     pushed_at = -1;
     record(62);

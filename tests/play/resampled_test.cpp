@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The input of a recording at other rates, compared with plain lists.
-#include "oiler/play/resampled.hpp"
+#include "oiler/play/replay.hpp"
 
-#include <gtest/gtest.h>
-
-#include <map>
 #include <random>
+
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

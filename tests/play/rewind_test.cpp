@@ -3,12 +3,11 @@
 // a game that plays the same inputs from the start.
 #include "oiler/play/rewind.hpp"
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "oiler/app/playback.hpp"
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

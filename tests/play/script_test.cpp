@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/play/script.hpp"
 
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -125,7 +122,7 @@ TEST(Script, NamesTheWrongLine) {
         const std::string line = line_of_error(Exit::usage, [&] {
             (void)parse_script(std::string("\n") + wrong.line, "a.txt", {60});
         });
-        EXPECT_NE(line.find(wrong.said), std::string::npos) << line;
+        EXPECT_TRUE(holds(line, wrong.said));
         EXPECT_TRUE(line.starts_with("a.txt, line ")) << line;
     }
 }
@@ -141,9 +138,9 @@ TEST(Script, HasTimesAndActions) {
     std::vector<std::int64_t> steps;
     for (const ScriptLine& line : lines) steps.push_back(line.step);
     EXPECT_EQ(steps, (std::vector<std::int64_t>{7, 8, 50, 75, 75, 5000}));
-    EXPECT_EQ(lines[0].button, Button(Key::j));
-    EXPECT_EQ(lines[1].button, Button(Key::space));
-    EXPECT_EQ(lines[3].button, Button(Mouse::left));
+    EXPECT_EQ(lines[0].events[0].button, Button(Key::j).id());
+    EXPECT_EQ(lines[1].events[0].button, Button(Key::space).id());
+    EXPECT_EQ(lines[3].events[0].button, Button(Mouse::left).id());
 }
 
 TEST(Script, BeginsWithoutAByteOrderMark) {
@@ -155,8 +152,9 @@ TEST(Script, BeginsWithoutAByteOrderMark) {
                                     "a.txt", {60});
                             }),
               "a.txt, line 1: it begins with a byte order mark; save it as UTF-8 without one");
-    EXPECT_EQ(parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt", {60}).at(0).text,
-              "\"\\\xEF\xBF\xBD");
+    EXPECT_EQ(
+        parse_script("1 text \"\\\"\\\\\xEF\xBF\xBD\"", "a.txt", {60}).at(0).events.at(0).text,
+        "\"\\\xEF\xBF\xBD");
 }
 
 // Space adds 15 m/s before a step, in numbers and in frames alike.
@@ -165,7 +163,7 @@ TEST(Script, IsPlayedByPrograms) {
     put(folder / "kick.txt", "10 press Space\n");
     const auto trace = [&](const std::string& options) {
         const auto path = folder / "trace.csv";
-        EXPECT_EQ(shell("hello --quiet --trace " + quoted(path) + " " + options).exit, 0);
+        shell("hello --quiet --trace " + quoted(path) + " " + options, 0);
         return text_of(path);
     };
     const std::string script = "--script " + quoted(folder / "kick.txt");
@@ -177,10 +175,9 @@ TEST(Script, IsPlayedByPrograms) {
                                      quoted(folder / "frames") + " " + script);
     EXPECT_EQ(filmed, kicked);
     EXPECT_EQ(trace("--steps 60 --script - < " + quoted(folder / "kick.txt")), kicked);
-    EXPECT_EQ(shell("hello --steps 1 --script " + quoted(folder / "none.txt")).exit, 2);
-    const Outcome wrong = shell("echo 3 push A | hello --steps 1 --script -");
-    EXPECT_EQ(wrong.exit, 2);
-    EXPECT_NE(wrong.err.find("standard input, line 1: 'push'"), std::string::npos) << wrong.err;
+    shell("hello --steps 1 --script " + quoted(folder / "none.txt"), 2);
+    const Outcome wrong = shell("echo 3 push A | hello --steps 1 --script -", 2);
+    EXPECT_TRUE(holds(wrong.err, "standard input, line 1: 'push'"));
 }
 
 struct Deaf {
@@ -204,7 +201,7 @@ TEST(Script, OfAGameThatSeesNoInputIsRemarkedOn) {
     });
     const std::string said = testing::internal::GetCapturedStderr();
     for (const char* const option : {"--script: deaf has no update", "--record: deaf has no up"})
-        EXPECT_NE(said.find(option), std::string::npos) << said;
+        EXPECT_TRUE(holds(said, option));
 }
 
 }  // namespace

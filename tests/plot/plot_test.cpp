@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/plot/plot.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 const Plot square{.box = {{100, 50}, {300, 150}}, .x = {0, 10}, .y = {-1, 1}};
@@ -434,4 +429,4 @@ TEST(Marks, AroundOtherMarksHideNothing) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

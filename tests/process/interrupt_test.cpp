@@ -3,15 +3,13 @@
 #include "oiler/process/interrupt.hpp"
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 
-#include "oiler/process/guard_main.hpp"
 #include "support/program.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -108,9 +106,9 @@ TEST(Interrupt, APipeThatNobodyReadsIsLeft) {
     const Folder folder;
     for (const std::string path : {"--json ", "--trace ", "--energy "}) {
         const Outcome run = shell("cd " + folder.path().string() +
-                                  "; rm -f fifo; mkfifo fifo; hello --steps 5 --quiet " + path +
-                                  "fifo & " + until_started + "kill -TERM $!; wait $!");
-        EXPECT_EQ(run.exit, 130) << path;
+                                      "; rm -f fifo; mkfifo fifo; hello --steps 5 --quiet " + path +
+                                      "fifo & " + until_started + "kill -TERM $!; wait $!",
+                                  130);
         EXPECT_TRUE(run.err.starts_with("hello: interrupted")) << run.err;
     }
 }
@@ -121,10 +119,10 @@ TEST(Interrupt, ALongRunWritesItsReportUpToThere) {
     const std::string json = (folder / "run.json").string();
     const Outcome run =
         shell("hello --steps 1000000000000 --quiet --json " + json + " & " + until_started +
-              "kill -INT $! && kill -HUP $! && kill -TERM $!; wait $!");
-    EXPECT_EQ(run.exit, 130);
+                  "kill -INT $! && kill -HUP $! && kill -TERM $!; wait $!",
+              130);
     EXPECT_EQ(run.err, "hello: interrupted\n");
-    EXPECT_NE(text_of(json).find("\"steps\": "), std::string::npos);
+    EXPECT_TRUE(holds(text_of(json), "\"steps\": "));
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"run.json"});
 }
 
@@ -134,8 +132,7 @@ TEST(Interrupt, AClosedPipeIsAWriteError) {
     close(ends[0]);
     const std::string to_pipe = " >&" + std::to_string(ends[1]);
     for (const std::string line : {"hello --help", "hello --version", "hello --steps 1 --json -"}) {
-        const Outcome run = shell(line + to_pipe);
-        EXPECT_EQ(run.exit, 4) << line;
+        const Outcome run = shell(line + to_pipe, 4);
         EXPECT_TRUE(run.err.ends_with("Broken pipe; choose another place\n")) << run.err;
     }
     close(ends[1]);
@@ -143,10 +140,10 @@ TEST(Interrupt, AClosedPipeIsAWriteError) {
 
 TEST(Interrupt, ALimitOfFileSizeIsAWriteError) {
     const Folder folder;
-    const Outcome run = shell("cd " + folder.path().string() +
-                              "; ulimit -f 8; hello --steps 10000 --quiet --trace t.csv");
-    EXPECT_EQ(run.exit, 4);
-    EXPECT_NE(run.err.find("t.csv: File too large"), std::string::npos) << run.err;
+    const Outcome run = shell(
+        "cd " + folder.path().string() + "; ulimit -f 8; hello --steps 10000 --quiet --trace t.csv",
+        4);
+    EXPECT_TRUE(holds(run.err, "t.csv: File too large"));
     EXPECT_TRUE(names_in(folder.path()).empty());
 }
 

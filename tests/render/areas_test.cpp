@@ -10,16 +10,8 @@
 #include "render/drawing.hpp"
 
 // Polygons, sprites, layers and bars.
-namespace oiler {
+namespace oiler::test {
 namespace {
-
-using drawing::blend_rounding;
-using drawing::coverage;
-using drawing::Drawing;
-using drawing::Ink;
-using drawing::ink;
-using drawing::red;
-using drawing::total_coverage;
 
 constexpr Colour white{255, 255, 255, 255};
 
@@ -355,4 +347,4 @@ TEST_F(Drawing, AnOverlayIsDrawnOverAFrameWithinItsBox) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <optional>
-
-#include "oiler/core/error.hpp"
 #include "oiler/platform/surface.hpp"
 #include "oiler/render/renderer.hpp"
+#include "support/test.hpp"
 
-namespace oiler::drawing {
+namespace oiler::test {
 
 /// A surface with a renderer; null if the provider is not installed.
 struct Studio {
@@ -179,4 +173,4 @@ inline Picture rich_picture() {
     return picture;
 }
 
-}  // namespace oiler::drawing
+}  // namespace oiler::test

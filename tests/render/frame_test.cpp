@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Tests frames at their edges, at their largest size, and after a change of size.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdio>
-#include <string>
 
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
-
-using drawing::of_disc;
-using drawing::red;
-using drawing::total_coverage;
 
 class Frame : public testing::Test {
 protected:
@@ -24,7 +17,7 @@ protected:
         return studio_->draw(picture, size);
     }
 
-    std::unique_ptr<drawing::Studio> studio_ = drawing::open_studio(Offscreen::automatic);
+    std::unique_ptr<Studio> studio_ = open_studio(Offscreen::automatic);
 };
 
 /// Area of the part of a disc beyond a line at a distance from its centre.
@@ -69,7 +62,7 @@ TEST_F(Frame, HasItsSizeAfterAChangeOfOneSide) {
 }
 
 /// The largest size, from the message for a larger one: "… choose a --size from 1x1 to WxH".
-Size largest_frame(drawing::Studio& studio) {
+Size largest_frame(Studio& studio) {
     try {
         (void)studio.draw({}, {1 << 20, 1});
     } catch (const Error& error) {
@@ -96,4 +89,4 @@ TEST_F(Frame, IsDrawnAnewInTheSameSize) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

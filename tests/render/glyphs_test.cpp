@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/render/glyphs.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "oiler/render/layout.hpp"
 #include "render/drawing.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// Rows. The atlas is full above this height.
@@ -104,12 +97,12 @@ TEST(Glyphs, NeverRepeatARevision) {
     }
 }
 
-Picture of_letters(float size) { return drawing::of_text("WM", {0, 20}, size); }
+Picture of_letters(float size) { return of_text("WM", {0, 20}, size); }
 
 TEST(Atlas, IsUploadedAnewAfterItWasFull) {
-    const auto studio = drawing::open_studio(Offscreen::automatic);
+    const auto studio = open_studio(Offscreen::automatic);
     if (!studio) GTEST_SKIP() << "neither OSMesa nor EGL is installed";
-    const Picture picture = drawing::of_text("oiler", {100, 100}, 40);
+    const Picture picture = of_text("oiler", {100, 100}, 40);
     const Pixels first = studio->draw(picture);
     for (float size = 200; size < 260; ++size) (void)studio->draw(of_letters(size));
     EXPECT_EQ(studio->draw(picture).rgb, first.rgb);
@@ -128,4 +121,4 @@ TEST(Atlas, IsClearedIfFullBeforeEachPicture) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -8,11 +8,8 @@
 #include "oiler/core/random.hpp"
 #include "render/drawing.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
-
-using drawing::Drawing;
-using drawing::red;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t many = 14'000;  // enough of them are splatted
@@ -186,4 +183,4 @@ TEST(Splats, AreCutByTheEdgesOfTheFrame) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

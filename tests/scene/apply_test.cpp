@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/apply.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <regex>
-#include <sstream>
 
-#include "oiler/core/error.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

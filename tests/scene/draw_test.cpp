@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/draw.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/make_world.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "oiler/scene/grid.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -67,13 +62,13 @@ TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
         EXPECT_EQ(force_on<Attractor>(world, row)->centre, (Vec3{5, 5}));
     }
     EXPECT_EQ(force_on<LinearDrag>(world, 1)->coefficient, 0);
-    EXPECT_EQ(force_on<oiler::Wind>(world, 1), (oiler::Wind{{4, -1}, 0.3}));
-    EXPECT_EQ(force_on<oiler::Wind>(world, 2)->coefficient, 0);
-    EXPECT_EQ(force_on<oiler::Drive>(world, 2), (oiler::Drive{{6, 0.5}, 2.5, 0.5}));
+    EXPECT_EQ(force_on<Wind>(world, 1), (Wind{{4, -1}, 0.3}));
+    EXPECT_EQ(force_on<Wind>(world, 2)->coefficient, 0);
+    EXPECT_EQ(force_on<Drive>(world, 2), (Drive{{6, 0.5}, 2.5, 0.5}));
     const Bodies& bodies = world.bodies();
     std::size_t link = bodies.link_count() - 2;
     for (const std::size_t hung : {6, 8}) {
-        EXPECT_EQ(bodies.link_ends(link), (oiler::LinkEnds{hung, {}, bodies.position(hung)}));
+        EXPECT_EQ(bodies.link_ends(link), (LinkEnds{hung, {}, bodies.position(hung)}));
         EXPECT_EQ(bodies.link_at(link).stiffness, 100);
         EXPECT_EQ(bodies.link_at(link).damping, 0.3);
         EXPECT_EQ(bodies.link_at(link++).rest_length, 0);
@@ -107,8 +102,8 @@ TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
     EXPECT_EQ(force_on<CoilSpring>(world, 0, 0)->stiffness, 5);
     EXPECT_EQ(force_on<CoilSpring>(world, 0, 1)->stiffness, 6);
     EXPECT_EQ(force_on<Spring>(world, 1, 0)->stiffness, 3);
-    EXPECT_EQ(force_on<oiler::Wind>(world, 1, 0)->coefficient, 8);
-    EXPECT_EQ(force_on<oiler::Wind>(world, 1, 1), (oiler::Wind{{2}, 9}));
+    EXPECT_EQ(force_on<Wind>(world, 1, 0)->coefficient, 8);
+    EXPECT_EQ(force_on<Wind>(world, 1, 1), (Wind{{2}, 9}));
     for (const std::size_t row : {0, 1}) {
         EXPECT_EQ(force_on<Attractor>(world, row, 0)->gm, 6);
         EXPECT_EQ(force_on<Attractor>(world, row, 1)->gm, 7);
@@ -118,7 +113,7 @@ TEST(MakeWorld, ABodyMayHaveSeveralSpringsAndSeveralAttractors) {
 
 TEST(MakeWorld, LinksBodies) {
     const World world = world_of(everything);
-    EXPECT_EQ(world.bodies().link_ends(0), (oiler::LinkEnds{0, 1}));
+    EXPECT_EQ(world.bodies().link_ends(0), (LinkEnds{0, 1}));
     EXPECT_EQ(world.bodies().link_at(0).stiffness, 15);
     EXPECT_EQ(world.bodies().link_at(0).rest_length, 0);
 }
@@ -133,7 +128,7 @@ TEST(MakeWorld, LinksAGridRowByRowAndKindByKind) {
     const Bodies& bodies = world.bodies();
     ASSERT_EQ(bodies.link_count(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_EQ(bodies.link_ends(i), (oiler::LinkEnds{expected[i][0], expected[i][1]})) << i;
+        EXPECT_EQ(bodies.link_ends(i), (LinkEnds{expected[i][0], expected[i][1]})) << i;
         EXPECT_EQ(bodies.link_at(i).stiffness, 7);
         EXPECT_EQ(bodies.link_at(i).damping, 0.25);
         EXPECT_EQ(bodies.link_at(i).rest_length, i < 7 ? 0.5 : 0.5 * std::sqrt(2.0)) << i;

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <string>
-#include <vector>
 
 #include "oiler/scene/keys.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -53,8 +50,9 @@ std::string default_text(const SceneKey& key) {
 }
 
 std::string row(const SceneKey& key) {
-    const std::string table =
-        is_repeated(key.table) ? fmt::format("[[{}]]", key.table) : fmt::format("[{}]", key.table);
+    const std::string table = scene_table(key.table).is_repeated()
+                                  ? fmt::format("[[{}]]", key.table)
+                                  : fmt::format("[{}]", key.table);
     const std::string unit = key.unit.empty() ? "" : fmt::format(", {}", key.unit);
     return std::regex_replace(
         fmt::format("| `{}` | `{}` | {}{} | {} | {} |", table, key.name, type_text(key), unit,
@@ -93,7 +91,7 @@ TEST(Readme, ListsEveryKeyOfASceneAndNoOther) {
     const std::string section = text_of(root + "/assets/scenes/README.md");
     std::string table = "| table | key | value | default | |\n|---|---|---|---|---|\n";
     for (const SceneKey& key : scene_keys()) table += row(key) + "\n";
-    EXPECT_NE(section.find("\n" + table + "\n"), std::string::npos)
+    EXPECT_TRUE(holds(section, "\n" + table + "\n"))
         << "the table of assets/scenes/README.md should be:\n"
         << table;
 }
@@ -119,7 +117,7 @@ TEST(Readme, ShowsValidScenes) {
 TEST(Readme, ShowsHelloAsItIs) {
     std::string hello = text_of(root + "/demos/hello.cpp");
     hello.erase(0, hello.find('\n') + 1);  // the licence
-    EXPECT_NE(text_of(root + "/README.md").find("\n```cpp\n" + hello + "```\n"), std::string::npos)
+    EXPECT_TRUE(holds(text_of(root + "/README.md"), "\n```cpp\n" + hello + "```\n"))
         << "README.md should show demos/hello.cpp";
 }
 

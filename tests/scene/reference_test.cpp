@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares the scenes of the repository with independent references and conservation laws.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
+#include "support/reference.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/oscillator.hpp"
-#include "support/reference.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Motion at the smallest and largest amplitudes, and far from the origin.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::find_method;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Tableau;
 
 constexpr Rate rate{64};
 constexpr int steps = 200;
@@ -150,10 +132,9 @@ TEST(Amplitude, ALinkOfALengthWithAnInfiniteSquareIsReported) {
 /// addition.
 double longest_move(const Method& method) {
     long double longest = 0;
-    if (const auto* splitting = std::get_if<oiler::Splitting>(&method.rule)) {
+    if (const auto* splitting = std::get_if<Splitting>(&method.rule)) {
         for (const auto& stage : splitting->stages())
-            if (stage.move == oiler::Move::drift)
-                longest = std::max(longest, std::abs(stage.coefficient));
+            if (stage.move == Move::drift) longest = std::max(longest, std::abs(stage.coefficient));
     } else if (const auto* tableau = std::get_if<Tableau>(&method.rule)) {
         longest = *std::max_element(tableau->b.begin(), tableau->b.end());
     } else {
@@ -223,3 +204,4 @@ TEST(FarFromTheOrigin, ASpringInDoubleOscillatesAsAtTheOrigin) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <string>
-#include <vector>
 
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "support/spring.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Body;
-using oiler::find_method;
-using oiler::Precision;
-using oiler::Rate;
 
 struct Row {
     double label;  // the article's t: float steps accumulated in double
@@ -228,8 +218,7 @@ double largest_error(const char* method, int seconds) {
     double largest = 0;
     for (int i = 1; i <= 100 * seconds; ++i) {
         bodies.step(find_method(method), {{100}, i - 1, 1});
-        const auto exact =
-            oiler::damped_oscillator(1.0, stiffness, damping, {start_x, 0.0}, i / 100.0);
+        const auto exact = damped_oscillator(1.0, stiffness, damping, {start_x, 0.0}, i / 100.0);
         largest = std::max(largest, std::abs(bodies.position(0)[0] - exact.x));
     }
     return largest;
@@ -246,3 +235,4 @@ TEST(ArticleSpring, LargestErrorsMatchTheReference) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "oiler/core/error.hpp"
+#include "support/oscillator.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Attractor;
-using oiler::Bodies;
-using oiler::Body;
-using oiler::CoilSpring;
-using oiler::Error;
-using oiler::Exit;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Vec3;
-
 constexpr Rate rate{64};
-constexpr Precision precisions[] = {Precision::single, Precision::double_};
 
 /// Assorted bodies: the forces of body `i` and their numbers depend on `i` alone.
 Vec3 assorted(std::size_t i, int axes, double scale) {
@@ -65,9 +43,7 @@ CoilSpring assorted_coil(std::size_t i, int axes) {
 /// The forces that a method can step: only linear ones for the exact method.
 enum class Mix { any, linear };
 
-Mix mix_for(const Method& method) {
-    return method.order == oiler::exact_order ? Mix::linear : Mix::any;
-}
+Mix mix_for(const Method& method) { return method.order == exact_order ? Mix::linear : Mix::any; }
 
 void add_assorted(Bodies& bodies, std::size_t i, Mix mix) {
     const int axes = bodies.axes();
@@ -88,7 +64,7 @@ Bodies assorted_bodies(int axes, Precision precision, std::size_t count, Mix mix
 }
 
 std::uint64_t hash_of(const Bodies& bodies) {
-    oiler::StateHash hash;
+    StateHash hash;
     bodies.hash_into(hash);
     return hash.value();
 }
@@ -333,18 +309,6 @@ TEST(QuadraticDrag, SemiImplicitEulerConvergesToTheReference) {
     EXPECT_NEAR(fine / projectile_error(400), 2, 0.01);
 }
 
-template <class F>
-std::string line_of_error(Exit exit, F f) {
-    try {
-        f();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), exit);
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing thrown";
-    return {};
-}
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -524,3 +488,4 @@ TEST(Bodies, ANumberThatFloatCannotHoldIsRefused) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,34 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include "oiler/sim/bodies.hpp"
 #include "support/convergence.hpp"
+#include "support/oscillator.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::find_method;
-using oiler::GravityForce;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::QuadraticDragForce;
-using oiler::State;
-using oiler::Vec;
-using Real = long double;
-
-constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 
 /// The projectile of 1 kg of a reference, in all digits. Its y axis points up.
 struct Flight {
@@ -83,7 +60,7 @@ std::vector<Flight> quadratic_flights() {
     return flights;
 }
 
-oiler::Vec3 rounded(const Vec<Real, 2>& vector) {
+Vec3 rounded(const Vec<Real, 2>& vector) {
     return {static_cast<double>(vector[0]), static_cast<double>(vector[1])};
 }
 
@@ -200,10 +177,6 @@ Scale quadratic_scale(const Flight& flight) {
     return {std::sqrt(flight.g * flight.drag) + flight.drag * flight.speed, 5 * flight.reach()};
 }
 
-bool is_splitting(const Method& method) {
-    return std::holds_alternative<oiler::Splitting>(method.rule);
-}
-
 // Runge–Kutta methods keep their orders. The leading error of order 3 is so small that with weak
 // drag the next order dominates.
 TEST(QuadraticDrag, MeetsTheReferencesWithItsDraggedOrder) {
@@ -301,3 +274,4 @@ TEST(QuadraticDrag, SplittingsTakeStrangsStep) {
 }
 
 }  // namespace
+}  // namespace oiler::test

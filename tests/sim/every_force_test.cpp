@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
-#include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::Method;
-using oiler::Vec;
-using Real = long double;
-using Vec3 = oiler::Vec3;
-using State3 = oiler::State<Real, 3>;
+using Vec3 = Vec3;
+using State3 = State<Real, 3>;
 
 constexpr double duration = 1;  // s
 const State3 start{{2.25L, -1.75L, 0}, {0.5L, 1.25L, 0}};
@@ -27,10 +18,9 @@ Force assorted() {
     double next = 0.4375;
     for_each_number(force,
                     [&](auto& number) { number = next = next < 1.3 ? next + 0.3125 : 0.75; });
-    const auto flatten = [&](auto field) {
-        if constexpr (requires { (force.*field).axis; }) (force.*field)[2] = 0;
-    };
-    std::apply([&](auto... field) { (flatten(field), ...); }, Force::fields());
+    for_each_field<Force>([&](const auto& field) {
+        if constexpr (requires { (force.*field.member).axis; }) (force.*field.member)[2] = 0;
+    });
     return force;
 }
 
@@ -38,7 +28,7 @@ Force assorted() {
 template <class To, class From>
 To widened(From from) {
     To to;
-    std::array<Real, oiler::number_count<From>()> numbers{};
+    std::array<Real, number_count<From>()> numbers{};
     std::size_t count = 0;
     for_each_number(from, [&](double number) { numbers[count++] = number; });
     count = 0;
@@ -73,7 +63,7 @@ State3 fine_state(const Force& force) {
 
 template <class Force>
 Bodies body_with(const Force& force) {
-    Bodies bodies(2, oiler::Precision::extended);
+    Bodies bodies(2, Precision::extended);
     if constexpr (Force::everywhere) {
         bodies.set_gravity(force.acceleration);
         bodies.add({});
@@ -92,17 +82,16 @@ Real error_of(Bodies bodies, const Method& method, Damping damping, int rate, co
 
 template <class Force>
 int order_of(const Method& method, Damping damping) {
-    if constexpr (oiler::Damps<Force, oiler::State<double, 3>, double>)
-        return dragged_order(method, damping);
+    if constexpr (Damps<Force, State<double, 3>, double>) return dragged_order(method, damping);
     return damped_order(method, damping);
 }
 
 /// Calls f(force, the same in all digits) for each kind.
 template <class F>
 void for_each_kind(F f) {
-    oiler::for_each_index<oiler::force_count>([&](auto kind) {
-        using Force = std::tuple_element_t<kind, oiler::ForceList<double, 3>>;
-        using Wide = std::tuple_element_t<kind, oiler::ForceList<Real, 3>>;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
+        using Wide = std::tuple_element_t<kind, ForceList<Real, 3>>;
         const Force force = assorted<Force>();
         SCOPED_TRACE(std::string(Force::name));
         f(force, widened<Wide>(force));
@@ -116,9 +105,9 @@ TEST(EveryForce, IsSteppedByEveryMethodWithItsOrder) {
     for_each_kind([]<class Force, class Wide>(const Force& force, const Wide& wide) {
         const State3 fine = fine_state(wide);
         const Bodies bodies = body_with(force);
-        for (const Method& method : oiler::methods())
+        for (const Method& method : methods())
             for (const Damping damping : {Damping::in_kick, Damping::in_drift}) {
-                if (method.order == oiler::exact_order) continue;
+                if (method.order == exact_order) continue;
                 const Real coarse = error_of(bodies, method, damping, 24, fine);
                 const Real half = error_of(bodies, method, damping, 48, fine);
                 const int order = order_of<Force>(method, damping);
@@ -132,13 +121,13 @@ TEST(EveryForce, IsSteppedByEveryMethodWithItsOrder) {
 
 // Rounding of some 100 steps and of the fine solution.
 TEST(EveryForce, IsSteppedExactlyIfItIsLinear) {
-    const Method& exact = oiler::find_method("exact");
+    const Method& exact = find_method("exact");
     for_each_kind([&]<class Force, class Wide>(const Force& force, const Wide& wide) {
         Bodies bodies = body_with(force);
-        if (oiler::Linear<Force>) {
+        if (Linear<Force>) {
             EXPECT_LT(error_of(bodies, exact, Damping::in_drift, 24, fine_state(wide)), 1e-13L);
         } else {
-            EXPECT_THROW(bodies.step(exact, {.rate = {24}}), oiler::Error);
+            EXPECT_THROW(bodies.step(exact, {.rate = {24}}), Error);
         }
     });
 }
@@ -146,9 +135,8 @@ TEST(EveryForce, IsSteppedExactlyIfItIsLinear) {
 // A force in a block with others, and with rows that have none, acts as on a body alone.
 TEST(EveryForce, ActsInABlockOfOtherForces) {
     for (const char* name : {"semi_implicit_euler", "velocity_verlet", "rk4", "implicit_midpoint"})
-        for (const oiler::Precision precision :
-             {oiler::Precision::single, oiler::Precision::double_}) {
-            const Method& method = oiler::find_method(name);
+        for (const Precision precision : {Precision::single, Precision::double_}) {
+            const Method& method = find_method(name);
             Bodies all(2, precision);
             for (int i = 0; i < 5; ++i) all.add({.position = {1.0 + i, 2}});
             for_each_kind([&]<class Force, class Wide>(const Force& force, const Wide&) {
@@ -173,3 +161,4 @@ TEST(EveryForce, ActsInABlockOfOtherForces) {
 }
 
 }  // namespace
+}  // namespace oiler::test

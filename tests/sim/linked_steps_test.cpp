@@ -1,38 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Attractor;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::Damping;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Link;
-using oiler::LinkEnds;
-using oiler::Method;
-using oiler::methods;
-using oiler::Move;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Splitting;
-using oiler::Spring;
-using oiler::Steps;
-using oiler::Vec3;
 
 constexpr Rate rate{64};
 
@@ -93,7 +67,7 @@ Bodies rebuilt(const Bodies& from) {
 }
 
 std::uint64_t hash_of(const Bodies& bodies) {
-    oiler::StateHash hash;
+    StateHash hash;
     bodies.hash_into(hash);
     return hash.value();
 }
@@ -102,7 +76,7 @@ template <class F>
 void for_each_kind(F f) {
     for (const Method& method : methods())
         for (const Precision precision : {Precision::single, Precision::double_}) {
-            if (method.order == oiler::exact_order) continue;
+            if (method.order == exact_order) continue;
             SCOPED_TRACE(std::string(method.name) + ", " + std::string(name_of(precision)));
             f(method, precision);
         }
@@ -223,7 +197,7 @@ Bodies linear(Precision precision) {
 void expect_other_ways_as_new(Bodies run, const Method& method) {
     run.step(method, {rate, 0, 4});
     for (const Method& other : methods())
-        if (other.order != oiler::exact_order) expect_as_new(run, other, {rate, 4, 3});
+        if (other.order != exact_order) expect_as_new(run, other, {rate, 4, 3});
     for (const Rate& other : {Rate{32}, Rate{128}}) expect_as_new(run, method, {other, 4, 3});
     for (const Damping damping : {Damping::in_kick, Damping::in_drift}) {
         expect_as_new(run, method, {rate, 4, 3, damping});
@@ -235,7 +209,7 @@ void expect_other_ways_as_new(Bodies run, const Method& method) {
 
 TEST(LinkedBodies, StepWithAnotherSettingAsNewOnesDo) {
     for (const Method& method : methods()) {
-        if (method.order == oiler::exact_order) continue;
+        if (method.order == exact_order) continue;
         expect_other_ways_as_new(linked(Precision::single), method);
         expect_other_ways_as_new(linear(Precision::double_), method);
     }
@@ -271,7 +245,7 @@ int kicks_of(const Method& method) {
 // body was moved. Other methods reuse nothing.
 TEST(LinkedBodies, EvaluateAsOftenAsTheMethodSaysAndOnceMore) {
     for (const Method& method : methods()) {
-        if (method.evaluations == 0 || method.order == oiler::exact_order) continue;
+        if (method.evaluations == 0 || method.order == exact_order) continue;
         const bool splits = std::holds_alternative<Splitting>(method.rule);
         const int extra = splits ? kicks_of(method) - method.evaluations : 0;
         EXPECT_TRUE(extra == 0 || extra == 1) << method.name;
@@ -434,3 +408,4 @@ TEST(LinkedBodies, AreDampedInTheReportedOrder) {
 }
 
 }  // namespace
+}  // namespace oiler::test

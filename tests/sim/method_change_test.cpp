@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A run may change its method, its rate and the place of its damping between two steps. Results of
 // the former plan must not reach the next step.
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

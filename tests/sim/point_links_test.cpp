@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Springs from a body to a fixed point.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "oiler/sim/bodies.hpp"
+#include "oiler/stability/preflight.hpp"
+#include "support/explained_step.hpp"
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::find_method;
-using oiler::Link;
-using oiler::LinkHandle;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::Rate;
-using oiler::Steps;
-using oiler::Vec3;
 
 constexpr Vec3 point{2, -1};
 constexpr double mass = 0.5;
@@ -82,7 +64,7 @@ TEST(PointLinks, MoveABodyAsTheClosedFormWithTheOrderOfTheMethod) {
 // most 37 methods' 13 stages round numbers of up to 10 m (and m/s) by 2⁻⁵³ each.
 TEST(PointLinks, PullAsAHeavyBody) {
     for (const Method& method : methods()) {
-        if (method.order == oiler::exact_order) continue;
+        if (method.order == exact_order) continue;
         for (const Damping damping : {Damping::in_kick, Damping::in_drift}) {
             Bodies pinned(2, Precision::double_);
             for (int i = 0; i < 5; ++i)
@@ -183,7 +165,7 @@ TEST(PointLinks, BringADampedBodyToRestOnTheirPoint) {
                 Bodies bodies(2, precision);
                 bodies.add({.position = {1, 0.5}});
                 bodies.add({.position = {1e-25, 0}});
-                if (drag) bodies.attach(0, oiler::LinearDrag{16});
+                if (drag) bodies.attach(0, LinearDrag{16});
                 bodies.link_to_point(0, {}, {.stiffness = 70, .damping = drag ? 0.0 : 16.0});
                 bodies.link_to_point(1, {}, {.stiffness = 70});
                 bodies.step(find_method(method), {Rate{64}, 0, 110 * 64});
@@ -220,8 +202,95 @@ TEST(PointLinks, RefuseNumbersThatAreNotFinite) {
                                    {{}, {.stiffness = 1, .damping = -1}},
                                    {{0, 0, 1}, {.stiffness = 1}}})
         EXPECT_FALSE(
-            line_of_error(oiler::Exit::usage, [&] { bodies.link_to_point(0, to, link); }).empty());
+            line_of_error(Exit::usage, [&] { bodies.link_to_point(0, to, link); }).empty());
     EXPECT_EQ(bodies.link_count(), 0U);
 }
 
+/// 1 kg and 4 kg on a line.
+Bodies pair(double stiffness) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add({.mass = 1, .position = {1}});
+    bodies.add({.mass = 4});
+    bodies.link(0, 1, {.stiffness = stiffness});
+    return bodies;
+}
+
+/// Ten bodies of 1 to 4 kg on a line, 1.01 m apart, on stiff links.
+Bodies stiff_chain(int axes, double length) {
+    Bodies bodies(axes, Precision::double_);
+    for (std::size_t i = 0; i < 10; ++i) {
+        const auto x = static_cast<double>(i);
+        bodies.add({.mass = 1 + x / 3, .position = {1.01 * x}});
+        if (i > 0) bodies.link(i - 1, i, {.stiffness = 1e8, .rest_length = length});
+    }
+    return bodies;
+}
+
+// ω·dt is up to 2·√(1e8)/60 = 333. A step rounds v and, by dt·v, the positions; springs amplify
+// this by ω·dt. Bodies at rest also tremble in their last bits, 10 m · 1e-16.
+TEST(ImplicitMethods, HoldLinearStiffLinks) {
+    constexpr int steps = 600;
+    Bodies midpoint = stiff_chain(1, 0);
+    Bodies euler = midpoint;
+    const double start = midpoint.energy().total();
+    double least = start;
+    for (int i = 0; i < steps; ++i) {
+        midpoint.step(find_method("implicit_midpoint"), {{60}, i, 1});
+        euler.step(find_method("implicit_euler"), {{60}, i, 1});
+        ASSERT_NEAR(midpoint.energy().total(), start, (i + 1) * 333 * 4 * round_off * start);
+        ASSERT_LE(euler.energy().total(), least + 1e-18);
+        least = std::min(least, euler.energy().total());
+    }
+    EXPECT_LT(least, 1e-6 * start);
+}
+
+// The chain hangs from its first body. At most 250 N stretch a link by 3e-6 m.
+TEST(ImplicitMethods, EulersHoldsASwingingStiffChain) {
+    Bodies bodies = stiff_chain(2, 1);
+    bodies.set_gravity({0, -9.81});
+    bodies.attach(0, Spring{.stiffness = 1e8});
+    bodies.step(find_method("implicit_euler"), {{60}, 0, 300});
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        const Vec3 d = bodies.position(i) - bodies.position(i - 1);
+        EXPECT_NEAR(std::hypot(d[0], d[1]), 1, 1e-4) << i;
+    }
+    EXPECT_LT(bodies.position(9)[1], -3);
+}
+
+void expect_in(const std::string& part, const std::string& line) { EXPECT_TRUE(holds(line, part)); }
+
+TEST(Links, AreRefusedByTheExactMethod) {
+    Bodies bodies = pair(20);
+    const std::string line =
+        line_of_error(Exit::usage, [&] { bodies.step(find_method("exact"), {{60}}); });
+    expect_in("method exact", line);
+    expect_in("linked", line);
+    EXPECT_EQ(bodies.position(0), (Vec3{1, 0, 0}));
+    bodies.remove(1);
+    EXPECT_NO_THROW(bodies.step(find_method("exact"), {{60}}));
+}
+
+// 1 kg and 4 kg have ω = √(k/0.8 kg) = 25 s⁻¹. Velocity Verlet needs ω·dt < 2, or 12.5 steps per
+// second.
+TEST(Preflight, NamesALinkAndItsLimit) {
+    const Bodies bodies = pair(500);
+    const Method& verlet = find_method("velocity_verlet");
+    EXPECT_TRUE(preflight(bodies, verlet, {{13}}).empty());
+    const auto risks = preflight(bodies, verlet, {{12}});
+    ASSERT_EQ(risks.size(), 1U);
+    EXPECT_EQ(risks[0].row, 0U);
+    EXPECT_EQ(risks[0].linked, 1U);
+    EXPECT_NEAR(risks[0].omega_dt, 25 / 12.0, 4 * round_off * 25 / 12);
+    const std::string line = line_of_error(Exit::diverged, [&] {
+        Bodies copy = bodies;
+        explained_step(copy, verlet, {{12}, 0, 100'000});
+    });
+    expect_in("link of bodies 0 and 1", line);
+    expect_in("ω·dt up to 2.083, velocity_verlet needs < 2: rate ≥ 13 Hz", line);
+    Bodies copy = bodies;
+    copy.step(verlet, {{13}, 0, 100'000});
+    EXPECT_LT(copy.energy().total(), 100 * bodies.energy().total());
+}
+
 }  // namespace
+}  // namespace oiler::test

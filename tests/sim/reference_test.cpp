@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <utility>
-
+#include "support/reference.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "support/convergence.hpp"
-#include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Method;
-using oiler::Precision;
-using oiler::State;
-using oiler::Vec;
-using Real = long double;
-
-constexpr double round_off = std::numeric_limits<double>::epsilon() / 2;
 
 /// The largest difference between numbers and those of a reference.
 template <std::size_t N>
@@ -40,8 +23,8 @@ const Real fastest = std::sqrt(18.0L);
 /// length of the spring between them. The first mass starts 1 m from its rest position.
 Bodies coupled_springs(double apart, Precision precision) {
     Bodies bodies(1, precision);
-    bodies.add({.position = {1}}, oiler::Spring{.stiffness = 15});
-    bodies.add({.position = {apart}}, oiler::Spring{.anchor = {apart}, .stiffness = 15});
+    bodies.add({.position = {1}}, Spring{.stiffness = 15});
+    bodies.add({.position = {apart}}, Spring{.anchor = {apart}, .stiffness = 15});
     bodies.link(0, 1, {.stiffness = 1.5, .rest_length = apart});
     return bodies;
 }
@@ -123,7 +106,7 @@ struct Orbit {
 
 /// The largest error at the times of the reference up to `last` s.
 Real orbit_error(const Method& method, int steps_per_second, const Orbit& orbit, int last) {
-    const oiler::AttractorForce<Real, 2> sun{.centre = {}, .gm = 1};
+    const AttractorForce<Real, 2> sun{.centre = {}, .gm = 1};
     State<Real, 2> state = orbit.start;
     int at = 0;
     Real largest = 0;
@@ -164,9 +147,9 @@ void expect_same_orbit(const Method& method, Precision precision) {
     constexpr double x = 0.4;
     constexpr double vy = 2;
     Bodies bodies(2, precision);
-    bodies.add({.position = {x}, .velocity = {0, vy}}, oiler::Attractor{.gm = 1});
+    bodies.add({.position = {x}, .velocity = {0, vy}}, Attractor{.gm = 1});
     bodies.step(method, {{100}, 0, 100});
-    const oiler::AttractorForce<T, 2> sun{.centre = {}, .gm = 1};
+    const AttractorForce<T, 2> sun{.centre = {}, .gm = 1};
     const auto state = moved(method, State<T, 2>{{T(x), 0}, {0, T(vy)}}, sun, T(1) / 100, 100);
     for (int axis = 0; axis < 2; ++axis) {
         EXPECT_EQ(bodies.state(0).x[axis], state.x[axis]) << method.name;
@@ -206,7 +189,7 @@ TEST(Kepler, BodiesMeetTheReferenceInDoubleFor100Seconds) {
         for (const Orbit& orbit : orbits)
             bodies.add({.position = {static_cast<double>(orbit.start.x[0])},
                         .velocity = {0, static_cast<double>(orbit.start.v[1])}},
-                       oiler::Attractor{.gm = 1});
+                       Attractor{.gm = 1});
         std::int64_t tick = 0;
         for (const int t : {1, 2, 5, 10, 50, 100}) {
             bodies.step(*method, {{rate}, tick, t * rate - tick});
@@ -298,3 +281,4 @@ TEST(Duffing, MeetsItsEllipticFunction) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Damped bodies fall asleep before their numbers become subnormal. Undamped motion never sleeps.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
+#include "oiler/physics/closed_forms.hpp"
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
@@ -137,6 +134,175 @@ TEST(Sleep, DoesNotDependOnTheStepsPerCall) {
     EXPECT_EQ(x_of(one_call), x_of(one_by_one));
     EXPECT_EQ(v_of(one_call), v_of(one_by_one));
     EXPECT_EQ(size_of(one_call), 0);
+}
+
+// Damping from none to heavy overdamping, where the mass creeps back by k/b of its distance per
+// second.
+
+constexpr double k = 15;
+
+long double stored(Precision precision, double number) {
+    return precision == Precision::single ? static_cast<float>(number) : number;
+}
+long double stored_dt(Precision precision) {
+    return precision == Precision::single ? static_cast<long double>(rate.dt<float>())
+                                          : static_cast<long double>(rate.dt<double>());
+}
+
+/// The exact motion after `steps` steps from rest at 1 m.
+Motion<long double> exact_motion(Precision precision, double b, int steps) {
+    return damped_oscillator<long double>(1, k, stored(precision, b), {1, 0},
+                                          steps * stored_dt(precision));
+}
+
+// 2·√15 is critical, to within a rounding. Above 1e4 N·s/m each velocity is independent of the one
+// before, so that it has the roundings of one step only.
+TEST(Creep, OfTheExactMethodIsRightForAnyDamping) {
+    constexpr int steps = 600;
+    const Method& method = find_method("exact");
+    for (const Precision precision : precisions)
+        for (const double b :
+             {0.0, 1e-9, 0.1, 2 * std::sqrt(15.0), 10.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12}) {
+            SCOPED_TRACE(testing::Message() << name_of(precision) << ", b = " << b);
+            Bodies bodies = oscillator(precision, k, b, 1);
+            bodies.step(method, {rate, 0, steps});
+            const auto exact = exact_motion(precision, b, steps);
+            const double u = round_off_of(precision);
+            EXPECT_NEAR(x_of(bodies), exact.x, steps * roundings(method) * u);
+            EXPECT_NEAR(v_of(bodies), exact.v, steps * roundings(method) * u * std::sqrt(k));
+            if (b < 1e4) continue;
+            EXPECT_NEAR(v_of(bodies) / x_of(bodies), exact.v / exact.x,
+                        static_cast<double>(8 * u * -exact.v / exact.x));
+        }
+}
+
+std::vector<long double> coefficients(const Method& method, Move move) {
+    std::vector<long double> found;
+    if (const auto* splitting = std::get_if<Splitting>(&method.rule))
+        for (const auto& stage : splitting->stages())
+            if (stage.move == move) found.push_back(stage.coefficient);
+    return found;
+}
+
+/// The longest backward drift as a fraction of dt.
+double farthest_back(const Method& method) {
+    long double farthest = 0;
+    for (const long double drift : coefficients(method, Move::drift))
+        farthest = std::max(farthest, -drift);
+    return static_cast<double>(farthest);
+}
+
+/// The methods that are stable with any damping.
+std::vector<const Method*> creeping_methods() {
+    std::vector<const Method*> found;
+    for (const Method& method : methods()) {
+        const bool explicit_tableau = std::holds_alternative<Tableau>(method.rule);
+        if (!explicit_tableau && farthest_back(method) == 0) found.push_back(&method);
+    }
+    return found;
+}
+
+TEST(Creep, IsKeptByPositiveSplittingsImplicitMethodsAndTheExactMethod) {
+    EXPECT_EQ(creeping_methods().size(), 5U + 2 + 1);
+}
+
+/// The largest relative error of the creep distance with damping `b`. With ε = k·dt/b, a step of a
+/// splitting is Π(1 − aᵢ·ε) instead of e^(−ε): a relative error of at most (Σ|aᵢ|)²·ε. Implicit
+/// Euler, 1/(1 + ε), has an error of ε/2. Implicit midpoint rings at k/b², which adds
+/// 1/(b·dt·steps). Each move also rounds a position of 1 m.
+double creep_error(const Method& method, Precision precision, double b, int steps) {
+    const auto kicks = coefficients(method, Move::kick);
+    long double sum = 1;
+    if (!kicks.empty()) sum = 0;
+    for (const long double kick : kicks) sum += std::abs(kick);
+    const double epsilon = k * rate.dt() / b;
+    const auto moves = static_cast<double>(1 + coefficients(method, Move::drift).size());
+    return static_cast<double>(sum * sum) * epsilon + 2 / (b * rate.dt() * steps) +
+           moves * round_off_of(precision) / epsilon;
+}
+
+/// −ln of the ratio of the distances after `steps` + 1 steps and after 1 step. The first step is
+/// left out because half a kick may be missing in it.
+long double creep(const Method& method, Precision precision, double b, int steps) {
+    Bodies bodies = oscillator(precision, k, b, 1);
+    bodies.step(method, {.rate = rate, .damping = Damping::in_drift});
+    const long double before = x_of(bodies);
+    bodies.step(method, {rate, 1, steps, Damping::in_drift});
+    return -std::log1p((x_of(bodies) - before) / before);
+}
+
+// In double the error is 0.1 % at 1e12 N·s/m, where a step is 2.5e-13 m. Float is tested up to 1e6
+// only, because creep stops above 8.4e6 N·s/m.
+TEST(Creep, MatchesTheClosedForm) {
+    constexpr int steps = 600;
+    for (const Method* method : creeping_methods())
+        for (const Precision precision : precisions)
+            for (double b = 1e4; b <= (precision == Precision::single ? 1e6 : 1e12); b *= 10) {
+                const long double exact = -std::log1p(
+                    (exact_motion(precision, b, steps + 1).x - exact_motion(precision, b, 1).x) /
+                    exact_motion(precision, b, 1).x);
+                const long double creeps = creep(*method, precision, b, steps);
+                EXPECT_NEAR(creeps / exact, 1, creep_error(*method, precision, b, steps))
+                    << method->name << " in " << name_of(precision) << ", b = " << b;
+            }
+}
+
+/// The damping at which a step from 1 m is half the distance to the next smaller number.
+double damping_that_stops(Precision precision) {
+    return k * rate.dt() / (round_off_of(precision) / 2);
+}
+
+// A limit of the number types: above 8.4e6 N·s/m in float, and 4.5e15 in double, a mass at 1 m
+// stands still, with the right velocity.
+TEST(Creep, StopsIfAStepIsLessThanHalfTheDistanceBetweenNumbers) {
+    EXPECT_NEAR(damping_that_stops(Precision::single), 8.39e6, 1e4);
+    EXPECT_NEAR(damping_that_stops(Precision::double_), 4.50e15, 1e13);
+    for (const Method* method : creeping_methods())
+        for (const Precision precision : precisions) {
+            const double b = 1.01 * damping_that_stops(precision);
+            Bodies bodies = oscillator(precision, k, b, 1);
+            bodies.step(*method, {rate, 0, 10'000, Damping::in_drift});
+            EXPECT_EQ(x_of(bodies), 1) << method->name << " in " << name_of(precision);
+            EXPECT_GT(creep(*method, precision, b / 4, 10), 0) << method->name;
+            if (!is_exact(*method)) continue;
+            EXPECT_NEAR(v_of(bodies) * b / -k, 1, 8 * round_off_of(precision));
+        }
+}
+
+// At 0.9 of the damping that stops creep, a step is 0.556 of the distance between numbers. It
+// rounds to 1, which is 1.8 times too fast.
+TEST(Creep, IsAlmostTwiceAsFastJustBelowTheDampingThatStopsIt) {
+    for (const Precision precision : precisions) {
+        Bodies bodies = oscillator(precision, k, 0.9 * damping_that_stops(precision), 1);
+        bodies.step(find_method("exact"), {rate, 0, 1000});
+        EXPECT_EQ(x_of(bodies), 1 - 1000 * static_cast<long double>(round_off_of(precision)));
+    }
+}
+
+// A backward drift reverses damping, by the factor e^(c·|τ|). If the factor overflows, the step is
+// refused with a remedy, and nothing changes. Arithmetic with twice the digits needs some range, so
+// that in double the limit is e^697, not e^709.
+TEST(Creep, IsRefusedIfABackwardDriftOverflows) {
+    int refused = 0;
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            if (farthest_back(method) == 0) continue;
+            SCOPED_TRACE(testing::Message() << method.name << " in " << name_of(precision));
+            const double most =
+                std::log(largest_of(precision)) / (farthest_back(method) * rate.dt());
+            Bodies bodies = oscillator(precision, k, 1.01 * most, 1);
+            const std::uint64_t before = hash_of(bodies);
+            const std::string line = line_of_error(Exit::usage, [&] {
+                bodies.step(method, {rate, 0, 10});
+            });
+            EXPECT_TRUE(holds(line, "backward drift"));
+            EXPECT_TRUE(holds(line, "implicit_euler"));
+            EXPECT_EQ(hash_of(bodies), before);
+            Bodies just_less = oscillator(precision, k, 0.97 * most, 1);
+            EXPECT_NO_THROW(static_cast<void>(just_less.try_step(method, {rate, 0, 1})));
+            ++refused;
+        }
+    EXPECT_GE(refused, 2 * 20);
 }
 
 }  // namespace

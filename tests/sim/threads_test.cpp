@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Results do not depend on the number of threads or on the steps per call.
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include "oiler/core/error.hpp"
 #include "oiler/core/team.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
-namespace oiler {
+namespace oiler::test {
 namespace {
 
 /// Enough bodies for every team to be used.
@@ -157,4 +152,4 @@ TEST(Team, WakesUp) {
 }
 
 }  // namespace
-}  // namespace oiler
+}  // namespace oiler::test

@@ -51,12 +51,12 @@ submit() {
 }
 
 part() { echo "$parts/part-$1-of-8.json"; }
-# A part of the sweep has 9 or 10 of the 74 ladders.
-finished_ladders() { grep -c '"done": true' "$(part "$1")" 2>/dev/null || true; }
-# is_in_the_middle JOB COUNT: the part has more finished ladders than COUNT, and not all.
+# A part of the sweep has 9 or 10 of the 74 series.
+finished_series() { grep -c '"done": true' "$(part "$1")" 2>/dev/null || true; }
+# is_in_the_middle JOB COUNT: the part has more finished series than COUNT, and not all.
 is_in_the_middle() {
     local finished
-    finished=$(finished_ladders "$1")
+    finished=$(finished_series "$1")
     [ "${finished:-0}" -gt "$2" ] && [ "$finished" -lt 9 ]
 }
 reach_the_middle() {
@@ -72,7 +72,7 @@ continued() {
     local counts
     counts=$(sed -n 's/.*continuing .*: \([1-9][0-9]*\) of 74 methods.*/\1/p' "$parts/$1.log")
     [ "$(wc -w <<<"$counts")" = "$2" ] || fail "job $1 was not continued $2 times: '$counts'"
-    echo "job $1 kept ${counts//$'\n'/, then } ladders"
+    echo "job $1 kept ${counts//$'\n'/, then } series"
 }
 job_state() { scontrol --oneliner show job "$1" | grep -o 'JobState=[A-Z]*'; }
 is_idle() { [ -z "$(squeue --noheader)" ]; }
@@ -106,8 +106,8 @@ until_true 30 is_idle || fail "cancelled jobs stay"
 [ "$(job_state "$merged")" = JobState=CANCELLED ] || fail "the merge: $(job_state "$merged")"
 echo "killed and cancelled after $SECONDS s"
 
-kept_by_3=$(finished_ladders 3)
-kept_by_8=$(finished_ladders 8)
+kept_by_3=$(finished_series 3)
+kept_by_8=$(finished_series 8)
 submit 8 "${options[@]}"
 reach_the_middle 3 "$kept_by_3"
 scontrol requeue "${array}_3"

@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Zero mass, zero stiffness, zero length, numbers that are not finite.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <span>
-#include <string>
-
 #include "oiler/stability/stability.hpp"
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Attractor;
-using oiler::Bodies;
-using oiler::Body;
-using oiler::CoilSpring;
-using oiler::Damping;
-using oiler::Exit;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Link;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Vec3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -215,7 +191,7 @@ TEST(Coincident, LinkedBodiesFlyAsOne) {
 // k·dt/b of true creep; creep_test covers damping in the drifts.
 TEST(HugeDamping, OfACoilSpringMakesEveryStepOfASplittingStartFromRest) {
     constexpr int steps = 60;
-    const oiler::Oscillation oscillation{15 * rate.dt() * rate.dt(), 0};
+    const Oscillation oscillation{15 * rate.dt() * rate.dt(), 0};
     for (const Method& method : methods()) {
         if (!is_splitting(method)) continue;
         const auto matrix =
@@ -256,3 +232,4 @@ TEST(HugeDamping, OfALinkMakesOneBodyOfTwo) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: MIT
 // 10⁻⁶ on either side of the stability limit of each method, on the undamped spring. Only ω·dt
 // matters: dt = 1 s, ω = h.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <span>
-#include <string_view>
-
 #include "oiler/stability/stability.hpp"
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::Method;
-using oiler::methods;
-using oiler::Oscillation;
-using oiler::Precision;
-using oiler::Spring;
-using oiler::StepMatrix;
 
 constexpr double u = round_off_of(Precision::double_);
 constexpr double near_limit = 1e-6;
@@ -113,7 +97,7 @@ TEST(StabilityLimit, JustBelowItMotionFillsTheMethodsEllipse) {
 // x is (−1)ⁿ·(2n + 1) and v is (−1)ⁿ·4n, all integers.
 TEST(StabilityLimit, AtItSemiImplicitEulerGrowsLinearly) {
     Bodies bodies = swinging(2);
-    bodies.step(oiler::find_method("semi_implicit_euler"), {{1}, 0, 1000});
+    bodies.step(find_method("semi_implicit_euler"), {{1}, 0, 1000});
     EXPECT_EQ(x_of(bodies), 2001);
     EXPECT_EQ(v_of(bodies), 4000);
 }
@@ -192,3 +176,4 @@ TEST(StabilityLimit, OfInfinityMeansThatAThousandRadiansPerStepAreBounded) {
 }
 
 }  // namespace
+}  // namespace oiler::test

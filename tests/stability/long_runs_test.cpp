@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Errors that accumulate over 10⁶ and 10⁸ steps of the undamped spring.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "oiler/stability/stability.hpp"
 #include "support/oscillator.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::find_method;
-using oiler::Method;
-using oiler::methods;
-using oiler::Oscillation;
-using oiler::Precision;
-using oiler::Rate;
-using oiler::StepMatrix;
 
 constexpr double u = round_off_of(Precision::double_);
 constexpr double k = 15;
@@ -202,3 +185,4 @@ TEST(HundredMillionSteps, HaveTheirTimeToTheLastDigit) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -3,27 +3,16 @@
 // with eigenvalues of matrices that the test assembles, and with runs.
 #define EIGEN_DONT_VECTORIZE
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Eigenvalues>
 #include <chrono>
-#include <cstdlib>
 
 #include "oiler/stability/stability.hpp"
+#include "support/dice.hpp"
 #include "support/springs.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::Precision;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Vec3;
 
 /// The highest frequency, 1/s, from the second derivatives of the springs' energies: stiffness
 /// along each spring, tension across a stretched one.
@@ -218,26 +207,18 @@ TEST(UnevenDamping, HasAWarningWithAStableRate) {
     EXPECT_TRUE(explodes(bodies, method, 1.05 / named, 50'000)) << line;
 }
 
-class RandomScene {
+class RandomScene : public Dice {
 public:
-    explicit RandomScene(std::uint64_t seed) : random_(seed) {}
-
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-    }
-    std::size_t below(std::size_t count) { return random_() % count; }
-    double logarithmic(double low, double high) {
-        return std::exp(uniform(std::log(low), std::log(high)));
-    }
+    using Dice::Dice;
 
     /// Springs at rest: at their rest lengths, or of length 0 between bodies at one place.
     SpringScene make() {
         SpringScene scene{.axes = static_cast<int>(1 + below(3))};
         const std::size_t count = below(8) == 0 ? 20 + below(20) : 1 + below(5);
         const bool has_lengths = below(2) == 0;
-        const double damping = below(2) == 0 ? 0 : logarithmic(0.1, 30);
+        const double damping = below(2) == 0 ? 0 : log_uniform(0.1, 30);
         for (std::size_t i = 0; i < count; ++i) {
-            SpringScene::Mass mass{.mass = logarithmic(0.3, 3)};
+            SpringScene::Mass mass{.mass = log_uniform(0.3, 3)};
             if (has_lengths) mass.position[0] = 1.5 * double(i);
             for (int axis = 1; has_lengths && axis < scene.axes; ++axis)
                 mass.position[axis] = uniform(-1, 1);
@@ -270,18 +251,10 @@ private:
     SpringScene::Pull pull(std::size_t a, std::ptrdiff_t b, double damping) {
         return {.a = a,
                 .b = b,
-                .stiffness = logarithmic(30, 3000),
+                .stiffness = log_uniform(30, 3000),
                 .damping = below(2) == 0 ? 0 : damping * uniform(0, 1)};
     }
-
-    std::mt19937_64 random_;
 };
-
-/// The number of random scenes; a longer campaign sets OILER_CAMPAIGN.
-int campaign_length() {
-    const char* const given = std::getenv("OILER_CAMPAIGN");
-    return given ? std::stoi(given) : 40;
-}
 
 // Neither misses nor warnings that are more than 5 % early.
 TEST(RandomSprings, AreWarnedOfIfTheyExplode) {
@@ -311,3 +284,4 @@ TEST(RandomSprings, AreWarnedOfIfTheyExplode) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/stability/stability.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
-#include "oiler/stability/region.hpp"
+#include "oiler/stability/stiffest.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Damping;
-using oiler::find_method;
-using oiler::Method;
-using oiler::spectral_radius;
-using oiler::stability_limit;
-using oiler::StepMatrix;
 
 // The limit has ten digits, also for an instability 3·10⁻⁴ wide that grows by at most 4·10⁻⁴ per
 // step, such as that of blanes_moan_srkn11b from 3.14143 on.
@@ -57,7 +46,7 @@ TEST(StabilityLimit, OfDampingAlone) {
 // damping.
 TEST(StabilityLimit, OfOverdampedSprings) {
     const Method& method = find_method("velocity_verlet");
-    oiler::Region region(method, Damping::in_drift);
+    Region region(method, Damping::in_drift);
     for (const double zeta : {1.5, 3.0, 10.0, 100.0}) {
         double limit = 4 * zeta;
         for (int i = 0; i < 50; ++i) limit = 4 * zeta / std::tanh(zeta * limit);
@@ -85,10 +74,122 @@ TEST(SpectralRadius, IsThatOfTheLargerEigenvalue) {
 // The spectral radius has an error of the square root of round-off where both eigenvalues meet;
 // is_stable does not.
 TEST(Stable, IncludesTheEdge) {
-    EXPECT_TRUE(oiler::is_stable({1, 0, 0, 1}));
-    EXPECT_TRUE(oiler::is_stable({-1, 1, 0, -1}));
-    EXPECT_FALSE(oiler::is_stable({1 + 1e-12L, 0, 0, 1}));
-    EXPECT_FALSE(oiler::is_stable({0, 1, -1 - 1e-12L, 0}));
+    EXPECT_TRUE(is_stable({1, 0, 0, 1}));
+    EXPECT_TRUE(is_stable({-1, 1, 0, -1}));
+    EXPECT_FALSE(is_stable({1 + 1e-12L, 0, 0, 1}));
+    EXPECT_FALSE(is_stable({0, 1, -1 - 1e-12L, 0}));
+}
+
+// The limits of the methods are those of the literature: semi-implicit Euler ω·dt = 2, rk4 2√2,
+// explicit Euler ω·dt = 2ζ up to ζ = 1.
+
+Stiffest stiffest(const Bodies& bodies, const char* method, std::int64_t rate = 100) {
+    StiffestFinder finder;
+    const Stepping stepping{.method = &find_method(method), .rate = {rate}};
+    const auto found = finder.find(StiffestFinder::suspects_of(bodies, stepping), stepping);
+    EXPECT_TRUE(found);
+    return found.value_or(Stiffest{});
+}
+
+// ω = √(1600/1) = 40/s and √(900/0.5) = 42.4/s.
+Bodies two_springs() {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.stiffness = 1600});
+    bodies.add(Body{.mass = 0.5}, Spring{.stiffness = 900});
+    return bodies;
+}
+
+TEST(Stiffest, IsTheFastestSpring) {
+    const Stiffest found = stiffest(two_springs(), "semi_implicit_euler");
+    EXPECT_EQ(found.row, 1U);
+    EXPECT_FALSE(found.linked);
+    EXPECT_NEAR(found.measure, std::sqrt(1800) / 100, 1e-12);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
+    EXPECT_NEAR(stiffest(two_springs(), "rk4").limit, 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(stiffest(two_springs(), "rk4", 50).measure, std::sqrt(1800) / 50, 1e-12);
+}
+
+TEST(Stiffest, HasNoLimitOrAlwaysExceedsIt) {
+    EXPECT_EQ(stiffest(two_springs(), "explicit_euler").limit, 0);
+    EXPECT_TRUE(std::isinf(stiffest(two_springs(), "implicit_midpoint").limit));
+    const Bodies alone(1, Precision::double_);
+    StiffestFinder finder;
+    EXPECT_FALSE(finder.find(StiffestFinder::suspects_of(alone, {}), {}));
+}
+
+// ω = 10/s with ζ = 0.5 has c = 10/s: explicit Euler is stable up to ω·dt = 1. ζ = 0.25 has the
+// limit 0.5, and is closer to it with ω = 8/s.
+TEST(Stiffest, IsTheOneThatIsClosestToItsLimit) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.stiffness = 100, .damping = 10});
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").measure, 0.1, 1e-12);
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").limit, 1, 1e-9);
+    bodies.add(Body{}, Spring{.stiffness = 64, .damping = 4});
+    EXPECT_EQ(stiffest(bodies, "explicit_euler").row, 1U);
+    EXPECT_NEAR(stiffest(bodies, "explicit_euler").limit, 0.5, 1e-9);
+}
+
+// Two masses of 1 kg on a spring of 100 N/m swing against each other with ω² = 2·100.
+TEST(Stiffest, NamesBothEndsOfALink) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{.position = {0}});
+    bodies.add(Body{.position = {1}});
+    bodies.link(0, 1, Link{.stiffness = 100, .rest_length = 1});
+    const Stiffest found = stiffest(bodies, "semi_implicit_euler");
+    EXPECT_EQ(found.row + *found.linked, 1U);
+    EXPECT_NEAR(found.measure, std::sqrt(200) / 100, 1e-12);
+}
+
+// Three masses of 1 kg on three springs of 100 N/m: a triangle breathes with ω² = 3·100, in
+// whatever direction it lies. The sum of the springs at two ends would be 4·100. The other
+// oscillations have ω² = 1.5·100 twice and 0 three times. The told value may be up to 1 % above.
+TEST(Stiffest, IsTheFastestOscillationOfWhatLinksConnect) {
+    Bodies bodies(2, Precision::double_);
+    for (const double angle : {0.3, 0.3 + 2.0943951023931953, 0.3 + 4.1887902047863905})
+        bodies.add(Body{.position = {std::cos(angle), std::sin(angle)}});
+    for (const auto& [a, b] : {std::pair{0U, 1U}, {1U, 2U}, {2U, 0U}})
+        bodies.link(a, b, Link{.stiffness = 100, .rest_length = std::sqrt(3.0)});
+    bodies.add(Body{.position = {9}}, Spring{.stiffness = 250});
+    const Stiffest found = stiffest(bodies, "semi_implicit_euler");
+    EXPECT_TRUE(found.linked);
+    EXPECT_GE(found.measure, std::sqrt(300) / 100 * (1 - 1e-9));
+    EXPECT_LE(found.measure, std::sqrt(300) / 100 * 1.01);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
+}
+
+// Two masses of 1 kg on a damper of 80 N·s/m alone: their distance decays with c = 2·80, and
+// explicit Euler is stable up to c·dt = 2.
+TEST(Stiffest, IsADamperWithoutASpring) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{.position = {0}});
+    bodies.add(Body{.position = {1}});
+    bodies.link(0, 1, Link{.damping = 80, .rest_length = 1});
+    const Stiffest found = stiffest(bodies, "explicit_euler");
+    EXPECT_EQ(found.row + *found.linked, 1U);
+    EXPECT_NEAR(found.measure, 1.6, 1e-9);
+    EXPECT_NEAR(found.limit, 2, 1e-9);
+}
+
+// With ζ = 3 and 20, velocity Verlet with damping in the drift is stable while z·tanh(ζz) < 4ζ,
+// which is z = 4ζ here. Limits are kept for damping ratios of three digits.
+TEST(Stiffest, AnOverdampedSpringHasALimit) {
+    for (const double zeta : {3.0, 20.0}) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add(Body{}, Spring{.stiffness = 1e6, .damping = 2000 * zeta});
+        const Stiffest found = stiffest(bodies, "velocity_verlet", 60);
+        EXPECT_FALSE(found.is_damper);
+        EXPECT_NEAR(found.measure, 1000 / 60.0, 1e-9);
+        EXPECT_NEAR(found.limit, 4 * zeta, 0.04 * zeta);
+    }
+    Bodies bodies(1, Precision::double_);
+    bodies.add(Body{}, Spring{.damping = 5});
+    EXPECT_TRUE(stiffest(bodies, "explicit_euler").is_damper);
+}
+
+// Without a limit, the one that swings faster is named.
+TEST(Stiffest, IsTheFasterOneIfAnyIsStable) {
+    EXPECT_EQ(stiffest(two_springs(), "implicit_midpoint").row, 1U);
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,55 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Preflight's warnings before a run, compared with the run.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "oiler/stability/preflight.hpp"
 #include "oiler/stability/stability.hpp"
 #include "support/explained_step.hpp"
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using namespace oiler::test;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::Damping;
-using oiler::Exit;
-using oiler::find_method;
-using oiler::LinearDrag;
-using oiler::Method;
-using oiler::methods;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::Steps;
-
 constexpr Rate rate{60};
-
-/// The warnings for a method with its default damping.
-std::vector<std::string> warnings(const Bodies& bodies, const Method& method, const Rate& at) {
-    const Steps steps{.rate = at};
-    std::vector<std::string> lines;
-    for (const oiler::Risk& risk : preflight(bodies, method, steps))
-        lines.push_back(describe(risk, method, steps, [](std::size_t row) { return row; }));
-    return lines;
-}
-
-/// The n of "… rate ≥ n Hz …".
-std::int64_t rate_in(const std::string& line) {
-    const std::string before = "rate ≥ ";
-    const std::size_t at = line.find(before);
-    EXPECT_NE(at, std::string::npos) << line;
-    return at == std::string::npos ? 1 : std::stoll(line.substr(at + before.size()));
-}
 
 /// 1 kg at 1 m on a spring of ω·dt = h, 60 Hz.
 Bodies swinging(double h) { return oscillator(Precision::double_, h * h * 3600, 0, 1); }
@@ -88,7 +48,7 @@ TEST(Warning, NamesNoRateAtTheLimit) {
 }
 
 bool is_stable_at(const Method& method, double h) {
-    const oiler::Oscillation oscillation{h * h, 0};
+    const Oscillation oscillation{h * h, 0};
     return is_stable(step_matrices(method, method.damping, std::span(&oscillation, 1)).front());
 }
 
@@ -215,7 +175,7 @@ Bodies on_a_link(double stiffness, double damping) {
 std::string outcome(const Bodies& bodies, const Method& method, const Steps& steps) {
     try {
         return std::to_string(preflight(bodies, method, steps).size()) + " lines";
-    } catch (const oiler::Error& error) {
+    } catch (const Error& error) {
         return error.what();
     }
 }
@@ -266,7 +226,8 @@ TEST(Warning, IsComputedForAnyNumbers) {
 // 5e19 Hz is too large for a rate.
 TEST(Warning, NamesNoInvalidRate) {
     for (const std::string& line : warnings(swinging(1e18), find_method("velocity_verlet"), rate))
-        EXPECT_FALSE(holds(line, "rate ≥ -")) << line;
+        EXPECT_FALSE(holds(line, "rate ≥ -"));
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -7,8 +7,10 @@ import base64
 import fcntl
 import json
 import os
+import re
 import select
 import subprocess
+import tempfile
 import time
 
 PATIENCE = 60  # seconds, for anything
@@ -150,3 +152,33 @@ class Browser:
                 yield f"console: {params['type']} {' '.join(words)}"
             elif event["method"] == "Log.entryAdded" and params["entry"]["level"] != "verbose":
                 yield f"log: {params['entry']['text']}"
+
+
+def own_data(page, pattern):
+    """As Python reads it from the file, not as the page's script understands it."""
+    found = re.findall(pattern, page.read_text(encoding="utf-8"), re.S)
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} scripts with data")
+    return json.loads(found[0])
+
+
+def failures_of(page, width, pattern, make_check, is_ready="true"):
+    """What `make_check(browser, data).all()` finds in a page, and what the browser complains of."""
+    try:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            browser = Browser(profile)
+            try:
+                browser.resize(width)
+                check = make_check(browser, own_data(page, pattern))
+                browser.open(page.resolve().as_uri())
+                if not browser.value(is_ready):
+                    return ["the page did not become ready", *browser.complaints()]
+                try:
+                    check.all()
+                except (RuntimeError, ValueError, LookupError, TypeError) as error:
+                    check.failures.append(f"stopped: {type(error).__name__}: {error}")
+                return check.failures + list(browser.complaints())
+            finally:
+                browser.close()
+    except (OSError, RuntimeError, ValueError) as error:
+        return [f"{type(error).__name__}: {error}"]

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "support/test.hpp"
 
 /// The scale of errors: an error of order p is compared with size·(rate·dt)^p.
 struct Scale {

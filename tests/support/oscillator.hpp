@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
-
-#include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 
@@ -72,19 +64,6 @@ inline std::uint64_t hash_of(const Bodies& bodies) {
     StateHash hash;
     bodies.hash_into(hash);
     return hash.value();
-}
-
-/// The message that `f` throws in an Error with this exit code.
-template <class F>
-std::string line_of_error(Exit exit, F f) {
-    try {
-        f();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), exit) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing thrown";
-    return {};
 }
 
 }  // namespace oiler::test

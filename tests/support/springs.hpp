@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <cstdint>
+#include <cstdlib>
 #include <random>
-#include <vector>
 
 #include "oiler/stability/preflight.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 
@@ -88,6 +87,12 @@ inline bool explodes(const Bodies& resting, const Method& method, double dt, int
                 if (!(std::abs(d) < 1e4 * size)) return true;
     }
     return false;
+}
+
+/// The number of random scenes; a longer campaign sets OILER_CAMPAIGN.
+inline int campaign_length() {
+    const char* const given = std::getenv("OILER_CAMPAIGN");
+    return given ? std::stoi(given) : 40;
 }
 
 }  // namespace oiler::test

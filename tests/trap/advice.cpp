@@ -7,7 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "support/program.hpp"
+#include "support/shell.hpp"
 
 namespace oiler::trap {
 namespace {

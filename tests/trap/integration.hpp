@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "oiler/sim/bodies.hpp"
 #include "trap/system.hpp"
 
 namespace oiler::trap {

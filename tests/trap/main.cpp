@@ -9,7 +9,7 @@
 #include <map>
 
 #include "oiler/core/error.hpp"
-#include "trap/self_check.hpp"
+#include "trap/truth.hpp"
 #include "trap/verdict.hpp"
 
 using namespace oiler;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "trap/self_check.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,13 +7,12 @@
 
 #include "oiler/scene/make_world.hpp"
 #include "support/reference.hpp"
+#include "trap/closed_forms.hpp"
 #include "trap/integration.hpp"
-#include "trap/kepler.hpp"
-#include "trap/linear.hpp"
-#include "trap/oscillator.hpp"
+#include "trap/measure.hpp"
 #include "trap/scene.hpp"
-#include "trap/stepped.hpp"
 #include "trap/traps.hpp"
+#include "trap/truth.hpp"
 
 namespace oiler::trap {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "trap/system.hpp"
+#include "oiler/sim/bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

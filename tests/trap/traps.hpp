@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "trap/dice.hpp"
+#include "support/dice.hpp"
 
 namespace oiler::trap {
+
+using test::Dice;
 
 /// A scene file in the making.
 struct Draft {

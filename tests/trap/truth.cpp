@@ -8,10 +8,8 @@
 #include <numeric>
 
 #include "oiler/scene/make_world.hpp"
+#include "trap/closed_forms.hpp"
 #include "trap/integration.hpp"
-#include "trap/kepler.hpp"
-#include "trap/linear.hpp"
-#include "trap/oscillator.hpp"
 
 namespace oiler::trap {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "oiler/scene/scene.hpp"
@@ -46,5 +47,9 @@ private:
     std::vector<Point> samples_;
     std::size_t inside_ = 0;
 };
+
+/// Compares the true motions with one another on random scenes, and with reference numbers of
+/// tests/data. Prints the largest differences; returns whether all are small.
+[[nodiscard]] bool self_check(std::uint64_t seed);
 
 }  // namespace oiler::trap

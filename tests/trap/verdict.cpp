@@ -16,13 +16,6 @@ constexpr Real clearly_met = 0.9L;      ///< of the tolerance
 constexpr Real most_body_steps = 1e8L;  ///< of a setting that refutes an exit of 1
 constexpr std::int64_t most_rate = 1'000'000;
 
-std::string describe(const Stepping& stepping) {
-    return fmt::format(
-        "{} at {} Hz in {}{}", stepping.method->name, stepping.rate.steps,
-        name_of(stepping.precision),
-        stepping.damping ? fmt::format(", damping in {}s", name_of(*stepping.damping)) : "");
-}
-
 Real largest_coordinate(Truth& truth) {
     truth.prepare(1, 0);
     Real largest = 0;

@@ -2,9 +2,7 @@
 // Changes of the energy are a share of what moves, whatever the zero of the potential.
 #include "oiler/whatif/energy_scale.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -2,12 +2,10 @@
 // The costs of the timestep that are measured while a game is played.
 #include "oiler/whatif/live_what_if.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 #include <chrono>
 #include <thread>
-
-#include "oiler/whatif/rate_advice.hpp"
 
 namespace oiler::test {
 namespace {

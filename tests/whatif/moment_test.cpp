@@ -2,7 +2,7 @@
 // What is compared of two plays, and what is drawn between two moments of one.
 #include "oiler/whatif/moment.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which rate is right: the lowest that was measured to be, or what the order of the errors
 // promises.
-#include "oiler/whatif/rate_advice.hpp"
+#include "oiler/whatif/verdict.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {

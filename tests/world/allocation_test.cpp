@@ -1,39 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/collisions.hpp"
 #include "oiler/world/neighbours.hpp"
 #include "support/counting_new.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Method;
-using oiler::Precision;
-using oiler::World;
 
 World busy_world(const Method& method, Precision precision) {
     World world(2, {.method = &method, .rate = {100}, .precision = precision});
     world.set_gravity({0, -9.81, 0});
     for (int i = 0; i < 100; ++i) {
         const double place = i;
-        const oiler::Entity entity = world.spawn(
-            {.mass = 1 + place, .position = {place, 1, 0}},
-            oiler::Spring{.stiffness = 2 + place, .damping = 1}, oiler::LinearDrag{0.1});
-        if (method.order != oiler::exact_order)
-            world.attach(entity, oiler::QuadraticDrag{0.001 * place},
-                         oiler::CoilSpring{.stiffness = 3, .damping = 1, .rest_length = 1});
+        const Entity entity =
+            world.spawn({.mass = 1 + place, .position = {place, 1, 0}},
+                        Spring{.stiffness = 2 + place, .damping = 1}, LinearDrag{0.1});
+        if (method.order != exact_order)
+            world.attach(entity, QuadraticDrag{0.001 * place},
+                         CoilSpring{.stiffness = 3, .damping = 1, .rest_length = 1});
     }
     return world;
 }
 
 TEST(Allocations, AreCounted) {
     const long before = allocations;
-    busy_world(oiler::methods().front(), Precision::single);
+    busy_world(methods().front(), Precision::single);
     EXPECT_GT(allocations, before);
 }
 
 TEST(Allocations, StepsMakeNone) {
-    for (const Method& method : oiler::methods())
+    for (const Method& method : methods())
         for (const Precision precision : {Precision::single, Precision::double_})
             for (const int per_call : {1, 10}) {
                 World world = busy_world(method, precision);
@@ -46,13 +43,12 @@ TEST(Allocations, StepsMakeNone) {
 
 // Implicit methods solve equations of all linked bodies, for which Eigen allocates.
 TEST(Allocations, PushesAndLinksMakeNone) {
-    for (const Method& method : oiler::methods()) {
-        if (method.order == oiler::exact_order ||
-            std::holds_alternative<oiler::ImplicitStage>(method.rule))
+    for (const Method& method : methods()) {
+        if (method.order == exact_order || std::holds_alternative<ImplicitStage>(method.rule))
             continue;
         World world = busy_world(method, Precision::single);
-        const oiler::Entity first = world.entity_of_row(3);
-        const oiler::Entity second = world.entity_of_row(4);
+        const Entity first = world.entity_of_row(3);
+        const Entity second = world.entity_of_row(4);
         world.link(first, second, {.stiffness = 2, .damping = 1, .rest_length = 1});
         const auto push = [&] {
             world.apply_force(first, {1, 2});
@@ -68,14 +64,13 @@ TEST(Allocations, PushesAndLinksMakeNone) {
 
 TEST(Allocations, ImpactsMakeNone) {
     for (const int threads : {1, 2}) {
-        World world(2,
-                    oiler::Settings{.stepping = {.method = &oiler::find_method("velocity_verlet")},
-                                    .threads = threads});
+        World world(2, Settings{.stepping = {.method = &find_method("velocity_verlet")},
+                                .threads = threads});
         world.set_gravity({0, -9.81});
         world.add_plane({.normal = {0, 1}, .restitution = 1});
         for (int i = 0; i < 2000; ++i)
-            world.spawn({.position = {0, 0.01 * (i % 7)}, .contact = oiler::Contact{}});
-        const oiler::Entity a = world.spawn({.position = {0, 1}, .contact = oiler::Contact{}});
+            world.spawn({.position = {0, 0.01 * (i % 7)}, .contact = Contact{}});
+        const Entity a = world.spawn({.position = {0, 1}, .contact = Contact{}});
         world.link(a, world.spawn({.position = {0, 2}}), {.stiffness = 9, .rest_length = 1});
         for (int i = 0; i < 1000; ++i) world.step();
         const long before = allocations;
@@ -90,7 +85,7 @@ TEST(Allocations, ImpactsMakeNone) {
 }
 
 TEST(Allocations, ReadingAWorldMakesNone) {
-    const World world = busy_world(oiler::methods().front(), Precision::single);
+    const World world = busy_world(methods().front(), Precision::single);
     const long before = allocations;
     const std::uint64_t hash = world.state_hash();
     const double energy = world.bodies().energy().total();
@@ -100,13 +95,13 @@ TEST(Allocations, ReadingAWorldMakesNone) {
 TEST(Allocations, UpdatesOfQueriesMakeNone) {
     World world(2, {.rate = {60}});
     for (int i = 0; i < 100; ++i) {
-        const oiler::Vec3 position{0.7 * (i % 10), 0.7 * (i / 10)};
+        const Vec3 position{0.7 * (i % 10), 0.7 * (i / 10)};
         const double radius = i % 10 == 0 ? 2 : 0.4;
-        static_cast<void>(world.spawn({.position = position, .contact = oiler::Contact{radius}},
-                                      oiler::Spring{.anchor = position * 1.1, .stiffness = 1}));
+        static_cast<void>(world.spawn({.position = position, .contact = Contact{radius}},
+                                      Spring{.anchor = position * 1.1, .stiffness = 1}));
     }
-    oiler::Collisions collisions;
-    oiler::Neighbours neighbours;
+    Collisions collisions;
+    Neighbours neighbours;
     const auto step = [&](int steps) {
         for (int i = 0; i < steps; ++i) {
             world.step();
@@ -122,3 +117,4 @@ TEST(Allocations, UpdatesOfQueriesMakeNone) {
 }
 
 }  // namespace
+}  // namespace oiler::test

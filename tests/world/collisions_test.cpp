@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/world/collisions.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <map>
 #include <random>
 
-namespace {
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
-using oiler::Collision;
-using oiler::Collisions;
-using oiler::Contact;
-using oiler::Entity;
-using oiler::Precision;
-using oiler::Vec3;
-using oiler::World;
+namespace oiler::test {
+namespace {
 
 World world_of(int axes, Precision precision = Precision::double_) {
     return World(axes, {.rate = {60}, .precision = precision});
@@ -426,3 +417,4 @@ TEST(Collisions, AreFastAmongVeryDifferentBodies) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Entities, their components, and visits of them. How visits create and destroy is in
 // visits_test.cpp.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
 #include <random>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Body;
-using oiler::Entity;
-using oiler::Error;
-using oiler::LinearDrag;
-using oiler::Precision;
-using oiler::Spring;
-using oiler::Vec3;
-using oiler::World;
 
 struct Health {
     int points = 0;
@@ -259,3 +243,4 @@ TEST(Each, MayCreateOthersAndDoesNotVisitThem) {
 }
 
 }  // namespace
+}  // namespace oiler::test

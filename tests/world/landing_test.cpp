@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Bodies that meet planes: bounces in flight. How they rest and slide is in resting_test.cpp and sliding_test.cpp.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+// Bodies that meet planes: bounces in flight. How they rest and slide is in resting_test.cpp and
+// sliding_test.cpp.
 #include <random>
 
-#include "oiler/world/world.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "world/contacts.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Contact;
-using oiler::Entity;
-using oiler::Impact;
-using oiler::Meeting;
-using oiler::Precision;
-using oiler::Vec3;
-using oiler::World;
-
-constexpr double g = 9.81;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-World world_of(const char* method, int rate, int axes = 1,
-               Precision precision = Precision::double_) {
-    return World(axes,
-                 {.method = &oiler::find_method(method), .rate = {rate}, .precision = precision});
-}
 
 /// The speed after `bounces` bounces of a ball that leaves the floor at `u` with restitution `e`
 /// under gravity and linear drag `c`, 1/s; Newton's iteration on the closed form of its height.
@@ -48,11 +30,8 @@ long double apex_with_drag(long double u, long double c) {
 /// The apex after `bounces` bounces of a ball thrown up at 12 m/s, from the state after the last
 /// step before it.
 double apex_after(const char* method, int rate, int bounces, double drag) {
-    World world = world_of(method, rate);
-    world.set_gravity({-g});
-    world.add_plane({.normal = {1}, .restitution = 0.9});
-    const Entity ball =
-        world.spawn({.velocity = {12}, .contact = Contact{}}, oiler::LinearDrag{drag});
+    World world = world_of(method, rate, 1, {-g}, {{.normal = {1}, .restitution = 0.9}});
+    const Entity ball = world.spawn({.velocity = {12}, .contact = Contact{}}, LinearDrag{drag});
     for (int met = 0; world.time() < 60;) {
         const double x = world.position(ball)[0];
         const double v = world.velocity(ball)[0];
@@ -97,15 +76,9 @@ TEST(Landing, KeepsTheOrderOfTheMethod) {
 // Falls for 1 s from g/2, so that the impact is exactly at a tick, one unit before it or after it.
 TEST(Landing, MeetsAPlaneAtTheStartOrTheEndOfAStep) {
     for (const double height : {g / 2, std::nextafter(g / 2, 0.0), std::nextafter(g / 2, 9.0)}) {
-        World world = world_of("velocity_verlet", 8);
-        world.set_gravity({-g});
-        world.add_plane({.normal = {1}, .restitution = 1});
+        World world = world_of("velocity_verlet", 8, 1, {-g}, {{.normal = {1}, .restitution = 1}});
         const Entity ball = world.spawn({.position = {height}, .contact = Contact{}});
-        int met = 0;
-        for (int i = 0; i < 16; ++i) {
-            world.step();
-            met += static_cast<int>(world.impacts().size());
-        }
+        const int met = count(world, 16);
         EXPECT_EQ(met, 1) << height;
         EXPECT_NEAR(world.position(ball)[0], g / 2, 16 * 2 * epsilon * g);
     }
@@ -113,9 +86,9 @@ TEST(Landing, MeetsAPlaneAtTheStartOrTheEndOfAStep) {
 
 TEST(Landing, FollowsManyImpactsInAStep) {
     // Without gravity: 50.5 flights of 1 m between a floor and a ceiling in 0.5 s.
-    World world = world_of("rk4", 2);
-    world.add_plane({.normal = {1}, .restitution = 1});
-    world.add_plane({.normal = {-1}, .offset = -1, .restitution = 1});
+    World world = world_of(
+        "rk4", 2, 1, {},
+        {{.normal = {1}, .restitution = 1}, {.normal = {-1}, .offset = -1, .restitution = 1}});
     const Entity ball = world.spawn({.velocity = {101}, .contact = Contact{}});
     world.step();
     ASSERT_EQ(world.impacts().size(), 50U);
@@ -129,10 +102,9 @@ TEST(Landing, FollowsManyImpactsInAStep) {
 }
 
 TEST(Landing, FollowsBallsOfOneDiameterBetweenPlanes) {
-    World world = world_of("velocity_verlet", 60);
-    world.set_gravity({-g});
-    world.add_plane({.normal = {1}, .restitution = 0.5});
-    world.add_plane({.normal = {-1}, .offset = -1, .restitution = 0.5});
+    World world = world_of(
+        "velocity_verlet", 60, 1, {-g},
+        {{.normal = {1}, .restitution = 0.5}, {.normal = {-1}, .offset = -1, .restitution = 0.5}});
     const Entity ball = world.spawn({.position = {0.5}, .velocity = {3}, .contact = Contact{0.5}});
     world.step(120);
     EXPECT_EQ(world.position(ball)[0], 0.5);
@@ -144,7 +116,7 @@ TEST(Landing, FollowsBallsOfOneDiameterBetweenPlanes) {
 TEST(Landing, FindsACeilingTouchedBetweenTwoSteps) {
     const double dt = 1.0 / 20;
     const double u = g * 2.5 * dt;
-    World world = world_of("velocity_verlet", 20);
+    World world = world_of("velocity_verlet", 20, 1);
     world.set_gravity({-g});
     const double apex = u * u / (2 * g);
     world.add_plane({.normal = {-1}, .offset = -(apex - 0.001), .restitution = 1});
@@ -163,22 +135,16 @@ TEST(Landing, FindsACeilingTouchedBetweenTwoSteps) {
 // other side it is met.
 TEST(Landing, GrazesAPlane) {
     for (const double shift : {-1e-12, 1e-12}) {
-        World world = world_of("velocity_verlet", 20);
-        world.set_gravity({-g});
-        world.add_plane({.normal = {-1}, .offset = -(0.5 / g + shift), .restitution = 1});
+        World world = world_of("velocity_verlet", 20, 1, {-g},
+                               {{.normal = {-1}, .offset = -(0.5 / g + shift), .restitution = 1}});
         world.spawn({.velocity = {1}, .contact = Contact{}});
-        std::size_t met = 0;
-        for (int i = 0; i < 4; ++i) {
-            world.step();
-            met += world.impacts().size();
-        }
-        EXPECT_EQ(met, shift < 0 ? 1U : 0U);
+        const int met = count(world, 4);
+        EXPECT_EQ(met, shift < 0 ? 1 : 0);
     }
 }
 
 TEST(Landing, DoesNotTunnel) {
-    World world = world_of("semi_implicit_euler", 20, 3);
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("semi_implicit_euler", 20, 3, {}, {{.normal = {1}, .restitution = 1}});
     const Entity ball =
         world.spawn({.position = {3}, .velocity = {-1e4, 5, 0}, .contact = Contact{0.25}});
     world.step();
@@ -194,18 +160,14 @@ TEST(Landing, DoesNotTunnel) {
 // the wedge: its path is a straight line across half a turn).
 TEST(Landing, LeavesAWedgeOfOneDegree) {
     const double angle = std::acos(-1.0) / 180;
-    World world = world_of("velocity_verlet", 1, 2);
-    world.add_plane({.normal = {0, 1}, .restitution = 1});
-    world.add_plane({.normal = {std::sin(angle), -std::cos(angle)}, .restitution = 1});
+    World world = world_of("velocity_verlet", 1, 2, {},
+                           {{.normal = {0, 1}, .restitution = 1},
+                            {.normal = {std::sin(angle), -std::cos(angle)}, .restitution = 1}});
     const Entity ball = world.spawn(
         {.position = {10, 10 * std::sin(angle / 2)}, .velocity = {-5, 0.01}, .contact = Contact{}});
-    std::size_t met = 0;
-    for (int i = 0; i < 20; ++i) {
-        world.step();
-        met += world.impacts().size();
-    }
-    EXPECT_GE(met, 179U);
-    EXPECT_LE(met, 180U);
+    const int met = count(world, 20);
+    EXPECT_GE(met, 179);
+    EXPECT_LE(met, 180);
     EXPECT_GT(world.velocity(ball)[0], 4.9);
     EXPECT_NEAR(length(world.velocity(ball)), std::hypot(5, 0.01), 180 * 8 * epsilon * 5);
 }
@@ -216,10 +178,9 @@ TEST(Landing, LeavesAWedgeOfOneDegree) {
 TEST(Landing, EndsAHopThatRoundOffHides) {
     const double slope = 0.1;
     for (const double speed : {1e-9, 1e-8, 5e-8}) {
-        World world = world_of("velocity_verlet", 1, 2);
-        world.set_gravity({-1.2, -10});
-        world.add_plane({.normal = {1, slope}, .offset = 1 + slope});
-        world.add_plane({.normal = {-1, slope}, .offset = -1 + slope});
+        World world = world_of("velocity_verlet", 1, 2, {-1.2, -10},
+                               {{.normal = {1, slope}, .offset = 1 + slope},
+                                {.normal = {-1, slope}, .offset = -1 + slope}});
         const Vec3 up = Vec3{-slope, 1} * (1 / std::hypot(slope, 1));
         const Entity ball =
             world.spawn({.position = {1, 1}, .velocity = up * speed, .contact = Contact{}});
@@ -234,8 +195,7 @@ TEST(Landing, EndsAHopThatRoundOffHides) {
 // plane, and slides on with the rest.
 TEST(Landing, SlidesOverAGentleEdge) {
     for (const double edge : {0.001, 0.002, 0.01}) {
-        World world = world_of("velocity_verlet", 60, 2, Precision::single);
-        world.set_gravity({0, -g});
+        World world = world_of("velocity_verlet", 60, 2, {0, -g}, {}, Precision::single);
         const double slope = 0.06;
         for (const double angle : {slope, slope + edge}) {
             const Vec3 normal{-std::sin(angle), std::cos(angle)};
@@ -257,16 +217,15 @@ TEST(Landing, SlidesOverAGentleEdge) {
 // At the vertex of a corner with an elastic side, a slow body touches both planes. It does not
 // slide through one of them for the rest of the step.
 TEST(Landing, StaysInACornerThatItTouches) {
-    World world = world_of("exact", 60, 2);
-    world.set_gravity({0, -25.609039316005063});
-    world.add_plane({.normal = {0.40008476415060629, 0.91647814021642315},
-                     .offset = 1.3038620108926484,
-                     .restitution = 0.57638829485699161,
-                     .friction = 0.17904735242018804});
-    world.add_plane({.normal = {-0.80182430466980359, 0.5975598584583689},
-                     .offset = 5.0342552124278139,
-                     .restitution = 1,
-                     .friction = 0.65132953883984633});
+    World world = world_of("exact", 60, 2, {0, -25.609039316005063},
+                           {{.normal = {0.40008476415060629, 0.91647814021642315},
+                             .offset = 1.3038620108926484,
+                             .restitution = 0.57638829485699161,
+                             .friction = 0.17904735242018804},
+                            {.normal = {-0.80182430466980359, 0.5975598584583689},
+                             .offset = 5.0342552124278139,
+                             .restitution = 1,
+                             .friction = 0.65132953883984633}});
     const Entity body = world.spawn({.position = {-3.9372983946529017, 3.1414989448935708},
                                      .velocity = {3.2574883014119913e-07, 7.0054182787477254e-07},
                                      .contact = Contact{}});
@@ -295,21 +254,18 @@ TEST(Landing, PassesOverHopsThatFrictionStops) {
 // Flights under gravity are exact, and planes take energy away. A body that slid through the other
 // plane of a wedge for the rest of a step would gain up to g·dt per second.
 TEST(Landing, GivesABodyInAWedgeNoEnergy) {
-    std::mt19937_64 random(1);
-    const auto uniform = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
+    Dice dice(1);
     for (int i = 0; i < 400; ++i) {
         const int rate = i % 2 == 0 ? 5 : 20;
         World world = world_of("velocity_verlet", rate, 2);
         world.set_gravity({0, -g});
-        const double elastic = i % 4 < 2 ? 1 : uniform(0.96, 0.999);
-        for (const double side : {uniform(0.2, 1), -uniform(0.2, 1)})
+        const double elastic = i % 4 < 2 ? 1 : dice.uniform(0.96, 0.999);
+        for (const double side : {dice.uniform(0.2, 1), -dice.uniform(0.2, 1)})
             world.add_plane({.normal = {side, 1},
                              .restitution = side > 0 ? 1 : elastic,
-                             .friction = uniform(0.05, 0.5)});
+                             .friction = dice.uniform(0.05, 0.5)});
         const Entity ball =
-            world.spawn({.position = {uniform(-0.3, 0.3), 1}, .contact = Contact{}});
+            world.spawn({.position = {dice.uniform(-0.3, 0.3), 1}, .contact = Contact{}});
         const auto energy = [&] {
             const Vec3 v = world.velocity(ball);
             return dot(v, v) / 2 + g * world.position(ball)[1];
@@ -328,10 +284,9 @@ TEST(Landing, GivesABodyInAWedgeNoEnergy) {
 // that its centre is under, at 60 Hz 1.7 radians per step. The exact flow gives both times.
 TEST(Landing, FollowsASpringThatPullsThroughAPlane) {
     const double omega = 100;
-    World world = world_of("exact", 60);
-    world.add_plane({.normal = {1}, .restitution = 0.8});
+    World world = world_of("exact", 60, 1, {}, {{.normal = {1}, .restitution = 0.8}});
     const Entity ball = world.spawn({.position = {0.1}, .contact = Contact{}},
-                                    oiler::Spring{.anchor = {-0.05}, .stiffness = omega * omega});
+                                    Spring{.anchor = {-0.05}, .stiffness = omega * omega});
     // x = −0.05 + 0.15·cos ωt reaches 0 at cos ωt = 1/3; it is thrown back at 0.8 of its speed,
     // and x = −0.05 + A·cos(φ − ωt') with A·cos φ = 0.05 and A·sin φ = u/ω until φ again.
     const double first = std::acos(1.0 / 3) / omega;
@@ -352,8 +307,7 @@ TEST(Landing, FollowsASpringThatPullsThroughAPlane) {
 
 // A thrust holds at all instants of the step, before and after an impact.
 TEST(Landing, KeepsThePushOfTheStep) {
-    World world = world_of("velocity_verlet", 1);
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("velocity_verlet", 1, 1, {}, {{.normal = {1}, .restitution = 1}});
     const Entity ball = world.spawn({.mass = 2, .position = {1}, .contact = Contact{}});
     world.apply_force(ball, {-16});
     world.step();
@@ -365,11 +319,10 @@ TEST(Landing, KeepsThePushOfTheStep) {
 // The first kick of the next step must not use the field of a position before the impact.
 TEST(Landing, KeepsTheFieldOfAnAttractor) {
     const auto end = [](int rate) {
-        World world = world_of("velocity_verlet", rate, 2);
-        world.add_plane({.normal = {1, 0}, .restitution = 1});
-        const Entity ball =
-            world.spawn({.position = {1, 1}, .velocity = {-1, 0}, .contact = Contact{0.1}},
-                        oiler::Attractor{.gm = 1});
+        World world =
+            world_of("velocity_verlet", rate, 2, {}, {{.normal = {1, 0}, .restitution = 1}});
+        const Entity ball = world.spawn(
+            {.position = {1, 1}, .velocity = {-1, 0}, .contact = Contact{0.1}}, Attractor{.gm = 1});
         world.step(3 * rate);
         return world.position(ball);
     };
@@ -382,9 +335,7 @@ TEST(Landing, KeepsTheFieldOfAnAttractor) {
 // 10⁶ bounces of 0.9 s, of 7 steps each. An impact changes the energy by units of round-off that
 // add up at random, and steps by as many.
 TEST(Landing, MakesAnElasticBallKeepItsEnergy) {
-    World world = world_of("velocity_verlet", 8);
-    world.set_gravity({-g});
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("velocity_verlet", 8, 1, {-g}, {{.normal = {1}, .restitution = 1}});
     const Entity ball = world.spawn({.position = {1}, .contact = Contact{}});
     std::size_t met = 0;
     while (met < 1000000) {
@@ -400,9 +351,7 @@ TEST(Landing, MakesAnElasticBallKeepItsEnergy) {
 // a step, lose less.
 TEST(Landing, CostsSemiImplicitEulerItsSpeed) {
     const double dt = 1.0 / 60;
-    World world = world_of("semi_implicit_euler", 60);
-    world.set_gravity({-g});
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("semi_implicit_euler", 60, 1, {-g}, {{.normal = {1}, .restitution = 1}});
     world.spawn({.velocity = {10}, .contact = Contact{}});
     std::size_t bounces = 0;
     for (double before = 10; world.time() < 120;) {
@@ -424,9 +373,8 @@ TEST(Landing, CostsSemiImplicitEulerItsSpeed) {
 TEST(Landing, HoldsFarFromTheOriginInFloat) {
     constexpr double far = 1e6;
     constexpr double place = 0.0625;
-    World world = world_of("velocity_verlet", 60, 1, Precision::single);
-    world.set_gravity({-g});
-    world.add_plane({.normal = {1}, .offset = far, .restitution = 0.8});
+    World world = world_of("velocity_verlet", 60, 1, {-g},
+                           {{.normal = {1}, .offset = far, .restitution = 0.8}}, Precision::single);
     const Entity ball = world.spawn({.position = {far + 8}, .contact = Contact{}});
     for (int i = 0; i < 3600; ++i) {
         world.step();
@@ -456,10 +404,10 @@ TEST(Landing, LiftsOutOfANarrowWedge) {
 
 TEST(Landing, IsTheSameForAnyStepsPerCallAndThreads) {
     const auto hash = [](int per_call, int threads, Precision precision, const char* method) {
-        World world(2, oiler::Settings{.stepping = {.method = &oiler::find_method(method),
-                                                    .rate = {60},
-                                                    .precision = precision},
-                                       .threads = threads});
+        World world(2, Settings{.stepping = {.method = &find_method(method),
+                                             .rate = {60},
+                                             .precision = precision},
+                                .threads = threads});
         world.set_gravity({0, -g});
         world.add_plane({.normal = {0.1, 1}, .restitution = 0.7, .friction = 0.2});
         world.add_plane({.normal = {-1, 0}, .offset = -20, .restitution = 0.5});
@@ -471,7 +419,7 @@ TEST(Landing, IsTheSameForAnyStepsPerCallAndThreads) {
             world.spawn({.position = {at(), at() + 1},
                          .velocity = {at() - 5, at() - 5},
                          .contact = contact},
-                        oiler::LinearDrag{0.1 * (i % 3)});
+                        LinearDrag{0.1 * (i % 3)});
         }
         for (int i = 0; i < 192; i += per_call) world.step(per_call);
         return world.state_hash();
@@ -488,8 +436,7 @@ TEST(Landing, IsTheSameForAnyStepsPerCallAndThreads) {
 }
 
 TEST(Landing, ListsImpactsInTheOrderOfTime) {
-    World world = world_of("velocity_verlet", 1);
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("velocity_verlet", 1, 1, {}, {{.normal = {1}, .restitution = 1}});
     const Entity late = world.spawn({.position = {2}, .velocity = {-3}, .contact = Contact{}});
     const Entity early = world.spawn({.position = {1}, .velocity = {-2}, .contact = Contact{}});
     world.spawn({.position = {1}, .velocity = {-2}});
@@ -504,8 +451,7 @@ TEST(Landing, ListsImpactsInTheOrderOfTime) {
 }
 
 TEST(Landing, IsOnlyForBodiesWithAContact) {
-    World world = world_of("velocity_verlet", 10);
-    world.add_plane({.normal = {1}});
+    World world = world_of("velocity_verlet", 10, 1, {}, {{.normal = {1}}});
     const Entity ghost = world.spawn({.position = {1}, .velocity = {-10}});
     const Entity ball = world.spawn({.position = {1}, .velocity = {-10}, .contact = Contact{}});
     world.set_contact(ball, std::nullopt);
@@ -526,8 +472,7 @@ TEST(Landing, IsOnlyForBodiesWithAContact) {
 }
 
 TEST(Landing, MovesTheContactWithItsBody) {
-    World world = world_of("velocity_verlet", 10);
-    world.add_plane({.normal = {1}, .restitution = 1});
+    World world = world_of("velocity_verlet", 10, 1, {}, {{.normal = {1}, .restitution = 1}});
     const Entity gone = world.spawn({.position = {5}});
     world.spawn({.position = {5}});
     const Entity ball = world.spawn({.position = {1}, .velocity = {-10}, .contact = Contact{}});
@@ -542,9 +487,8 @@ TEST(Landing, MovesTheContactWithItsBody) {
 TEST(Landing, OfLinkedBodiesHasOrderOne) {
     // Two balls on a spring fall as one; the first bounce is resolved at the end of the step.
     const auto error = [](int rate) {
-        World world = world_of("velocity_verlet", rate);
-        world.set_gravity({-g});
-        world.add_plane({.normal = {1}, .restitution = 1});
+        World world =
+            world_of("velocity_verlet", rate, 1, {-g}, {{.normal = {1}, .restitution = 1}});
         const Entity a = world.spawn({.position = {1}, .contact = Contact{}});
         const Entity b = world.spawn({.position = {1}, .contact = Contact{}});
         world.link(a, b, {.stiffness = 1});
@@ -582,14 +526,12 @@ TEST(Landing, LeavesNoLinkedBodyBelowANarrowValley) {
 
 TEST(Landing, NeverLeavesABodyBelowAPlane) {
     for (const Precision precision : {Precision::single, Precision::double_}) {
-        World world = world_of("velocity_verlet", 60, 3, precision);
-        world.set_gravity({0, -g, 0});
-        const std::vector<oiler::Plane> planes{
+        const std::vector<Plane> planes{
             {.normal = {0, 1, 0}, .restitution = 0.8, .friction = 0.3},
             {.normal = {1, 1, 0}, .offset = -3, .restitution = 0.5},
             {.normal = {-2, 1, 1}, .offset = -8, .restitution = 1, .friction = 0.1},
             {.normal = {0, 0, -1}, .offset = -4, .restitution = 0}};
-        for (const oiler::Plane& plane : planes) world.add_plane(plane);
+        World world = world_of("velocity_verlet", 60, 3, {0, -g, 0}, planes, precision);
         std::mt19937 random(7);
         const auto uniform = [&](double from, double to) {
             return from + (to - from) * static_cast<double>(random()) / 4294967296.0;
@@ -610,7 +552,7 @@ TEST(Landing, NeverLeavesABodyBelowAPlane) {
             world.step();
             for (const auto& [ball, radius] : balls) {
                 const Vec3 x = world.position(ball);
-                for (const oiler::Plane& plane : planes) {
+                for (const Plane& plane : planes) {
                     const double gap =
                         (dot(plane.normal, x) - plane.offset) / length(plane.normal) - radius;
                     ASSERT_GE(gap, -8 * unit * (length(x) + 4.4)) << "step " << step;
@@ -622,9 +564,7 @@ TEST(Landing, NeverLeavesABodyBelowAPlane) {
 
 TEST(Landing, RefusesWrongNumbers) {
     World world = world_of("rk4", 60, 2);
-    const auto refused = [&](const oiler::Plane& plane) {
-        EXPECT_THROW(world.add_plane(plane), oiler::Error);
-    };
+    const auto refused = [&](const Plane& plane) { EXPECT_THROW(world.add_plane(plane), Error); };
     refused({.normal = {0, 0}});
     refused({.normal = {0, 0, 1}});
     refused({.normal = {1e200, 0}, .offset = 1e200});
@@ -635,8 +575,9 @@ TEST(Landing, RefusesWrongNumbers) {
     refused({.normal = {0, 1}, .friction = -1});
     refused({.normal = {0, 1}, .offset = std::nan("")});
     EXPECT_TRUE(world.bodies().planes().empty());
-    EXPECT_THROW(world.spawn({.contact = Contact{-1}}), oiler::Error);
+    EXPECT_THROW(world.spawn({.contact = Contact{-1}}), Error);
     EXPECT_EQ(world.bodies().size(), 0U);
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <string>
-
-#include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Body;
-using oiler::Damping;
-using oiler::Entity;
-using oiler::find_method;
-using oiler::Link;
-using oiler::Rate;
-using oiler::Spring;
-using oiler::World;
 
 constexpr Link stiff{.stiffness = 300, .damping = 0.5, .rest_length = 1};
 
@@ -46,7 +35,7 @@ TEST(WorldLinks, AreRemovedWithTheirEntities) {
     EXPECT_LT(chain.world.velocity(chain.third)[0], 0);
     chain.world.remove_body(chain.second);
     EXPECT_EQ(chain.world.bodies().link_count(), 0U);
-    const oiler::Vec3 velocity = chain.world.velocity(chain.third);
+    const Vec3 velocity = chain.world.velocity(chain.third);
     chain.world.step(5);
     EXPECT_EQ(chain.world.velocity(chain.third), velocity);
 }
@@ -62,8 +51,8 @@ TEST(WorldLinks, AreCopiedWithTheirWorld) {
 
 TEST(WorldLinks, ToPointsAreRemovedWithTheirEntities) {
     Chain chain;
-    const oiler::LinkHandle pin = chain.world.link_to_point(chain.first, {0, 1}, stiff);
-    const oiler::LinkHandle other = chain.world.link_to_point(chain.third, {3, 2}, stiff);
+    const LinkHandle pin = chain.world.link_to_point(chain.first, {0, 1}, stiff);
+    const LinkHandle other = chain.world.link_to_point(chain.third, {3, 2}, stiff);
     const World copy = chain.world;
     chain.world.destroy(chain.first);
     EXPECT_FALSE(chain.world.alive(pin));
@@ -81,7 +70,7 @@ TEST(WorldLinks, ReactToATeleportInTheNextStep) {
     chain.world.teleport(chain.first, {1.5, 0, 0});
     chain.world.teleport(chain.second, {2.5, 0, 0});
     chain.world.teleport(chain.third, {3.5, 0, 0});
-    const oiler::Vec3 before = chain.world.velocity(chain.first);
+    const Vec3 before = chain.world.velocity(chain.first);
     chain.world.step(1);
     // At rest lengths only the relative velocities of the first step pull, by less than 0.1 m/s².
     EXPECT_NEAR(chain.world.velocity(chain.first)[0], before[0], 0.1);
@@ -160,8 +149,9 @@ TEST(WorldMethods, ThatCannotStepTheBodiesAreRefusedBeforeAnyStep) {
     const Entity b = exact.spawn(Body{.position = {1, 0, 0}});
     EXPECT_NO_THROW(exact.require_applicable());
     exact.link(a, b, stiff);
-    EXPECT_THROW(exact.require_applicable(), oiler::Error);
+    EXPECT_THROW(exact.require_applicable(), Error);
     EXPECT_EQ(exact.tick(), 0);
 }
 
 }  // namespace
+}  // namespace oiler::test

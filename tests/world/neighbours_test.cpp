@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/world/neighbours.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <random>
 
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
 namespace {
 
-using oiler::Entity;
-using oiler::Neighbours;
-using oiler::Precision;
-using oiler::Vec3;
-using oiler::World;
 using Random = std::mt19937;
 
 constexpr double most = std::numeric_limits<double>::max();
@@ -159,8 +154,8 @@ TEST(Neighbours, RefuseBallsThatAreNotFinite) {
     const auto line_of = [&](const Vec3& point, double radius) -> std::string {
         try {
             static_cast<void>(world.within(point, radius));
-        } catch (const oiler::Error& error) {
-            EXPECT_EQ(error.exit(), oiler::Exit::usage);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit(), Exit::usage);
             return error.what();
         }
         return "";
@@ -172,7 +167,8 @@ TEST(Neighbours, RefuseBallsThatAreNotFinite) {
     EXPECT_EQ(line_of({0, NAN}, 1), "a query around y = nan: give a finite number");
     Neighbours neighbours;
     neighbours.update(world);
-    EXPECT_THROW(static_cast<void>(neighbours.within({}, -1)), oiler::Error);
+    EXPECT_THROW(static_cast<void>(neighbours.within({}, -1)), Error);
 }
 
 }  // namespace
+}  // namespace oiler::test

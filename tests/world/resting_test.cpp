@@ -1,39 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Bodies that come to rest on planes. How they slide is in sliding_test.cpp.
-#include <gtest/gtest.h>
+#include "world/contacts.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "oiler/world/world.hpp"
-
+namespace oiler::test {
 namespace {
-
-using oiler::Contact;
-using oiler::Entity;
-using oiler::Impact;
-using oiler::Meeting;
-using oiler::Vec3;
-using oiler::World;
-
-constexpr double g = 9.81;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-const char* const methods[] = {"semi_implicit_euler", "velocity_verlet", "rk4",
-                               "implicit_midpoint",   "implicit_euler",  "exact"};
-
-World world_of(const char* method, int rate, int axes = 2) {
-    return World(axes, {.method = &oiler::find_method(method), .rate = {rate}});
-}
 
 // A ball thrown up at u lands at u again; n bounces later it leaves at u·eⁿ, and the flights of
 // 2·u·eⁿ/g add up to 2u/(g(1 − e)).
 TEST(Resting, BeginsWhenAllBouncesAreOver) {
     for (const double e : {0.0, 0.5, 0.9, 0.99})
         for (const int rate : {20, 60, 240}) {
-            World world = world_of("velocity_verlet", rate, 1);
-            world.set_gravity({-g});
-            world.add_plane({.normal = {1}, .restitution = e});
+            World world =
+                world_of("velocity_verlet", rate, 1, {-g}, {{.normal = {1}, .restitution = e}});
             const Entity ball = world.spawn({.velocity = {3}, .contact = Contact{}});
             double rest = 0;
             while (rest == 0 && world.time() < 100) {
@@ -52,10 +30,10 @@ TEST(Resting, BeginsWhenAllBouncesAreOver) {
 }
 
 TEST(Resting, OnAFloorChangesNoBit) {
-    for (const char* method : methods) {
-        World world = world_of(method, 60);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .offset = 0.3, .restitution = 0.5, .friction = 0.5});
+    for (const char* method : contact_methods) {
+        World world =
+            world_of(method, 60, 2, {0, -g},
+                     {{.normal = {0, 1}, .offset = 0.3, .restitution = 0.5, .friction = 0.5}});
         const Entity box = world.spawn({.position = {0.7, 0.3 + 0.1}, .contact = Contact{0.1}});
         world.step(10);
         const Vec3 at = world.position(box);
@@ -70,11 +48,10 @@ TEST(Resting, OnAFloorChangesNoBit) {
 TEST(Resting, OnASlopeEndsAtTheFrictionAngle) {
     const double angle = 0.5;
     const Vec3 normal{-std::sin(angle), std::cos(angle)};
-    for (const char* method : methods)
+    for (const char* method : contact_methods)
         for (const double surplus : {-1e-6, 1e-6}) {
-            World world = world_of(method, 60);
-            world.set_gravity({0, -g});
-            world.add_plane({.normal = normal, .friction = std::tan(angle) + surplus});
+            World world = world_of(method, 60, 2, {0, -g},
+                                   {{.normal = normal, .friction = std::tan(angle) + surplus}});
             const Entity box = world.spawn({.contact = Contact{}});
             world.step(60);
             const double speed = length(world.velocity(box));
@@ -90,11 +67,10 @@ TEST(Resting, OnASlopeEndsAtTheFrictionAngle) {
 
 // Between a floor and a slope of 45°, gravity presses into both; no friction, no motion.
 TEST(Resting, InACorner) {
-    for (const char* method : methods) {
-        World world = world_of(method, 30);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {1, 1}, .restitution = 0.3});
-        world.add_plane({.normal = {-1, 1}, .restitution = 0.3});
+    for (const char* method : contact_methods) {
+        World world = world_of(
+            method, 30, 2, {0, -g},
+            {{.normal = {1, 1}, .restitution = 0.3}, {.normal = {-1, 1}, .restitution = 0.3}});
         const Entity ball =
             world.spawn({.position = {0.1, 0.5}, .velocity = {0.3, -0.2}, .contact = Contact{}});
         world.step(30 * 20);
@@ -108,10 +84,8 @@ TEST(Resting, InACorner) {
 
 TEST(Resting, AlongAnEdgeSlides) {
     // A gutter along z that descends: without friction a ball slides along its edge.
-    World world = world_of("velocity_verlet", 100, 3);
-    world.set_gravity({0, -g, 3});
-    world.add_plane({.normal = {1, 1, 0}});
-    world.add_plane({.normal = {-1, 1, 0}});
+    World world = world_of("velocity_verlet", 100, 3, {0, -g, 3},
+                           {{.normal = {1, 1, 0}}, {.normal = {-1, 1, 0}}});
     const Entity ball = world.spawn({.contact = Contact{}});
     world.step(200);
     EXPECT_NEAR(world.position(ball)[0], 0, 1e-14);
@@ -124,11 +98,9 @@ TEST(Resting, AlongAnEdgeSlides) {
 TEST(Resting, EndsWhenAForceLifts) {
     const double omega = 2 * std::acos(-1.0);
     const auto height_after = [&](int rate) {
-        World world = world_of("rk4", rate, 1);
-        world.set_gravity({-g});
-        world.add_plane({.normal = {1}});
+        World world = world_of("rk4", rate, 1, {-g}, {{.normal = {1}}});
         const Entity ball =
-            world.spawn({.contact = Contact{}}, oiler::Drive{.amplitude = {2 * g}, .frequency = 1});
+            world.spawn({.contact = Contact{}}, Drive{.amplitude = {2 * g}, .frequency = 1});
         world.step(rate / 4);
         return world.position(ball)[0];
     };
@@ -141,9 +113,7 @@ TEST(Resting, EndsWhenAForceLifts) {
 }
 
 TEST(Resting, EndsWithAPushOrANewForce) {
-    World world = world_of("velocity_verlet", 60);
-    world.set_gravity({0, -g});
-    world.add_plane({.normal = {0, 1}, .friction = 1});
+    World world = world_of("velocity_verlet", 60, 2, {0, -g}, {{.normal = {0, 1}, .friction = 1}});
     const Entity box = world.spawn({.mass = 2, .contact = Contact{}});
     const auto rest = [&] {
         world.teleport(box, {0, 0});
@@ -165,10 +135,10 @@ TEST(Resting, EndsWithAPushOrANewForce) {
     EXPECT_NEAR(world.velocity(box)[1], g / 60, 1e-15);
     world.set_gravity({0, -g});
     rest();
-    world.attach(box, oiler::Spring{.anchor = {0, 10}, .stiffness = 40});
+    world.attach(box, Spring{.anchor = {0, 10}, .stiffness = 40});
     world.step();
     EXPECT_GT(world.velocity(box)[1], 0);
-    world.detach<oiler::Spring>(box);
+    world.detach<Spring>(box);
     rest();
     world.clear_planes();
     world.step();
@@ -177,9 +147,7 @@ TEST(Resting, EndsWithAPushOrANewForce) {
 
 // The row that moves to the place of a removed one brings its own state of rest.
 TEST(Resting, IsThatOfTheBody) {
-    World world = world_of("velocity_verlet", 60);
-    world.set_gravity({0, -g});
-    world.add_plane({.normal = {0, 1}});
+    World world = world_of("velocity_verlet", 60, 2, {0, -g}, {{.normal = {0, 1}}});
     const Entity resting = world.spawn({.contact = Contact{}});
     const Entity falling = world.spawn({.position = {0, 5}, .contact = Contact{}});
     world.step(3);
@@ -195,9 +163,7 @@ TEST(Resting, IsThatOfTheBody) {
 TEST(Resting, OfALinkedBodyIsHeldByFriction) {
     for (const char* method :
          {"semi_implicit_euler", "velocity_verlet", "rk4", "implicit_midpoint"}) {
-        World world = world_of(method, 60);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .friction = 0.5});
+        World world = world_of(method, 60, 2, {0, -g}, {{.normal = {0, 1}, .friction = 0.5}});
         const Entity body = world.spawn({.position = {1, 0}, .contact = Contact{}});
         world.link_to_point(body, {}, {.stiffness = 3});
         world.step(600);
@@ -209,10 +175,9 @@ TEST(Resting, OfALinkedBodyIsHeldByFriction) {
 // The spring presses the body into a sharp corner: what one of the planes takes away goes into the
 // other.
 TEST(Resting, OfALinkedBodyInACorner) {
-    World world = world_of("velocity_verlet", 60);
-    world.set_gravity({0, -g});
-    world.add_plane({.normal = {0, 1}, .restitution = 0.5, .friction = 0.1});
-    world.add_plane({.normal = {-1, -0.6}, .restitution = 0.5, .friction = 0.1});
+    World world = world_of("velocity_verlet", 60, 2, {0, -g},
+                           {{.normal = {0, 1}, .restitution = 0.5, .friction = 0.1},
+                            {.normal = {-1, -0.6}, .restitution = 0.5, .friction = 0.1}});
     const Entity body = world.spawn({.position = {-1, 1}, .contact = Contact{}});
     world.link_to_point(body, {2, 0}, {.stiffness = 20, .damping = 1});
     world.step(1200);
@@ -224,9 +189,8 @@ TEST(Resting, OfALinkedBodyInACorner) {
 
 TEST(Resting, OfALinkedBody) {
     for (const double e : {0.0, 0.5, 0.9}) {
-        World world = world_of("velocity_verlet", 600);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .restitution = e, .friction = 0.5});
+        World world = world_of("velocity_verlet", 600, 2, {0, -g},
+                               {{.normal = {0, 1}, .restitution = e, .friction = 0.5}});
         const Entity below = world.spawn({.position = {0, 0.5}, .contact = Contact{0.1}});
         const Entity above = world.spawn({.position = {0, 1}, .contact = Contact{0.1}});
         world.link(below, above, {.stiffness = 500, .damping = 5, .rest_length = 0.5});
@@ -247,10 +211,9 @@ TEST(Resting, AtTheApexOfAWedge) {
     for (const double steep : {0.5, 0.2, 0.05, 0.01})
         for (const double e : {0.0, 0.5})
             for (const double from : {0.0, 0.1}) {
-                World world = world_of("velocity_verlet", 60, 2);
-                world.set_gravity({0, -g});
-                world.add_plane({.normal = {1, steep}, .restitution = e});
-                world.add_plane({.normal = {-1, steep}, .restitution = e});
+                World world = world_of("velocity_verlet", 60, 2, {0, -g},
+                                       {{.normal = {1, steep}, .restitution = e},
+                                        {.normal = {-1, steep}, .restitution = e}});
                 const Entity ball = world.spawn({.position = {from, 20}, .contact = Contact{}});
                 world.step(1200);
                 EXPECT_NEAR(length(world.position(ball)), 0, 1e-12) << steep << e << from;
@@ -286,8 +249,7 @@ TEST(Resting, InAValleyWithAnElasticSide) {
 TEST(Resting, WhereThereIsNoRoom) {
     World world = world_of("velocity_verlet", 60, 2);
     world.set_gravity({0, -g});
-    for (const oiler::Vec3 normal :
-         {oiler::Vec3{0.9, 1.96}, {0.63, -0.64}, {-0.8, -0.63}, {0.21, 0.72}})
+    for (const Vec3 normal : {Vec3{0.9, 1.96}, {0.63, -0.64}, {-0.8, -0.63}, {0.21, 0.72}})
         world.add_plane({.normal = normal});
     const Entity ball = world.spawn(
         {.position = {-0.33, -0.17}, .velocity = {1.98, 0.65}, .contact = Contact{0.1}});
@@ -298,10 +260,9 @@ TEST(Resting, WhereThereIsNoRoom) {
 // The bounces would end at √(2·0.001/10)·3 = 0.0424 s, at x = 0.924 m. The body slides from the
 // first one on, so it rests on the floor when it meets the wall at 0.75 m, at 0.025 s.
 TEST(Resting, IsNotReportedBehindAWall) {
-    World world = world_of("velocity_verlet", 10, 2);
-    world.set_gravity({0, -10});
-    world.add_plane({.normal = {0, 1}, .restitution = 0.5});
-    world.add_plane({.normal = {-1, 0}, .offset = -0.75, .restitution = 0.9});
+    World world = world_of("velocity_verlet", 10, 2, {0, -10},
+                           {{.normal = {0, 1}, .restitution = 0.5},
+                            {.normal = {-1, 0}, .offset = -0.75, .restitution = 0.9}});
     world.spawn({.position = {0.5, 0.001}, .velocity = {10}, .contact = Contact{}});
     std::vector<Impact> rests;
     for (int i = 0; i < 3; ++i) {
@@ -316,11 +277,10 @@ TEST(Resting, IsNotReportedBehindAWall) {
 
 // A body that slides on a floor from wall to wall does not leave the floor.
 TEST(Resting, IsNotReportedAgainAtAWall) {
-    World world = world_of("velocity_verlet", 60);
-    world.set_gravity({0, -g});
-    world.add_plane({.normal = {0, 1}});
-    world.add_plane({.normal = {1, 0}, .restitution = 1});
-    world.add_plane({.normal = {-1, 0}, .offset = -1, .restitution = 1});
+    World world = world_of("velocity_verlet", 60, 2, {0, -g},
+                           {{.normal = {0, 1}},
+                            {.normal = {1, 0}, .restitution = 1},
+                            {.normal = {-1, 0}, .offset = -1, .restitution = 1}});
     world.spawn({.position = {0.5, 0.1}, .velocity = {3}, .contact = Contact{}});
     int rests = 0;
     int bounces = 0;
@@ -338,21 +298,15 @@ TEST(Resting, IsNotReportedAgainAtAWall) {
 // A game that waits for the end of bounces hears of it once, whatever the method, the rate and the
 // precision.
 TEST(Resting, IsReportedOnce) {
-    for (const char* method : methods)
+    for (const char* method : contact_methods)
         for (const int rate : {20, 50, 60, 144})
-            for (const auto precision : {oiler::Precision::single, oiler::Precision::double_}) {
-                World world(2, {.method = &oiler::find_method(method),
-                                .rate = {rate},
-                                .precision = precision});
+            for (const auto precision : {Precision::single, Precision::double_}) {
+                World world(
+                    2, {.method = &find_method(method), .rate = {rate}, .precision = precision});
                 world.set_gravity({0, -g});
                 world.add_plane({.normal = {0, 1}, .restitution = 0.8, .friction = 0.1});
                 world.spawn({.position = {0, 4}, .velocity = {1}, .contact = Contact{0.2}});
-                int rests = 0;
-                for (int i = 0; i < 20 * rate; ++i) {
-                    world.step();
-                    for (const Impact& impact : world.impacts())
-                        rests += impact.kind == Meeting::rest;
-                }
+                const int rests = count(world, 20 * rate, Meeting::rest);
                 EXPECT_EQ(rests, 1) << method << rate << name_of(precision);
             }
 }
@@ -360,19 +314,16 @@ TEST(Resting, IsReportedOnce) {
 // In float, the last flights are as low as round-off: they may end between two steps.
 TEST(Resting, IsReportedAfterFlightsAsLowAsRoundOff) {
     for (int i = 0; i < 100; ++i) {
-        World world(2, {.method = &oiler::find_method("rk3_kutta"),
-                        .rate = {240},
-                        .precision = oiler::Precision::single});
+        World world(
+            2,
+            {.method = &find_method("rk3_kutta"), .rate = {240}, .precision = Precision::single});
         world.set_gravity({0, -g});
         world.add_plane({.normal = {0, 1}, .restitution = 0.95});
         world.spawn({.position = {0, 0.5 + 0.03 * i}, .contact = Contact{0.25}});
-        int rests = 0;
-        for (int step = 0; step < 40 * 240; ++step) {
-            world.step();
-            for (const Impact& impact : world.impacts()) rests += impact.kind == Meeting::rest;
-        }
+        const int rests = count(world, 40 * 240, Meeting::rest);
         EXPECT_EQ(rests, 1) << i;
     }
 }
 
 }  // namespace
+}  // namespace oiler::test

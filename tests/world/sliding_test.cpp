@@ -1,38 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Bodies that slide along planes. How they come to rest is in resting_test.cpp.
-#include <gtest/gtest.h>
+#include "world/contacts.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "oiler/world/world.hpp"
-
+namespace oiler::test {
 namespace {
-
-using oiler::Contact;
-using oiler::Entity;
-using oiler::Impact;
-using oiler::Meeting;
-using oiler::Vec3;
-using oiler::World;
-
-constexpr double g = 9.81;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-const char* const methods[] = {"semi_implicit_euler", "velocity_verlet", "rk4",
-                               "implicit_midpoint",   "implicit_euler",  "exact"};
-
-World world_of(const char* method, int rate, int axes = 2) {
-    return World(axes, {.method = &oiler::find_method(method), .rate = {rate}});
-}
 
 // A box pushed at 2 m/s over a floor with μ = 0.4 stops after u/(μg), at u²/(2μg).
 TEST(Sliding, StopsWhereCoulombSays) {
     const double mu = 0.4;
     for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"}) {
-        World world = world_of(method, 7);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .friction = mu});
+        World world = world_of(method, 7, 2, {0, -g}, {{.normal = {0, 1}, .friction = mu}});
         const Entity box = world.spawn({.velocity = {2, 0}, .contact = Contact{}});
         world.step(7);
         EXPECT_NEAR(world.position(box)[0], 4 / (2 * mu * g), 1e-14) << method;
@@ -46,9 +23,8 @@ TEST(Sliding, AcceleratesDownASlope) {
     const double angle = 0.6;
     const double mu = 0.25;
     for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"}) {
-        World world = world_of(method, 50);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu});
+        World world = world_of(method, 50, 2, {0, -g},
+                               {{.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu}});
         const Entity box = world.spawn({.contact = Contact{}});
         world.step(50);
         const double a = g * (std::sin(angle) - mu * std::cos(angle));
@@ -70,9 +46,9 @@ TEST(Sliding, StraightUphillComesBack) {
     for (const int axes : {2, 3})
         for (const char* method : {"velocity_verlet", "rk4", "implicit_midpoint", "exact"})
             for (const int rate : {20, 25, 100}) {
-                World world = world_of(method, rate, axes);
-                world.set_gravity({0, -g});
-                world.add_plane({.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu});
+                World world =
+                    world_of(method, rate, axes, {0, -g},
+                             {{.normal = {-std::sin(angle), std::cos(angle)}, .friction = mu}});
                 const Entity box = world.spawn(
                     {.velocity = {u * std::cos(angle), u * std::sin(angle)}, .contact = Contact{}});
                 world.step(rate * 6 / 5);
@@ -89,11 +65,9 @@ TEST(Sliding, StraightUphillComesBack) {
 TEST(Sliding, OnASpringLosesTheSameAtEachTurn) {
     const double omega = 2;
     const double mu = 0.1 * omega * omega / g;
-    World world = world_of("exact", 20);
-    world.set_gravity({0, -g});
-    world.add_plane({.normal = {0, 1}, .friction = mu});
+    World world = world_of("exact", 20, 2, {0, -g}, {{.normal = {0, 1}, .friction = mu}});
     const Entity block = world.spawn({.position = {0.95, 0}, .contact = Contact{}},
-                                     oiler::Spring{.anchor = {0, 0}, .stiffness = omega * omega});
+                                     Spring{.anchor = {0, 0}, .stiffness = omega * omega});
     const double half_period = std::acos(-1.0) / omega;
     for (int half = 1; half <= 5; ++half) {
         while (world.time() + 1.0 / 20 <= half * half_period) world.step();
@@ -128,16 +102,15 @@ TEST(Sliding, AfterBouncesEndsWhereTheClosedFormDoes) {
     const double rests_at = x - along * along / (2 * mu * g);
     for (const char* method : {"velocity_verlet", "rk4", "exact", "implicit_midpoint"})
         for (const int rate : {3, 20, 60, 240}) {
-            World world = world_of(method, rate, 2);
-            world.set_gravity({0, -g});
-            world.add_plane({.normal = {0, 1}, .restitution = e, .friction = mu});
+            World world = world_of(method, rate, 2, {0, -g},
+                                   {{.normal = {0, 1}, .restitution = e, .friction = mu}});
             const Entity ball =
                 world.spawn({.position = {0, h}, .velocity = {8}, .contact = Contact{}});
             int rests = 0;
             while (world.time() < 6) {
                 world.step();
-                for (const oiler::Impact& impact : world.impacts()) {
-                    if (impact.kind != oiler::Meeting::rest) continue;
+                for (const Impact& impact : world.impacts()) {
+                    if (impact.kind != Meeting::rest) continue;
                     ++rests;
                     EXPECT_NEAR(impact.time, tail_ends, 1e-12) << method << rate;
                     EXPECT_NEAR(impact.point[0], rests_at, 1e-10) << method << rate;
@@ -153,10 +126,9 @@ TEST(Sliding, AfterBouncesEndsWhereTheClosedFormDoes) {
 // In three axes a stop has a closed form: 9/(2·0.5·g) m in all, of which 0.3 m to the wall.
 TEST(Sliding, BouncesOffAWallBeforeItStops) {
     for (const char* method : {"exact", "velocity_verlet", "rk4"}) {
-        World world = world_of(method, 1, 3);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .friction = 0.5});
-        world.add_plane({.normal = {1}, .restitution = 1});
+        World world =
+            world_of(method, 1, 3, {0, -g},
+                     {{.normal = {0, 1}, .friction = 0.5}, {.normal = {1}, .restitution = 1}});
         const Entity body =
             world.spawn({.position = {0.3}, .velocity = {-3}, .contact = Contact{}});
         world.step();
@@ -187,11 +159,10 @@ TEST(Sliding, IsNotBrakedBetweenImpacts) {
     }
     v += (along - friction * into) * (1 - t);
     for (const int rate : {1, 60, 240}) {
-        World world = world_of("exact", rate);
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {-std::sin(angle), std::cos(angle)},
-                         .restitution = e,
-                         .friction = friction});
+        World world = world_of("exact", rate, 2, {0, -g},
+                               {{.normal = {-std::sin(angle), std::cos(angle)},
+                                 .restitution = e,
+                                 .friction = friction}});
         const Entity body = world.spawn({.velocity = {2.02898}, .contact = Contact{}});
         world.step(rate);
         EXPECT_NEAR(length(world.velocity(body)), std::abs(v), 1e-12) << rate;
@@ -223,14 +194,13 @@ TEST(Sliding, AcrossASlopeStops) {
     // Across at 3 m/s, and uphill at 1 m/s. Downhill is (−cos w, −sin w, 0).
     const auto [across, down] = stop_of_puck(3, -1, pull, grip);
     const auto error = [&](const char* method, int rate) {
-        World world = world_of(method, rate, 3);
-        world.set_gravity({0, -g, 0});
-        world.add_plane({.normal = {-0.1, 1, 0}, .friction = 0.4});
+        World world =
+            world_of(method, rate, 3, {0, -g, 0}, {{.normal = {-0.1, 1, 0}, .friction = 0.4}});
         const Entity puck =
             world.spawn({.velocity = {std::cos(w), std::sin(w), 3}, .contact = Contact{}});
         world.step(2 * rate);
         EXPECT_EQ(length(world.velocity(puck)), 0) << method << rate;
-        const oiler::Vec3 end = world.position(puck);
+        const Vec3 end = world.position(puck);
         return std::hypot(end[0] + down * std::cos(w), end[1] + down * std::sin(w),
                           end[2] - across);
     };
@@ -247,23 +217,21 @@ TEST(Sliding, AcrossASlopeStops) {
 // Near its stop, friction turns with the velocity at any rate: an implicit method that solved for
 // it would find no solution. Friction is larger than the slope, so that each body stops within 5 s.
 TEST(Sliding, StopsByImplicitMethods) {
-    std::mt19937_64 random(1);
-    const auto uniform = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
+    Dice dice(1);
     for (const char* method : {"implicit_euler", "implicit_midpoint"})
         for (int i = 0; i < 100; ++i) {
             World world = world_of(method, i % 2 == 0 ? 60 : 5, 3);
             world.set_gravity({0, -10, 0});
-            const double slope = i == 0 ? 0.2 : uniform(0, 0.4);
+            const double slope = i == 0 ? 0.2 : dice.uniform(0, 0.4);
             world.add_plane({.normal = {slope, 1, 0},
-                             .friction = i == 0 ? 0.3 : slope * 1.2 + uniform(0.1, 0.3)});
-            const Entity body = world.spawn(
-                {.velocity = {i == 0 ? 1 : uniform(-1, 1), 0, i == 0 ? 1 : uniform(-1, 1)},
-                 .contact = Contact{}});
+                             .friction = i == 0 ? 0.3 : slope * 1.2 + dice.uniform(0.1, 0.3)});
+            const Entity body = world.spawn({.velocity = {i == 0 ? 1 : dice.uniform(-1, 1), 0,
+                                                          i == 0 ? 1 : dice.uniform(-1, 1)},
+                                             .contact = Contact{}});
             world.step(5 * world.settings().stepping.rate.steps);
             EXPECT_EQ(length(world.velocity(body)), 0) << method << i;
         }
 }
 
 }  // namespace
+}  // namespace oiler::test

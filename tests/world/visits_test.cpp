@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Creating and destroying while entities are visited; timers and random numbers of a world.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <random>
-#include <set>
-#include <stdexcept>
-#include <vector>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Entity;
-using oiler::Error;
-using oiler::Moving;
-using oiler::Vec3;
-using oiler::World;
 
 struct Health {
     int points = 0;
@@ -183,7 +174,7 @@ TEST(Visits, NeitherCopyNorReplaceNorStepTheirWorld) {
     const auto mistake = [&](auto f) {
         try {
             world.each<Health>([&](Entity, Health&) { f(); });
-        } catch (const oiler::Mistake& caught) {
+        } catch (const Mistake& caught) {
             return std::string(caught.what());
         }
         return std::string();
@@ -253,9 +244,9 @@ TEST(Timers, RefuseTimesThatAreNone) {
 }
 
 TEST(WorldRandom, IsPartOfASnapshotAndFollowsTheSeed) {
-    World world(1, oiler::Settings{.seed = 5});
-    World same(1, oiler::Settings{.seed = 5});
-    World other(1, oiler::Settings{.seed = 6});
+    World world(1, Settings{.seed = 5});
+    World same(1, Settings{.seed = 5});
+    World other(1, Settings{.seed = 6});
     const std::uint64_t first = world.random().next();
     EXPECT_EQ(same.random().next(), first);
     EXPECT_NE(other.random().next(), first);
@@ -271,3 +262,4 @@ TEST(WorldRandom, IsPartOfASnapshotAndFollowsTheSeed) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/world/world.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
 #include <random>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Body;
-using oiler::Entity;
-using oiler::Error;
-using oiler::LinearDrag;
-using oiler::Precision;
-using oiler::Spring;
-using oiler::Vec3;
-using oiler::World;
 
 struct Health {
     int points = 0;
@@ -149,9 +132,8 @@ TEST(World, ManyStepsPerCallEqualSingleSteps) {
 }
 
 TEST(World, StepsWithItsSettings) {
-    World world(1, {.method = &oiler::find_method("explicit_euler"),
-                    .rate = {1},
-                    .precision = Precision::single});
+    World world(
+        1, {.method = &find_method("explicit_euler"), .rate = {1}, .precision = Precision::single});
     const Entity entity =
         world.spawn({.position = {1, 0, 0}, .velocity = {2, 0, 0}}, Spring{.stiffness = 4});
     world.step();
@@ -235,7 +217,7 @@ TEST(StateHash, DependsOnNoForce) {
 struct Paint {
     float speed = 0;
     int colour = 0;
-    void hash(oiler::StateHash& hash) const { hash.add(std::span(&speed, 1)); }
+    void hash(StateHash& hash) const { hash.add(std::span(&speed, 1)); }
 };
 
 TEST(StateHash, DependsOnComponentsThatSayHow) {
@@ -259,7 +241,7 @@ TEST(StateHash, DependsOnComponentsThatSayHow) {
     world.add(entity, Name{"x"});
     expect_change(false);
     ASSERT_EQ(world.unhashed().size(), 1U);
-    EXPECT_NE(world.unhashed()[0].find("Name"), std::string::npos);
+    EXPECT_TRUE(holds(world.unhashed()[0], "Name"));
     (void)world.random().next();
     expect_change(true);
     world.schedule(1, Health{3});
@@ -273,13 +255,8 @@ TEST(StateHash, DependsOnComponentsThatSayHow) {
 TEST(World, ADivergingRunThrows) {
     World world(1, {.rate = {1}, .precision = Precision::single});
     world.spawn({.velocity = {1, 0, 0}}, LinearDrag{3});
-    try {
-        world.step(1000);
-        FAIL() << "nothing thrown";
-    } catch (const oiler::Error& error) {
-        EXPECT_EQ(error.exit(), oiler::Exit::diverged);
-        EXPECT_NE(std::string(error.what()).find("step 128 "), std::string::npos) << error.what();
-    }
+    const std::string line = line_of_error(Exit::diverged, [&] { world.step(1000); });
+    EXPECT_TRUE(holds(line, "step 128 "));
 }
 
 // A computed number diverges; a number that was wrong when it was written is wrong usage.
@@ -291,12 +268,11 @@ TEST(World, TellsWrongUsageFromDivergence) {
     const auto exit_of = [](auto f) {
         try {
             f();
-        } catch (const oiler::Error& error) {
+        } catch (const Error& error) {
             return error.exit();
         }
-        return oiler::Exit::done;
+        return Exit::done;
     };
-    using oiler::Exit;
     EXPECT_EQ(exit_of([&] { world.set_position(a, {nan}); }), Exit::diverged);
     EXPECT_EQ(exit_of([&] { world.set_position(a, {0, 0, 1}); }), Exit::usage);
     EXPECT_EQ(exit_of([&] { world.apply_force(a, {0, 0, 1}); }), Exit::usage);
@@ -325,7 +301,7 @@ template <class F>
 std::string mistake(F f) {
     try {
         f();
-    } catch (const oiler::Mistake& mistake) {
+    } catch (const Mistake& mistake) {
         return mistake.what();
     }
     return "";
@@ -359,16 +335,14 @@ TEST(World, MistakesNameCallEntityAndTickAndChangeNothing) {
     EXPECT_EQ(mistake([&] { world.add(now, Health{}); }),
               line("add", "it has a component of this type already"));
     EXPECT_EQ(mistake([&] { world.add_body(now, {}); }), line("add_body", "it has a body already"));
-    EXPECT_NE(mistake([&] { (void)world.bodies().position(2); }).find("no body in this row"),
-              std::string::npos);
-    EXPECT_NE(mistake([] { World(4); }).find("1, 2 or 3 axes"), std::string::npos);
-    EXPECT_NE(mistake([&] { (void)world.random().below(0); }).find("give 1 or more"),
-              std::string::npos);
+    EXPECT_TRUE(holds(mistake([&] { (void)world.bodies().position(2); }), "no body in this row"));
+    EXPECT_TRUE(holds(mistake([] { World(4); }), "1, 2 or 3 axes"));
+    EXPECT_TRUE(holds(mistake([&] { (void)world.random().below(0); }), "give 1 or more"));
     EXPECT_EQ(world.state_hash(), hash);
 }
 
 TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
-    World world(1, {.method = &oiler::find_method("explicit_euler"), .rate = {1}});
+    World world(1, {.method = &find_method("explicit_euler"), .rate = {1}});
     const Entity first = world.spawn({});
     (void)world.spawn({});
     const Entity last = world.spawn({.position = {1e300}}, Spring{.stiffness = 1e9});
@@ -378,8 +352,9 @@ TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
         world.step(100);
         FAIL() << "nothing diverged";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("body 2"), std::string::npos) << error.what();
+        EXPECT_TRUE(holds(error.what(), "body 2"));
     }
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -10,10 +10,10 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/picture/picture.hpp"
 #include "oiler/picture/palette.hpp"
-#include "oiler/picture/picture_hash.hpp"
+#include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

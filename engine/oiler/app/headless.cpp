@@ -33,10 +33,6 @@ std::int64_t frames_in(double seconds, int fps) {
     return static_cast<std::int64_t>(frames);
 }
 
-std::string damping_of(const Stepping& stepping) {
-    return stepping.damping ? std::string(name_of(*stepping.damping)) : "";
-}
-
 Manifest describe(const Options& options, const About& about, const Surface& surface,
                   const Renderer& renderer) {
     const Stepping& stepping = options.settings.stepping;
@@ -52,7 +48,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .fps = fps,
             .rate = static_cast<int>(stepping.rate.steps),
             .method = std::string(stepping.method->name),
-            .damping = damping_of(stepping),
+            .damping = std::string(damping_name(stepping)),
             .precision = std::string(name_of(stepping.precision)),
             .scene = std::string(about.name),
             .scene_text = std::string(about.scene_text),
@@ -64,7 +60,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
 /// late.
 class FilmedInspector {
 public:
-    explicit FilmedInspector(const Run& run)
+    explicit FilmedInspector(const GameRun& run)
         : what_if_({run.options.settings, run.options.controls}, run.make, LiveWhatIf::Pace::own),
           inputs_(run.inputs, what_if_),
           profile_(run.profile),
@@ -96,7 +92,8 @@ private:
 };
 
 /// Draws the frames in their order until the last one or an interrupt.
-void draw_frames(Film& film, const Run& run, const Manifest& header, FilmedInspector* inspector) {
+void draw_frames(Film& film, const GameRun& run, const Manifest& header,
+                 FilmedInspector* inspector) {
     Playback& playback = run.playback;
     InputSource& inputs = inspector ? inspector->inputs() : run.inputs;
     Progress progress(run.options.quiet, "frames", header.planned_frames);
@@ -113,7 +110,7 @@ void draw_frames(Film& film, const Run& run, const Manifest& header, FilmedInspe
     }
 }
 
-void film(const Run& run, Renderer& renderer, const Manifest& header) {
+void film(const GameRun& run, Renderer& renderer, const Manifest& header) {
     const Options& options = run.options;
     std::optional<FilmedInspector> inspector;
     if (options.inspector) inspector.emplace(run);
@@ -152,7 +149,7 @@ std::string changes_of(const Manifest::Frame& expected, std::uint64_t state, std
 }
 
 /// Draws one frame, and compares it with that of the manifest, if there is one.
-Exit draw_still(const Run& run, Renderer& renderer, const Manifest& header) {
+Exit draw_still(const GameRun& run, Renderer& renderer, const Manifest& header) {
     const Span whole(run.profile, "frame");
     const Options& options = run.options;
     const std::int64_t frame = *options.frame;
@@ -191,7 +188,7 @@ Exit draw_still(const Run& run, Renderer& renderer, const Manifest& header) {
 
 }  // namespace
 
-Exit run_headless(Run& run) {
+Exit run_headless(GameRun& run) {
     const Options& options = run.options;
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });

@@ -20,20 +20,6 @@ bool has_common_tick(const World& world, const Rate& rate) {
 
 }  // namespace
 
-std::string_view no_way_back(const Options& options) {
-    if (!options.script.empty()) return "--script";
-    if (!options.record.empty()) return "--record";
-    if (!options.replay_file.empty()) return "--replay";
-    if (!options.trace.empty()) return "--trace";
-    return options.energy.empty() ? "" : "--energy";
-}
-
-std::string why_fixed(const Options& options, const About& about) {
-    if (!about.fixed_setting.empty()) return std::string(about.fixed_setting);
-    const std::string_view option = options.json.empty() ? no_way_back(options) : "--json";
-    return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
-}
-
 bool PendingSetting::make(Playback& playback, std::int64_t step, InputSource& inputs) {
     while (wanted_ && !has_common_tick(playback.world(), wanted_->rate)) {
         const std::int64_t before = playback.steps();
@@ -73,7 +59,7 @@ void WayBack::forget(std::int64_t step) {
     if (rewind_) rewind_->forget(step);
 }
 
-LivePlay::LivePlay(Run& run)
+LivePlay::LivePlay(GameRun& run)
     : run_(run),
       playback_(run.playback),
       clock_(run.options.settings.stepping.rate),
@@ -198,7 +184,8 @@ Picture& LivePlay::play(std::chrono::nanoseconds time) {
     const std::chrono::nanoseconds before = now();
     Picture& picture = next_picture();
     show_time_ = now() - before;
-    if (due > 0) clock_.limit_steps(due, run_.times.update + run_.times.step);
+    if (due > 0)
+        clock_.limit_steps(due, std::chrono::nanoseconds(run_.times.update + run_.times.step));
     const Span span(run_.profile, "play along");
     if (what_if_) what_if_->play_until(past_.is_in_past() ? past_.last() : playback_.steps());
     return picture;

@@ -87,7 +87,7 @@ public:
     };
 
     /// The run must outlive it.
-    explicit LivePlay(Run& run);
+    explicit LivePlay(GameRun& run);
 
     /// Pauses or resumes, and changes the pace.
     void set_pace(const Requests& requests);
@@ -136,7 +136,7 @@ private:
     template <class F>
     bool is_possible(F f);
 
-    Run& run_;
+    GameRun& run_;
     Playback& playback_;
     GameClock clock_;
     std::optional<LiveWhatIf> what_if_;
@@ -149,11 +149,5 @@ private:
     std::string complaint_;
     std::chrono::nanoseconds show_time_{0};
 };
-
-/// The option that needs each step as it was first taken; empty if the player may go back.
-[[nodiscard]] std::string_view no_way_back(const Options& options);
-
-/// Why the setting of a run cannot be changed; empty: it can.
-[[nodiscard]] std::string why_fixed(const Options& options, const About& about);
 
 }  // namespace oiler

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "oiler/app/golden.hpp"
@@ -20,219 +19,257 @@
 #include "oiler/play/keys.hpp"
 #include "oiler/process/parse.hpp"
 #include "oiler/process/parse_size.hpp"
-#include "oiler/whatif/what_if_settings.hpp"
+#include "oiler/whatif/what_if.hpp"
 
 namespace oiler {
 namespace {
 
-/// The options as words of the command line.
-struct Words {
-    std::string scene;
+using Path = std::filesystem::path;
+
+/// The options as the command line gives them.
+struct Given : Options {
+    Path scene;
+    Path from_file;
     std::string surface = "auto";
-    std::string size = "1280x720";
+    std::string size_words = "1280x720";
+    std::string png = "all";
+    std::string what_if_words;
     std::string method;
     std::string precision;
     std::string damping;
     std::int64_t rate = 0;
-    std::int64_t frames = 0;
-    std::int64_t steps = 0;
-    int fps = 60;
     std::uint64_t seed = 0;
     int threads = 1;
-    std::string png = "all";
-    std::filesystem::path from;
-    std::int64_t frame = 0;
-    std::string what_if;
     bool force = false;
 };
 
-/// Default values, for --help.
-struct Defaults {
-    explicit Defaults(const About& about)
-        : method(about.method),
-          precision(name_of(about.precision)),
-          rate(std::to_string(about.rate)),
-          seconds(fmt::format("{:g} s", about.duration)),
-          out(fmt::format("frames/{}", about.name)) {}
-    static Defaults of_scene() {
-        Defaults defaults{About{.name = "SCENE", .title = {}}};
-        defaults.method = defaults.precision = defaults.rate = "the scene's";
-        defaults.seconds = "the scene's duration";
-        return defaults;
-    }
+template <class Target, class Number = Target>
+struct Whole {
+    Target Given::*target;
+    Number low;
+    Number high;
+};
+using Count = Whole<std::optional<std::int64_t>, std::int64_t>;
+/// The member that holds the value of an option.
+using Target = std::variant<bool Given::*, std::string Given::*, Path Given::*, Count,
+                            Whole<std::optional<int>, int>, Whole<int>, Whole<std::int64_t>,
+                            Whole<std::uint64_t>>;
 
-    std::string method;
-    std::string precision;
-    std::string rate;
-    std::string seconds;
-    std::string out;
+/// The meaning of an option for a run, and the options that it needs or excludes.
+enum Trait : unsigned {
+    game_only = 1U << 0U,
+    scene_only = 1U << 1U,
+    input = 1U << 2U,           ///< a file that is read
+    output = 1U << 3U,          ///< a file that is written
+    drawn = 1U << 4U,           ///< excluded by --steps
+    filmed = 1U << 5U,          ///< needs --headless
+    several = 1U << 6U,         ///< of more frames than one: excluded by --frame
+    no_panel = 1U << 7U,        ///< excludes --inspector
+    compared = 1U << 8U,        ///< needs --golden
+    not_updated = 1U << 9U,     ///< excluded by --update-golden
+    recorded = 1U << 10U,       ///< a recording has it: excluded by --replay
+    of_many_runs = 1U << 11U,   ///< goes with --what-if
+    keeps_setting = 1U << 12U,  ///< the setting of the run cannot be changed
+    keeps_steps = 1U << 13U,    ///< needs each step as it was first taken; keeps the setting, too
 };
 
-void declare_drawing(CLI::App& app, Options& options, Words& words, const Defaults& defaults) {
-    app.add_flag("--headless", options.headless, "draw frames into a folder, without a window")
-        ->disable_flag_override();
-    app.add_option("--surface", words.surface,
-                   "provider of OpenGL: a window, or without a window OSMesa or EGL")
-        ->check(CLI::IsMember({"auto", "window", "osmesa", "egl"}))
-        ->type_name("NAME")
-        ->capture_default_str();
-    add_whole<std::int64_t>(
-        app, "--frames", words.frames, 1, 1'000'000,
-        "number of frames; if not given, a headless run draws " + defaults.seconds);
-    add_whole<int>(
-        app, "--fps", words.fps, 1, 1000,
-        "frames per second, 60 if not given; in a window a limit, the display's if not given");
-    app.add_option("--size", words.size, "size of frames or window in pixels; pictures are 16:9")
-        ->type_name("WxH")
-        ->capture_default_str();
-    app.add_option("--out", options.out, "folder for headless frames")
-        ->type_name("DIR")
-        ->default_str(defaults.out);
-    add_whole<std::int64_t>(app, "--steps", words.steps, 0, 1'000'000'000'000,
-                            "take N steps as fast as possible and draw nothing");
-}
+/// An option, in one place.
+struct Row {
+    const char* name;
+    const char* help;  ///< see fill_in
+    Target target;
+    unsigned traits = 0;
+    const char* shown = "";  ///< the default in --help, see fill_in
+    const char* type = "";   ///< in --help, or the allowed words; one in [] may be missing
+};
 
-void declare_capture(CLI::App& app, Options& options, Words& words) {
-    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* type,
-                              const char* help) {
-        app.add_option(name, path, help)->type_name(type);
+/// In the order of --help.
+const std::vector<Row>& rows() {
+    static const std::vector<Row> all{
+        {"SCENE", "scene file in TOML, see assets/scenes/README.md; not needed with --from",
+         &Given::scene, scene_only | input, "", "TEXT"},
+        {"--keys",
+         "take the buttons of actions from a TOML file: fire = [\"Space\", \"Pad south\"]",
+         &Given::keys, game_only | input | recorded},
+        {"--script",
+         "play the keys and the mouse of a text, with lines such as: 60 press Space; - for stdin",
+         &Given::script, game_only | input | recorded | keeps_steps},
+        {"--record", "record what is played, for --replay", &Given::record,
+         game_only | output | recorded | keeps_steps},
+        {"--replay", "play a recording with its settings: exit 1 with the first step that differs",
+         &Given::replay_file, game_only | input | keeps_steps | of_many_runs},
+        {"--what-if",
+         "play the recording of --replay with other settings and print what differs; settings such "
+         "as 30,rk4,velocity_verlet@120,float",
+         &Given::what_if_words, game_only | of_many_runs, "", "[SETTINGS]"},
+        {"--replay-anyway",
+         "replay a recording of another version of Oiler, and play on where a changed game differs",
+         &Given::replay_anyway, game_only | of_many_runs},
+        {"--headless", "draw frames into a folder, without a window", &Given::headless, drawn},
+        {"--surface", "provider of OpenGL: a window, or without a window OSMesa or EGL",
+         &Given::surface, drawn | of_many_runs, "auto", "auto|window|osmesa|egl"},
+        {"--frames", "number of frames; if not given, a headless run draws {seconds}",
+         Count{&Given::frames, 1, 1'000'000}, drawn | several},
+        {"--fps",
+         "frames per second, 60 if not given; in a window a limit, the display's if not given",
+         Whole<std::optional<int>, int>{&Given::fps, 1, 1000}, drawn},
+        {"--size", "size of frames or window in pixels; pictures are 16:9", &Given::size_words,
+         drawn | of_many_runs, "1280x720", "WxH"},
+        {"--out", "folder for headless frames", &Given::out, drawn | filmed | not_updated, "{out}",
+         "DIR"},
+        {"--steps", "take N steps as fast as possible and draw nothing",
+         Count{&Given::steps, 0, 1'000'000'000'000}, no_panel},
+        {"--png", "write PNG frames: all, or none for hashes only", &Given::png, filmed, "all",
+         "all|none"},
+        {"--keyframes", "write a PNG for every Nth frame only, hashes for all",
+         Whole<std::int64_t>{&Given::keyframes, 1, 1'000'000}, filmed | several},
+        {"--video", "write the frames as .mp4, .gif or .apng, too; needs ffmpeg", &Given::video,
+         output | filmed | several},
+        {"--sheet", "write up to 12 frames of the run on one PNG", &Given::sheet,
+         output | filmed | several | no_panel},
+        {"--golden", "compare the frames with those in DIR: exit 1 with the cause if they differ",
+         &Given::golden, filmed | several | no_panel, "", "DIR"},
+        {"--update-golden", "write the frames into the folder of --golden", &Given::update_golden,
+         compared},
+        {"--force", "let --update-golden run in CI", &Given::force},
+        {"--junit", "write the comparison with --golden as JUnit XML", &Given::junit,
+         output | compared | not_updated},
+        {"--from", "take the settings of a capture from its manifest.json", &Given::from_file,
+         input | filmed | recorded},
+        {"--frame", "draw frame N only; with --from, compare it with the manifest",
+         Count{&Given::frame, 0, 999'999}, filmed | no_panel},
+        {"--method",
+         "method of the step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
+         "implicit_midpoint, exact, …; `oiler methods` lists all",
+         &Given::method, recorded, "{method}"},
+        {"--damping", help_of_damping, &Given::damping, recorded, "", "kick|drift"},
+        {"--rate", "steps per second: dt = 1/N s", Whole<std::int64_t>{&Given::rate, 1, 1'000'000},
+         recorded, "{rate}"},
+        {"--precision", "precision of positions and velocities: float, double", &Given::precision,
+         recorded, "{precision}", "float|double"},
+        {"--threads", "number of threads; results do not depend on it",
+         Whole<int>{&Given::threads, 1, 256}, of_many_runs, "1"},
+        {"--seed", "seed of the game's random numbers",
+         Whole<std::uint64_t>{&Given::seed, 0, ~std::uint64_t{0}}, recorded, "0"},
+        {"--trace", "write each body after each step as CSV, - for stdout", &Given::trace,
+         output | keeps_steps},
+        {"--energy", "write energies after each step as CSV, - for stdout", &Given::energy,
+         output | keeps_steps},
+        {"--json", "write a summary of the run as JSON, - for stdout", &Given::json,
+         output | of_many_runs | keeps_setting},
+        {"--inspector", "show what the timestep costs beside the picture, as F1 does in a window",
+         &Given::inspector},
+        {"--profile", "write the times of all stages in Chrome's trace format", &Given::profile,
+         output},
+        {"--quiet", "print no remarks and no progress on standard error", &Given::quiet,
+         of_many_runs},
     };
-    app.add_option("--png", words.png, "write PNG frames: all, or none for hashes only")
-        ->check(CLI::IsMember({"all", "none"}))
-        ->type_name("NAME")
-        ->capture_default_str();
-    add_whole<std::int64_t>(app, "--keyframes", options.keyframes, 1, 1'000'000,
-                            "write a PNG for every Nth frame only, hashes for all");
-    add_file("--video", options.video, "FILE",
-             "write the frames as .mp4, .gif or .apng, too; needs ffmpeg");
-    add_file("--sheet", options.sheet, "FILE", "write up to 12 frames of the run on one PNG");
-    add_file("--golden", options.golden, "DIR",
-             "compare the frames with those in DIR: exit 1 with the cause if they differ");
-    app.add_flag("--update-golden", options.update_golden,
-                 "write the frames into the folder of --golden")
-        ->disable_flag_override();
-    app.add_flag("--force", words.force, "let --update-golden run in CI")->disable_flag_override();
-    add_file("--junit", options.junit, "FILE", "write the comparison with --golden as JUnit XML");
-    add_file("--from", words.from, "FILE", "take the settings of a capture from its manifest.json");
-    add_whole<std::int64_t>(app, "--frame", words.frame, 0, 999'999,
-                            "draw frame N only; with --from, compare it with the manifest");
+    return all;
 }
 
-void declare_stepping(CLI::App& app, Words& words, const Defaults& defaults) {
-    app.add_option(
-           "--method", words.method,
-           "method of the step: semi_implicit_euler, velocity_verlet, rk4, blanes_moan_srkn6b, "
-           "implicit_midpoint, exact, …; `oiler methods` lists all")
-        ->type_name("NAME")
-        ->default_str(defaults.method);
-    add_damping(app, words.damping);
-    add_whole<std::int64_t>(app, "--rate", words.rate, 1, 1'000'000, "steps per second: dt = 1/N s")
-        ->default_str(defaults.rate);
-    app.add_option("--precision", words.precision,
-                   "precision of positions and velocities: float, double")
-        ->check(CLI::IsMember({"float", "double"}))
-        ->type_name("NAME")
-        ->default_str(defaults.precision);
-    add_whole<int>(app, "--threads", words.threads, 1, 256,
-                   "number of threads; results do not depend on it")
-        ->default_str("1");
-    add_whole<std::uint64_t>(app, "--seed", words.seed, 0, ~std::uint64_t{0},
-                             "seed of the game's random numbers")
-        ->default_str("0");
-}
-
-void declare_output(CLI::App& app, Options& options) {
-    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* help) {
-        app.add_option(name, path, help)->type_name("FILE");
+/// Puts the defaults of the game, or of any scene, into a text of --help.
+std::string fill_in(const char* text, const About& about, bool is_scene) {
+    const auto of_game = [&](const auto& value) {
+        return is_scene ? std::string("the scene's") : fmt::format("{}", value);
     };
-    add_file("--trace", options.trace, "write each body after each step as CSV, - for stdout");
-    add_file("--energy", options.energy, "write energies after each step as CSV, - for stdout");
-    add_file("--json", options.json, "write a summary of the run as JSON, - for stdout");
-    app.add_flag("--inspector", options.inspector,
-                 "show what the timestep costs beside the picture, as F1 does in a window")
-        ->disable_flag_override();
-    add_file("--profile", options.profile,
-             "write the times of all stages in Chrome's trace format");
-    app.add_flag("--quiet", options.quiet, "print no remarks and no progress on standard error")
-        ->disable_flag_override();
+    return fmt::format(fmt::runtime(text), fmt::arg("method", of_game(about.method)),
+                       fmt::arg("precision", of_game(name_of(about.precision))),
+                       fmt::arg("rate", of_game(about.rate)),
+                       fmt::arg("seconds", is_scene ? "the scene's duration"
+                                                    : fmt::format("{:g} s", about.duration)),
+                       fmt::arg("out", fmt::format("frames/{}", is_scene ? "SCENE" : about.name)));
+}
+
+void declare(CLI::App& app, Given& given, const Row& row, const About& about, bool is_scene) {
+    const std::string help = fill_in(row.help, about, is_scene);
+    const auto add = [&]<class To>(const To& target) -> CLI::Option* {
+        if constexpr (requires { target.low; })
+            return add_whole(app, row.name, given.*target.target, target.low, target.high, help);
+        else if constexpr (std::is_same_v<To, bool Given::*>)
+            return app.add_flag(row.name, given.*target, help)->disable_flag_override();
+        else
+            return app.add_option(row.name, given.*target, help)
+                ->type_name(std::is_same_v<To, Path Given::*> ? "FILE" : "NAME");
+    };
+    CLI::Option* const option = std::visit(add, row.target);
+    const std::string type = row.type;
+    if (type.find('|') != type.npos)
+        option->check(CLI::IsMember(CLI::detail::split(type, '|')));
+    else if (!type.empty())
+        option->type_name(type);
+    if (type.starts_with('[')) option->expected(0, 1);
+    if (*row.shown != '\0') option->default_str(fill_in(row.shown, about, is_scene));
+}
+
+bool is_given(const CLI::App& app, const char* name) {
+    const CLI::Option* const option = app.get_option_no_throw(name);
+    return option != nullptr && option->count() > 0;
+}
+
+/// Refuses options with a trait. Their names stand between the two parts of the message.
+void refuse_all(const CLI::App& app, Trait trait, std::string_view before, std::string_view after) {
+    for (const Row& row : rows())
+        if ((row.traits & trait) != 0 && is_given(app, row.name))
+            fail(Exit::usage, "{}{}{}", before, row.name, after);
 }
 
 /// Checks that no path is empty, no output is an input and no two outputs are the same.
-void check_paths(const CLI::App& app, const Options& options, const Words& words) {
-    std::vector<NamedPath> outputs{{"--trace", options.trace}, {"--energy", options.energy},
-                                   {"--json", options.json},   {"--profile", options.profile},
-                                   {"--junit", options.junit}, {"--video", options.video},
-                                   {"--sheet", options.sheet}, {"--record", options.record}};
-    if (options.headless)
-        outputs.push_back({options.update_golden ? "--golden" : "--out",
-                           options.update_golden ? options.golden : options.out, is_capture_file});
-    std::vector<NamedPath> inputs{{"SCENE", words.scene},
-                                  {"--from", words.from},
-                                  {"--script", options.script},
-                                  {"--keys", options.keys},
-                                  {"--replay", options.replay_file}};
-    if (!options.update_golden) inputs.push_back({"--golden", options.golden, is_capture_file});
-    for (const std::vector<NamedPath>& paths : {outputs, inputs})
-        for (const NamedPath& path : paths)
-            if (path.name != "SCENE" && app.get_option_no_throw(path.name) != nullptr &&
-                app.count(path.name) > 0 && path.path.empty())
-                fail(Exit::usage, "{}: give a path", path.name);
-    if (options.record == "-")
+void check_paths(const CLI::App& app, const Given& given) {
+    std::vector<NamedPath> inputs;
+    std::vector<NamedPath> outputs;
+    for (const Row& row : rows()) {
+        const auto* const target = std::get_if<Path Given::*>(&row.target);
+        if (!target) continue;
+        const Path& path = given.*(*target);
+        if (path.empty() && (row.traits & scene_only) == 0 && is_given(app, row.name))
+            fail(Exit::usage, "{}: give a path", row.name);
+        if ((row.traits & output) != 0) outputs.push_back({row.name, path});
+        if ((row.traits & input) != 0 && !path.empty() && path != "-")
+            inputs.push_back({row.name, path});
+    }
+    const NamedPath golden{"--golden", given.golden, is_capture_file};
+    if (given.headless)
+        outputs.push_back(given.update_golden ? golden
+                                              : NamedPath{"--out", given.out, is_capture_file});
+    if (!given.update_golden && !given.golden.empty()) inputs.push_back(golden);
+    if (given.record == "-")
         fail(Exit::usage, "--record -: a recording is written to a file; give a name");
-    std::erase_if(inputs, [](const NamedPath& input) {
-        return input.path.empty() || (input.name == "--script" && input.path == "-");
-    });
     require_distinct(inputs, outputs);
-    if (!options.video.empty()) Video::require_format(options.video);
+    if (!given.video.empty()) Video::require_format(given.video);
 }
 
 /// Refuses options that contradict each other.
-void check_conflicts(const CLI::App& app, const Options& options, const Words& words) {
-    const auto refuse = [](std::string_view option, std::string_view why) {
-        fail(Exit::usage, "{}: {}", option, why);
-    };
-    const bool offscreen = words.surface == "osmesa" || words.surface == "egl";
-    if (app.count("--steps") > 0)
-        for (const char* other :
-             {"--headless", "--frames", "--fps", "--size", "--out", "--surface"})
-            if (app.count(other) > 0)
-                refuse(other, "draws, but --steps draws nothing; give one of them");
-    if (offscreen && !options.headless && !options.what_if)
-        refuse("--surface " + words.surface, "draws without a window; add --headless");
-    if (words.surface == "window" && options.headless)
-        refuse("--surface window", "opens a window; leave out --headless");
-    for (const char* option :
-         {"--out", "--png", "--keyframes", "--video", "--sheet", "--golden", "--from", "--frame"})
-        if (app.count(option) > 0 && !options.headless)
-            refuse(option, "needs a run without a window; add --headless");
-    if (words.png == "none" && app.count("--keyframes") > 0)
-        refuse("--keyframes", "chooses PNG frames, but --png none writes none; give one of them");
-    for (const char* option : {"--update-golden", "--junit"})
-        if (app.count(option) > 0 && options.golden.empty())
-            refuse(option, "needs a golden; add --golden DIR");
-    if (options.inspector)
-        for (const char* other : {"--steps", "--frame", "--golden", "--sheet"})
-            if (app.count(other) > 0)
-                refuse("--inspector", fmt::format("{} has no place for it; leave one out", other));
-    if (app.count("--frame") > 0)
-        for (const char* other : {"--frames", "--video", "--sheet", "--golden", "--keyframes"})
-            if (app.count(other) > 0) refuse(other, "draws more frames than --frame; give one");
+void check_conflicts(const CLI::App& app, const Given& given) {
+    const bool offscreen = given.surface == "osmesa" || given.surface == "egl";
+    if (given.steps)
+        refuse_all(app, drawn, "", ": draws, but --steps draws nothing; give one of them");
+    if (offscreen && !given.headless && !given.what_if)
+        fail(Exit::usage, "--surface {}: draws without a window; add --headless", given.surface);
+    if (given.surface == "window" && given.headless)
+        fail(Exit::usage, "--surface window: opens a window; leave out --headless");
+    if (!given.headless)
+        refuse_all(app, filmed, "", ": needs a run without a window; add --headless");
+    if (given.png == "none" && is_given(app, "--keyframes"))
+        fail(Exit::usage,
+             "--keyframes: chooses PNG frames, but --png none writes none; give one of them");
+    if (given.golden.empty()) refuse_all(app, compared, "", ": needs a golden; add --golden DIR");
+    if (given.inspector)
+        refuse_all(app, no_panel, "--inspector: ", " has no place for it; leave one out");
+    if (given.frame) refuse_all(app, several, "", ": draws more frames than --frame; give one");
 }
 
 /// Only options that mean something for many runs.
-void check_what_if(const CLI::App& app, const Words& words) {
-    constexpr std::array allowed{"--replay", "--replay-anyway", "--what-if", "--json",
-                                 "--quiet",  "--threads",       "--size",    "--surface"};
-    for (const CLI::Option* const option : app.get_options())
-        if (option->count() > 0 && std::ranges::count(allowed, option->get_name()) == 0)
+void check_what_if(const CLI::App& app, const Given& given) {
+    for (const Row& row : rows())
+        if ((row.traits & of_many_runs) == 0 && is_given(app, row.name))
             fail(Exit::usage, "{}: --what-if prints a table of many runs of a recording; {}",
-                 option->get_name(),
-                 option->get_name() == "--script"
+                 row.name,
+                 std::string_view(row.name) == "--script"
                      ? "record the script with --record FILE, then give --replay FILE"
                      : "leave one of them out");
-    if (words.surface == "window")
+    if (given.surface == "window")
         fail(Exit::usage, "--surface window: --what-if draws off screen; give osmesa or egl");
-    if (app.count("--replay") == 0)
+    if (!is_given(app, "--replay"))
         fail(Exit::usage, "--what-if: plays a recording; add --replay FILE");
 }
 
@@ -254,137 +291,87 @@ bool runs_in_ci() {
 }
 
 /// The golden is replaced on purpose only: a CI job that updates it would always pass.
-void check_update(const CLI::App& app, const Options& options, const Words& words) {
-    if (words.force && !options.update_golden)
+void check_update(const CLI::App& app, const Given& given) {
+    if (given.force && !given.update_golden)
         fail(Exit::usage, "--force: lets --update-golden run in CI; add --update-golden");
-    if (!options.update_golden) return;
-    for (const char* other : {"--out", "--junit"})
-        if (app.count(other) > 0)
-            fail(Exit::usage, "{}: --update-golden writes {} only; leave it out", other,
-                 options.golden.string());
-    if (runs_in_ci() && !words.force)
+    if (!given.update_golden) return;
+    refuse_all(
+        app, not_updated, "",
+        fmt::format(": --update-golden writes {} only; leave it out", given.golden.string()));
+    if (runs_in_ci() && !given.force)
         fail(Exit::usage,
              "--update-golden: the variable CI or JENKINS_URL is set, and a job that updates its "
-             "golden always "
-             "passes; run it on your computer, or add --force");
+             "golden always passes; run it on your computer, or add --force");
 }
 
 /// The settings of a replay are those of its recording.
-void take_replay(const CLI::App& app, Words& words, CommandLine& line) {
-    for (const char* option : {"--method", "--rate", "--precision", "--damping", "--seed", "--from",
-                               "--script", "--record", "--keys"})
-        if (app.count(option) > 0)
-            fail(Exit::usage, "{}: comes from the recording of --replay; leave it out", option);
-    line.options.replay = read_recording(line.options.replay_file);
-    const Stepping& stepping = line.options.replay->header.stepping;
-    words.method = stepping.method->name;
-    words.rate = static_cast<int>(stepping.rate.steps);
-    words.precision = name_of(stepping.precision);
-    words.damping = stepping.damping ? name_of(*stepping.damping) : "";
-    words.seed = line.options.replay->header.seed;
-    const Settings settings{.stepping = stepping, .seed = words.seed};
-    if (line.options.what_if && !words.what_if.empty())
-        line.options.what_if_settings = parse_what_if(words.what_if, stepping);
-    require_same_game(line.options.replay->header,
-                      header_of(line.about.name, settings, line.about.controls),
-                      line.options.replay_anyway);
-    line.options.controls = controls_of(line.options.replay->header, line.about.controls);
+void take_replay(const CLI::App& app, Given& given, const About& about) {
+    refuse_all(app, recorded, "", ": comes from the recording of --replay; leave it out");
+    given.replay = read_recording(given.replay_file);
+    const RecordingHeader& header = given.replay->header;
+    if (given.what_if && !given.what_if_words.empty())
+        given.what_if_settings = parse_what_if(given.what_if_words, header.stepping);
+    require_same_game(header, header_of(about.name, {header.stepping}, about.controls),
+                      given.replay_anyway);
+    given.controls = controls_of(header, about.controls);
 }
 
-void take_keys(CommandLine& line) {
-    const std::string file = line.options.keys.string();
-    if (line.about.controls.empty())
+void take_keys(Given& given, const About& about) {
+    if (about.controls.empty())
         fail(Exit::usage, "--keys: {} has no actions to choose buttons for; leave it out",
-             line.about.name);
-    line.options.controls = std::make_shared<const std::vector<Control>>(
-        parse_keys(read_text(line.options.keys), file, line.about.controls));
+             about.name);
+    given.controls = std::make_shared<const std::vector<Control>>(
+        parse_keys(read_text(given.keys), given.keys.string(), about.controls));
 }
 
 /// Settings that the command line does not give come from the manifest or from the game.
-void fill_in(const CLI::App& app, Words& words, CommandLine& line) {
-    const About& about = line.about;
-    const std::optional<Manifest>& from = line.options.from;
+void take_defaults(const CLI::App& app, Given& given, const About& about) {
+    const std::optional<Manifest>& from = given.from;
     if (from && from->scene != about.name)
         fail(Exit::usage, "--from: the manifest is of {}, not of {}; run that program", from->scene,
              about.name);
-    const auto fill = [&](const char* option, auto& word, auto of_manifest, auto of_about) {
-        if (app.count(option) == 0 && !line.options.replay)
-            word = from ? static_cast<std::decay_t<decltype(word)>>(of_manifest(*from))
-                        : static_cast<std::decay_t<decltype(word)>>(of_about);
+    const auto fill = [&]<class Word>(const char* option, Word& word, auto Manifest::*of_manifest,
+                                      auto of_about) {
+        if (!is_given(app, option)) word = from ? Word(*from.*of_manifest) : Word(of_about);
     };
-    fill(
-        "--method", words.method, [](const Manifest& m) { return m.method; }, about.method);
-    fill(
-        "--precision", words.precision, [](const Manifest& m) { return m.precision; },
-        name_of(about.precision));
-    fill(
-        "--rate", words.rate, [](const Manifest& m) { return m.rate; }, about.rate);
-    fill(
-        "--damping", words.damping, [](const Manifest& m) { return m.damping; }, about.damping);
-    fill(
-        "--seed", words.seed, [](const Manifest& m) { return m.seed; }, std::uint64_t{0});
+    fill("--method", given.method, &Manifest::method, about.method);
+    fill("--precision", given.precision, &Manifest::precision, name_of(about.precision));
+    fill("--rate", given.rate, &Manifest::rate, about.rate);
+    fill("--damping", given.damping, &Manifest::damping, about.damping);
+    fill("--seed", given.seed, &Manifest::seed, 0);
     if (!from) return;
-    if (app.count("--fps") == 0) line.options.fps = from->fps;
-    if (app.count("--frames") == 0) line.options.frames = from->planned_frames;
-    if (app.count("--size") == 0)
-        words.size = fmt::format("{}x{}", from->size.width, from->size.height);
+    if (!given.fps) given.fps = from->fps;
+    if (!given.frames) given.frames = from->planned_frames;
+    if (!is_given(app, "--size"))
+        given.size_words = fmt::format("{}x{}", from->size.width, from->size.height);
 }
 
-Options collect(const CLI::App& app, Options options, const Words& words, const About& about) {
-    check_conflicts(app, options, words);
-    check_update(app, options, words);
-    options.settings = {.stepping = {.method = &find_method(words.method),
-                                     .rate = {words.rate},
-                                     .precision = words.precision == "float" ? Precision::single
-                                                                             : Precision::double_},
-                        .seed = words.seed,
-                        .threads = words.threads};
-    if (!words.damping.empty())
-        options.settings.stepping.damping =
-            words.damping == "kick" ? Damping::in_kick : Damping::in_drift;
-    options.size = parse_size(words.size);
-    options.has_size = app.count("--size") > 0;
-    if (words.surface == "osmesa") options.offscreen = Offscreen::osmesa;
-    if (words.surface == "egl") options.offscreen = Offscreen::egl;
-    if (app.count("--frames") > 0) options.frames = words.frames;
-    if (app.count("--fps") > 0) options.fps = words.fps;
-    if (app.count("--steps") > 0) options.steps = words.steps;
-    if (app.count("--frame") > 0) options.frame = words.frame;
-    options.has_png = words.png == "all";
-    if (app.count("--out") == 0)
-        options.out = options.update_golden ? folder_of_new_golden(options.golden)
-                                            : std::filesystem::path("frames") / about.name;
-    check_paths(app, options, words);
-    check_golden(options);
-    return options;
-}
-
-void declare_play(CLI::App& app, Options& options, Words& words) {
-    const auto add_file = [&](const char* name, std::filesystem::path& path, const char* help) {
-        app.add_option(name, path, help)->type_name("FILE");
-    };
-    add_file("--keys", options.keys,
-             "take the buttons of actions from a TOML file: fire = [\"Space\", \"Pad south\"]");
-    add_file("--script", options.script,
-             "play the keys and the mouse of a text, with lines such as: 60 press Space; "
-             "- for stdin");
-    add_file("--record", options.record, "record what is played, for --replay");
-    add_file("--replay", options.replay_file,
-             "play a recording with its settings: exit 1 with the first step that differs");
-    app.add_option("--what-if", words.what_if,
-                   "play the recording of --replay with other settings and print what differs; "
-                   "settings such as 30,rk4,velocity_verlet@120,float")
-        ->type_name("[SETTINGS]")
-        ->expected(0, 1);
-    app.add_flag("--replay-anyway", options.replay_anyway,
-                 "replay a recording of another version of Oiler, and play on where a changed game "
-                 "differs")
-        ->disable_flag_override();
-}
-
-void declare_scene(CLI::App& app, Words& words) {
-    app.add_option("SCENE", words.scene,
-                   "scene file in TOML, see assets/scenes/README.md; not needed with --from");
+/// The options of a run, from words that are filled in.
+Options collect(const CLI::App& app, Given given, const About& about) {
+    check_conflicts(app, given);
+    check_update(app, given);
+    given.settings = {
+        .stepping = {.method = &find_method(given.method),
+                     .rate = {given.rate},
+                     .precision = find_precision(given.precision).value_or(Precision::double_),
+                     .damping = find_damping(given.damping)},
+        .seed = given.seed,
+        .threads = given.threads};
+    if (given.replay) {
+        given.settings.stepping = given.replay->header.stepping;
+        given.settings.seed = given.replay->header.seed;
+    }
+    given.size = parse_size(given.size_words);
+    given.has_size = is_given(app, "--size");
+    if (given.surface == "osmesa") given.offscreen = Offscreen::osmesa;
+    if (given.surface == "egl") given.offscreen = Offscreen::egl;
+    given.has_png = given.png == "all";
+    if (!is_given(app, "--out"))
+        given.out =
+            given.update_golden ? folder_of_new_golden(given.golden) : Path("frames") / about.name;
+    check_paths(app, given);
+    check_golden(given);
+    return given;
 }
 
 std::string footer(const std::string& program, std::span<const Control> controls) {
@@ -398,10 +385,29 @@ std::string footer(const std::string& program, std::span<const Control> controls
            " --headless --frames 120 --size 640x360 --out frames";
 }
 
+/// The first option with a trait that names a file; empty: none does.
+std::string_view given_file(const Options& options, Trait trait) {
+    for (const Row& row : rows())
+        if (const auto* const target = std::get_if<Path Given::*>(&row.target);
+            target && (row.traits & trait) != 0 &&
+            !(options.*static_cast<Path Options::*>(*target)).empty())
+            return row.name;
+    return "";
+}
+
 }  // namespace
 
-CommandLine parse_command_line(int argc, char** argv, const About& about) {
-    return parse_command_line(argc, argv, about, {});
+std::string_view no_way_back(const Options& options) { return given_file(options, keeps_steps); }
+
+std::string_view fixing_option(const Options& options) {
+    const std::string_view option = given_file(options, keeps_setting);
+    return option.empty() ? no_way_back(options) : option;
+}
+
+std::string why_fixed(const Options& options, const About& about) {
+    if (!about.fixed_setting.empty()) return std::string(about.fixed_setting);
+    const std::string_view option = fixing_option(options);
+    return option.empty() ? "" : fmt::format("{} keeps this setting.", option);
 }
 
 CommandLine parse_command_line(int argc, char** argv, const About& about,
@@ -411,25 +417,21 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
     CLI::App app(std::string(about.title), name);
     app.footer(footer(name + (about_scene ? " assets/scenes/cloth.toml" : ""), about.controls));
     app.set_version_flag("--version", name + " " + std::string(version()));
-    CommandLine line{.options = {}, .text = {}, .about = about};
-    Words words;
-    const Defaults defaults = about_scene ? Defaults::of_scene() : Defaults(about);
-    about_scene ? declare_scene(app, words) : declare_play(app, line.options, words);
-    declare_drawing(app, line.options, words, defaults);
-    declare_capture(app, line.options, words);
-    declare_stepping(app, words, defaults);
-    declare_output(app, line.options);
-    line.text = parse(app, argc, argv);
+    Given given;
+    const bool is_scene = about_scene != nullptr;
+    for (const Row& row : rows())
+        if ((row.traits & (is_scene ? game_only : scene_only)) == 0)
+            declare(app, given, row, about, is_scene);
+    CommandLine line{.options = {}, .text = parse(app, argc, argv), .about = about};
     if (!line.text.empty()) return line;
-    const CLI::Option* const what_if = app.get_option_no_throw("--what-if");
-    line.options.what_if = what_if != nullptr && what_if->count() > 0;
-    if (line.options.what_if) check_what_if(app, words);
-    if (!words.from.empty()) line.options.from = read_manifest(words.from);
-    if (about_scene) line.about = about_scene(words.scene, line.options.from);
-    if (!line.options.replay_file.empty()) take_replay(app, words, line);
-    if (!line.options.keys.empty()) take_keys(line);
-    fill_in(app, words, line);
-    line.options = collect(app, std::move(line.options), words, line.about);
+    given.what_if = is_given(app, "--what-if");
+    if (given.what_if) check_what_if(app, given);
+    if (!given.from_file.empty()) given.from = read_manifest(given.from_file);
+    if (about_scene) line.about = about_scene(given.scene.string(), given.from);
+    if (!given.replay_file.empty()) take_replay(app, given, line.about);
+    if (!given.keys.empty()) take_keys(given, line.about);
+    take_defaults(app, given, line.about);
+    line.options = collect(app, std::move(given), line.about);
     return line;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oiler/capture/manifest.hpp"
@@ -54,6 +55,14 @@ struct Options {
     bool quiet = false;
 };
 
+/// The option that needs each step as it was first taken, such as "--record"; empty: none does, so
+/// that the player may go back.
+[[nodiscard]] std::string_view no_way_back(const Options& options);
+/// The option with which the setting of a run stays as it is, such as "--json"; empty: none does.
+[[nodiscard]] std::string_view fixing_option(const Options& options);
+/// Why a player cannot change the setting of a run; empty: it can be changed.
+[[nodiscard]] std::string why_fixed(const Options& options, const About& about);
+
 /// The controls of the game with the buttons that the player has.
 [[nodiscard]] inline std::span<const Control> controls_of(const Options& options,
                                                           const About& about) {
@@ -72,13 +81,10 @@ struct CommandLine {
 using AboutScene =
     std::function<About(const std::string& path, const std::optional<Manifest>& from)>;
 
-/// Parses the options of a game. Throws Error{usage} with the option and its allowed values.
-[[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about);
-
-/// Parses the options of a program `about` that plays a scene file. Settings of the file hold
-/// unless the command line gives others. Throws Error{usage} with the option and its allowed
-/// values.
+/// Parses the options of a game, or with `about_scene` those of a program that plays a scene file,
+/// whose settings hold unless the command line gives others. Throws Error{usage} with the option
+/// and its allowed values.
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv, const About& about,
-                                             const AboutScene& about_scene);
+                                             const AboutScene& about_scene = {});
 
 }  // namespace oiler

@@ -8,6 +8,7 @@
 
 #include "oiler/core/state_hash.hpp"
 #include "oiler/process/interrupt.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

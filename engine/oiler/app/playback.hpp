@@ -9,7 +9,7 @@
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/core/profile.hpp"
 #include "oiler/game/game.hpp"
-#include "oiler/play/tape.hpp"
+#include "oiler/play/replay.hpp"
 
 namespace oiler {
 

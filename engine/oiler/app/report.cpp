@@ -2,10 +2,10 @@
 #include "oiler/app/report.hpp"
 
 #include <cmath>
-#include <variant>
 
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -19,21 +19,16 @@ double seconds(std::chrono::nanoseconds time) {
     return std::chrono::duration<double>(time).count();
 }
 
-/// Null for methods without a choice.
-Json damping_json(const Stepping& stepping) {
-    if (!std::holds_alternative<Splitting>(stepping.method->rule)) return nullptr;
-    return name_of(stepping.damping.value_or(stepping.method->damping));
-}
-
 }  // namespace
 
 void write_report(File& file, const RunReport& report, const World& world) {
     const Settings& settings = world.settings();
+    Json stepping = to_json(settings.stepping);
     Json json{{"scene", report.scene},
-              {"method", settings.stepping.method->name},
-              {"damping", damping_json(settings.stepping)},
-              {"rate", settings.stepping.rate.steps},
-              {"precision", name_of(settings.stepping.precision)},
+              {"method", stepping["method"]},
+              {"damping", stepping["damping"]},
+              {"rate", stepping["rate"]},
+              {"precision", stepping["precision"]},
               {"threads", settings.threads},
               {"seed", settings.seed},
               {"steps", report.steps},

@@ -8,19 +8,11 @@
 #include <vector>
 
 #include "oiler/capture/file.hpp"
-#include "oiler/game/reading.hpp"
+#include "oiler/core/budget_entry.hpp"
+#include "oiler/game/loop.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
-
-/// One limit of a budget, compared with the run.
-struct BudgetEntry {
-    std::string name;
-    double most = 0;
-    double measured = 0;
-    bool kept = true;
-    std::string words;  ///< the entry as a sentence
-};
 
 /// Results of a run that its world does not hold.
 struct RunReport {

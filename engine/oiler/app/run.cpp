@@ -17,14 +17,13 @@
 #include "oiler/app/window.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/play/replay.hpp"
 #include "oiler/play/script.hpp"
-#include "oiler/play/tape.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/process/guard_main.hpp"
 #include "oiler/process/interrupt.hpp"
-#include "oiler/sim/instructions.hpp"
-#include "oiler/whatif/what_if.hpp"
-#include "oiler/whatif/what_if_settings.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/kernels/instructions.hpp"
+#include "oiler/whatif/what_if_runs.hpp"
 
 namespace oiler {
 namespace {
@@ -122,10 +121,10 @@ private:
 
     std::optional<ScriptInput> script_;
     std::optional<Replay> replay_;
-    std::optional<Tape> tape_;
+    std::optional<InputRecorder> tape_;
 };
 
-void run_steps(const Run& run) {
+void run_steps(const GameRun& run) {
     Playback& playback = run.playback;
     const std::int64_t steps = *run.options.steps;
     Progress progress(run.options.quiet, "steps", steps);
@@ -137,7 +136,7 @@ void run_steps(const Run& run) {
 }
 
 /// Plays in a window, as frames or as steps alone.
-RunEnd play_to_end(Run& run) {
+RunEnd play_to_end(GameRun& run) {
     const Options& options = run.options;
     if (!options.headless && !options.steps) return run_window(run);
     if (!options.steps) {
@@ -193,7 +192,7 @@ Exit run_what_if(const Options& options, const About& about, const MakeGame& mak
 }
 
 /// Plays the game. Completes the report, also after a divergence.
-Exit play(Run& run, RunInputs& inputs, RunReport& report) {
+Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
     const Playback& playback = run.playback;
     const Clock::time_point start = Clock::now();
     RunEnd end;
@@ -242,14 +241,14 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
     inputs.watch(playback);
-    Run run{.options = options,
-            .about = about,
-            .make = make,
-            .playback = playback,
-            .live = inputs.live,
-            .inputs = inputs.source(),
-            .shelf = shelf,
-            .profile = stages};
+    GameRun run{.options = options,
+                .about = about,
+                .make = make,
+                .playback = playback,
+                .live = inputs.live,
+                .inputs = inputs.source(),
+                .shelf = shelf,
+                .profile = stages};
     Exit exit = play(run, inputs, report);
     exit = std::max(exit, inputs.finish(playback, options, !report.divergence.empty()));
     trace.commit();

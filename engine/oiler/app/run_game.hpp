@@ -9,12 +9,13 @@
 #include "oiler/app/playback.hpp"
 #include "oiler/app/report.hpp"
 #include "oiler/app/shelf.hpp"
+#include "oiler/core/error.hpp"
 
 namespace oiler {
 
 /// A run: which game is played with which options, how it is stepped, and where its steps get their
 /// input from.
-struct Run {
+struct GameRun {
     const Options& options;
     const About& about;
     const MakeGame& make;  ///< makes the game anew, and those that play along
@@ -35,7 +36,7 @@ struct RunEnd {
 /// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
 /// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
 /// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
-Exit run_headless(Run& run);
+Exit run_headless(GameRun& run);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

@@ -51,7 +51,7 @@ void limit_frame_rate(std::chrono::nanoseconds frame_start, int fps) {
 
 }  // namespace
 
-GameWindow::GameWindow(Run& run)
+GameWindow::GameWindow(GameRun& run)
     : run_(run),
       title_(run.about.title),
       controls_(controls_of(run.options, run.about)),
@@ -129,8 +129,7 @@ void GameWindow::take_from_shelf() {
         title_ = taken->title;
         window_->set_title(title_);
         play_.change_to(taken->stepping, true);
-        inspector_.list_methods();
-        inspector_.stop_following();
+        inspector_.begin_game();
     } catch (const Error& error) {
         play_.complain(error.what());
     }
@@ -250,7 +249,7 @@ NameButton GameWindow::key_names() const {
     };
 }
 
-RunEnd run_window(Run& run) {
+RunEnd run_window(GameRun& run) {
     GameWindow window(run);
     const int fps = window.fps();
     while (!Interrupt::requested()) {

@@ -20,7 +20,7 @@ namespace oiler {
 class GameWindow {
 public:
     /// Opens the window. The run must outlive it.
-    explicit GameWindow(Run& run);
+    explicit GameWindow(GameRun& run);
 
     /// Polls, controls, steps and draws, at `now` of a monotonic clock. Returns whether the next
     /// frame follows.
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] std::string status(const Requests& requests);
     [[nodiscard]] NameButton key_names() const;
 
-    Run& run_;
+    GameRun& run_;
     std::string title_;
     std::span<const Control> controls_;  ///< of the game
     std::unique_ptr<Window> window_;
@@ -74,6 +74,6 @@ private:
 };
 
 /// Shows the game in a window in real time until the user quits, or the display or a replay ends.
-[[nodiscard]] RunEnd run_window(Run& run);
+[[nodiscard]] RunEnd run_window(GameRun& run);
 
 }  // namespace oiler

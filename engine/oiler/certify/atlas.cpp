@@ -8,7 +8,6 @@
 #include "oiler/certify/region.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/plot/text_width.hpp"
 
 namespace oiler::certify {
 namespace {

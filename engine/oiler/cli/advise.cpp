@@ -5,7 +5,6 @@
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/lab/advice/json.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse_size.hpp"
 #include "oiler/scene/apply.hpp"
@@ -136,7 +135,7 @@ struct AdviseCommand {
     void show(const Advice& advice, const Scene& scene, const Reference& reference,
               const Requirements& requirements) const {
         if (!scene_options.json.empty())
-            write_json(scene_options.json, json_of(advice, scene, reference, requirements));
+            write_json(scene_options.json, to_json(advice, scene, reference, requirements));
         if (scene_options.json == "-") return;
         std::string text;
         for (const std::string& sentence : describe(advice, scene, reference, requirements))
@@ -149,7 +148,7 @@ struct AdviseCommand {
         File applied(file);
         applied.write(apply(read_text(file), file, stepping));
         applied.commit(Sync::disk);
-        remark(scene_options.quiet, "{} now has the setting {}", file, lab::describe(stepping));
+        remark(scene_options.quiet, "{} now has the setting {}", file, describe(stepping));
     }
 
     [[nodiscard]] Exit run() const {

@@ -8,7 +8,7 @@
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
 #include "oiler/core/junit.hpp"
-#include "oiler/lab/budget.hpp"
+#include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/make_world.hpp"
@@ -24,12 +24,12 @@ struct CheckResult {
     std::string file;
     std::vector<std::string> warnings{};  ///< of the pre-flight
     std::string divergence{};             ///< empty if the run stays finite
-    std::vector<BudgetLine> lines{};
+    std::vector<BudgetEntry> lines{};
     std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
         if (!divergence.empty()) return false;
-        for (const BudgetLine& line : lines)
+        for (const BudgetEntry& line : lines)
             if (!line.kept) return false;
         return true;
     }
@@ -42,11 +42,11 @@ void add(JunitSuite& suite, const CheckResult& result) {
         suite.add_passed(result.file, "preflight",
                          fmt::format("{}", fmt::join(result.warnings, "; ")));
     if (!result.divergence.empty()) suite.add_failed(result.file, "run", result.divergence);
-    for (const BudgetLine& line : result.lines)
+    for (const BudgetEntry& line : result.lines)
         if (line.kept)
-            suite.add_passed(result.file, line.name, describe(line));
+            suite.add_passed(result.file, line.name, line.words);
         else
-            suite.add_failed(result.file, line.name, describe(line));
+            suite.add_failed(result.file, line.name, line.words);
     if (!result.lines.empty()) return;
     if (!result.error.empty())
         suite.add_error(result.file, "budget", result.error);
@@ -67,7 +67,7 @@ Json to_json(const std::vector<CheckResult>& all) {
         if (result.lines.empty() && result.kept()) entry["kept"] = nullptr;
         if (!result.divergence.empty()) entry["diverged"] = result.divergence;
         if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
-        for (const BudgetLine& line : result.lines)
+        for (const BudgetEntry& line : result.lines)
             entry[line.name] = {
                 {"measured", number(line.measured)}, {"budget", line.most}, {"kept", line.kept}};
         json.push_back(std::move(entry));
@@ -125,8 +125,8 @@ std::string text_of(const std::vector<CheckResult>& all, bool quiet) {
             text += fmt::format("{}: {}\n", result.file, result.divergence);
         if (result.lines.empty() && result.error.empty())
             text += fmt::format("{}: no [budget]\n", result.file);
-        for (const BudgetLine& line : result.lines)
-            text += fmt::format("{}: {}\n", result.file, describe(line));
+        for (const BudgetEntry& line : result.lines)
+            text += fmt::format("{}: {}\n", result.file, line.words);
     }
     return text;
 }

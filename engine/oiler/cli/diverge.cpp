@@ -171,7 +171,7 @@ std::string text_of(const DivergeResult& result) {
 
 Json ulps_json(std::uint64_t ulps) { return ulps == not_in_ulps ? Json(nullptr) : Json(ulps); }
 
-Json json_of(const RunDivergence::Value& value, int axes) {
+Json to_json(const RunDivergence::Value& value, int axes) {
     return {{"tick", value.tick},
             {"time", value.time},
             {"body", value.body},
@@ -184,14 +184,14 @@ Json json_of(const RunDivergence::Value& value, int axes) {
             {"bodies_that_differ", value.bodies}};
 }
 
-Json json_of(const RunDivergence::Presence& presence) {
+Json to_json(const RunDivergence::Presence& presence) {
     return {{"tick", presence.tick},
             {"time", presence.time},
             {"only_a", presence.only_a},
             {"only_b", presence.only_b}};
 }
 
-Json json_of(const std::vector<RunDivergence::Growth>& growth) {
+Json to_json(const std::vector<RunDivergence::Growth>& growth) {
     Json json = Json::array();
     for (const RunDivergence::Growth& row : growth)
         json.push_back({{"tick", row.tick},
@@ -202,17 +202,17 @@ Json json_of(const std::vector<RunDivergence::Growth>& growth) {
     return json;
 }
 
-Json json_of(const StateLog& log) {
+Json to_json(const StateLog& log) {
     return {{"file", log.name},
             {"last_tick", log.ticks.back().tick},
             {"precision", log.floats ? "float" : "double"}};
 }
 
-Json json_of(const DivergeResult& result) {
+Json to_json(const DivergeResult& result) {
     const RunDivergence& found = result.divergence;
     Json json{{"same", result.same()},
-              {"a", json_of(result.a)},
-              {"b", json_of(result.b)},
+              {"a", to_json(result.a)},
+              {"b", to_json(result.b)},
               {"first_tick", found.first_tick},
               {"last_tick", found.last_tick},
               {"last_time", found.last_time},
@@ -221,10 +221,10 @@ Json json_of(const DivergeResult& result) {
               {"value", nullptr},
               {"presence", nullptr},
               {"times", nullptr},
-              {"growth", json_of(found.growth)}};
+              {"growth", to_json(found.growth)}};
     if (result.first_hash) json["first_different_hash"] = *result.first_hash;
-    if (found.value) json["value"] = json_of(*found.value, result.a.axes);
-    if (found.presence) json["presence"] = json_of(*found.presence);
+    if (found.value) json["value"] = to_json(*found.value, result.a.axes);
+    if (found.presence) json["presence"] = to_json(*found.presence);
     if (found.times)
         json["times"] = {{"tick", found.times->tick}, {"a", found.times->a}, {"b", found.times->b}};
     return json;
@@ -280,7 +280,7 @@ struct DivergeCommand {
     [[nodiscard]] Exit run() const {
         DivergeResult result = read(a, b);
         result.divergence = find_divergence(result.a, result.b);
-        if (!json.empty()) write_json(json, json_of(result));
+        if (!json.empty()) write_json(json, to_json(result));
         if (json != "-") print(text_of(result));
         return result.same() ? Exit::done : Exit::comparison_failed;
     }

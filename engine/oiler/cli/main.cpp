@@ -4,7 +4,7 @@
 
 #include "oiler/cli/command.hpp"
 #include "oiler/platform/surface.hpp"
-#include "oiler/process/guard_main.hpp"
+#include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
 

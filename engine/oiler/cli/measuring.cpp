@@ -19,10 +19,10 @@ Reference measure_reference(const Scene& scene, double wanted, bool quiet) {
 
 void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
                       const SweepPlan& plan, bool quiet,
-                      const std::function<void(const Tradeoff&)>& ladder_done) {
+                      const std::function<void(const Tradeoff&)>& series_done) {
     SweepWatch watch;
     watch.stopped = Interrupt::requested;
-    watch.ladder_done = ladder_done;
+    watch.series_done = series_done;
     {
         Percent percent(quiet, "of the errors");
         watch.progress = [&](double fraction) { percent(fraction); };
@@ -32,8 +32,8 @@ void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& r
     Percent percent(quiet, "of the times");
     watch.progress = [&](double fraction) { percent(fraction); };
     std::vector<TradeoffRow*> rows;
-    for (Ladder& ladder : tradeoff.ladders)
-        for (TradeoffRow& row : ladder.rows) rows.push_back(&row);
+    for (RateSeries& series : tradeoff.all_series)
+        for (TradeoffRow& row : series.rows) rows.push_back(&row);
     time_rows(scene, rows, rounds, watch);
 }
 

@@ -30,7 +30,7 @@ private:
 void measure_tradeoff(
     lab::Tradeoff& tradeoff, const Scene& scene, const lab::Reference& reference,
     const lab::SweepPlan& plan, bool quiet,
-    const std::function<void(const lab::Tradeoff&)>& ladder_done = [](const auto&) {});
+    const std::function<void(const lab::Tradeoff&)>& series_done = [](const auto&) {});
 
 /// Computes a scene's reference. `wanted` is the error to reach in m, 0 for the smallest.
 [[nodiscard]] lab::Reference measure_reference(const Scene& scene, double wanted, bool quiet);

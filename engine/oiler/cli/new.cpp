@@ -8,8 +8,19 @@
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
-#include "oiler/cli/project.hpp"
+#include "oiler/cli/startable.hpp"
+#include "oiler/core/markup.hpp"
 #include "oiler/platform/surface.hpp"
+
+extern "C" {
+extern const char oiler_project_lists[], oiler_project_lists_end[];
+extern const char oiler_project_game[], oiler_project_game_end[];
+extern const char oiler_project_frames[], oiler_project_frames_end[];
+extern const char oiler_project_play[], oiler_project_play_end[];
+extern const char oiler_project_ignore[], oiler_project_ignore_end[];
+extern const char oiler_project_github[], oiler_project_github_end[];
+extern const char oiler_project_gitlab[], oiler_project_gitlab_end[];
+}
 
 namespace oiler::cli {
 namespace {
@@ -100,6 +111,49 @@ std::string describe(const Home& home) {
     }
     return "This program is neither installed nor in its build folder. If CMake finds no installed "
            "Oiler, add\n-DCMAKE_PREFIX_PATH=DIR to its first command.";
+}
+
+/// A template without its first line, the licence: a new project belongs to its author.
+std::string fill_in(const char* begin, const char* end, const std::string& name) {
+    std::string_view text(begin, end);
+    text.remove_prefix(text.find('\n') + 1);
+    return oiler::fill_in(text, {{"project(game ", "project(" + name + " "},
+                                 {"\"game\"", "\"" + name + "\""},
+                                 {"/game", "/" + name}});
+}
+
+std::string local_cmake(const Home& home) {
+    const std::string heading =
+        "# The Oiler of this computer. This file is not for the repository: see .gitignore.\n";
+    if (home.kind == Home::Kind::installed)
+        return heading +
+               fmt::format("list(APPEND CMAKE_PREFIX_PATH [==[{}]==])\n", home.folder.string());
+    return heading + fmt::format(
+                         "set(OILER_SOURCE [==[{}]==] CACHE PATH\n"
+                         "    \"Source of Oiler; empty: an installed Oiler\")\n",
+                         home.folder.string());
+}
+
+struct ProjectFile {
+    std::filesystem::path path;  ///< relative to the folder of the project
+    std::string text;
+};
+
+/// The files of a new project. assets/project is the same project with the name `game`.
+std::vector<ProjectFile> project_files(const std::string& name, const Home& home) {
+    const auto file = [&](const char* path, const char* begin, const char* end) {
+        return ProjectFile{path, fill_in(begin, end, name)};
+    };
+    std::vector<ProjectFile> files{
+        file("CMakeLists.txt", oiler_project_lists, oiler_project_lists_end),
+        file("game.cpp", oiler_project_game, oiler_project_game_end),
+        file("tests/frames.sh", oiler_project_frames, oiler_project_frames_end),
+        file("tests/play.txt", oiler_project_play, oiler_project_play_end),
+        file(".gitignore", oiler_project_ignore, oiler_project_ignore_end),
+        file(".github/workflows/frames.yml", oiler_project_github, oiler_project_github_end),
+        file(".gitlab-ci.yml", oiler_project_gitlab, oiler_project_gitlab_end)};
+    if (home.kind != Home::Kind::unknown) files.push_back({"local.cmake", local_cmake(home)});
+    return files;
 }
 
 }  // namespace

@@ -7,12 +7,10 @@
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"
-#include "oiler/cli/scene_shelf.hpp"
-#include "oiler/lab/budget.hpp"
+#include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/read.hpp"
-#include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {
@@ -24,16 +22,14 @@ About describe(const Scene& scene, const std::string& name, const std::string& t
             .method = scene.stepping.method->name,
             .precision = scene.stepping.precision,
             .duration = scene.duration,
-            .damping = scene.stepping.damping ? name_of(*scene.stepping.damping) : "",
+            .damping = damping_name(scene.stepping),
             .scene_text = text,
             .controls = SceneGame::controls};
 }
 
-/// Whether somebody looks at the run, and nothing of it is written.
+/// Whether the run is only shown in a window: no file of it depends on its steps.
 bool is_watched(const Options& options) {
-    return !options.headless && !options.steps && options.json.empty() && options.trace.empty() &&
-           options.energy.empty() && options.record.empty() && !options.replay &&
-           options.script.empty();
+    return !options.headless && !options.steps && fixing_option(options).empty();
 }
 
 struct SceneFile {
@@ -57,17 +53,16 @@ SceneFile find_scene(const std::string& path, const std::optional<Manifest>& fro
 std::vector<BudgetEntry> check(Scene scene, const Options& options, double seconds) {
     constexpr double least_share = 0.9;
     const Settings& settings = options.settings;
-    std::vector<BudgetEntry> entries;
-    if (seconds <= 0) return entries;
+    if (seconds <= 0) return {};
     if (scene.budget.energy_drift && seconds < least_share * scene.duration) {
         remark(options.quiet, "[budget] energy_drift is compared over {:g} s, not over {:g} s",
                scene.duration, seconds);
         scene.budget.energy_drift.reset();
     }
     scene.duration = std::min(scene.duration, seconds);
-    for (const lab::BudgetLine& budget : lab::check_budget(scene, settings, Interrupt::requested))
-        entries.push_back({budget.name, budget.most, budget.measured, budget.kept,
-                           fmt::format("over {:g} s: {}", scene.duration, describe(budget))});
+    std::vector<BudgetEntry> entries = lab::check_budget(scene, settings, Interrupt::requested);
+    for (BudgetEntry& entry : entries)
+        entry.words = fmt::format("over {:g} s: {}", scene.duration, entry.words);
     return entries;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/rates.hpp"
+#include "oiler/lab/rates/rates.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,6 @@
 #include "oiler/cli/measuring.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/lab/rates_json.hpp"
 #include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {
@@ -98,7 +97,7 @@ struct RatesCommand {
 
     void show(const Scene& scene, const Rates& measured) const {
         if (!scene_options.json.empty()) {
-            Json json = json_of(measured);
+            Json json = to_json(measured);
             json["scene"] = scene_options.name();
             write_json(scene_options.json, json);
         }

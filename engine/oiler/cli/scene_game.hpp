@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "oiler/app/shelf.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/scene/scene.hpp"
 
@@ -34,7 +37,7 @@ public:
     [[nodiscard]] bool is_over() const override {
         return watched_ && (ends_ || world_.time() >= scene_->duration);
     }
-    /// How many scenes further the user wants to go; negative: back.
+    /// The number of scenes that the user wants to go forward; negative: back.
     [[nodiscard]] int places_to_go() const { return places_to_go_; }
     [[nodiscard]] bool takes_input() const override { return watched_; }
     [[nodiscard]] const World& world() const override { return world_; }
@@ -65,6 +68,33 @@ private:
     std::optional<Drag> drag_;
     bool ends_ = false;  ///< the user wants it
     int places_to_go_ = 0;
+};
+
+/// The scene files of a folder, for a window.
+class SceneShelf final : public Shelf {
+public:
+    /// The scene of `file`. An empty file is none: such a scene never changes, and has no folder.
+    SceneShelf(std::filesystem::path file, Scene scene);
+
+    [[nodiscard]] std::optional<Taken> take(const AnyGame& shown,
+                                            const std::optional<std::string>& dropped) override;
+    [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+    /// The scene's title and its file.
+    [[nodiscard]] std::string title() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    Taken read(const std::filesystem::path& file, const std::optional<Stepping>& kept);
+    /// The file so many places further in its folder.
+    [[nodiscard]] std::filesystem::path neighbour(int places) const;
+    [[nodiscard]] bool has_changed();
+
+    std::filesystem::path file_;
+    std::shared_ptr<const Scene> scene_;
+    std::filesystem::file_time_type written_{};
+    int places_ = 0;  ///< that were tried last
+    Clock::time_point next_look_{};
 };
 
 }  // namespace oiler::cli

@@ -87,8 +87,7 @@ std::vector<const Method*> MethodOptions::methods() const {
 }
 
 Damping MethodOptions::damping_of(const Method& method) const {
-    if (damping.empty()) return method.damping;
-    return damping == "kick" ? Damping::in_kick : Damping::in_drift;
+    return find_damping(damping).value_or(method.damping);
 }
 
 void SceneOptions::declare(Arguments& arguments) {

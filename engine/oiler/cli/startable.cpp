@@ -12,15 +12,22 @@
 #include <system_error>
 
 #include "oiler/cli/files.hpp"
-#include "oiler/cli/project.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/read.hpp"
-#include "oiler/scene/scene_text.hpp"
 
 namespace oiler::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The source folder of a build folder of Oiler, from CMake's cache; empty for any other folder.
+fs::path source_of(const fs::path& build) {
+    constexpr std::string_view key = "oiler_SOURCE_DIR:STATIC=";
+    std::ifstream cache(build / "CMakeCache.txt");
+    for (std::string line; std::getline(cache, line);)
+        if (line.starts_with(key)) return line.substr(key.size());
+    return {};
+}
 
 struct Places {
     fs::path list;
@@ -82,6 +89,22 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+Home home_of(const fs::path& program) {
+    const fs::path folder = program.parent_path().parent_path();
+    std::error_code none;
+    if (fs::exists(folder / "include/oiler/oiler.hpp", none))
+        return {Home::Kind::installed, folder};
+    const fs::path source = source_of(folder);
+    if (!source.empty() && fs::exists(source / "engine/oiler/oiler.hpp", none))
+        return {Home::Kind::source, source};
+    return {};
+}
+
+Home own_home() {
+    std::error_code unknown;
+    return home_of(fs::read_symlink("/proc/self/exe", unknown));
+}
 
 std::vector<Startable> startables_of(const fs::path& program) {
     const Places places = places_of(program);

@@ -9,6 +9,21 @@
 
 namespace oiler::cli {
 
+/// The Oiler that a program belongs to. A new project uses it, so that nobody types its path.
+struct Home {
+    enum class Kind {
+        unknown,
+        installed,  ///< with headers and libraries, below a prefix
+        source      ///< the program is in a build folder
+    };
+    Kind kind = Kind::unknown;
+    std::filesystem::path folder{};  ///< the prefix, or the folder of the source
+};
+
+/// The home of the program at this path, PREFIX/bin/oiler or BUILD/bin/oiler.
+[[nodiscard]] Home home_of(const std::filesystem::path& program);
+/// The home of the running program.
+[[nodiscard]] Home own_home();
 /// A demo or a scene that this Oiler brings along.
 struct Startable {
     std::string name;      ///< "cannon" of a demo, "orbit.toml" of a scene

@@ -29,9 +29,9 @@ std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
     remark(quiet, "continuing {}: {} of {} methods and precisions are done", path.string(),
-           std::count_if(found.ladders.begin(), found.ladders.end(),
-                         [](const Ladder& ladder) { return ladder.done; }),
-           found.ladders.size());
+           std::count_if(found.all_series.begin(), found.all_series.end(),
+                         [](const RateSeries& series) { return series.done; }),
+           found.all_series.size());
     return found;
 } catch (const Error& error) {
     if (error.exit() != Exit::usage) throw;

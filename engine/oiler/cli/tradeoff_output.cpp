@@ -119,9 +119,9 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
     }
     text += fmt::format(tradeoff_legend, shown.size(), tradeoff.rows().size(),
                         all ? "." : "; --all and tradeoff.csv have all of them.");
-    for (const Ladder& ladder : tradeoff.ladders)
-        if (ladder.done && ladder.rows.empty() && ladder.precision == Precision::double_)
-            text += fmt::format("Omitted: {}\n", ladder.end);
+    for (const RateSeries& series : tradeoff.all_series)
+        if (series.done && series.rows.empty() && series.precision == Precision::double_)
+            text += fmt::format("Omitted: {}\n", series.end);
     return text;
 }
 
@@ -135,13 +135,13 @@ bool is_tradeoff_file(std::string_view name) {
 }
 
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
-    write_text(path, to_json(tradeoff), Links::replaced);
+    write_text(path, file_text(tradeoff), Links::replaced);
 }
 
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
     save(tradeoff, output.out / data_file);
     write_text(output.out / table_file, to_csv(tradeoff), Links::replaced);
-    if (!output.json.empty()) write_text(output.json, to_json(tradeoff));
+    if (!output.json.empty()) write_text(output.json, file_text(tradeoff));
     if (output.json != "-") print(table_of(tradeoff, output.all));
     stills.write(
         work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "oiler/core/require.hpp"
+
 namespace oiler {
 
 Exit exit_of_open(int error_number) {
@@ -17,5 +19,7 @@ Exit exit_of_open(int error_number) {
 std::string system_reason(int error_number) {
     return std::generic_category().message(error_number);
 }
+
+void throw_mistake(const char* what) { throw Mistake(what); }
 
 }  // namespace oiler

@@ -3,10 +3,8 @@
 
 #include <concepts>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
-#include <new>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,11 +12,8 @@
 #include <vector>
 
 #include "oiler/core/state_hash.hpp"
-#include "oiler/game/input_source.hpp"
 #include "oiler/game/look.hpp"
 #include "oiler/game/loop.hpp"
-#include "oiler/game/reading.hpp"
-#include "oiler/game/step_times.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
 
@@ -131,25 +126,24 @@ consteval bool check_game() {
     return true;
 }
 
+/// Throws the exception that is handled as an Error of the game, see guarded.
+[[noreturn]] void throw_error_of_game(const std::string& place, bool in_setup);
+/// Throws the Error of an update that made a world with another rate.
+[[noreturn]] void throw_other_rate(const std::string& place);
+
 /// Calls f(). An exception of a game becomes an Error{diverged} with the text of place(). So does
 /// a wrong number that it gave, unless it is `in_setup`, where options can be the reason.
 template <class Place, class F>
 auto guarded(Place place, F f, bool in_setup = false) {
     try {
         return f();
-    } catch (const Error& error) {
-        if (error.exit() != Exit::usage || in_setup) throw;
-        fail(Exit::diverged, "{}: {}", place(), error.what());
-    } catch (const std::bad_alloc&) {
-        fail(Exit::io, "{}: not enough memory; take fewer bodies or a shorter time", place());
-    } catch (const std::exception& error) {
-        fail(Exit::diverged, "{}: {}", place(), error.what());
     } catch (...) {
-        fail(Exit::diverged, "{}: it threw something that is no std::exception", place());
+        throw_error_of_game(place(), in_setup);
     }
 }
 
-/// A game without its type, for the loop; one virtual call per frame.
+/// A game without its type, for the loop. It is called a few times per frame; the bodies are
+/// stepped behind these calls.
 class AnyGame {
 public:
     virtual ~AnyGame() = default;
@@ -160,24 +154,24 @@ public:
     virtual std::int64_t step(std::int64_t step, std::int64_t count, InputSource& inputs) = 0;
     /// Makes the game anew, with the settings of its world.
     virtual void restart() = 0;
-    /// Goes on from here with another setting, see World::set_stepping.
+    /// Continues from here with another setting, see World::set_stepping.
     virtual void set_stepping(const Stepping& stepping) = 0;
     /// See World::set_threads.
     virtual void set_threads(int threads) = 0;
     /// Whether it has come to its end, so that a window makes it anew.
     [[nodiscard]] virtual bool is_over() const { return false; }
-    /// A copy, which goes on as the game does.
+    /// A copy, which plays on as the game does.
     [[nodiscard]] virtual std::unique_ptr<AnyGame> clone() const = 0;
     /// Becomes a copy of a game of the same type, as a clone is.
     virtual void assign(const AnyGame& other) = 0;
     /// Whether its steps see input.
     [[nodiscard]] virtual bool takes_input() const { return false; }
-    /// How often the world was replaced: no picture between two worlds is drawn.
+    /// The number of times that the world was replaced: no picture between two worlds is drawn.
     [[nodiscard]] std::int64_t cuts() const { return cuts_; }
     [[nodiscard]] const Loop& loop() const { return loop_; }
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
-    /// What the game tells of its play; empty if it tells nothing.
+    /// The game's results so far; empty if it offers none.
     [[nodiscard]] virtual std::vector<Reading> readings() const { return {}; }
     /// The hash of the world and, if the game says how it is hashed, of its other members.
     [[nodiscard]] virtual std::uint64_t state_hash() const { return world().state_hash(); }
@@ -308,9 +302,7 @@ private:
             else
                 game_.update(input);
         });
-        if (game_.world.settings().stepping.rate != rate)
-            fail(Exit::diverged,
-                 "{}: the new world has another rate; make it with world.settings()", place());
+        if (game_.world.settings().stepping.rate != rate) throw_other_rate(place());
     }
     /// A world that was replaced is younger than it would have become.
     void find_cut() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oiler/picture/shapes.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

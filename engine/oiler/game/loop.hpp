@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// What a game and the loop that runs it exchange: requests, input, readings and times.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "oiler/input/input.hpp"
+
 namespace oiler {
 
-/// What a game asks of the loop that runs it: `void update(const Input& input, Loop& loop)`.
+/// The requests of a game to the loop that runs it: `void update(const Input& input, Loop& loop)`.
 class Loop {
 public:
     /// Makes the game anew after this update, with the settings of its world. The picture jumps.
@@ -28,6 +36,62 @@ private:
     bool holds_ = false;
     bool takes_text_ = false;
     bool quits_ = false;
+};
+
+/// The source of the input that the steps of a game see.
+class InputSource {
+public:
+    virtual ~InputSource() = default;
+    InputSource() = default;
+    InputSource(const InputSource&) = delete;
+    InputSource& operator=(const InputSource&) = delete;
+
+    /// The input of a step of the loop, counted from 0. Steps are asked for in their order.
+    [[nodiscard]] virtual Input next(std::int64_t step) = 0;
+};
+
+/// A player in the window. Steps see the camera of the picture that was on screen.
+class LiveInput final : public InputSource {
+public:
+    explicit LiveInput(const ChosenControls& controls = {}) : queue(controls) {}
+
+    [[nodiscard]] Input next(std::int64_t) override { return queue.take(shown); }
+
+    InputQueue queue;
+    Camera shown{};
+};
+
+/// A result of the play that a game offers, such as a score, an apex or the time of a hit:
+/// `std::vector<Reading> readings() const`. --what-if compares them between settings. Whole numbers
+/// count as state of the play: if they differ, it is another play.
+struct Reading {
+    std::string name;
+    double value = 0;
+    std::string unit{};  ///< "m"; empty for a count
+    friend bool operator==(const Reading&, const Reading&) = default;
+};
+
+/// Throws Error{usage} if two readings have one name.
+void require_distinct_names(const std::vector<Reading>& readings);
+
+/// The times that steps of a game take, summed up, in ns.
+struct StepTimes {
+    std::int64_t update = 0;
+    std::int64_t step = 0;  ///< of the world
+};
+
+/// Adds the time from its construction to its destruction to one of the sums. Without sums it
+/// measures nothing.
+class Stopwatch {
+public:
+    Stopwatch(StepTimes* sums, std::int64_t StepTimes::*which);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    std::int64_t* sum_;
+    std::int64_t begin_ = 0;  ///< ns of the steady clock
 };
 
 }  // namespace oiler

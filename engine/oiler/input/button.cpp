@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 namespace oiler {
 namespace {
@@ -147,6 +148,10 @@ bool equal_but_for_case(std::string_view a, std::string_view b) {
                       });
 }
 
+constexpr double full = 32767;  // of a stick or a trigger
+
+Deflection deflection_of(double part) { return static_cast<Deflection>(std::lround(part * 127)); }
+
 }  // namespace
 
 std::optional<Button> Button::of_id(std::uint16_t id) {
@@ -184,5 +189,18 @@ std::optional<Stick> find_stick(std::string_view name) {
 }
 
 std::span<const std::string_view> stick_names() { return names_of_sticks; }
+
+StickPosition without_dead_zone(int x, int y) {
+    constexpr double inner = 0.24;
+    constexpr double outer = 0.95;
+    const double length = std::hypot(x, y) / full;
+    if (!(length > inner)) return {};
+    const double scale = std::min((length - inner) / (outer - inner), 1.0) / (length * full);
+    return {deflection_of(x * scale), deflection_of(y * scale)};
+}
+
+Deflection trigger_position(int raw) { return deflection_of(std::clamp(raw / full, 0.0, 1.0)); }
+
+bool trigger_is_pressed(bool was, int raw) { return raw / full >= (was ? 0.4 : 0.6); }
 
 }  // namespace oiler

@@ -38,7 +38,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// What a player does, with the buttons that do it unless the player chooses others:
+/// A thing that a player does, with the buttons that do it unless the player chooses others:
 /// `static constexpr Action fire{"fire", Key::space, Mouse::left, Pad::south};`
 struct Action {
     std::string_view name;
@@ -62,22 +62,24 @@ struct Axis {
         : name(its_name), negative(towards_minus), positive(towards_plus), stick(its_stick) {}
 };
 
+/// The buttons and the stick that a player has for an action or an axis.
+struct Binding {
+    bool is_axis = false;
+    Buttons negative{};  ///< of an axis
+    Buttons positive{};  ///< of an axis; else all buttons of the action
+    std::optional<Stick> stick{};
+
+    friend constexpr bool operator==(const Binding&, const Binding&) = default;
+};
+
 /// An action or an axis in the list of a game, and the buttons that a player chose for it.
-struct Control {
+struct Control : Binding {
     std::string_view name;
-    bool is_axis;
-    Buttons negative;  ///< of an axis
-    Buttons positive;  ///< of an axis; else all buttons of the action
-    std::optional<Stick> stick;
 
     constexpr Control(const Action& action)
-        : name(action.name), is_axis(false), positive(action.buttons) {}
+        : Binding{.positive = action.buttons}, name(action.name) {}
     constexpr Control(const Axis& axis)
-        : name(axis.name),
-          is_axis(true),
-          negative(axis.negative),
-          positive(axis.positive),
-          stick(axis.stick) {}
+        : Binding{true, axis.negative, axis.positive, axis.stick}, name(axis.name) {}
 
     friend constexpr bool operator==(const Control&, const Control&) = default;
 };

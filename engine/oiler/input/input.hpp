@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/analog.hpp"
 #include "oiler/input/control.hpp"
 #include "oiler/picture/picture.hpp"
 
@@ -24,7 +23,7 @@ struct Edge {
 
 using HeldButtons = std::bitset<Button::count>;
 
-/// Where the mouse points, in units of the canvas, and the camera of the picture that was on
+/// The place of the mouse, in units of the canvas, and the camera of the picture that was on
 /// screen.
 struct Pointer {
     Point canvas{};
@@ -37,8 +36,8 @@ struct InputEvent;
 /// The controls of a game with the buttons that its player chose; null: with the game's own.
 using ChosenControls = std::shared_ptr<const std::vector<Control>>;
 
-/// What a player did in one fixed step. It is a plain value: a step is a pure function of state and
-/// input, and a recording is a list of inputs.
+/// The actions of a player in one fixed step. It is a plain value: a step is a pure function of
+/// state and input, and a recording is a list of inputs.
 ///
 /// Every press is seen by one step, and every release by one, whatever the frame rate. A step that
 /// sees a press also sees the button held, even if it is up again: the next step sees the release.
@@ -57,7 +56,7 @@ public:
     [[nodiscard]] bool released(const What& what) const {
         return releases(what) > 0;
     }
-    /// How often it went down since the last step.
+    /// The number of times that it went down since the last step.
     [[nodiscard]] int presses(Button button) const { return count(Buttons(button), true); }
     [[nodiscard]] int presses(const Action& action) const;
     [[nodiscard]] int releases(Button button) const { return count(Buttons(button), false); }
@@ -72,9 +71,10 @@ public:
         return static_cast<float>(sticks_[static_cast<std::size_t>(stick)]) / 127;
     }
 
-    /// Where the mouse points, m in the world that was on screen; empty if it is not in the window.
+    /// The place of the mouse, m in the world that was on screen; empty if it is outside the
+    /// window.
     [[nodiscard]] std::optional<Point> pointer() const;
-    /// The same in units of the canvas.
+    /// The place of the mouse in units of the canvas.
     [[nodiscard]] std::optional<Point> pointer_canvas() const;
     /// Whether the mouse moved since the last step, or came into the window: a mouse at rest need
     /// not win over keys.
@@ -104,6 +104,52 @@ private:
     int wheel_ = 0;
     std::string text_;
     bool restarts_ = false;
+    ChosenControls controls_;
+};
+
+/// Hands what a player does to fixed steps. Events may come at any time, many or none between two
+/// steps. All events since the last step go to the next one.
+class InputQueue {
+public:
+    InputQueue() = default;
+    explicit InputQueue(ChosenControls controls) : controls_(std::move(controls)) {}
+
+    /// A button goes down or up. Repeats are ignored.
+    void set(Button button, bool down);
+    /// All buttons go up and all sticks to rest, as when a window loses the keyboard.
+    void release_all();
+    /// The mouse is at a place of the canvas, rounded to 1/16 unit, or outside the window.
+    void point_at(std::optional<Point> canvas);
+    void turn_wheel(int notches) {
+        if (!paused_) next_.wheel_ += notches;
+    }
+    void deflect(Stick stick, Deflection deflection) {
+        next_.sticks_[static_cast<std::size_t>(stick)] = deflection;
+    }
+    void enter(std::string_view text) {
+        if (!paused_) next_.text_ += text;
+    }
+    /// Makes the game anew before the next step.
+    void restart() { next_.restarts_ = true; }
+    /// While the loop is paused, taps are dropped: the next step sees a press of a button only if
+    /// it is still down.
+    void set_paused(bool paused);
+
+    /// The next step comes after the one that saw `last`: the buttons that are held change from
+    /// there, and what else was done since is dropped.
+    void continue_after(const Input& last);
+
+    /// The input of the next step. `shown` is the camera of the picture on screen.
+    [[nodiscard]] Input take(const Camera& shown);
+
+private:
+    void drop_taps();
+
+    Input next_;       ///< `held_` is what the last step saw
+    HeldButtons now_;  ///< after all edges
+    HeldButtons at_pause_;
+    std::optional<Point> pointed_;  ///< canvas, at the last step
+    bool paused_ = false;
     ChosenControls controls_;
 };
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/input/input_event.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace oiler {
 namespace {
 
 using What = InputEvent::What;
 
-constexpr float parts_of_unit = 16;
 constexpr std::uint64_t longest_text = 4096;
-constexpr int most_notches = 1'000'000;
-constexpr int farthest_pointer = 1 << 23;  ///< exact in a float
 
 std::uint64_t zigzag(std::int64_t number) {
     return (static_cast<std::uint64_t>(number) << 1U) ^ static_cast<std::uint64_t>(number >> 63);
@@ -21,52 +20,139 @@ std::int64_t unzigzag(std::uint64_t number) {
     return static_cast<std::int64_t>(number >> 1U) ^ -static_cast<std::int64_t>(number & 1U);
 }
 
-void append_float(std::string& bytes, float number) {
-    const auto bits = std::bit_cast<std::uint32_t>(number);
-    for (unsigned shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<char>(bits >> shift & 0xFFU));
-}
-
-/// Reads the payload of an event; `good` ends false if the bytes are not one.
-class Reader {
+/// Writes the numbers of an event, or reads them, so that each kind of event lists them once.
+/// `good` ends false if the bytes are not an event.
+class Payload {
 public:
-    explicit Reader(std::string_view& bytes) : bytes_(bytes) {}
+    explicit Payload(std::string& written) : written_(&written) {}
+    explicit Payload(std::string_view& read) : read_(&read) {}
 
-    std::uint64_t number(std::uint64_t largest) {
-        const auto read = take_number(bytes_);
+    void natural(std::uint64_t& number, std::uint64_t largest) {
+        if (written_) return append_number(*written_, number);
+        const auto read = take_number(*read_);
         if (!read || *read > largest) good = false;
-        return good ? *read : 0;
+        number = good ? *read : 0;
     }
-    int whole(int largest) {
-        const std::int64_t read = unzigzag(number(~std::uint64_t{0}));
-        if (read < -largest || read > largest) good = false;
-        return good ? static_cast<int>(read) : 0;
+    void whole(std::int64_t& number, std::int64_t largest) {
+        std::uint64_t bits = zigzag(number);
+        natural(bits, ~std::uint64_t{0});
+        number = unzigzag(bits);
+        if (read_ && (number < -largest || number > largest)) good = false;
+        if (!good) number = 0;
     }
-    float real() {
-        if (bytes_.size() < 4) good = false;
-        if (!good) return 0;
-        std::uint32_t bits = 0;
-        for (unsigned i = 0; i < 4; ++i)
-            bits |= std::uint32_t{static_cast<unsigned char>(bytes_[i])} << 8 * i;
-        bytes_.remove_prefix(4);
-        const auto read = std::bit_cast<float>(bits);
-        if (!std::isfinite(read)) good = false;
-        return read;
+    void real(float& number) {
+        auto bits = std::bit_cast<std::uint32_t>(number);
+        if (written_)
+            for (unsigned shift = 0; shift < 32; shift += 8)
+                written_->push_back(static_cast<char>(bits >> shift & 0xFFU));
+        else
+            number = take_real();
     }
-    std::string text() {
-        const std::uint64_t size = number(longest_text);
-        if (size > bytes_.size()) good = false;
-        if (!good) return {};
-        std::string read(bytes_.substr(0, size));
-        bytes_.remove_prefix(size);
-        return read;
+    void text(std::string& text) {
+        std::uint64_t size = text.size();
+        natural(size, longest_text);
+        if (written_) {
+            *written_ += text;
+            return;
+        }
+        if (size > read_->size()) good = false;
+        if (!good) return;
+        text = read_->substr(0, size);
+        read_->remove_prefix(size);
     }
 
     bool good = true;
 
 private:
-    std::string_view& bytes_;
+    float take_real() {
+        if (read_->size() < 4) good = false;
+        if (!good) return 0;
+        std::uint32_t bits = 0;
+        for (unsigned i = 0; i < 4; ++i)
+            bits |= std::uint32_t{static_cast<unsigned char>((*read_)[i])} << 8 * i;
+        read_->remove_prefix(4);
+        const auto number = std::bit_cast<float>(bits);
+        if (!std::isfinite(number)) good = false;
+        return number;
+    }
+
+    std::string* written_ = nullptr;
+    std::string_view* read_ = nullptr;
 };
+
+void transfer_canvas(float& canvas, Payload& payload) {
+    constexpr float parts_of_unit = 16;
+    constexpr std::int64_t farthest = 1 << 23;  // exact in a float
+    std::int64_t parts = std::llround(canvas * parts_of_unit);
+    payload.whole(parts, farthest);
+    canvas = static_cast<float>(parts) / parts_of_unit;
+}
+
+/// A kind of event: its numbers in a file, and its effect on the input of a player.
+struct EventKind {
+    What what;
+    void (*transfer)(InputEvent& event, Payload& payload);
+    void (*play)(const InputEvent& event, InputQueue& queue, Camera& camera);
+};
+
+/// In the order of What.
+constexpr EventKind kinds[]{
+    {What::edge,
+     [](InputEvent& event, Payload& payload) {
+         std::uint64_t number = std::uint64_t{event.button} * 2 + (event.down ? 1 : 0);
+         payload.natural(number, 2 * Button::count - 1);
+         event.button = static_cast<std::uint16_t>(number / 2);
+         event.down = number % 2 == 1;
+         if (!Button::of_id(event.button)) payload.good = false;
+     },
+     [](const InputEvent& event, InputQueue& queue, Camera&) {
+         if (const auto button = Button::of_id(event.button)) queue.set(*button, event.down);
+     }},
+    {What::stick,
+     [](InputEvent& event, Payload& payload) {
+         std::uint64_t stick = event.stick;
+         std::int64_t deflection = event.deflection;
+         payload.natural(stick, stick_count - 1);
+         payload.whole(deflection, 127);
+         event.stick = static_cast<std::uint8_t>(stick);
+         event.deflection = static_cast<Deflection>(deflection);
+     },
+     [](const InputEvent& event, InputQueue& queue, Camera&) {
+         queue.deflect(static_cast<Stick>(event.stick), event.deflection);
+     }},
+    {What::pointer,
+     [](InputEvent& event, Payload& payload) {
+         transfer_canvas(event.canvas.x, payload);
+         transfer_canvas(event.canvas.y, payload);
+     },
+     [](const InputEvent& event, InputQueue& queue, Camera&) { queue.point_at(event.canvas); }},
+    {What::no_pointer, [](InputEvent&, Payload&) {},
+     [](const InputEvent&, InputQueue& queue, Camera&) { queue.point_at(std::nullopt); }},
+    {What::camera,
+     [](InputEvent& event, Payload& payload) {
+         payload.real(event.camera.centre.x);
+         payload.real(event.camera.centre.y);
+         payload.real(event.camera.height);
+     },
+     [](const InputEvent& event, InputQueue&, Camera& camera) { camera = event.camera; }},
+    {What::wheel,
+     [](InputEvent& event, Payload& payload) {
+         constexpr std::int64_t most_notches = 1'000'000;
+         std::int64_t notches = event.notches;
+         payload.whole(notches, most_notches);
+         event.notches = static_cast<int>(notches);
+     },
+     [](const InputEvent& event, InputQueue& queue, Camera&) { queue.turn_wheel(event.notches); }},
+    {What::text, [](InputEvent& event, Payload& payload) { payload.text(event.text); },
+     [](const InputEvent& event, InputQueue& queue, Camera&) { queue.enter(event.text); }},
+    {What::restart, [](InputEvent&, Payload&) {},
+     [](const InputEvent&, InputQueue& queue, Camera&) { queue.restart(); }},
+};
+constexpr const EventKind& kind_of(What what) { return kinds[static_cast<std::size_t>(what)]; }
+static_assert(std::size(kinds) == InputEvent::what_count && [] {
+    return std::ranges::all_of(kinds,
+                               [](const EventKind& one) { return &kind_of(one.what) == &one; });
+}());
 
 }  // namespace
 
@@ -94,26 +180,7 @@ std::vector<InputEvent> events_between(const Input& before, const Input& now) {
 }
 
 void EventPlayer::play(const InputEvent& event) {
-    switch (event.what) {
-        case What::edge:
-            if (const auto button = Button::of_id(event.button)) queue_.set(*button, event.down);
-            return;
-        case What::stick:
-            return queue_.deflect(static_cast<Stick>(event.stick), event.deflection);
-        case What::pointer:
-            return queue_.point_at(event.canvas);
-        case What::no_pointer:
-            return queue_.point_at(std::nullopt);
-        case What::camera:
-            camera_ = event.camera;
-            return;
-        case What::wheel:
-            return queue_.turn_wheel(event.notches);
-        case What::text:
-            return queue_.enter(event.text);
-        case What::restart:
-            return queue_.restart();
-    }
+    kind_of(event.what).play(event, queue_, camera_);
 }
 
 void append_number(std::string& bytes, std::uint64_t number) {
@@ -139,29 +206,9 @@ std::optional<std::uint64_t> take_number(std::string_view& bytes) {
 
 void append(std::string& bytes, const InputEvent& event) {
     bytes.push_back(static_cast<char>(event.what));
-    switch (event.what) {
-        case What::edge:
-            return append_number(bytes, std::uint64_t{event.button} * 2 + (event.down ? 1 : 0));
-        case What::stick:
-            append_number(bytes, event.stick);
-            return append_number(bytes, zigzag(event.deflection));
-        case What::pointer:
-            append_number(bytes, zigzag(std::llround(event.canvas.x * parts_of_unit)));
-            return append_number(bytes, zigzag(std::llround(event.canvas.y * parts_of_unit)));
-        case What::camera:
-            append_float(bytes, event.camera.centre.x);
-            append_float(bytes, event.camera.centre.y);
-            return append_float(bytes, event.camera.height);
-        case What::wheel:
-            return append_number(bytes, zigzag(event.notches));
-        case What::text:
-            append_number(bytes, event.text.size());
-            bytes += event.text;
-            return;
-        case What::no_pointer:
-        case What::restart:
-            return;
-    }
+    InputEvent written = event;
+    Payload payload(bytes);
+    kind_of(event.what).transfer(written, payload);
 }
 
 std::optional<InputEvent> take_event(std::string_view& bytes) {
@@ -170,40 +217,9 @@ std::optional<InputEvent> take_event(std::string_view& bytes) {
     if (what >= InputEvent::what_count) return std::nullopt;
     bytes.remove_prefix(1);
     InputEvent event{.what = static_cast<What>(what)};
-    Reader reader(bytes);
-    switch (event.what) {
-        case What::edge: {
-            const std::uint64_t edge = reader.number(2 * Button::count - 1);
-            event.button = static_cast<std::uint16_t>(edge / 2);
-            event.down = edge % 2 == 1;
-            if (!Button::of_id(event.button)) reader.good = false;
-            break;
-        }
-        case What::stick: {
-            event.stick = static_cast<std::uint8_t>(reader.number(stick_count - 1));
-            event.deflection = static_cast<Deflection>(reader.whole(127));
-            break;
-        }
-        case What::pointer:
-            event.canvas.x = static_cast<float>(reader.whole(farthest_pointer)) / parts_of_unit;
-            event.canvas.y = static_cast<float>(reader.whole(farthest_pointer)) / parts_of_unit;
-            break;
-        case What::camera:
-            event.camera.centre.x = reader.real();
-            event.camera.centre.y = reader.real();
-            event.camera.height = reader.real();
-            break;
-        case What::wheel:
-            event.notches = reader.whole(most_notches);
-            break;
-        case What::text:
-            event.text = reader.text();
-            break;
-        case What::no_pointer:
-        case What::restart:
-            break;
-    }
-    return reader.good ? std::optional(event) : std::nullopt;
+    Payload payload(bytes);
+    kind_of(event.what).transfer(event, payload);
+    return payload.good ? std::optional(event) : std::nullopt;
 }
 
 }  // namespace oiler

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 
 namespace oiler {
 

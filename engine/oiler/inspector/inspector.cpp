@@ -134,7 +134,7 @@ struct Inspector::Impl {
     /// Where a splitting puts damping; other methods have no choice.
     static void show_damping(Stepping& chosen) {
         const Method& method = *chosen.method;
-        const Damping now = chosen.damping.value_or(method.damping);
+        const Damping now = damping_of(chosen);
         int is_in_drift = now == Damping::in_drift ? 1 : 0;
         ImGui::BeginDisabled(!std::holds_alternative<Splitting>(method.rule));
         ImGui::AlignTextToFramePadding();
@@ -296,7 +296,7 @@ struct Inspector::Impl {
     }
 
     static void show_costs(const Inspected& run) {
-        const double total = run.costs.update + run.costs.step + run.costs.picture + run.costs.draw;
+        const double total = run.costs.total();
         if (total == 0) return;
         ImGui::Separator();
         text("A frame");
@@ -334,13 +334,7 @@ struct Inspector::Impl {
 
     /// "this", "120 Hz", "rk4", "float".
     static std::string difference(const Stepping& other, const Stepping& run) {
-        std::string words;
-        const auto add = [&](const std::string& word) {
-            words += (words.empty() ? "" : ", ") + word;
-        };
-        if (other.method != run.method) add(std::string(other.method->name));
-        if (other.rate != run.rate) add(fmt::format("{} Hz", other.rate.steps));
-        if (other.precision != run.precision) add(std::string(name_of(other.precision)));
+        const std::string words = difference_text(other, run);
         return words.empty() ? "this run" : words;
     }
 

@@ -9,12 +9,28 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/frame_costs.hpp"
 #include "oiler/core/size.hpp"
 #include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
+
+/// "-12.5 J", "4.235 MJ".
+[[nodiscard]] std::string energy_text(double joules);
+
+/// "850 ns", "12.3 µs", "4.5 ms".
+[[nodiscard]] std::string time_text(double nanoseconds);
+
+/// What is drawn over the picture while the inspector is open.
+struct Shown {
+    bool trails = false;
+    bool springs = false;  ///< coloured by their strain
+    bool velocities = false;
+    bool accelerations = false;
+    friend bool operator==(const Shown&, const Shown&) = default;
+};
 
 /// What the inspector shows of a run that is played.
 struct Inspected {
@@ -27,14 +43,6 @@ struct Inspected {
         std::string cost{};
         std::string forces{};  ///< their evaluations, such as "×4"; empty: not counted
     };
-    /// Times of a frame, ns; all 0: not measured.
-    struct Costs {
-        double update = 0;
-        double step = 0;
-        double picture = 0;
-        double draw = 0;
-    };
-
     /// The spring or damper that is closest to the limit of the method.
     struct Gauge {
         std::string name{};
@@ -73,7 +81,7 @@ struct Inspected {
     std::string rate_advice{};                 ///< which rate would be right
     std::vector<float> errors{};               ///< of the run over time, m
     std::optional<Gauge> stiffest{};
-    Costs costs{};
+    FrameCosts costs{};                    ///< all 0: not measured
     double energy = 0;                     ///< J
     double begin = 0;                      ///< s, since when errors and energies are compared
     std::optional<double> first_energy{};  ///< J, then; empty: it is not known

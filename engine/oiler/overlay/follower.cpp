@@ -3,28 +3,23 @@
 
 #include <cmath>
 
+#include "oiler/game/look.hpp"
+
 namespace oiler {
 namespace {
 
 constexpr double longest_double_click = 0.4;  // s
 constexpr float widest_double_click = 6;      // canvas units
-constexpr float reach_of_mouse = 0.06F;       // of the picture's height
 
-/// The body that is drawn nearest to a point, within the mouse's reach.
-std::optional<Entity> body_at(Point at, float height, const DrawnBodies& drawn,
-                              const World& world) {
-    std::optional<Entity> nearest;
-    float least = reach_of_mouse * height;
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
-        const Entity entity = world.entity_of_row(row);
-        const DrawnBodies::Body* const body = drawn.find(entity);
-        if (!body) continue;
-        const float distance = std::hypot(body->centre.x - at.x, body->centre.y - at.y);
-        if (distance > least) continue;
-        least = distance;
-        nearest = entity;
-    }
-    return nearest;
+/// The body that is drawn nearest to a point.
+std::optional<Entity> drawn_body_at(Point at, float height, const Picture& picture,
+                                    const World& world) {
+    const DrawnBodies drawn(picture);
+    return body_at(at, height, world, [&](std::size_t row) -> std::optional<Vec3> {
+        const DrawnBodies::Body* const body = drawn.find(world.entity_of_row(row));
+        if (!body) return std::nullopt;
+        return to_vec(body->centre);
+    });
 }
 
 }  // namespace
@@ -47,8 +42,7 @@ void Follower::look(const Input& mouse, const Camera& shown, const Picture& pict
     }
     if (mouse.held(Mouse::right)) held_ = at;
     if (!mouse.pressed(Mouse::left)) return;
-    const Click click{*at, time,
-                      body_at(shown.to_world(*at), shown.height, DrawnBodies(picture), world)};
+    const Click click{*at, time, drawn_body_at(shown.to_world(*at), shown.height, picture, world)};
     if (!is_double(click)) {
         last_click_ = click;
         return;

@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "oiler/input/input.hpp"
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/picture/picture.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
+
+/// The body that is nearest to a point, m, within the mouse's reach in a picture of that height.
+/// `place_of(row)` is the place of a body, m; empty if it is not to be seen.
+template <class PlaceOf>
+[[nodiscard]] std::optional<Entity> body_at(Point at, float height, const World& world,
+                                            PlaceOf place_of) {
+    constexpr double reach = 0.06;  // of the height
+    std::optional<Entity> nearest;
+    double least = reach * double{height};
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+        const std::optional<Vec3> place = place_of(row);
+        if (!place) continue;
+        const double distance = std::hypot((*place)[0] - at.x, (*place)[1] - at.y);
+        if (distance > least) continue;
+        least = distance;
+        nearest = world.entity_of_row(row);
+    }
+    return nearest;
+}
 
 /// Keeps a body in the middle of the view. A double click on a body begins that; one on the same
 /// body or beside all bodies ends it. The first click chooses the body, which may move away before

@@ -10,8 +10,8 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
-#include "oiler/sim/row_parts.hpp"
-#include "oiler/whatif/rate_advice.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/steps/row_parts.hpp"
 
 namespace oiler {
 namespace {
@@ -59,28 +59,14 @@ bool has_figures(const WhatIf& measured) {
 }
 
 Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
-    using Grade = Verdict::Grade;
-    const double unsure = least_certain * measured.uncertainty;
-    std::string error = "?";
-    Grade grade = Grade::unknown;
-    if (!run.failure.empty()) {
-        error = "failed";
-        grade = Grade::bad;
-    } else if (run.other_play_from) {
-        error = "other events";
-        grade = Grade::bad;
-    } else if (run.distance >= unsure) {
-        error = length_text(run.distance);
-        grade = grade_of(run.distance / measured.pixel);
-    } else if (run.distance < unsure) {
-        error = unsure <= part_of_exact * measured.pixel ? "exact" : "< " + length_text(unsure);
-        if (unsure <= measured.pixel) grade = Grade::good;
-    }
-    const double cost = run.costs.update + run.costs.step;
+    const KnownError error = measured.error_of(run);
+    const double cost = run.costs.of_steps();
     const double times = run.evaluations / measured.runs.front().evaluations;
     return {.stepping = run.stepping,
-            .error = std::move(error),
-            .grade = colour_of(grade),
+            .error = !run.failure.empty()  ? "failed"
+                     : run.other_play_from ? "other events"
+                                           : error.text(measured.pixel),
+            .grade = colour_of(run.is_sound() ? error.grade(measured.pixel) : Grade::bad),
             .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
 }
@@ -88,11 +74,12 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
 }  // namespace
 
 GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
-    : game_(game), fixed_(std::move(fixed)), inspector_(font) {
-    list_methods();
-}
+    : game_(game), fixed_(std::move(fixed)), inspector_(font) {}
 
-void GameInspector::list_methods() { methods_ = applicable_methods(game_.world()); }
+void GameInspector::begin_game() {
+    methods_.clear();
+    follower_.end();
+}
 
 /// Limits take too long for a frame, so they are found aside.
 void GameInspector::find_stiffest(bool waits) {
@@ -128,13 +115,13 @@ void GameInspector::find_stiffest(bool waits) {
 void GameInspector::add_times(const StepTimes& steps, std::chrono::nanoseconds show,
                               std::chrono::nanoseconds draw) {
     constexpr double weight = 1.0 / 32;
-    const auto mix = [](double& mean, std::chrono::nanoseconds time) {
-        mean += weight * (static_cast<double>(time.count()) - mean);
+    const auto mix = [](double& mean, std::int64_t nanoseconds) {
+        mean += weight * (static_cast<double>(nanoseconds) - mean);
     };
     mix(costs_.update, steps.update);
     mix(costs_.step, steps.step);
-    mix(costs_.picture, show - steps.update - steps.step);
-    mix(costs_.draw, draw);
+    mix(costs_.picture, show.count() - steps.update - steps.step);
+    mix(costs_.draw, draw.count());
 }
 
 void GameInspector::follow(Picture& picture, const Input& mouse, const Camera& shown, double time) {
@@ -169,6 +156,7 @@ std::string GameInspector::figures_of(Entity body) const {
 Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
                              const Frame& frame) {
     const World& world = game_.world();
+    if (methods_.empty()) methods_ = applicable_methods(world);
     find_stiffest(frame.waits);
     const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,

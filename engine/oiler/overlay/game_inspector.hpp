@@ -34,15 +34,13 @@ public:
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
-    /// Lists the methods anew: the game has other bodies.
-    void list_methods();
+    /// The game was replaced: it has other bodies.
+    void begin_game();
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(const StepTimes& steps, std::chrono::nanoseconds show,
                    std::chrono::nanoseconds draw);
     /// Follows the body that the user double-clicks, see Follower.
     void follow(Picture& picture, const Input& mouse, const Camera& shown, double time);
-    /// Follows no body any more.
-    void stop_following() { follower_.end(); }
     /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
     /// game `alpha` of the way to its last step. Distances are drawn `factor` times as long.
     void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
@@ -71,8 +69,8 @@ private:
     Follower follower_;
     Shown shown_;
     MotionOverlay motion_;
-    Inspected::Costs costs_;
-    std::vector<const Method*> methods_;
+    FrameCosts costs_;
+    std::vector<const Method*> methods_;  ///< that the bodies can have; empty: not yet listed
 };
 
 }  // namespace oiler

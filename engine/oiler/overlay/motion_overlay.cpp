@@ -10,6 +10,8 @@
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/whatif/verdict.hpp"
 
 namespace oiler {
 namespace {
@@ -21,10 +23,9 @@ State<double, 3> state_of(const Bodies& bodies, std::size_t row) {
 Vec3 acceleration_by_forces(const Bodies& bodies, std::size_t row, double time) {
     const State<double, 3> state = state_of(bodies, row);
     Vec3 sum{};
-    for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i)
-        for_each_given(bodies.forces_per_mass(row, i), [&](const auto& force) {
-            if (acts(force)) sum = sum + accelerate(force, state, time);
-        });
+    for_each_force_on(bodies, row, [&](const auto& force) {
+        if (acts(force)) sum = sum + accelerate(force, state, time);
+    });
     return sum;
 }
 

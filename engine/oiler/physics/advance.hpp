@@ -34,7 +34,7 @@ concept SplitsDamping = requires(Physics& physics, State& state, double t) {
 /// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
 /// the damping that is not linear.
 template <SplitsSteps Plan, class State, class Physics>
-[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+[[gnu::always_inline]] inline bool advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
     constexpr bool splits_damping = SplitsDamping<Physics, State>;
     if constexpr (splits_damping) physics.damp_before(state);
@@ -55,6 +55,7 @@ template <SplitsSteps Plan, class State, class Physics>
             }
         });
     if constexpr (splits_damping) physics.damp_after(state);
+    return true;
 }
 
 /// The rates of change at a state: the article's Derivative.
@@ -102,7 +103,7 @@ template <IsTableau Plan, class State, class Physics>
 
 /// The same. A physics of large states may keep their memory from step to step.
 template <IsTableau Plan, class State, class Physics>
-[[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
+[[gnu::always_inline]] inline bool advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
     if constexpr (requires { physics.stages(); }) {
         Stages<State>& stages = physics.stages();
@@ -113,6 +114,7 @@ template <IsTableau Plan, class State, class Physics>
         State at;
         advance(plan, state, physics, t, k, initial, at);
     }
+    return true;
 }
 
 /// A physics of forces that are linear in position and velocity.
@@ -144,8 +146,7 @@ template <std::floating_point T, class State, class Physics>
 inline constexpr int most_iterations = 64;
 
 /// One step of an implicit method from time `t` (s): Newton's iteration. It has converged when a
-/// change is below the round-off of w, or is small and no longer halves. Returns whether it
-/// converged.
+/// change is below the round-off of w, or is small and no longer halves.
 template <std::floating_point T, class State, class Physics>
 [[nodiscard]] bool advance(const ImplicitPlan<T>& plan, State& state, Physics& physics, double t) {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -183,9 +184,10 @@ template <std::floating_point T, class State, IsLinear Physics>
 
 /// One step along the exact motion under linear forces.
 template <std::floating_point T, class State, class Physics>
-[[gnu::always_inline]] inline void advance(const ExactPlan<T>&, State& state, Physics& physics,
+[[gnu::always_inline]] inline bool advance(const ExactPlan<T>&, State& state, Physics& physics,
                                            double t) {
     physics.respond(state, t);
+    return true;
 }
 
 /// One step of any explicit method over one state; for readers and tests.

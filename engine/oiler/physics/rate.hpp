@@ -32,19 +32,4 @@ inline constexpr std::array<std::int64_t, 26> offered_rates{
     10, 12,  16,  20,  24,  30,  36,  40,  48,  50,  60,  72,  80,
     90, 100, 120, 144, 180, 200, 240, 300, 360, 480, 500, 600, 1000};
 
-/// "-12.5 J", "4.235 MJ".
-[[nodiscard]] std::string energy_text(double joules);
-
-/// "850 ns", "12.3 µs", "4.5 ms".
-[[nodiscard]] std::string time_text(double nanoseconds);
-
-/// What is drawn over the picture while the inspector is open.
-struct Shown {
-    bool trails = false;
-    bool springs = false;  ///< coloured by their strain
-    bool velocities = false;
-    bool accelerations = false;
-    friend bool operator==(const Shown&, const Shown&) = default;
-};
-
 }  // namespace oiler

@@ -2,6 +2,7 @@
 #include "oiler/picture/bitmap.hpp"
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 
@@ -55,18 +56,17 @@ std::shared_ptr<const Bitmap> decode_bitmap(std::span<const std::byte> file,
     return make_bitmap(size, {texels.get(), texels.get() + bytes_of(size)});
 }
 
-std::shared_ptr<const Bitmap> load_bitmap(const std::filesystem::path& path) {
+std::shared_ptr<const Bitmap> load_bitmap(const std::string& path) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     std::ifstream file(path, std::ios::binary);
     if (error || !file) {
         const int reason = error ? error.value() : errno;
-        fail(exit_of_open(reason), "{}: cannot read the image: {}", path.string(),
-             system_reason(reason));
+        fail(exit_of_open(reason), "{}: cannot read the image: {}", path, system_reason(reason));
     }
     std::vector<char> bytes(size);
     file.read(bytes.data(), static_cast<std::streamsize>(size));
-    return decode_bitmap(std::as_bytes(std::span(bytes)), path.string());
+    return decode_bitmap(std::as_bytes(std::span(bytes)), path);
 }
 
 }  // namespace oiler

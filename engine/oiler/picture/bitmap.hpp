@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +29,6 @@ struct Bitmap {
                                                           std::string_view name);
 
 /// Reads a PNG or JPEG file. Throws Error{usage}, or Error{io} if the machine cannot read it.
-[[nodiscard]] std::shared_ptr<const Bitmap> load_bitmap(const std::filesystem::path& path);
+[[nodiscard]] std::shared_ptr<const Bitmap> load_bitmap(const std::string& path);
 
 }  // namespace oiler

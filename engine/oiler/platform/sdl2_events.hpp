@@ -7,7 +7,7 @@
 #include <map>
 
 #include "oiler/core/size.hpp"
-#include "oiler/input/input_queue.hpp"
+#include "oiler/input/input.hpp"
 #include "oiler/platform/providers.hpp"
 
 namespace oiler {

@@ -9,8 +9,6 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/toml/document.hpp"
-#include "oiler/toml/guard.hpp"
-#include "oiler/toml/refuse.hpp"
 
 namespace oiler {
 namespace {

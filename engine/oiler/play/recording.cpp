@@ -12,6 +12,7 @@
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -53,13 +54,13 @@ Json to_json(const RecordedControl& control) {
 Json to_json(const RecordingHeader& header) {
     Json controls = Json::array();
     for (const RecordedControl& control : header.controls) controls.push_back(to_json(control));
-    const Stepping& stepping = header.stepping;
+    Json stepping = to_json(header.stepping);
     return {{"game", header.game},
             {"version", header.version},
-            {"method", stepping.method->name},
-            {"rate", stepping.rate.steps},
-            {"precision", name_of(stepping.precision)},
-            {"damping", stepping.damping ? name_of(*stepping.damping) : ""},
+            {"method", stepping["method"]},
+            {"rate", stepping["rate"]},
+            {"precision", stepping["precision"]},
+            {"damping", damping_name(header.stepping)},
             {"seed", header.seed},
             {"controls", controls}};
 }
@@ -72,20 +73,14 @@ Buttons buttons_from(const nlohmann::json& names) {
 }
 RecordedControl control_from(const nlohmann::json& json) {
     if (json.contains("action"))
-        return {.name = json.at("action"), .positive = buttons_from(json.at("buttons"))};
-    RecordedControl axis{.name = json.at("axis"),
-                         .is_axis = true,
-                         .negative = buttons_from(json.at("negative")),
-                         .positive = buttons_from(json.at("positive"))};
+        return {{.positive = buttons_from(json.at("buttons"))}, json.at("action")};
+    RecordedControl axis{{.is_axis = true,
+                          .negative = buttons_from(json.at("negative")),
+                          .positive = buttons_from(json.at("positive"))},
+                         json.at("axis")};
     const std::string stick = json.at("stick");
     if (!stick.empty()) axis.stick = find_stick(stick).value();
     return axis;
-}
-template <class Value>
-Value named(const std::string& name, std::initializer_list<Value> values) {
-    for (const Value value : values)
-        if (name_of(value) == name) return value;
-    throw std::invalid_argument(name);
 }
 RecordingHeader header_from(const std::string& line) {
     const auto json = nlohmann::json::parse(line);
@@ -100,9 +95,9 @@ RecordingHeader header_from(const std::string& line) {
     stepping.method = &find_method(std::string(json.at("method")));
     stepping.rate = {json.at("rate")};
     if (stepping.rate.steps < 1) throw std::invalid_argument("rate");
-    stepping.precision = named(json.at("precision"), {Precision::single, Precision::double_});
+    stepping.precision = find_precision(std::string(json.at("precision"))).value();
     const std::string damping = json.at("damping");
-    if (!damping.empty()) stepping.damping = named(damping, {Damping::in_kick, Damping::in_drift});
+    if (!damping.empty()) stepping.damping = find_damping(damping).value();
     return header;
 }
 
@@ -195,19 +190,14 @@ RecordingHeader header_of(std::string_view game, const Settings& settings,
                            .seed = settings.seed,
                            .controls = {}};
     for (const Control& control : controls)
-        header.controls.push_back({std::string(control.name), control.is_axis, control.negative,
-                                   control.positive, control.stick});
+        header.controls.push_back({control, std::string(control.name)});
     return header;
 }
 
 ChosenControls controls_of(const RecordingHeader& header, std::span<const Control> of_game) {
     auto chosen = std::make_shared<std::vector<Control>>(of_game.begin(), of_game.end());
-    for (std::size_t i = 0; i < chosen->size(); ++i) {
-        const RecordedControl& recorded = header.controls.at(i);
-        (*chosen)[i].negative = recorded.negative;
-        (*chosen)[i].positive = recorded.positive;
-        (*chosen)[i].stick = recorded.stick;
-    }
+    for (std::size_t i = 0; i < chosen->size(); ++i)
+        static_cast<Binding&>((*chosen)[i]) = header.controls.at(i);
     return chosen;
 }
 

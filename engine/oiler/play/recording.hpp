@@ -13,22 +13,17 @@
 #include "oiler/core/state_hash.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/input/input_event.hpp"
-#include "oiler/physics/stepping.hpp"
 
 namespace oiler {
 
 /// An action or axis of a recorded game, with the buttons that its player had.
-struct RecordedControl {
+struct RecordedControl : Binding {
     std::string name;
-    bool is_axis = false;
-    Buttons negative{};
-    Buttons positive{};
-    std::optional<Stick> stick{};
 
     friend bool operator==(const RecordedControl&, const RecordedControl&) = default;
 };
 
-/// All that decides how a game goes on, besides its input.
+/// Everything besides its input that determines a game.
 struct RecordingHeader {
     std::string game;
     std::string version;  ///< of Oiler
@@ -45,7 +40,7 @@ struct RecordingHeader {
 [[nodiscard]] ChosenControls controls_of(const RecordingHeader& header,
                                          std::span<const Control> of_game);
 
-/// The last 16 bits of the hashes of a game: what differs when they do is known by the part.
+/// The last 16 bits of the hashes of a game. The hash that differs tells which part differs.
 struct PartHashes {
     std::uint16_t bodies = 0;
     std::uint16_t whole = 0;

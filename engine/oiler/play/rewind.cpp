@@ -5,6 +5,8 @@
 #include <cassert>
 #include <iterator>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "oiler/game/game.hpp"
-#include "oiler/game/input_source.hpp"
 
 namespace oiler {
 

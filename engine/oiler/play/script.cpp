@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -15,7 +17,7 @@
 namespace oiler {
 namespace {
 
-using What = ScriptLine::What;
+using What = InputEvent::What;
 
 constexpr float farthest = 1e9F;
 
@@ -144,10 +146,57 @@ void take_stick(LineWords& words, ScriptLine& line) {
     const auto position = words.take_number<float>("position of a stick");
     if (position < (is_trigger ? 0 : -1) || position > 1)
         words.refuse(fmt::format("{} goes from {} to 1", name, is_trigger ? 0 : -1));
-    line.what = What::stick;
-    line.stick = *stick;
-    line.deflection = static_cast<Deflection>(std::lround(position * 127));
+    line.events.push_back({.what = What::stick,
+                           .stick = static_cast<std::uint8_t>(*stick),
+                           .deflection = static_cast<Deflection>(std::lround(position * 127))});
 }
+
+InputEvent edge(Button button, bool down) {
+    return {.what = What::edge, .button = button.id(), .down = down};
+}
+
+using Controls = std::span<const Control>;
+
+/// A thing that a player can do, by its word in a script.
+struct Deed {
+    std::string_view word;
+    void (*take)(LineWords& words, Controls controls, ScriptLine& line);
+};
+constexpr Deed deeds[]{
+    {"press",
+     [](LineWords& words, Controls controls, ScriptLine& line) {
+         const Button button = take_button(words, "", controls);
+         line.events = {edge(button, true), edge(button, false)};
+     }},
+    {"hold",
+     [](LineWords& words, Controls controls, ScriptLine& line) {
+         line.events = {edge(take_button(words, "", controls), true)};
+     }},
+    {"release",
+     [](LineWords& words, Controls controls, ScriptLine& line) {
+         line.events = {edge(take_button(words, "", controls), false)};
+     }},
+    {"click",
+     [](LineWords& words, Controls, ScriptLine& line) {
+         const Button button = take_button(words, "Mouse ", {});
+         line.events = {edge(button, true), edge(button, false)};
+     }},
+    {"mouse",
+     [](LineWords& words, Controls, ScriptLine& line) {
+         const float x = words.take_metres();
+         line.mouse = Point{x, words.take_metres()};
+     }},
+    {"wheel",
+     [](LineWords& words, Controls, ScriptLine& line) {
+         line.events.push_back(
+             {.what = What::wheel, .notches = words.take_number<int>("number of notches")});
+     }},
+    {"stick", [](LineWords& words, Controls, ScriptLine& line) { take_stick(words, line); }},
+    {"text",
+     [](LineWords& words, Controls, ScriptLine& line) {
+         line.events.push_back({.what = What::text, .text = words.take_quoted()});
+     }},
+};
 
 /// A step, or a time such as 1.5s.
 std::int64_t take_step(LineWords& words, Rate rate) {
@@ -159,44 +208,32 @@ std::int64_t take_step(LineWords& words, Rate rate) {
     return static_cast<std::int64_t>(steps);
 }
 
-ScriptLine parse_line(LineWords& words, Rate rate, std::span<const Control> controls) {
+ScriptLine parse_line(LineWords& words, Rate rate, Controls controls) {
     ScriptLine line{.step = take_step(words, rate)};
     if (line.step < 0) words.refuse("a step is 0 or more");
-    const std::string_view what = words.take();
-    if (what == "press" || what == "hold" || what == "release") {
-        line.what = what == "press" ? What::press : what == "hold" ? What::hold : What::release;
-        line.button = take_button(words, "", controls);
-    } else if (what == "click") {
-        line.button = take_button(words, "Mouse ", {});
-    } else if (what == "mouse") {
-        line.what = What::mouse;
-        line.at.x = words.take_metres();
-        line.at.y = words.take_metres();
-    } else if (what == "wheel") {
-        line.what = What::wheel;
-        line.notches = words.take_number<int>("number of notches");
-    } else if (what == "stick") {
-        take_stick(words, line);
-    } else if (what == "text") {
-        line.what = What::text;
-        line.text = words.take_quoted();
-    } else {
-        words.refuse(fmt::format(
-            "'{}': give press, hold, release, click, mouse, wheel, stick or text", what));
+    const std::string_view word = words.take();
+    const auto deed = std::ranges::find(deeds, word, &Deed::word);
+    if (deed == std::end(deeds)) {
+        std::vector<std::string_view> known;
+        for (const Deed& one : deeds) known.push_back(one.word);
+        const std::string_view last = known.back();
+        known.pop_back();
+        words.refuse(fmt::format("'{}': give {} or {}", word, fmt::join(known, ", "), last));
     }
+    deed->take(words, controls, line);
     if (!words.empty()) words.refuse(fmt::format("'{}' is too much", words.take_rest()));
     return line;
 }
 
 /// Refuses a button that goes down twice, or up without being down.
 void follow(const ScriptLine& line, HeldButtons& held, const LineWords& words) {
-    const bool releases = line.what == What::release;
-    if (!releases && line.what != What::hold && line.what != What::press) return;
-    const std::size_t id = line.button.id();
-    if (held[id] != releases)
-        words.refuse(fmt::format("{} is {} then", name_of(line.button),
-                                 releases ? "not down" : "down already"));
-    held[id] = line.what == What::hold;
+    for (const InputEvent& event : line.events) {
+        if (event.what != What::edge) continue;
+        if (held[event.button] == event.down)
+            words.refuse(fmt::format("{} is {} then", name_of(*Button::of_id(event.button)),
+                                     event.down ? "down already" : "not down"));
+        held[event.button] = event.down;
+    }
 }
 
 }  // namespace
@@ -224,33 +261,17 @@ std::vector<ScriptLine> parse_script(const std::string& text, const std::string&
 }
 
 Input ScriptInput::next(std::int64_t step) {
-    for (; played_ < lines_.size() && lines_[played_].step <= step; ++played_)
-        play(lines_[played_]);
-    if (!mouse_) return queue_.take({});
-    const Camera camera = game_.picture().camera;
-    queue_.point_at(camera.to_canvas(*mouse_));
-    return queue_.take(camera);
-}
-
-void ScriptInput::play(const ScriptLine& line) {
-    switch (line.what) {
-        case What::press:
-            queue_.set(line.button, true);
-            return queue_.set(line.button, false);
-        case What::hold:
-            return queue_.set(line.button, true);
-        case What::release:
-            return queue_.set(line.button, false);
-        case What::mouse:
-            mouse_ = line.at;
-            return;
-        case What::wheel:
-            return queue_.turn_wheel(line.notches);
-        case What::stick:
-            return queue_.deflect(line.stick, line.deflection);
-        case What::text:
-            return queue_.enter(line.text);
+    for (; played_ < lines_.size() && lines_[played_].step <= step; ++played_) {
+        const ScriptLine& line = lines_[played_];
+        for (const InputEvent& event : line.events) player_.play(event);
+        if (line.mouse) mouse_ = line.mouse;
     }
+    if (mouse_) {
+        const Camera camera = game_.picture().camera;
+        player_.play({.what = What::camera, .camera = camera});
+        player_.play({.what = What::pointer, .canvas = camera.to_canvas(*mouse_)});
+    }
+    return player_.take();
 }
 
 }  // namespace oiler

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "oiler/game/game.hpp"
+#include "oiler/input/input_event.hpp"
 
 namespace oiler {
 
 /// A line of a script: what a player does before a step.
 struct ScriptLine {
-    enum class What { hold, release, press, mouse, wheel, stick, text };
-    What what = What::press;
     std::int64_t step = 0;  ///< counted from 0
-    Button button{Key::space};
-    Point at{};  ///< of the mouse, m
-    int notches = 0;
-    Stick stick = Stick::left_x;
-    Deflection deflection = 0;
-    std::string text{};
+    std::vector<InputEvent> events{};
+    std::optional<Point> mouse{};  ///< where it points from then on, m
 };
 
 /// Reads a script. Each line has a step and what is done before it; # begins a comment:
@@ -43,18 +39,16 @@ struct ScriptLine {
 class ScriptInput final : public InputSource {
 public:
     ScriptInput(std::vector<ScriptLine> lines, const AnyGame& game, ChosenControls controls = {})
-        : lines_(std::move(lines)), game_(game), queue_(std::move(controls)) {}
+        : lines_(std::move(lines)), game_(game), player_(std::move(controls)) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
     /// The number of lines that come after the steps so far.
     [[nodiscard]] std::size_t unplayed() const { return lines_.size() - played_; }
 
 private:
-    void play(const ScriptLine& line);
-
     std::vector<ScriptLine> lines_;
     const AnyGame& game_;
-    InputQueue queue_;
+    EventPlayer player_;
     std::size_t played_ = 0;
     std::optional<Point> mouse_;  ///< m
 };

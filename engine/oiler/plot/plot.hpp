@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oiler/picture/picture.hpp"
@@ -64,5 +65,9 @@ struct Plot {
 
     [[nodiscard]] Point to_canvas(DataPoint point) const;
 };
+
+/// Width of a line of text in the units of its font size, estimated from DejaVu Sans: a picture
+/// does not know its font.
+[[nodiscard]] float text_width(std::string_view words, float size);
 
 }  // namespace oiler

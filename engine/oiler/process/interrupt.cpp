@@ -5,11 +5,15 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <iterator>
+#include <new>
+#include <string>
 
-#include "oiler/core/error.hpp"
+#include "oiler/core/floating_point.hpp"
+#include "oiler/process/console.hpp"
 
 namespace oiler {
 namespace {
@@ -51,6 +55,30 @@ bool is_ignored(int signal) {
     return action.sa_handler == SIG_IGN;
 }
 
+struct Ending {
+    Exit exit = Exit::done;
+    std::string error{};  ///< a line without the program's name; empty: none
+};
+
+/// Names of files and options may have line breaks.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
+    try {
+        fill_closed_streams();
+        Interrupt::handle_signals(name);
+        require_ieee_arithmetic();
+        return {program()};
+    } catch (const Error& error) {
+        return {error.exit(), error.what()};
+    } catch (const std::bad_alloc&) {
+        return {Exit::io, "not enough memory; take fewer bodies or a shorter time"};
+    }
+}
+
 }  // namespace
 
 void Interrupt::handle_signals(std::string_view name) {
@@ -71,5 +99,14 @@ void Interrupt::handle_signals(std::string_view name) {
 }
 
 bool Interrupt::requested() { return requested_flag; }
+
+int guard_main(std::string_view name, const std::function<Exit()>& program) {
+    Ending ending = ending_of(name, program);
+    if (Interrupt::requested())
+        ending = {Exit::interrupted,
+                  "interrupted" + (ending.error.empty() ? "" : ": " + ending.error)};
+    if (!ending.error.empty()) say(fmt::format("{}: {}", name, one_line(ending.error)));
+    return static_cast<int>(ending.exit);
+}
 
 }  // namespace oiler

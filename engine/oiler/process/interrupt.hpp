@@ -3,7 +3,10 @@
 
 #include <csignal>
 #include <ctime>
+#include <functional>
 #include <string_view>
+
+#include "oiler/core/error.hpp"
 
 namespace oiler {
 
@@ -22,5 +25,10 @@ public:
 
     [[nodiscard]] static bool requested();
 };
+
+/// Runs the program of a main function and returns its exit code. An Error becomes a line on
+/// standard error that starts with `name`. An interrupted program prints one, too, and its exit
+/// code is Exit::interrupted whatever `program` returns: see Interrupt.
+int guard_main(std::string_view name, const std::function<Exit()>& program);
 
 }  // namespace oiler

@@ -20,9 +20,9 @@ namespace oiler {
 
 /// Adds an option for a whole number from `low` to `high` in decimal digits: 010 is ten, not octal,
 /// and 1e3 is refused.
-template <class Whole>
-CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Whole low, Whole high,
-                       const std::string& help) {
+template <class Whole, class Target>
+CLI::Option* add_whole(CLI::App& app, const std::string& name, Target& target, Whole low,
+                       Whole high, const std::string& help) {
     const auto parse = [=, &target](const std::string& words) {
         const char* const end = words.data() + words.size();
         Whole value = 0;
@@ -35,12 +35,12 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Whole& target, Wh
     return app.add_option_function<std::string>(name, parse, help)->type_name("N");
 }
 
-/// Adds `--damping`, "kick" or "drift".
+/// Of `--damping`, which is "kick" or "drift".
+inline constexpr const char* help_of_damping =
+    "where a splitting method puts damping: explicitly into its kicks or exactly into its drifts; "
+    "the method's default if not given";
 inline CLI::Option* add_damping(CLI::App& app, std::string& words) {
-    return app
-        .add_option("--damping", words,
-                    "where a splitting method puts damping: explicitly into its kicks or exactly "
-                    "into its drifts; the method's default if not given")
+    return app.add_option("--damping", words, help_of_damping)
         ->check(CLI::IsMember({"kick", "drift"}))
         ->type_name("NAME");
 }

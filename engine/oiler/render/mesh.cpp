@@ -277,11 +277,12 @@ Ring clipped(const Ring& ring, Size frame) {
 
 /// Removes points at the place of the one before.
 Ring corners_of(const Ring& ring) {
-    constexpr double closest = 1e-3;  // pixels
+    constexpr double least_distance = 1e-3;  // pixels
     Ring corners;
     for (const Vec& point : ring)
-        if (corners.empty() || length(point - corners.back()) > closest) corners.push_back(point);
-    while (corners.size() > 1 && length(corners.back() - corners.front()) <= closest)
+        if (corners.empty() || length(point - corners.back()) > least_distance)
+            corners.push_back(point);
+    while (corners.size() > 1 && length(corners.back() - corners.front()) <= least_distance)
         corners.pop_back();
     return corners;
 }

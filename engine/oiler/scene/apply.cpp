@@ -23,7 +23,7 @@ std::vector<Value> values_of(const Stepping& stepping) {
         {.key = "rate", .kind = ValueKind::whole, .whole = stepping.rate.steps},
         word_value("method", stepping.method->name),
         word_value("precision", name_of(stepping.precision))};
-    if (stepping.damping) values.push_back(word_value("damping", name_of(*stepping.damping)));
+    if (stepping.damping) values.push_back(word_value("damping", damping_name(stepping)));
     return values;
 }
 

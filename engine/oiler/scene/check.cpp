@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "oiler/core/error.hpp"
-#include "oiler/scene/grid.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/limits.hpp"
 
 namespace oiler {
 namespace {
@@ -26,13 +26,6 @@ void check_at(const Scene& scene, const Section& section, std::string_view key,
               const Checked&... checked) {
     at(section.place(key), fmt::format("{}.{}", section.name(), key),
        [&] { Limits(scene.stepping.precision, scene.axes).check(checked...); });
-}
-
-template <class Force>
-GivenForces given(const Force& force) {
-    GivenForces forces;
-    std::get<std::optional<Force>>(forces) = force;
-    return forces;
 }
 
 void check_size(const Scene& scene, const Section& section) {
@@ -82,18 +75,15 @@ void check_spring(const Scene& scene, const Section& section, const SceneSpring&
              Link{spring.stiffness, spring.damping, spring.rest_length});
 }
 
-void check_force(const Scene& scene, const Section& section, const SceneForce& force,
-                 const std::vector<std::string_view>& keys) {
+void check_force(const Scene& scene, const Section& section, const SceneForce& force) {
     const double mass = scene.bodies[force.body].matter.mass;
     std::visit(
         [&]<class Force>(const Force& all) {
-            std::size_t next = 0;
-            const auto check = [&](auto field) {
+            for_each_field<Force>([&](const auto& field) {
                 Force one{};
-                one.*field = all.*field;
-                check_at(scene, section, keys.at(next++), given(one), mass);
-            };
-            std::apply([&](auto... field) { (check(field), ...); }, Force::fields());
+                one.*field.member = all.*field.member;
+                check_at(scene, section, field.key, given(one), mass);
+            });
         },
         force.force);
 }

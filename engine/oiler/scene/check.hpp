@@ -14,9 +14,7 @@ void check_numbers(const Scene& scene, const Section& section, std::string_view 
                    const Vec3& vector);
 void check_matter(const Scene& scene, const Section& section, const SceneMatter& matter);
 void check_spring(const Scene& scene, const Section& section, const SceneSpring& spring);
-/// `keys` are those of the force's fields.
-void check_force(const Scene& scene, const Section& section, const SceneForce& force,
-                 const std::vector<std::string_view>& keys);
+void check_force(const Scene& scene, const Section& section, const SceneForce& force);
 void check_plane(const Scene& scene, const Section& section, const Plane& plane);
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid);
 void check_scatter(const Scene& scene, const Section& section, const SceneScatter& scatter);

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
-#include "oiler/scene/grid.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -156,10 +156,8 @@ private:
     }
 
     void draw_labels() {
-        const Settings& settings = world_.settings();
-        const std::string how = fmt::format(
-            "{} at {} Hz, {}   t = {:.2f} s", settings.stepping.method->name,
-            settings.stepping.rate.steps, name_of(settings.stepping.precision), world_.time());
+        const std::string how =
+            fmt::format("{}   t = {:.2f} s", caption(world_.settings().stepping), world_.time());
         picture_.labels = {{.at = {12, 340}, .text = scene_.title, .colour = palette::ink},
                            {.at = {12, 326}, .text = how, .size = 9, .colour = palette::grey}};
     }

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
+#include <utility>
 
-#include "oiler/scene/colours.hpp"
+#include "oiler/core/require.hpp"
 #include "oiler/scene/scene.hpp"
 
 namespace oiler {
@@ -40,6 +43,22 @@ using enum KeyKind;
 constexpr double most = double{most_bodies};
 /// Largest whole number that both TOML and a double hold, 2⁵³.
 constexpr double largest_whole = 9007199254740992.0;
+
+using enum SceneTable::Kind;
+constexpr auto known_tables = std::to_array<SceneTable>({
+    {"scene", once},
+    {"gravity", once},
+    {"body", repeated},
+    {"spring", repeated},
+    {"wind", force},
+    {"drive", force},
+    {"attractor", repeated},
+    {"plane", repeated},
+    {"grid", repeated},
+    {"scatter", repeated},
+    {"camera", once},
+    {"budget", once},
+});
 
 constexpr std::array known_keys{
     SceneKey{"scene", "title", text, "", any, "\"\"", "", "title of the window, at most 200 bytes"},
@@ -154,6 +173,29 @@ constexpr std::array known_keys{
              "to the range of the potential energy"},
 };
 
+constexpr std::array<std::pair<std::string_view, Colour>, 11> named{{
+    {"black", palette::black},
+    {"orange", palette::orange},
+    {"sky_blue", palette::sky_blue},
+    {"green", palette::green},
+    {"blue", palette::blue},
+    {"vermilion", palette::vermilion},
+    {"purple", palette::purple},
+    {"ink", palette::ink},
+    {"grey", palette::grey},
+    {"pale", palette::pale},
+    {"paper", palette::paper},
+}};
+
+std::optional<Colour> from_hexadecimal(std::string_view text) {
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
+    std::uint32_t rgb = 0;
+    const auto [last, error] = std::from_chars(text.begin() + 1, text.end(), rgb, 16);
+    if (error != std::errc() || last != text.end()) return std::nullopt;
+    return Colour{static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U),
+                  static_cast<std::uint8_t>(rgb)};
+}
+
 std::string in_range(const ValueRange& range) {
     const bool below = range.low > any.low;
     const bool above = range.high < any.high;
@@ -199,17 +241,24 @@ const SceneKey* find_scene_key(std::string_view table, std::string_view name) {
     return found == known_keys.end() ? nullptr : &*found;
 }
 
-std::vector<std::string_view> scene_tables() {
-    std::vector<std::string_view> tables;
-    for (const SceneKey& key : known_keys)
-        if (tables.empty() || tables.back() != key.table) tables.push_back(key.table);
-    return tables;
+std::span<const SceneTable> scene_tables() { return known_tables; }
+
+const SceneTable& scene_table(std::string_view name) {
+    const auto found = std::ranges::find(known_tables, name, &SceneTable::name);
+    require(found != known_tables.end(), "scene_tables() lacks a table that is read");
+    return *found;
 }
 
-bool is_repeated(std::string_view table) {
-    constexpr std::array<std::string_view, 8> repeated{"body",      "spring", "wind", "drive",
-                                                       "attractor", "plane",  "grid", "scatter"};
-    return std::ranges::find(repeated, table) != repeated.end();
+std::optional<Colour> find_colour(std::string_view text) {
+    for (const auto& [name, colour] : named)
+        if (name == text) return colour;
+    return from_hexadecimal(text);
+}
+
+std::vector<std::string_view> colour_names() {
+    std::vector<std::string_view> words;
+    for (const auto& [name, colour] : named) words.push_back(name);
+    return words;
 }
 
 std::string expectation(const SceneKey& key, int axes) {

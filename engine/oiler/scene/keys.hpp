@@ -2,10 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "oiler/picture/picture.hpp"
 
 namespace oiler {
 
@@ -52,9 +55,32 @@ struct SceneKey {
 /// Returns null if the table has no such key.
 [[nodiscard]] const SceneKey* find_scene_key(std::string_view table, std::string_view name);
 
-[[nodiscard]] std::vector<std::string_view> scene_tables();
-/// Returns whether a scene may have several of the table, written [[table]].
-[[nodiscard]] bool is_repeated(std::string_view table);
+/// A table of a scene file.
+struct SceneTable {
+    enum class Kind {
+        once,      ///< [gravity]
+        repeated,  ///< [[spring]]
+        force,     ///< repeated: a force of that name on one body. It has the key `body`, and those
+                   ///< of the force's fields.
+    };
+    std::string_view name;  ///< "spring"
+    Kind kind;
+
+    [[nodiscard]] bool is_repeated() const { return kind != Kind::once; }
+    [[nodiscard]] bool is_force() const { return kind == Kind::force; }
+};
+
+/// All tables, in the order of scene_keys().
+[[nodiscard]] std::span<const SceneTable> scene_tables();
+
+/// The table must be one of scene_tables().
+[[nodiscard]] const SceneTable& scene_table(std::string_view name);
+
+/// Reads "blue" or "#0072b2"; empty for any other text.
+[[nodiscard]] std::optional<Colour> find_colour(std::string_view text);
+
+/// The names of the palette.
+[[nodiscard]] std::vector<std::string_view> colour_names();
 
 /// Expected value for a message: "a number above 0, in kg".
 [[nodiscard]] std::string expectation(const SceneKey& key, int axes);

@@ -4,15 +4,9 @@
 #include <map>
 
 #include "oiler/core/random.hpp"
-#include "oiler/scene/grid.hpp"
 
 namespace oiler {
 namespace {
-
-template <class Force>
-void give(GivenForces& forces, const Force& force) {
-    std::get<std::optional<Force>>(forces) = force;
-}
 
 Attractor to_force(const SceneAttractor& attractor) {
     return {.centre = attractor.position, .gm = attractor.gm};
@@ -44,9 +38,12 @@ public:
 private:
     [[nodiscard]] GivenForces forces_of(const SceneMatter& matter) const {
         GivenForces forces;
-        if (matter.linear_drag > 0) give(forces, LinearDrag{matter.linear_drag});
-        if (matter.quadratic_drag > 0) give(forces, QuadraticDrag{matter.quadratic_drag});
-        if (!scene_.attractors.empty()) give(forces, to_force(scene_.attractors[0]));
+        const auto give = [&]<class Force>(const Force& force) {
+            std::get<std::optional<Force>>(forces) = force;
+        };
+        if (matter.linear_drag > 0) give(LinearDrag{matter.linear_drag});
+        if (matter.quadratic_drag > 0) give(QuadraticDrag{matter.quadratic_drag});
+        if (!scene_.attractors.empty()) give(to_force(scene_.attractors[0]));
         return forces;
     }
     Entity spawn(const Body& body, const GivenForces& forces) {

@@ -1,19 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/read.hpp"
 
+#include <fcntl.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/check.hpp"
-#include "oiler/scene/scene_text.hpp"
 #include "oiler/scene/section.hpp"
 
 namespace oiler {
 namespace {
+
+class Descriptor {
+public:
+    /// O_NONBLOCK: opening a pipe without a writer does not wait.
+    explicit Descriptor(const std::string& path)
+        : number_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+    ~Descriptor() {
+        if (number_ >= 0) close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    [[nodiscard]] int number() const { return number_; }
+
+private:
+    int number_;
+};
+
+void require_file(int descriptor, const std::string& path) {
+    struct stat status {};
+    if (fstat(descriptor, &status) != 0) fail(Exit::io, "{}: {}", path, system_reason(errno));
+    if (!S_ISREG(status.st_mode))
+        fail(Exit::usage, "{}: not a file; give a scene file such as assets/scenes/cloth.toml",
+             path);
+}
 
 void read_matter(const Section& section, SceneMatter& matter) {
     section.read("mass", matter.mass);
@@ -43,8 +71,7 @@ public:
         each("body", [&](const Section& section) { read_body(section); });
         each("spring", [&](const Section& section) { read_spring(section); });
         each("attractor", [&](const Section& section) { read_attractor(section); });
-        each("wind", [&](const Section& section) { read_force<Wind>(section); });
-        each("drive", [&](const Section& section) { read_force<Drive>(section); });
+        read_forces();
         each("plane", [&](const Section& section) { read_plane(section); });
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
@@ -59,7 +86,8 @@ public:
 
 private:
     void refuse_unknown_tables() const {
-        const std::vector<std::string_view> tables = scene_tables();
+        std::vector<std::string_view> tables;
+        for (const SceneTable& table : scene_tables()) tables.push_back(table.name);
         for (const Value& member : document_.items)
             if (std::ranges::find(tables, member.key) == tables.end())
                 refuse({file_, member.line}, "{}: a scene has no such table{}",
@@ -76,7 +104,7 @@ private:
     }
     /// Runs before any value is read, so that a misspelt key is not reported as missing.
     void refuse_unknown_keys() const {
-        for (const std::string_view table : scene_tables()) each(table, [](const Section&) {});
+        for (const SceneTable& table : scene_tables()) each(table.name, [](const Section&) {});
     }
 
     /// Calls `f` with each table of that name.
@@ -84,7 +112,7 @@ private:
     void each(std::string_view table, F f) const {
         const Value* const value = document_.find(table);
         if (!value) return;
-        if (!is_repeated(table)) return f(section(table, *value));
+        if (!scene_table(table).is_repeated()) return f(section(table, *value));
         if (value->kind != ValueKind::list)
             refuse({file_, value->line}, "{}: expected a list of tables, got {}; write [[{}]]",
                    table, value->shown(), table);
@@ -107,10 +135,9 @@ private:
         section.read("rate", scene_.stepping.rate.steps);
         section.read("duration", scene_.duration);
         if (section.has("method")) scene_.stepping.method = &find_method(section.word("method"));
-        if (section.word("precision") == "float") scene_.stepping.precision = Precision::single;
-        if (section.has("damping"))
-            scene_.stepping.damping =
-                section.word("damping") == "kick" ? Damping::in_kick : Damping::in_drift;
+        if (const auto precision = find_precision(section.word("precision")))
+            scene_.stepping.precision = *precision;
+        scene_.stepping.damping = find_damping(section.word("damping"));
         method_place_ = section.place("method");
     }
 
@@ -173,20 +200,25 @@ private:
         check_spring(scene_, section, spring);
     }
 
-    template <class Force>
+    void read_forces() {
+        for_each_index<force_count>([&](auto kind) {
+            using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
+            const auto table = std::ranges::find(scene_tables(), Force::name, &SceneTable::name);
+            if constexpr (BodyForce<Force>)
+                if (table != scene_tables().end() && table->is_force())
+                    each(Force::name, [&](const Section& section) { read_force<Force>(section); });
+        });
+    }
+    template <BodyForce Force>
     void read_force(const Section& section) {
         Force force;
         SceneForce& read = scene_.forces.emplace_back();
         read.body = find_body(section, "body");
         force_place_ = section.place();
-        std::vector<std::string_view> keys;
-        for (const SceneKey& key : scene_keys())
-            if (key.table == Force::name && key.name != "body") keys.push_back(key.name);
-        std::size_t next = 0;
-        std::apply([&](auto... field) { (section.read(keys.at(next++), force.*field), ...); },
-                   Force::fields());
+        for_each_field<Force>(
+            [&](const auto& field) { section.read(field.key, force.*field.member); });
         read.force = force;
-        check_force(scene_, section, read, keys);
+        check_force(scene_, section, read);
     }
 
     void read_attractor(const Section& section) {
@@ -257,6 +289,25 @@ private:
 };
 
 }  // namespace
+
+std::string read_scene_text(const std::string& path) {
+    const Descriptor file(path);
+    if (file.number() < 0)
+        fail(exit_of_open(errno), "{}: {}; give a scene file such as assets/scenes/cloth.toml",
+             path, system_reason(errno));
+    require_file(file.number(), path);
+    std::string text(most_toml_bytes + 1, '\0');
+    std::size_t size = 0;
+    while (size < text.size()) {
+        const ssize_t got = read(file.number(), text.data() + size, text.size() - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(Exit::io, "{}: {}", path, system_reason(errno));
+        if (got == 0) break;
+        size += static_cast<std::size_t>(got);
+    }
+    text.resize(size);
+    return text;
+}
 
 Scene read_scene(const std::string& path) { return parse_scene(read_scene_text(path), path); }
 

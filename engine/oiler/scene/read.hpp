@@ -8,6 +8,11 @@
 
 namespace oiler {
 
+/// Reads a scene file, but at most `most_toml_bytes` + 1 bytes. Throws Error{usage} before reading
+/// if the path is not a regular file, such as a folder or a device. Throws Error{io} if reading
+/// fails.
+[[nodiscard]] std::string read_scene_text(const std::string& path);
+
 /// Reads a scene file. Throws Error{usage} if it is not a valid scene, in one line with file, line,
 /// key and remedy. Throws Error{io} if reading fails.
 [[nodiscard]] Scene read_scene(const std::string& path);

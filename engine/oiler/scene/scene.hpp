@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -51,11 +52,24 @@ struct SceneSpring {
     friend bool operator==(const SceneSpring&, const SceneSpring&) = default;
 };
 
-/// A force on one body that a scene gives in a table with the name of the force: `body`, then its
-/// numbers in the order of its fields, see scene_keys().
+template <class List>
+struct VariantOf;
+template <class... Force>
+struct VariantOf<std::tuple<Force...>> {
+    using type = std::variant<Force...>;
+};
+template <class... Force>
+auto body_forces_of(const std::tuple<Force...>&) {
+    using std::conditional_t, std::tuple;
+    return std::tuple_cat(conditional_t<BodyForce<Force>, tuple<Force>, tuple<>>{}...);
+}
+/// A force of any kind on one body.
+using AnyForce = VariantOf<decltype(body_forces_of(ForceList<double, 3>{}))>::type;
+
+/// A force that a scene gives in a table with the name of the force, see SceneTable::Kind.
 struct SceneForce {
     std::size_t body = 0;  ///< index in Scene::bodies
-    std::variant<Wind, Drive> force{};
+    AnyForce force{};
     friend bool operator==(const SceneForce&, const SceneForce&) = default;
 };
 
@@ -95,6 +109,26 @@ struct SceneGrid {
 
     [[nodiscard]] std::int64_t size() const { return count[0] * count[1]; }
 };
+
+/// A kind of spring in a grid. It links each body to the one `right` columns and `up` rows away.
+struct GridLink {
+    int right = 0;
+    int up = 0;
+    Link link{};
+};
+
+/// The kinds of springs of a grid, in the order of their creation.
+[[nodiscard]] std::vector<GridLink> links_of(const SceneGrid& grid);
+
+/// Initial position of a body, in m.
+[[nodiscard]] Vec3 node_position(const SceneGrid& grid, std::int64_t column, std::int64_t row);
+
+/// Index of a body, counted row by row; empty outside of the grid.
+[[nodiscard]] std::optional<std::size_t> node_at(const SceneGrid& grid, std::int64_t column,
+                                                 std::int64_t row);
+
+/// Indices of the bodies with an anchored spring, each once.
+[[nodiscard]] std::vector<std::size_t> anchored_nodes(const SceneGrid& grid);
 
 /// Random bodies, uniform in a box of positions and a box of velocities. The same seed gives the
 /// same bodies on every machine.

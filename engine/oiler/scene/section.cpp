@@ -8,7 +8,6 @@
 
 #include "oiler/core/nearest.hpp"
 #include "oiler/core/require.hpp"
-#include "oiler/scene/colours.hpp"
 
 namespace oiler {
 
@@ -16,7 +15,8 @@ Section::Section(std::string_view file, std::string_view name, const Value& valu
     : file_(file), name_(name), value_(value) {
     if (value.kind != ValueKind::table)
         refuse({file, value.line}, "{}: expected a table, got {}; write {}", name, value.shown(),
-               is_repeated(name) ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name));
+               scene_table(name).is_repeated() ? fmt::format("[[{}]]", name)
+                                               : fmt::format("[{}]", name));
     for (const Value& member : value.items)
         if (!find_scene_key(name, member.key)) refuse_unknown(member);
 }

@@ -10,7 +10,6 @@
 #include "oiler/picture/picture.hpp"
 #include "oiler/scene/keys.hpp"
 #include "oiler/toml/document.hpp"
-#include "oiler/toml/refuse.hpp"
 
 namespace oiler {
 

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/columns.hpp"
+#include "oiler/sim/store/columns.hpp"
 
 namespace oiler {
 

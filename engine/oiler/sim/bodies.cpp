@@ -4,6 +4,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
+#include "oiler/sim/limits.hpp"
 
 namespace oiler {
 namespace {
@@ -25,8 +26,8 @@ To stored_form(const From& given, double mass) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         constexpr auto to = To::fields();
         constexpr auto from = From::fields();
-        ((force.*std::get<I>(to) =
-              narrow_field<T, Axes>(specific.*std::get<I>(from), force.*std::get<I>(to))),
+        ((force.*std::get<I>(to).member = narrow_field<T, Axes>(specific.*std::get<I>(from).member,
+                                                                force.*std::get<I>(to).member)),
          ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
@@ -204,7 +205,7 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
         columns_->of);
 }
 
-void Bodies::attach_given(std::size_t row, std::size_t index, const GivenForces& forces) {
+void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
     std::visit(
         [&](auto& columns) {

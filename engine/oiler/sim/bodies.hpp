@@ -11,19 +11,14 @@
 #include "oiler/core/handle_slots.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
+#include "oiler/physics/stepping.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/sim/body.hpp"
-#include "oiler/sim/steps.hpp"
 
 namespace oiler {
 
 class Team;
 struct AnyColumns;
-
-struct Energy {
-    double kinetic = 0;    ///< J
-    double potential = 0;  ///< J
-    [[nodiscard]] double total() const { return kinetic + potential; }
-};
 
 /// The storage of one quantity for all rows.
 struct Stored {
@@ -32,14 +27,6 @@ struct Stored {
     std::vector<bool> shared{};  ///< each number, in order: true if stored once for all rows
     std::size_t bytes = 0;       ///< per row, in columns
     std::size_t rows = 0;        ///< rows with any number other than 0
-};
-
-/// The ends of a link: a row, and another row or a fixed point.
-struct LinkEnds {
-    std::size_t row = 0;
-    std::optional<std::size_t> other{};  ///< absent for a point
-    Vec3 point{};                        ///< m
-    friend bool operator==(const LinkEnds&, const LinkEnds&) = default;
 };
 
 /// The largest difference between the positions of the same rows in two worlds, m.
@@ -76,18 +63,20 @@ public:
     /// Adds a force to row `row`, or replaces the numbers of the one that it has.
     template <BodyForce... Force>
     void attach(std::size_t row, const Force&... force) {
-        attach_given(row, 0, given(force...));
+        attach_at(0, row, given(force...));
     }
     /// Adds or replaces the force of that index among several of one kind, counted from 0.
     template <BodyForce... Force>
     void attach_at(std::size_t index, std::size_t row, const Force&... force) {
-        attach_given(row, index, given(force...));
+        attach_at(index, row, given(force...));
     }
+    void attach_at(std::size_t index, std::size_t row, const GivenForces& forces);
     /// Removes all forces of a kind from row `row`. A kind that no row has any more is not stored.
     template <BodyForce Force>
     void detach(std::size_t row) {
-        detach_kind(row, index_of<std::optional<Force>>(static_cast<GivenForces*>(nullptr)));
+        detach_kind(row, kind_of<Force>);
     }
+    void detach_kind(std::size_t row, std::size_t kind);
     /// Reserves memory for `rows` rows in total, so that adding them copies none.
     void reserve(std::size_t rows);
     /// Removes `row` and its links. The last row, with its links, moves to its place.
@@ -187,29 +176,22 @@ public:
     void hash_into(StateHash& hash) const;
 
 private:
-    /// The number of types in `All` that are `Force`.
-    template <class Force, class... All>
-    static constexpr int count = (int{std::same_as<Force, All>} + ... + 0);
-
-    template <class... Force>
-    static GivenForces given(const Force&... force) {
-        static_assert(((count<Force, Force...> == 1) && ...),
-                      "a body has at most one force of each kind");
-        GivenForces all;
-        ((std::get<std::optional<Force>>(all) = force), ...);
-        return all;
-    }
     void require_row(std::size_t row) const;
     void require_linkable(std::size_t row, const Link& link) const;
     void require_forces_for(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
-    void attach_given(std::size_t row, std::size_t index, const GivenForces& forces);
-    void detach_kind(std::size_t row, std::size_t kind);
 
     std::unique_ptr<AnyColumns> columns_;
     std::vector<Plane> planes_;
     std::shared_ptr<Team> team_;
     HandleSlots link_slots_;
 };
+
+/// Calls f(force) for each force on the body in a row, per unit mass, also for those that are zero.
+template <class F>
+void for_each_force_on(const Bodies& bodies, std::size_t row, F f) {
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        for_each_given(bodies.forces_per_mass(row, index), f);
+}
 
 }  // namespace oiler

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
+#include "oiler/sim/limits.hpp"
 
 namespace oiler {
 namespace {

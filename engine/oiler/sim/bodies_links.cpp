@@ -3,6 +3,9 @@
 
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
+#include "oiler/sim/limits.hpp"
+#include "oiler/sim/links/point_links.hpp"
+#include "oiler/sim/store/links.hpp"
 
 namespace oiler {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
-#include "oiler/sim/link_force.hpp"
+#include "oiler/sim/links/link_force.hpp"
 
 namespace oiler {
 namespace {
@@ -23,7 +23,9 @@ template <class To, int Axes, class From>
 To given_form(const From& from) {
     To to;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-        ((to.*std::get<I>(To::fields()) = to_double<Axes>(from.*std::get<I>(From::fields()))), ...);
+        constexpr auto target = To::fields();
+        constexpr auto source = From::fields();
+        ((to.*std::get<I>(target).member = to_double<Axes>(from.*std::get<I>(source).member)), ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
     return to;

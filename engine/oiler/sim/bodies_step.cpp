@@ -5,18 +5,11 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
-#include "oiler/sim/flows.hpp"
-#include "oiler/sim/instructions.hpp"
-#include "oiler/sim/row_parts.hpp"
-#include "oiler/sim/step_rows.hpp"
+#include "oiler/sim/steps/row_parts.hpp"
+#include "oiler/sim/steps/step_rows.hpp"
 
 namespace oiler {
 namespace {
-
-template <class T>
-Plan<T> plan_for(const Method& method, const Steps& steps) {
-    return make_plan<T>(method, steps.rate.dt<T>(), steps.damping.value_or(method.damping));
-}
 
 bool is_listed(const Method& method) {
     return std::greater_equal<>{}(&method, methods().data()) &&
@@ -29,42 +22,22 @@ const Plan<T>& plan_for(PlanCache<T>& cache, const Method& method, const Steps& 
     const Damping damping = steps.damping.value_or(method.damping);
     if (cache.method != &method || cache.rate != steps.rate || cache.damping != damping)
         cache = {is_listed(method) ? &method : nullptr, steps.rate, damping,
-                 plan_for<T>(method, steps)};
+                 make_plan<T>(method, steps.rate.dt<T>(), damping)};
     return cache.plan;
 }
 
-/// Steps rows of which some meet planes, and gathers their impacts.
 template <class T, int Axes>
-std::optional<Divergence> take_landing_steps(Columns<T, Axes>& columns,
-                                             const RowViews<T, Axes>& views, const Method& method,
-                                             const Plan<T>& plan, const Steps& steps, Team* team) {
-    auto& contacts = columns.contacts;
-    contacts.settled.resize(columns.size);
-    contacts.impacts_of_parts.resize(team ? team->size() : 1);
-    const auto diverged = in_parts(
-        columns.size, steps, team, [&](std::size_t begin, std::size_t end, std::size_t part) {
-            return step_landing_rows(columns, views, method, plan, steps, begin, end,
-                                     contacts.impacts_of_parts[part]);
-        });
-    contacts.gather_impacts();
-    return diverged;
-}
-
-template <class T, int Axes>
-std::optional<Divergence> take_steps(Columns<T, Axes>& columns, const Method& method,
-                                     const Plan<T>& plan, const Steps& steps, Team* team) {
+std::optional<Divergence> step_columns(Columns<T, Axes>& columns, const Method& method,
+                                       const Steps& steps, Team* team) {
     if (columns.size == 0 || steps.count == 0) return std::nullopt;
-    const LinearColumns<T, Axes> linear = linear_columns(columns);
-    prepare_flows(columns, linear, plan);
-    const RowViews<T, Axes> views(columns, linear);
-    if (columns.has_links()) return step_linked_rows(columns, views, plan, steps, team);
-    // An error in a thread of the team would end the program.
-    require_instructions();
-    if (columns.contacts.possible())
-        return take_landing_steps(columns, views, method, plan, steps, team);
+    const Plan<T>& plan = plan_for(columns.plan_cache, method, steps);
+    const RowViews<T, Axes> views(columns, plan);
+    const StepCall<T, Axes> call{columns, views, method, plan, steps, kernels<T, Axes>(), team};
+    if (columns.has_links()) return step_linked_rows(call);
+    if (columns.contacts.possible()) return step_landing_rows(call);
     return in_parts(columns.size, steps, team,
                     [&](std::size_t begin, std::size_t end, std::size_t) {
-                        return step_row_range(columns, views, plan, steps, begin, end);
+                        return step_rows(call, begin, end);
                     });
 }
 
@@ -86,30 +59,26 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
     require_forces_for(method);
     return std::visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) -> std::optional<Divergence> {
-            const Plan<T>& plan = plan_for(columns.plan_cache, method, steps);
             columns.contacts.impacts.clear();
-            Steps left = steps;
-            if (!columns.applied.empty() && steps.count > 0) {
-                left.count = 1;
-                const auto diverged = take_steps(columns, method, plan, left, team_.get());
-                columns.applied.clear();
-                columns.state_changed();
-                if (diverged) return diverged;
-                left = {steps.rate, steps.first + 1, steps.count - 1, steps.damping};
-            }
-            return take_steps(columns, method, plan, left, team_.get());
+            if (columns.applied.empty() || steps.count == 0)
+                return step_columns(columns, method, steps, team_.get());
+            const Steps first{steps.rate, steps.first, 1, steps.damping};
+            const auto diverged = step_columns(columns, method, first, team_.get());
+            columns.applied.clear();
+            columns.state_changed();
+            if (diverged) return diverged;
+            const Steps rest{steps.rate, steps.first + 1, steps.count - 1, steps.damping};
+            return step_columns(columns, method, rest, team_.get());
         },
         columns_->of);
 }
 
 void Bodies::require_applicable(const Method& method, const Steps& steps) const {
     require_forces_for(method);
+    const Damping damping = steps.damping.value_or(method.damping);
     std::visit(
         [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const Plan<T> plan = plan_for<T>(method, steps);
-            if (!needs_flows(plan)) return;
-            Columns<T, Axes> copy = columns;
-            prepare_flows(copy, linear_columns(copy), plan);
+            require_flows(columns, make_plan<T>(method, steps.rate.dt<T>(), damping));
         },
         columns_->of);
 }

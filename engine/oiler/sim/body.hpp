@@ -6,11 +6,8 @@
 #include <optional>
 #include <tuple>
 
-#include "oiler/core/error.hpp"
-#include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
-#include "oiler/physics/precision.hpp"
 
 namespace oiler {
 
@@ -50,6 +47,20 @@ struct LinkHandle {
     friend bool operator==(const LinkHandle&, const LinkHandle&) = default;
 };
 
+/// The ends of a link: a row, and another row or a fixed point.
+struct LinkEnds {
+    std::size_t row = 0;
+    std::optional<std::size_t> other{};  ///< absent for a point
+    Vec3 point{};                        ///< m
+    friend bool operator==(const LinkEnds&, const LinkEnds&) = default;
+};
+
+struct Energy {
+    double kinetic = 0;    ///< J
+    double potential = 0;  ///< J
+    [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
 template <class List>
 struct OptionalOf;
 template <class... Force>
@@ -65,40 +76,29 @@ void for_each_given(const GivenForces& forces, F f) {
     std::apply([&](const auto&... force) { ((force ? f(*force) : void()), ...); }, forces);
 }
 
-/// A force of a single body: Spring, LinearDrag, QuadraticDrag, CoilSpring, Attractor, Wind
-/// or Drive.
+/// A force of a single body: any but Gravity.
 template <class Force>
 concept BodyForce = !Force::everywhere && requires(GivenForces given) {
     std::get<std::optional<Force>>(given);
 };
 
-/// The error of a number that is not finite in the precision of the columns.
-class NotFinite : public Error {
-public:
-    using Error::Error;
-};
+/// The number of types in `All` that are `Force`.
+template <class Force, class... All>
+inline constexpr int count_of = (int{std::same_as<Force, All>} + ... + 0);
 
-/// Checks whether columns of a precision and a number of axes can hold a value. The checks run
-/// before anything is stored and throw Error{usage}, for numbers NotFinite.
-class Limits {
-public:
-    Limits(Precision precision, int axes);
+/// The forces as GivenForces.
+template <BodyForce... Force>
+[[nodiscard]] GivenForces given(const Force&... force) {
+    static_assert(((count_of<Force, Force...> == 1) && ...),
+                  "a body has at most one force of each kind");
+    GivenForces all;
+    ((std::get<std::optional<Force>>(all) = force), ...);
+    return all;
+}
 
-    /// Requires finite numbers on the axes of the world and 0 on the others. The message names
-    /// `what`.
-    void check(const Vec3& vector, std::string_view what) const;
-    void check(const Body& body) const;
-    /// Checks the forces per unit mass, as they are stored.
-    void check(const GivenForces& forces, double mass) const;
-    void check(const Link& link) const;
-    void check(const Plane& plane) const;
-    void check(const Contact& contact) const;
-
-    void check(double number, std::string_view what) const;
-
-private:
-    double largest_;
-    int axes_;
-};
+/// The index of a kind of force among GivenForces.
+template <BodyForce Force>
+inline constexpr std::size_t kind_of =
+    index_of<std::optional<Force>>(static_cast<GivenForces*>(nullptr));
 
 }  // namespace oiler

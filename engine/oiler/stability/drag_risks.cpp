@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/stability/drag_risks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "oiler/stability/risks.hpp"
 
 namespace oiler {
 namespace {
@@ -31,13 +31,12 @@ void include(const Force& force, const Vec3& velocity, Dragged& of) {
         of.gravity = std::max(of.gravity, length(linear.constant));
         of.linear += linear.damping;
         of.has_springs = of.has_springs || linear.stiffness != 0;
-    } else if constexpr (std::is_same_v<Force, QuadraticDrag>) {
-        of.quadratic += force.coefficient;
-    } else if constexpr (std::is_same_v<Force, Wind>) {
-        of.quadratic += force.coefficient;
-        of.speed = std::max(of.speed, length(velocity - force.velocity));
-    } else if constexpr (std::is_same_v<Force, CoilSpring>) {
-        of.has_springs = of.has_springs || force.stiffness != 0;
+    } else if constexpr (DragsInAir<Force>) {
+        const auto [coefficient, air] = force.air_drag();
+        of.quadratic += coefficient;
+        of.speed = std::max(of.speed, length(velocity - air));
+    } else if constexpr (LineSpring<Force>) {
+        of.has_springs = of.has_springs || force.line_spring().stiffness != 0;
     } else {
         // Its speeds are not bounded by springs or gravity.
         of.has_other_forces = of.has_other_forces || acts(force);
@@ -46,10 +45,8 @@ void include(const Force& force, const Vec3& velocity, Dragged& of) {
 
 Dragged drag_of(const Bodies& bodies, std::size_t row) {
     Dragged of{.speed = std::sqrt(squared_length(bodies.velocity(row)))};
-    for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i) {
-        for_each_given(bodies.forces_per_mass(row, i),
-                       [&](const auto& force) { include(force, bodies.velocity(row), of); });
-    }
+    for_each_force_on(bodies, row,
+                      [&](const auto& force) { include(force, bodies.velocity(row), of); });
     return of;
 }
 
@@ -58,7 +55,7 @@ Bodies alone(const Bodies& bodies, std::size_t row) {
     Bodies copy(bodies.axes(), Precision::double_);
     for (std::size_t i = 0; i < std::max<std::size_t>(1, bodies.most_forces_of_a_kind()); ++i) {
         GivenForces forces = bodies.forces_per_mass(row, i);
-        auto& gravity = std::get<std::optional<GravityForce<double, 3>>>(forces);
+        auto& gravity = std::get<std::optional<Gravity>>(forces);
         if (gravity) copy.set_gravity(gravity->acceleration);
         gravity.reset();
         if (i == 0)
@@ -100,13 +97,6 @@ std::vector<bool> speed_up(const Method& method, Damping damping, std::vector<do
     return faster;
 }
 
-bool any_has_quadratic_drag(const Bodies& bodies) {
-    for (const Stored& stored : bodies.stored())
-        if ((stored.of == QuadraticDrag::name || stored.of == Wind::name) && stored.rows > 0)
-            return true;
-    return false;
-}
-
 }  // namespace
 
 double quadratic_drag_limit(const Method& method, Damping damping) {
@@ -118,11 +108,8 @@ double quadratic_drag_limit(const Method& method, Damping damping) {
     for (std::size_t i = 0; i < drags.size() && std::isinf(high); ++i)
         (faster[i] ? high : low) = drags[i];
     if (std::isinf(high)) return high;
-    while (high - low > 1e-14 * high) {
-        const double middle = (low + high) / 2;
-        (speed_up(method, damping, {middle}).front() ? high : low) = middle;
-    }
-    return low;
+    return edge_between(low, high, 1e-14,
+                        [&](double drag) { return !speed_up(method, damping, {drag}).front(); });
 }
 
 namespace {
@@ -184,7 +171,7 @@ private:
 void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
                     std::vector<Risk>& risks) {
     if (is_implicit(region.method()) || splits_dampers(region.method(), region.damping())) return;
-    if (!any_has_quadratic_drag(bodies)) return;
+    if (!any_body_has(bodies, []<class Force>() { return DragsInAir<Force>; })) return;
     const std::vector<bool> linked = bodies.linked_rows();
     DragTest test(bodies, region, steps);
     for (std::size_t row = 0; row < bodies.size(); ++row) test.add_risks(row, linked[row], risks);
@@ -194,23 +181,11 @@ double drag_limit(const Risk& risk, const Method& method, const Steps& steps) {
     if (!risk.alone)
         return quadratic_drag_limit(method, steps.damping.value_or(method.damping)) /
                risk.damping_dt;
-    constexpr double ratio = 0.85;
-    double stable = 1;
-    double unstable = 1;
-    int in_a_row = 0;
-    for (double factor = ratio; in_a_row < 4 && factor > 1e-6; factor *= ratio) {
-        if (diverges(*risk.alone, method, steps, factor)) {
-            unstable = factor;
-            in_a_row = 0;
-        } else if (++in_a_row == 1) {
-            stable = factor;
-        }
-    }
-    while (unstable - stable > 1e-6 * unstable) {
-        const double middle = (stable + unstable) / 2;
-        (diverges(*risk.alone, method, steps, middle) ? unstable : stable) = middle;
-    }
-    return stable;
+    const auto is_stable = [&](double factor) {
+        return !diverges(*risk.alone, method, steps, factor);
+    };
+    const Descent descent = descend(0.85, 1e-6, is_stable);
+    return edge_between(descent.stable, descent.unstable, 1e-6, is_stable);
 }
 
 }  // namespace oiler

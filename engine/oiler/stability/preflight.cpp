@@ -5,11 +5,8 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/stability/attractor_risks.hpp"
-#include "oiler/stability/component.hpp"
-#include "oiler/stability/drag_risks.hpp"
-#include "oiler/stability/rounding_risks.hpp"
-#include "oiler/stability/spring_risks.hpp"
+#include "oiler/stability/oscillations.hpp"
+#include "oiler/stability/risks.hpp"
 
 namespace oiler {
 namespace {
@@ -122,9 +119,7 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
 bool has_lengths(const Bodies& bodies) {
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         if (bodies.link_at(i).rest_length != 0) return true;
-    for (const Stored& stored : bodies.stored())
-        if (stored.of == CoilSpring::name && stored.rows > 0) return true;
-    return false;
+    return any_body_has(bodies, []<class Force>() { return LineSpring<Force>; });
 }
 
 /// Whether the run diverges soon or gains a hundred times its kinetic energy.

@@ -7,12 +7,27 @@
 #include <vector>
 
 #include "oiler/sim/bodies.hpp"
-#include "oiler/stability/orbit_trial.hpp"
-#include "oiler/stability/region.hpp"
+#include "oiler/stability/stability.hpp"
 
 namespace oiler {
 
 struct Component;
+
+/// A body and an attractor that nothing else disturbs.
+struct Orbit {
+    Vec3 centre;  ///< m
+    Vec3 r;       ///< m, from the attractor
+    Vec3 v;       ///< m/s
+    double gm;    ///< m³/s²
+
+    /// Per unit mass, J/kg; negative if the body returns.
+    [[nodiscard]] double energy() const;
+    /// The least distance from now on: the periapsis h²/(gm·(1 + e)), unless the body leaves for
+    /// ever, m.
+    [[nodiscard]] double closest() const;
+    [[nodiscard]] double farthest() const;  ///< m, of an orbit that returns
+    [[nodiscard]] double period() const;    ///< s, of an orbit that returns
+};
 
 /// A reason why a run with a method at a rate may not be usable.
 struct Risk {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/stability/rounding_risks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "oiler/stability/risks.hpp"
 
 namespace oiler {
 namespace {
@@ -12,12 +12,8 @@ namespace {
 Vec3 acceleration(const Bodies& bodies, std::size_t row) {
     const State<double, 3> state{bodies.position(row), bodies.velocity(row)};
     Vec3 total{};
-    for (std::size_t i = 0; i < bodies.most_forces_of_a_kind(); ++i)
-        std::apply(
-            [&](const auto&... force) {
-                ((total = force ? total + accelerate(*force, state, 0) : total), ...);
-            },
-            bodies.forces_per_mass(row, i));
+    for_each_force_on(bodies, row,
+                      [&](const auto& force) { total = total + accelerate(force, state, 0); });
     return total;
 }
 

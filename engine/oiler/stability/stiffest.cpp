@@ -4,16 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/stability/region.hpp"
-#include "oiler/stability/ritz.hpp"
+#include "oiler/stability/modes.hpp"
 
 namespace oiler {
 
 namespace {
-
-Damping damping_of(const Stepping& stepping) {
-    return stepping.damping.value_or(stepping.method->damping);
-}
 
 bool splits_dampers(const Stepping& stepping) {
     return splits_dampers(*stepping.method, damping_of(stepping));

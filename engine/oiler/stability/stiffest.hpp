@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "oiler/physics/stepping.hpp"
-#include "oiler/stability/component.hpp"
 #include "oiler/stability/oscillations.hpp"
 
 namespace oiler {

@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace oiler {
+
+/// A place in a TOML file.
+struct Place {
+    std::string_view file;
+    int line = 1;
+};
+
+/// Throws Error{usage} with the message "FILE:LINE: …".
+[[noreturn]] void refuse_text(const Place& place, const std::string& text);
+
+template <class... Args>
+[[noreturn]] void refuse(const Place& place, fmt::format_string<Args...> text, Args&&... args) {
+    refuse_text(place, fmt::format(text, std::forward<Args>(args)...));
+}
+
+/// Makes text from a file safe for one line on a terminal: printable ASCII, at most `most` bytes
+/// and "...".
+[[nodiscard]] std::string printable(std::string_view text, std::size_t most = 60);
+
+/// Largest size of a TOML file, in bytes.
+inline constexpr std::size_t most_toml_bytes = std::size_t{64} * 1024;
 
 enum class ValueKind { text, whole, number, flag, date, list, table };
 
@@ -38,7 +62,9 @@ struct Value {
     [[nodiscard]] std::string shown() const;
 };
 
-/// Parses TOML. Throws Error{usage} with the line of the first mistake.
+/// Parses TOML. Throws Error{usage} with the line of the first mistake, and for texts that may
+/// crash the parser: more than `most_toml_bytes` bytes, bytes other than ASCII text, keys of more
+/// than 32 parts, brackets nested deeper than 64.
 [[nodiscard]] Value parse_document(std::string_view text, std::string_view file);
 
 }  // namespace oiler

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "oiler/core/error.hpp"
-#include "oiler/whatif/rate_advice.hpp"
-#include "oiler/whatif/what_if_settings.hpp"
 
 namespace oiler {
 namespace {
@@ -166,8 +164,8 @@ void LiveWhatIf::judge(WhatIf measured) {
     repeats_ = false;
     measured_ = std::move(measured);
     const AnyGame& game = runs_->recorded_game();
-    verdict_ = verdict_of(*measured_, readings_, begin_->time,
-                          [&](Entity body) { return game.name_of(body); });
+    verdict_ = judge_setting(*measured_, readings_, begin_->time,
+                             [&](Entity body) { return game.name_of(body); });
     if (std::isnan(measured_->runs.front().distance) && game.world().bodies().size() == 0)
         verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
     readings_ = measured_->runs.front().readings;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "oiler/game/input_source.hpp"
+#include "oiler/game/loop.hpp"
 #include "oiler/whatif/energy_scale.hpp"
 #include "oiler/whatif/verdict.hpp"
 #include "oiler/whatif/what_if_runs.hpp"

@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler {
 namespace {
 

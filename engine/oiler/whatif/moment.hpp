@@ -11,7 +11,7 @@
 
 namespace oiler {
 
-/// A play at one time.
+/// The bodies and the readings of a game at one time, to compare two plays of it.
 struct Moment {
     struct Placed {
         Entity entity;
@@ -58,10 +58,10 @@ struct Ghost {
 inline constexpr std::size_t most_ghosts = 100;
 
 /// The bodies of a run that the reference has, too, unless they were teleported in one of the two.
-/// Of more than `most_ghosts` bodies, those that are furthest off.
+/// If there are more than `most_ghosts`, those with the largest errors are kept.
 [[nodiscard]] std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference);
 
-/// The ghosts that are furthest off, at most so many.
+/// The ghosts with the largest errors, at most so many.
 [[nodiscard]] std::vector<Ghost> furthest(std::vector<Ghost> ghosts, std::size_t most);
 
 }  // namespace oiler

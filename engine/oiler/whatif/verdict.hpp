@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,35 +14,45 @@ namespace oiler {
 /// One sentence on what the timestep costs: the largest error that a player could see, and what
 /// mends it.
 struct Verdict {
-    enum class Grade {
-        unknown,
-        good,     ///< below a pixel
-        visible,  ///< below a hundredth of the picture's height
-        bad,
-    };
+    using Grade = oiler::Grade;
+
     Grade grade = Grade::unknown;
     std::string text{};
 };
 
-/// The grade of an error in pixels; NaN is not known.
-[[nodiscard]] Verdict::Grade grade_of(double pixels);
-
-/// Judges the recorded setting, the first of the runs. A reading in m that is off by more than a
-/// pixel, or one in another unit that is off by more than a hundredth, comes first, if it is what
-/// it was `before`: one that still changes may differ by a step, which is no error. Then comes the
-/// body that is furthest off. The cure is the cheapest other run below a pixel, or else the best
-/// one. Differences of less than ten times the uncertainty of the reference are not named. Prices
-/// below 10 µs a frame are not told apart. The measured run begins at `begin`, s.
-[[nodiscard]] Verdict verdict_of(const WhatIf& measured, const std::vector<Reading>& before,
-                                 double begin, const std::function<std::string(Entity)>& name_of);
+/// Judges the recorded setting, the first of the runs, which begins at `begin`, s. The sentence
+/// names a failure, else other events, else a wrong reading, else the body with the largest error.
+/// Then it names the cure: the cheapest other run with an error below a pixel, or else the most
+/// accurate one.
+///
+/// A reading in m is wrong by more than a pixel, one in another unit by more than a hundredth. It
+/// must be what it was `before`: a reading that still changes may differ by a step, which is no
+/// error. Only certain errors are named, see KnownError. Prices below 10 µs a frame are not
+/// compared.
+[[nodiscard]] Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before,
+                                    double begin,
+                                    const std::function<std::string(Entity)>& name_of);
 
 /// Shorter times are not certain beside a game, ns a frame.
 inline constexpr double least_cost = 10'000;
 
-/// An error that is known to be below this part of a pixel is called exact.
-inline constexpr double part_of_exact = 0.01;
+/// A rate at which the played method, the first of the runs, is within a pixel.
+struct RateAdvice {
+    std::int64_t rate;  ///< Hz
+    bool is_measured;   ///< a run has that rate; else it is what the runs at other rates promise
+};
 
-/// "30 nm", "2 mm", "7.5 cm", "3.1 m".
-[[nodiscard]] std::string length_text(double metres);
+/// The lowest measured rate with errors below a pixel. If there is none, and if the errors converge
+/// with a steady order, the lowest offered multiple of the played rate at which half a pixel is
+/// expected. Empty if neither is known.
+[[nodiscard]] std::optional<RateAdvice> advise_rate(const WhatIf& measured);
+
+/// The rates of the played method to measure next: the advised one, else rates so high that their
+/// errors shrink as those of the method's order do. None if they took too much of a frame's time.
+[[nodiscard]] std::vector<std::int64_t> rates_to_try(const WhatIf& measured);
+
+/// "120 Hz of this method is within a pixel so far.", or what it takes; empty if nothing is
+/// measured.
+[[nodiscard]] std::string rate_advice_text(const WhatIf& measured);
 
 }  // namespace oiler

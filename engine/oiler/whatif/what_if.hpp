@@ -8,12 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/core/frame_costs.hpp"
 #include "oiler/core/json.hpp"
-#include "oiler/game/reading.hpp"
 #include "oiler/play/recording.hpp"
-#include "oiler/whatif/draw_timer.hpp"
+#include "oiler/whatif/known_error.hpp"
 
 namespace oiler {
+
+class DrawTimer;
 
 /// A recording, and what else decides how its game is played.
 struct RecordedPlay {
@@ -24,15 +26,6 @@ struct RecordedPlay {
     bool plays_on = false;  ///< also where it differs from the recording
 };
 
-/// The time that a frame takes at 60 frames per second, ns; means without the fastest and the
-/// slowest quarter.
-struct FrameCosts {
-    double update = 0;
-    double step = 0;
-    double picture = 0;
-    double draw = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not measured
-};
-
 /// A recording played with another setting, compared with the reference.
 struct WhatIfRun {
     Stepping stepping;
@@ -40,7 +33,7 @@ struct WhatIfRun {
     /// if none was compared after the beginning.
     double distance = std::numeric_limits<double>::quiet_NaN();
     Entity furthest{};  ///< that body
-    /// The same at the steps alone.
+    /// The largest distance at steps alone, m.
     double distance_at_steps = std::numeric_limits<double>::quiet_NaN();
     double distance_now = 0;  ///< m, as drawn, the largest in the last recorded step
     /// The time from which a body is further away than a pixel and the uncertainty, s.
@@ -53,9 +46,13 @@ struct WhatIfRun {
     std::vector<Reading> readings{};
     std::vector<Reading> true_readings{};
     double read_at = 0;  ///< s
-    FrameCosts costs{};
+    /// At 60 frames per second; means without the fastest and the slowest quarter.
+    FrameCosts costs{.draw = std::numeric_limits<double>::quiet_NaN()};
     /// Evaluations of the forces on a body per second of play; 0: none were counted.
     double evaluations = 0;
+
+    /// Whether it is the same play to its end.
+    [[nodiscard]] bool is_sound() const { return failure.empty() && !other_play_from; }
 };
 
 /// The result of --what-if.
@@ -67,20 +64,36 @@ struct WhatIf {
     WhatIfRun reference;            ///< the finest run
     WhatIfRun check;                ///< the reference at another rate
     std::vector<WhatIfRun> runs{};  ///< the recorded setting first
+
+    /// The largest distance of a run, m.
+    [[nodiscard]] KnownError error_of(const WhatIfRun& run) const {
+        return {run.distance, uncertainty};
+    }
 };
 
-/// Smaller errors than so many uncertainties of the reference are not known to a digit.
-inline constexpr double least_certain = 10;
+/// Reads settings such as "30,rk4,velocity_verlet@120,float". The words of a setting, with @
+/// between them, are a rate in Hz, a method, a precision and a damping. The recording's hold where
+/// a setting names none. Throws Error{usage}.
+[[nodiscard]] std::vector<Stepping> parse_what_if(const std::string& words,
+                                                  const Stepping& recorded);
 
-/// Plays a recording at its own setting, at `steppings`, and as a reference with rk4 at 16 times
-/// its rate, or a multiple of that which is at least 960 Hz. All runs go through the recording
-/// together and are compared at each recorded step that a run has, too, and as they are drawn, on
-/// straight lines between their own steps, at 16 moments of each recorded step. Bodies are the same
-/// if their entities are. The play is another one once bodies, teleports, restarts or whole-number
-/// readings have differed for 0.25 s: a shorter difference is a delay. Between two steps that
-/// differ in these, nothing is compared. The reference is uncertain once a run at 7/16 of its rate
-/// is another play, or further away than a pixel. A pixel is 1/720 of the height that the camera of
-/// the reference shows then.
+/// The settings to try first: half the rate if it is even, twice the rate, three usual
+/// methods and the other precision, without methods that cannot step the bodies of the game.
+[[nodiscard]] std::vector<Stepping> usual_what_if(const Settings& recorded, const MakeGame& make);
+
+/// Plays a recording at its own setting, at `steppings`, and as a reference, all together, one
+/// recorded step after the other. The reference is rk4 at 16 times the recorded rate, or at the
+/// next multiple of that which is at least 960 Hz.
+///
+/// Bodies are compared at the beginning of each recorded step, if the run has a step then, and as
+/// they are drawn, at 16 instants of each recorded step, on straight lines between the run's steps.
+/// Bodies are the same if their entities are. A run is another play once its bodies, teleports,
+/// restarts or whole-number readings have differed for 0.25 s: a shorter difference is a delay.
+/// While they differ, no body is compared.
+///
+/// A run at 7/16 of the reference's rate checks the reference, which is uncertain once that run is
+/// another play, or further away than a pixel. A pixel is 1/720 of the height that the reference's
+/// camera shows then.
 ///
 /// Empty if interrupted. Without `draw`, drawing is not timed. Throws Error{comparison_failed} if
 /// the recorded setting does not reproduce the recording, and Error{diverged} if the reference

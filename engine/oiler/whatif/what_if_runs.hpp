@@ -1,24 +1,117 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "oiler/play/tape.hpp"
-#include "oiler/whatif/draw_timer.hpp"
-#include "oiler/whatif/played_run.hpp"
+#include "oiler/core/size.hpp"
+#include "oiler/platform/surface.hpp"
+#include "oiler/play/replay.hpp"
+#include "oiler/render/renderer.hpp"
+#include "oiler/whatif/moment.hpp"
 #include "oiler/whatif/what_if.hpp"
 
 namespace oiler {
+
+/// Draws pictures off screen to measure how long that takes.
+class DrawTimer {
+public:
+    /// Throws Error{no_display} without a provider of OpenGL.
+    DrawTimer(Offscreen which, Size size)
+        : surface_(open_offscreen(which)),
+          renderer_([this](const char* name) { return surface_->procedure(name); }),
+          size_(size) {}
+
+    /// The time to draw a picture and to read its pixels: only then drawing has surely ended.
+    [[nodiscard]] std::chrono::nanoseconds time(const Picture& picture) {
+        const auto start = std::chrono::steady_clock::now();
+        renderer_.draw(picture, size_);
+        renderer_.read(pixels_);
+        return std::chrono::steady_clock::now() - start;
+    }
+
+private:
+    std::unique_ptr<Surface> surface_;
+    Renderer renderer_;
+    Size size_;
+    Pixels pixels_;
+};
+
+/// The number of moments of a recorded step that are compared.
+inline constexpr std::int64_t instants_per_step = 16;
+
+/// The true motion at the instant `index`, of which each recorded step has instants_per_step.
+struct TrueMoment {
+    std::int64_t index = 0;
+    Moment moment;
+};
+
+/// The run of a recording with one setting.
+class SettingRun {
+public:
+    /// Throws Error{usage} if the method cannot step the bodies of the game.
+    SettingRun(const Stepping& stepping, const RecordedPlay& play, const MakeGame& make);
+    SettingRun(const SettingRun&) = delete;
+    SettingRun& operator=(const SettingRun&) = delete;
+
+    /// Takes all steps until a recorded one begins, unless one fails.
+    void play_until(std::int64_t recorded);
+    /// Takes them, and compares the bodies as they are drawn between these steps and at their ends
+    /// with the moments of the reference. A player sees larger distances than `visible`, m.
+    void play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth, double visible);
+    /// Takes all steps until an instant.
+    void play_until_instant(std::int64_t index);
+    /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
+    /// this run begins then, too.
+    void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
+    /// Reads the game as that recorded step begins, if a step of this run begins then, too.
+    /// `truth` are the readings of the reference.
+    void read(std::int64_t recorded, const std::vector<Reading>& truth);
+    void time_picture();
+    void time_drawing(DrawTimer& draw);
+
+    [[nodiscard]] const AnyGame& game() const { return *game_; }
+    /// The play as it is now.
+    [[nodiscard]] const Moment& moment();
+    [[nodiscard]] std::int64_t steps() const { return steps_; }
+    [[nodiscard]] const WhatIfRun& result() const { return result_; }
+    /// Whether the play was another one at the last time of comparison.
+    [[nodiscard]] bool differs() const { return differs_from_.has_value(); }
+    [[nodiscard]] bool failed() const { return !result_.failure.empty(); }
+    /// The result with costs and readings.
+    [[nodiscard]] WhatIfRun finish() const;
+
+private:
+    [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
+    void take_step();
+    void note(const Apart& apart, double time, double visible);
+
+    WhatIfRun result_;
+    ResampledInput inputs_;
+    Rate recorded_rate_;
+    StepRatio ratio_;
+    StepRatio instants_;
+    StepTimes times_;
+    std::unique_ptr<AnyGame> game_;
+    std::int64_t steps_ = 0;
+    std::int64_t evaluations_ = 0;
+    std::optional<Moment> moment_;  ///< empty: a step was taken since
+    std::optional<double> differs_from_;
+    std::vector<std::chrono::nanoseconds> updates_;
+    std::vector<std::chrono::nanoseconds> world_steps_;
+    std::vector<std::chrono::nanoseconds> pictures_;
+    std::vector<std::chrono::nanoseconds> drawings_;
+};
 
 /// Plays a recording at its own setting, at others and as a reference, all together, so that no
 /// trajectory is kept. The recording may grow meanwhile.
 class WhatIfRuns {
 public:
-    /// The play must outlive it. Throws as PlayedRun does.
+    /// The play must outlive it. Throws as SettingRun does.
     WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& steppings,
                const MakeGame& make);
 
@@ -26,8 +119,8 @@ public:
     /// Error{diverged} if the reference fails, and Error{comparison_failed} if the recorded states
     /// differ.
     void play_until(std::int64_t step);
-    /// After all recorded steps: throws Error{comparison_failed} if the recorded setting goes on
-    /// where the game quit.
+    /// Throws Error{comparison_failed} if the recorded setting does not quit after all recorded
+    /// steps, though the game did.
     void compare_end();
     void time_pictures(DrawTimer* draw);
     [[nodiscard]] WhatIf result() const;
@@ -56,9 +149,9 @@ private:
 
     const Recording& recording_;
     Replay replay_;
-    PlayedRun reference_;
-    PlayedRun check_;  ///< the reference at another rate
-    std::vector<std::unique_ptr<PlayedRun>> runs_;
+    SettingRun reference_;
+    SettingRun check_;  ///< the reference at another rate
+    std::vector<std::unique_ptr<SettingRun>> runs_;
     Moment before_;                 ///< of the recorded setting, one step ago
     std::deque<TrueMoment> truth_;  ///< since the slowest run's last step
     std::int64_t step_ = 0;         ///< the last that was played

@@ -6,7 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 

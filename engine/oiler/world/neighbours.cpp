@@ -6,7 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 namespace {
@@ -60,7 +61,7 @@ void Neighbours::update(const World& world) {
 }
 
 std::vector<Entity> Neighbours::within(const Vec3& point, double radius) const {
-    const Ball ball(point, radius, axes_);
+    const SearchBall ball(point, radius, axes_);
     std::vector<std::uint32_t> rows;
     grid_.for_each_overlap(ball.bounds(), [&](std::size_t i) {
         const BoxGrid::Item& item = grid_.items()[i];

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,10 +16,59 @@
 #include <vector>
 
 #include "oiler/core/state_hash.hpp"
-#include "oiler/world/pages.hpp"
-#include "oiler/world/type_name.hpp"
 
 namespace oiler {
+
+/// The name of a type as the compiler writes it.
+template <class T>
+[[nodiscard]] constexpr std::string_view type_name() {
+    const std::string_view text = __PRETTY_FUNCTION__;
+    const std::size_t begin = text.find("T = ") + 4;
+    return text.substr(begin, text.find_first_of(";]", begin) - begin);
+}
+
+/// A list in pages of equal size. Adding an item moves no other, and items of a page are walked as
+/// fast as an array.
+template <class T>
+class Pages {
+public:
+    /// The number of items of a full page: 4 KiB, or at least 16 items.
+    static constexpr std::size_t page_size =
+        std::bit_floor(std::max<std::size_t>(16, 4096 / sizeof(T)));
+
+    Pages() = default;
+    Pages(const Pages& other) : size_(other.size_) {
+        pages_.reserve(other.pages_.size());
+        for (const std::vector<T>& page : other.pages_)
+            add_page().insert(pages_.back().end(), page.begin(), page.end());
+    }
+    Pages& operator=(const Pages&) = delete;
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] T& operator[](std::size_t i) { return pages_[i / page_size][i % page_size]; }
+    [[nodiscard]] const T& operator[](std::size_t i) const {
+        return pages_[i / page_size][i % page_size];
+    }
+    [[nodiscard]] T& back() { return pages_.back().back(); }
+    void push_back(T&& item) {
+        if (size_ % page_size == 0) add_page();
+        pages_.back().push_back(std::move(item));
+        ++size_;
+    }
+    void pop_back() {
+        pages_.back().pop_back();
+        if (--size_ % page_size == 0) pages_.pop_back();
+    }
+
+private:
+    std::vector<T>& add_page() {
+        pages_.emplace_back().reserve(page_size);
+        return pages_.back();
+    }
+
+    std::vector<std::vector<T>> pages_;  ///< each has memory for all its items
+    std::size_t size_ = 0;
+};
 
 /// A set of slots in the order of adding. The last slot moves to the place of a removed one. Add,
 /// remove and look-up take O(1); the order depends only on the adds and removes.
@@ -72,11 +123,11 @@ public:
 
     [[nodiscard]] virtual std::unique_ptr<AnyPool> clone() const = 0;
     virtual void erase(std::uint32_t slot) = 0;
-    /// Like erase, but moves no other component before `bury`.
+    /// Like erase, but moves no other component before `fill_holes`.
     void hide(std::uint32_t slot) {
         if (slots_.place(slot) != SlotSet::absent) holes_.push_back(slots_.hide(slot));
     }
-    virtual void bury() = 0;
+    virtual void fill_holes() = 0;
     /// Adds the components to a hash, if their type says how; false if it does not.
     virtual bool hash_into(StateHash& hash) const = 0;
     [[nodiscard]] virtual std::string_view type() const = 0;
@@ -87,7 +138,7 @@ protected:
     AnyPool(const AnyPool&) = default;
 
     SlotSet slots_;
-    std::vector<std::uint32_t> holes_;  ///< since the last bury
+    std::vector<std::uint32_t> holes_;  ///< since the last fill_holes
 };
 
 /// Places of holes in the order in which they are filled: each time, the last item is none.
@@ -111,7 +162,7 @@ public:
     void erase(std::uint32_t slot) override {
         if (slots_.place(slot) != SlotSet::absent) fill(slots_.hide(slot));
     }
-    void bury() override {
+    void fill_holes() override {
         for (const std::uint32_t hole : last_first(holes_)) fill(hole);
     }
     bool hash_into(StateHash& hash) const override {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "oiler/core/state_hash.hpp"
-#include "oiler/world/type_name.hpp"
+#include "oiler/world/pool.hpp"
 
 namespace oiler {
 

@@ -8,7 +8,11 @@
 #include <numeric>
 #include <span>
 
-#include "oiler/world/ball.hpp"
+#include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/limits.hpp"
+#include "oiler/stability/preflight.hpp"
+#include "oiler/world/box_grid.hpp"
 
 namespace oiler {
 namespace {
@@ -21,19 +25,21 @@ struct Jumps {
 }  // namespace
 
 World::World(int axes, const Settings& settings)
-    : settings_(settings), bodies_(axes, settings.stepping.precision), random_(settings.seed) {
+    : settings_(settings),
+      bodies_(std::make_unique<Bodies>(axes, settings.stepping.precision)),
+      random_(settings.seed) {
     const Rate rate = settings.stepping.rate;
     if (rate.steps < 1 || rate.seconds < 1)
         fail(Exit::usage, "a rate of {} steps in {} s: give at least 1 step and 1 s", rate.steps,
              rate.seconds);
-    bodies_.set_threads(settings.threads);
+    bodies_->set_threads(settings.threads);
 }
 
 World::World(const World& other)
     : settings_(other.settings_),
       tick_(other.tick_),
       slots_(other.slots_),
-      bodies_(other.bodies_),
+      bodies_(std::make_unique<Bodies>(*other.bodies_)),
       rows_(other.rows_),
       impacts_(other.impacts_),
       random_(other.random_) {
@@ -42,6 +48,10 @@ World::World(const World& other)
     for (const TaggedTimers& entry : other.timers_)
         timers_.push_back({entry.tag, entry.timers->clone()});
 }
+
+World::World(World&&) noexcept = default;
+
+World::~World() = default;
 
 World& World::operator=(const World& other) {
     if (this != &other) *this = World(other);
@@ -56,12 +66,34 @@ World& World::operator=(World&& other) {
     age_ = other.age_;
     slots_ = std::move(other.slots_);
     pools_ = std::move(other.pools_);
-    bodies_ = std::move(other.bodies_);
+    if (bodies_ && other.bodies_)
+        *bodies_ = std::move(*other.bodies_);  // references to the bodies stay valid
+    else
+        bodies_ = std::move(other.bodies_);
     rows_ = std::move(other.rows_);
     impacts_ = std::move(other.impacts_);
     timers_ = std::move(other.timers_);
     random_ = other.random_;
     return *this;
+}
+
+template <class F>
+void World::placed(const char* call, F f) {
+    try {
+        f();
+    } catch (const Error& error) {
+        refuse(call, error);
+    }
+}
+
+template <class F>
+void World::change(const char* call, Entity entity, F f) {
+    require_of(entity, has_body(entity), call, no_body);
+    try {
+        f(rows_.place(entity.index));
+    } catch (const Error& error) {
+        refuse(call, entity, error);
+    }
 }
 
 Entity World::create() { return slots_.take<Entity>(); }
@@ -77,15 +109,31 @@ bool World::alive(Entity entity) const { return slots_.holds(entity.index, entit
 
 std::size_t World::entity_count() const { return slots_.used(); }
 
+void World::add_body(Entity entity, const Body& body, const GivenForces& forces) {
+    require_of(entity, alive(entity), "add_body", gone);
+    require_of(entity, !has_body(entity), "add_body", "it has a body already");
+    placed("add_body", [&] { bodies_->add(body, forces); });
+    rows_.add(entity.index);
+}
+
 Entity World::spawn(const Body& body, const GivenForces& forces) {
-    placed("spawn", [&] { bodies_.add(body, forces); });
+    placed("spawn", [&] { bodies_->add(body, forces); });
     const Entity entity = create();
     rows_.add(entity.index);
     return entity;
 }
 
+void World::attach_given(const char* call, std::size_t index, Entity entity,
+                         const GivenForces& forces) {
+    change(call, entity, [&](std::size_t row) { bodies_->attach_at(index, row, forces); });
+}
+
+void World::detach_kind(Entity entity, std::size_t kind) {
+    bodies_->detach_kind(row(entity), kind);
+}
+
 void World::reserve(std::size_t bodies) {
-    bodies_.reserve(bodies);
+    bodies_->reserve(bodies);
     rows_.reserve(bodies);
     slots_.reserve(bodies);
 }
@@ -93,18 +141,18 @@ void World::reserve(std::size_t bodies) {
 void World::remove_body(Entity entity) {
     const std::size_t place = row(entity);
     if (visits_ > 0) {
-        graves_.push_back(rows_.hide(entity.index));
+        removed_rows_.push_back(rows_.hide(entity.index));
         return;
     }
-    bodies_.remove(place);
+    bodies_->remove(place);
     rows_.remove(entity.index);
 }
 
-void World::bury() {
-    for (const TaggedPool& entry : pools_) entry.pool->bury();
-    for (const std::uint32_t grave : last_first(graves_)) {
-        bodies_.remove(grave);
-        rows_.fill(grave);
+void World::fill_holes() {
+    for (const TaggedPool& entry : pools_) entry.pool->fill_holes();
+    for (const std::uint32_t hole : last_first(removed_rows_)) {
+        bodies_->remove(hole);
+        rows_.fill(hole);
     }
 }
 
@@ -139,8 +187,43 @@ void World::refuse(const char* call, Entity entity, const Error& error) const {
          entity.index, tick_, error.what());
 }
 
+Vec3 World::position(Entity entity) const { return bodies_->position(row(entity)); }
+Vec3 World::velocity(Entity entity) const { return bodies_->velocity(row(entity)); }
+double World::mass(Entity entity) const { return bodies_->mass(row(entity)); }
+
+void World::set_velocity(Entity entity, const Vec3& velocity) {
+    change("set_velocity", entity, [&](std::size_t row) { bodies_->set_velocity(row, velocity); });
+}
+
+void World::set_position(Entity entity, const Vec3& position) {
+    change("set_position", entity, [&](std::size_t row) { bodies_->set_position(row, position); });
+}
+
+void World::apply_force(Entity entity, const Vec3& force) {
+    change("apply_force", entity, [&](std::size_t row) { bodies_->apply_force(row, force); });
+}
+
+void World::apply_impulse(Entity entity, const Vec3& impulse) {
+    change("apply_impulse", entity, [&](std::size_t row) { bodies_->apply_impulse(row, impulse); });
+}
+
+void World::set_contact(Entity entity, const std::optional<Contact>& contact) {
+    change("set_contact", entity, [&](std::size_t row) { bodies_->set_contact(row, contact); });
+}
+
+std::size_t World::add_plane(const Plane& plane) {
+    placed("add_plane", [&] { bodies_->add_plane(plane); });
+    return bodies_->planes().size() - 1;
+}
+
+void World::clear_planes() { bodies_->clear_planes(); }
+
+void World::set_gravity(const Vec3& acceleration) {
+    placed("set_gravity", [&] { bodies_->set_gravity(acceleration); });
+}
+
 void World::teleport(Entity entity, const Vec3& position) {
-    change("teleport", entity, [&](std::size_t row) { bodies_.set_position(row, position); });
+    change("teleport", entity, [&](std::size_t row) { bodies_->set_position(row, position); });
     if (!find<Jumps>(entity)) add(entity, Jumps{});
     ++get<Jumps>(entity).count;
 }
@@ -151,10 +234,10 @@ std::uint32_t World::jumps(Entity entity) const {
 }
 
 std::vector<Entity> World::within(const Vec3& point, double radius) const {
-    const Ball ball(point, radius, bodies_.axes());
+    const SearchBall ball(point, radius, bodies_->axes());
     std::vector<Entity> entities;
-    for (std::size_t row = 0; row < bodies_.size(); ++row)
-        if (rows_[row] != SlotSet::absent && ball.contains(bodies_.position(row)))
+    for (std::size_t row = 0; row < bodies_->size(); ++row)
+        if (rows_[row] != SlotSet::absent && ball.contains(bodies_->position(row)))
             entities.push_back(entity_of_row(row));
     return entities;
 }
@@ -162,13 +245,13 @@ std::vector<Entity> World::within(const Vec3& point, double radius) const {
 void World::step(std::int64_t count) {
     const Steps steps = next_steps(count);
     if (const auto at = try_step(count))
-        fail_diverged(bodies_, *at, *settings_.stepping.method, steps, name_of_row());
+        fail_diverged(*bodies_, *at, *settings_.stepping.method, steps, name_of_row());
 }
 
 std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
     require(visits_ == 0, "a world is not stepped inside its own each");
-    const auto divergence = bodies_.try_step(*settings_.stepping.method, next_steps(count));
+    const auto divergence = bodies_->try_step(*settings_.stepping.method, next_steps(count));
     list_impacts();
     if (!divergence) {
         tick_ += count;
@@ -178,12 +261,12 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
 }
 
 void World::require_applicable() const {
-    bodies_.require_applicable(*settings_.stepping.method, next_steps(1));
+    bodies_->require_applicable(*settings_.stepping.method, next_steps(1));
 }
 
 std::vector<std::string> World::preflight(std::size_t most) const {
     const Steps steps = next_steps(1);
-    const std::vector<Risk> risks = oiler::preflight(bodies_, *settings_.stepping.method, steps);
+    const std::vector<Risk> risks = oiler::preflight(*bodies_, *settings_.stepping.method, steps);
     std::vector<std::string> lines;
     for (const Risk& risk : std::span(risks).first(std::min(most, risks.size())))
         lines.push_back(describe(risk, *settings_.stepping.method, steps, name_of_row()));
@@ -193,25 +276,29 @@ std::vector<std::string> World::preflight(std::size_t most) const {
 
 LinkHandle World::link(Entity a, Entity b, const Link& link) {
     LinkHandle handle;
-    change("link", a, [&](std::size_t row_a) { handle = bodies_.link(row_a, row(b), link); });
+    change("link", a, [&](std::size_t row_a) { handle = bodies_->link(row_a, row(b), link); });
     return handle;
 }
 
 LinkHandle World::link_to_point(Entity entity, const Vec3& point, const Link& link) {
     LinkHandle handle;
     change("link_to_point", entity,
-           [&](std::size_t row) { handle = bodies_.link_to_point(row, point, link); });
+           [&](std::size_t row) { handle = bodies_->link_to_point(row, point, link); });
     return handle;
 }
 
+bool World::alive(LinkHandle link) const { return bodies_->alive(link); }
+
+void World::unlink(LinkHandle link) { bodies_->unlink(link); }
+
 void World::move_point(LinkHandle link, const Vec3& point) {
-    placed("move_point", [&] { bodies_.move_point(link, point); });
+    placed("move_point", [&] { bodies_->move_point(link, point); });
 }
 
 void World::list_impacts() {
     impacts_.clear();
-    for (std::size_t i = 0; i < bodies_.impact_count(); ++i) {
-        const BodyImpact one = bodies_.impact_at(i, settings_.stepping.rate);
+    for (std::size_t i = 0; i < bodies_->impact_count(); ++i) {
+        const BodyImpact one = bodies_->impact_at(i, settings_.stepping.rate);
         impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
                             one.before, one.after});
     }
@@ -230,7 +317,7 @@ std::optional<std::int64_t> World::tick_at(const Rate& rate) const {
 }
 
 void World::set_threads(int threads) {
-    placed("set_threads", [&] { bodies_.set_threads(threads); });
+    placed("set_threads", [&] { bodies_->set_threads(threads); });
     settings_.threads = threads;
 }
 
@@ -242,7 +329,7 @@ void World::set_stepping(const Stepping& stepping) {
                  1 / stepping.rate.dt(), time());
         if (stepping.precision != settings_.stepping.precision)
             fail(Exit::usage, "another precision needs a new world");
-        bodies_.require_applicable(*stepping.method, {stepping.rate, *tick, 1, stepping.damping});
+        bodies_->require_applicable(*stepping.method, {stepping.rate, *tick, 1, stepping.damping});
         const std::int64_t old_tick = tick_;
         const Rate old_rate = settings_.stepping.rate;
         settings_.stepping = stepping;
@@ -277,7 +364,7 @@ std::uint64_t World::state_hash() const {
     require(visits_ == 0, "a world is not hashed inside its own each");
     StateHash hash;
     hash.add(static_cast<std::uint64_t>(tick_));
-    bodies_.hash_into(hash);
+    bodies_->hash_into(hash);
     if (random_ != Random(settings_.seed)) hash.add(random_.state());
     for (const TaggedPool& entry : pools_)
         if (entry.pool->slots().size() > 0) entry.pool->hash_into(hash);

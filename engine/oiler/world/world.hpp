@@ -10,20 +10,20 @@
 #include <tuple>
 #include <vector>
 
-#include "oiler/core/error.hpp"
 #include "oiler/core/handle_slots.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/physics/stepping.hpp"
-#include "oiler/sim/bodies.hpp"
-#include "oiler/stability/preflight.hpp"
+#include "oiler/physics/steps.hpp"
+#include "oiler/sim/body.hpp"
 #include "oiler/world/entity.hpp"
-#include "oiler/world/impact.hpp"
-#include "oiler/world/moving.hpp"
 #include "oiler/world/pool.hpp"
 #include "oiler/world/timers.hpp"
 
 namespace oiler {
+
+class Bodies;
+class Error;
 
 /// The settings of a world.
 struct Settings {
@@ -44,9 +44,9 @@ public:
     World(int axes, const Stepping& stepping) : World(axes, Settings{.stepping = stepping}) {}
     World(const World& other);
     World& operator=(const World& other);
-    World(World&&) noexcept = default;
+    World(World&&) noexcept;
     World& operator=(World&& other);
-    ~World() = default;
+    ~World();
 
     [[nodiscard]] Entity create();
     /// Destroys the entity with its components and its body.
@@ -143,35 +143,29 @@ public:
     /// Gives the entity a moving body with at most one force of each kind.
     template <BodyForce... Force>
     void add_body(Entity entity, const Body& body, const Force&... force) {
-        require_of(entity, alive(entity), "add_body", gone);
-        require_of(entity, !has_body(entity), "add_body", "it has a body already");
-        placed("add_body", [&] { bodies_.add(body, force...); });
-        rows_.add(entity.index);
+        add_body(entity, body, given(force...));
     }
+    void add_body(Entity entity, const Body& body, const GivenForces& forces);
     /// Creates an entity with a moving body. The line of an error names call and tick.
     template <BodyForce... Force>
     Entity spawn(const Body& body, const Force&... force) {
-        placed("spawn", [&] { bodies_.add(body, force...); });
-        const Entity entity = create();
-        rows_.add(entity.index);
-        return entity;
+        return spawn(body, given(force...));
     }
     Entity spawn(const Body& body, const GivenForces& forces);
     /// Adds a force to the body, or replaces the numbers of the one that it has.
     template <BodyForce... Force>
     void attach(Entity entity, const Force&... force) {
-        change("attach", entity, [&](std::size_t row) { bodies_.attach(row, force...); });
+        attach_given("attach", 0, entity, given(force...));
     }
     /// Adds or replaces the force of that index among several of one kind, counted from 0.
     template <BodyForce... Force>
     void attach_at(std::size_t index, Entity entity, const Force&... force) {
-        change("attach_at", entity,
-               [&](std::size_t row) { bodies_.attach_at(index, row, force...); });
+        attach_given("attach_at", index, entity, given(force...));
     }
     /// Removes all forces of a kind from the body.
     template <BodyForce Force>
     void detach(Entity entity) {
-        bodies_.detach<Force>(row(entity));
+        detach_kind(entity, kind_of<Force>);
     }
     /// Reserves memory for `bodies` bodies in total, so that spawning them copies none.
     void reserve(std::size_t bodies);
@@ -182,9 +176,9 @@ public:
     LinkHandle link_to_point(Entity entity, const Vec3& point, const Link& link);
     /// Moves the fixed point of such a spring at once, m, as when a hand drags a pin.
     void move_point(LinkHandle link, const Vec3& point);
-    [[nodiscard]] bool alive(LinkHandle link) const { return bodies_.alive(link); }
+    [[nodiscard]] bool alive(LinkHandle link) const;
     /// Removes a spring that is alive.
-    void unlink(LinkHandle link) { bodies_.unlink(link); }
+    void unlink(LinkHandle link);
     void remove_body(Entity entity);
     [[nodiscard]] bool has_body(Entity entity) const;
     /// The row of the entity's body. Rows are in the order of adding; the last row moves to the
@@ -192,37 +186,24 @@ public:
     [[nodiscard]] std::size_t row(Entity entity) const;
     [[nodiscard]] Entity entity_of_row(std::size_t row) const;
 
-    [[nodiscard]] Vec3 position(Entity entity) const { return bodies_.position(row(entity)); }
-    [[nodiscard]] Vec3 velocity(Entity entity) const { return bodies_.velocity(row(entity)); }
-    [[nodiscard]] double mass(Entity entity) const { return bodies_.mass(row(entity)); }  ///< kg
+    [[nodiscard]] Vec3 position(Entity entity) const;
+    [[nodiscard]] Vec3 velocity(Entity entity) const;
+    [[nodiscard]] double mass(Entity entity) const;  ///< kg
 
     // Each of these throws Error{diverged} for a number that is not finite in the world's
     // precision, and Error{usage} for other wrong numbers; the line names call, tick, entity and
     // value, and the body is unchanged.
 
-    void set_velocity(Entity entity, const Vec3& velocity) {
-        change("set_velocity", entity,
-               [&](std::size_t row) { bodies_.set_velocity(row, velocity); });
-    }
+    void set_velocity(Entity entity, const Vec3& velocity);
     /// Moves the body to a position, m; pictures show a motion. See also teleport.
-    void set_position(Entity entity, const Vec3& position) {
-        change("set_position", entity,
-               [&](std::size_t row) { bodies_.set_position(row, position); });
-    }
+    void set_position(Entity entity, const Vec3& position);
     /// Pushes the body with a force, N, over the whole next step; then it is gone. Forces of
     /// several calls add up. Of several steps in a call of `step`, it acts on the first.
-    void apply_force(Entity entity, const Vec3& force) {
-        change("apply_force", entity, [&](std::size_t row) { bodies_.apply_force(row, force); });
-    }
+    void apply_force(Entity entity, const Vec3& force);
     /// Changes the velocity at once by impulse/mass, impulse in N·s.
-    void apply_impulse(Entity entity, const Vec3& impulse) {
-        change("apply_impulse", entity,
-               [&](std::size_t row) { bodies_.apply_impulse(row, impulse); });
-    }
+    void apply_impulse(Entity entity, const Vec3& impulse);
     /// Lets the body meet planes, or pass through them.
-    void set_contact(Entity entity, const std::optional<Contact>& contact) {
-        change("set_contact", entity, [&](std::size_t row) { bodies_.set_contact(row, contact); });
-    }
+    void set_contact(Entity entity, const std::optional<Contact>& contact);
     /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
     /// The number of teleports of the body: the `jump` of a picture's element. 0 if the entity is
@@ -231,11 +212,8 @@ public:
 
     /// Adds a plane, such as a floor, that bodies with a contact meet, and returns its index. See
     /// Bodies::add_plane.
-    std::size_t add_plane(const Plane& plane) {
-        placed("add_plane", [&] { bodies_.add_plane(plane); });
-        return bodies_.planes().size() - 1;
-    }
-    void clear_planes() { bodies_.clear_planes(); }
+    std::size_t add_plane(const Plane& plane);
+    void clear_planes();
     /// The meetings of bodies with planes in the last call of step, in the order of time.
     [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 
@@ -245,10 +223,8 @@ public:
     /// all bodies; see Neighbours for many queries.
     [[nodiscard]] std::vector<Entity> within(const Vec3& point, double radius) const;
 
-    [[nodiscard]] const Bodies& bodies() const { return bodies_; }
-    void set_gravity(const Vec3& acceleration) {
-        placed("set_gravity", [&] { bodies_.set_gravity(acceleration); });
-    }
+    [[nodiscard]] const Bodies& bodies() const { return *bodies_; }
+    void set_gravity(const Vec3& acceleration);
 
     /// Hands a message to `due` of its type, `seconds` from now, rounded up to a tick.
     template <std::copyable T>
@@ -347,7 +323,7 @@ private:
     public:
         explicit Visit(World& world) : world_(world) { ++world_.visits_; }
         ~Visit() {
-            if (--world_.visits_ == 0) world_.bury();
+            if (--world_.visits_ == 0) world_.fill_holes();
         }
         Visit(const Visit&) = delete;
         Visit& operator=(const Visit&) = delete;
@@ -358,7 +334,7 @@ private:
     void erase(AnyPool& pool, std::uint32_t slot) {
         visits_ > 0 ? pool.hide(slot) : pool.erase(slot);
     }
-    void bury();
+    void fill_holes();
 
     template <class T>
     Pool<T>& pool() {
@@ -369,26 +345,16 @@ private:
 
     /// Calls f() and adds call and tick to its errors.
     template <class F>
-    void placed(const char* call, F f) {
-        try {
-            f();
-        } catch (const Error& error) {
-            refuse(call, error);
-        }
-    }
+    void placed(const char* call, F f);
     [[noreturn]] void refuse(const char* call, const Error& error) const;
     /// Calls f(row) and adds call, tick and entity to its errors.
     template <class F>
-    void change(const char* call, Entity entity, F f) {
-        require_of(entity, has_body(entity), call, no_body);
-        try {
-            f(rows_.place(entity.index));
-        } catch (const Error& error) {
-            refuse(call, entity, error);
-        }
-    }
+    void change(const char* call, Entity entity, F f);
     [[noreturn]] void refuse(const char* call, Entity entity, const Error& error) const;
 
+    void attach_given(const char* call, std::size_t index, Entity entity,
+                      const GivenForces& forces);
+    void detach_kind(Entity entity, std::size_t kind);
     void list_impacts();
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
@@ -398,9 +364,9 @@ private:
     std::int64_t age_ = 0;
     HandleSlots slots_;
     std::vector<TaggedPool> pools_;
-    Bodies bodies_;
+    std::unique_ptr<Bodies> bodies_;
     SlotSet rows_;
-    std::vector<std::uint32_t> graves_;  ///< rows of bodies that were removed in a visit
+    std::vector<std::uint32_t> removed_rows_;  ///< rows of bodies that were removed in a visit
     std::vector<Impact> impacts_;
     std::vector<TaggedTimers> timers_;
     Random random_;

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Advice by the cost of steps, from a made-up clock, and the description of costs.
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "lab/measured_scenes.hpp"
-#include "oiler/lab/advice/json.hpp"
-#include "support/text.hpp"
+#include "oiler/lab/advice/advise.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using namespace lab;
-
-const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
 
 /// The cost of a step of a method, ns, as the search estimates it and as it is timed later.
 struct Price {
@@ -119,21 +107,21 @@ TEST(AdviceByTime, ThatNoSettingMeetsNamesTheTimePerFrame) {
     ASSERT_TRUE(advice.best);
     EXPECT_EQ(advice.best->ns_per_second, 57'600);
     ASSERT_EQ(advice.obstacles.size(), 1U);
-    EXPECT_TRUE(holds(advice.obstacles[0], "0.96 µs per frame")) << advice.obstacles[0];
+    EXPECT_TRUE(holds(advice.obstacles[0], "0.96 µs per frame"));
 }
 
-// ---- rates between the rungs
+// ---- rates between the rates
 
 // Velocity Verlet gains ω·(ω·dt)²/24 rad per second: it meets 1 m from about 122 Hz on. The lowest
-// allowed rate decides, on a rung (180 Hz) and between two.
+// allowed rate decides, on a rate (180 Hz) and between two.
 TEST(AdviceByTime, NeverGoesBelowTheLowestRate) {
-    for (const auto& [lowest, rung] :
+    for (const auto& [lowest, allowed] :
          {std::pair{160, 180}, std::pair{180, 180}, std::pair{181, 240}, std::pair{299, 360}}) {
         const Requirements requirements{
             .position_error = 1, .min_rate = lowest, .methods = methods_of({"velocity_verlet"})};
         const Advice advice = advice_by(requirements, {{"velocity_verlet", 1, 1}});
         ASSERT_TRUE(advice.meets);
-        EXPECT_EQ(advice.best->stepping.rate.steps, rung) << lowest;
+        EXPECT_EQ(advice.best->stepping.rate.steps, allowed) << lowest;
     }
 }
 
@@ -196,7 +184,7 @@ TEST(DescribeAdvice, SayCostsForASecondAndForAFrame) {
 // 1/240 s is 4.17 ms.
 TEST(DescribeAdvice, SaysHowLateInputShows) {
     const std::string words = said({.best = costing("rk4", 36), .meets = true});
-    EXPECT_TRUE(holds(words, "Input shows up to 4.17 ms late, one step.")) << words;
+    EXPECT_TRUE(holds(words, "Input shows up to 4.17 ms late, one step."));
 }
 
 // A tolerance at the steps is compared with the error at the steps.
@@ -206,7 +194,7 @@ TEST(DescribeAdvice, SayTheShareOfATolerance) {
     const std::string words = describe({.best = costing("rk4", 36), .meets = true}, spring().scene,
                                        spring().reference, at_steps)
                                   .front();
-    EXPECT_TRUE(holds(words, "that is 25 % of the 0.5 m at the steps allowed")) << words;
+    EXPECT_TRUE(holds(words, "that is 25 % of the 0.5 m at the steps allowed"));
 }
 
 // 37 µs cost 1/36 more than 36 µs, which is less than times differ from one measurement to the
@@ -218,19 +206,17 @@ TEST(DescribeAdvice, NameTiesAndEqualCosts) {
                                     .current = costing("semi_implicit_euler", 37)});
     EXPECT_TRUE(holds(words,
                       "Ties, within the spread of the cost: rk4_38 at 240 Hz in double; rk3_kutta "
-                      "at 240 Hz in double.\n"))
-        << words;
+                      "at 240 Hz in double.\n"));
     EXPECT_TRUE(holds(words,
                       " 37 µs per simulated second, 0.0037 % of a frame, 1.03 times the cost, "
-                      "within its spread."))
-        << words;
+                      "within its spread."));
 }
 
 // 120 µs per second are 2 µs per frame.
 TEST(DescribeAdvice, SayABudgetForAFrame) {
     const std::string words = said({.best = costing("rk4", 600)});
-    EXPECT_TRUE(holds(words, " 0.5 m and 2 µs per frame")) << words;
-    EXPECT_TRUE(holds(words, " 600 µs per simulated second, 0.06 % of a frame (10 µs).")) << words;
+    EXPECT_TRUE(holds(words, " 0.5 m and 2 µs per frame"));
+    EXPECT_TRUE(holds(words, " 600 µs per simulated second, 0.06 % of a frame (10 µs)."));
 }
 
 TEST(JsonOfAdvice, HasEveryCostForAFrameInMicroseconds) {
@@ -243,7 +229,7 @@ TEST(JsonOfAdvice, HasEveryCostForAFrameInMicroseconds) {
         .alternatives = {
             {.row = costing("exact", 18), .method = &find_method("exact"), .why = "so"}}};
     const auto json =
-        nlohmann::json::parse(json_of(advice, spring().scene, spring().reference, both).dump(-1));
+        nlohmann::json::parse(to_json(advice, spring().scene, spring().reference, both).dump(-1));
     const auto us = [](const nlohmann::json& row) { return row.at("us_per_frame").get<double>(); };
     EXPECT_DOUBLE_EQ(us(json.at("advice")), 0.6);
     EXPECT_DOUBLE_EQ(us(json.at("runner_up")), 1.2);

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/growth.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
-#include "oiler/lab/advice/json.hpp"
-#include "support/text.hpp"
+#include "oiler/lab/advice/advise.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
 
-using namespace lab;
 using Law = Growth::Law;
 
 /// The largest errors at the steps up to the ends of 64 equal parts of 8 s; lines add `lines` m.

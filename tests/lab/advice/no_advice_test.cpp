@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "lab/advice/advice_on.hpp"
-#include "oiler/core/error.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 // Requirements that no setting meets, and those that the reference cannot judge.
 
 namespace oiler::test {
-using namespace oiler::lab;
 namespace {
 
 TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
@@ -31,10 +25,10 @@ TEST(Advice, ThatDoesNotExistNamesTheObstacles) {
     EXPECT_TRUE(holds(advice.obstacles[1], "double"));
     const std::vector<std::string> words =
         describe(advice, measured.scene, measured.reference, requirements);
-    EXPECT_TRUE(holds(words.front(), "No setting meets 1e-06 m")) << words.front();
+    EXPECT_TRUE(holds(words.front(), "No setting meets 1e-06 m"));
 }
 
-// For a method of first order, the highest rung is the most accurate.
+// For a method of first order, the highest rate is the most accurate.
 TEST(Advice, ThatDoesNotExistIsTheClosestSetting) {
     const Advice advice = advice_on(
         article_spring,
@@ -50,21 +44,18 @@ TEST(Advice, OnEnergyThatDoesNotExistNamesEnergy) {
         {.energy_drift = 1e-9, .max_rate = 1000, .methods = methods_of({"semi_implicit_euler"})});
     EXPECT_FALSE(advice.meets);
     ASSERT_FALSE(advice.obstacles.empty());
-    EXPECT_TRUE(holds(advice.obstacles.front(), "energy")) << advice.obstacles.front();
+    EXPECT_TRUE(holds(advice.obstacles.front(), "energy"));
 }
 
 void expect_refused(const MeasuredScene& measured, const Requirements& requirements,
                     const std::string& named) {
-    try {
+    const std::string line = line_of_error(Exit::usage, [&] {
         (void)advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-        ADD_FAILURE() << "is not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        EXPECT_TRUE(holds(error.what(), "expected at least")) << error.what();
-        EXPECT_TRUE(holds(error.what(), named)) << error.what();
-        EXPECT_FALSE(holds(error.what(), "--duration 0")) << error.what();
-        EXPECT_FALSE(holds(error.what(), "\n"));
-    }
+    });
+    EXPECT_TRUE(holds(line, "expected at least"));
+    EXPECT_TRUE(holds(line, named));
+    EXPECT_FALSE(holds(line, "--duration 0"));
+    EXPECT_FALSE(holds(line, "\n"));
 }
 
 TEST(Advice, BelowTheFloorIsRefused) {
@@ -97,16 +88,11 @@ TEST(Advice, OnAChaoticSceneIsRefusedAndTheRemedyHelps) {
                                  .most_work = 2e7};
     const MeasuredScene measured(double_pendulum("60.0"), effort);
     ASSERT_FALSE(measured.reference.why_no_longer.empty());
-    std::string line;
-    try {
+    const std::string line = line_of_error(Exit::usage, [&] {
         (void)advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-        FAIL() << "is not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        line = error.what();
-    }
+    });
     const std::string remedy = "ask for ";
-    ASSERT_TRUE(holds(line, remedy)) << line;
+    ASSERT_TRUE(holds(line, remedy));
     const std::string rest = line.substr(line.find(remedy) + remedy.size());
     const std::string duration = rest.substr(0, rest.find(' '));
     EXPECT_GT(std::stod(duration), 1) << line;

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Advice for errors at the steps, as drawn and on a display; ties; damping.
 #include <fmt/core.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <memory>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using namespace lab;
-
-const MeasuredScene& spring() {
-    static const MeasuredScene measured(article_spring);
-    return measured;
-}
 
 /// Every step takes 1 ns.
 SweepWatch equal_costs() {

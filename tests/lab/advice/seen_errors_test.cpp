@@ -2,20 +2,16 @@
 // Scenes whose errors were once told wrongly, because runs were sampled at instants that players do
 // not see. Each truth is a closed form.
 #include <fmt/core.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
-#include "oiler/lab/budget.hpp"
+#include "oiler/lab/rates/budget.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
 
-using namespace lab;
 constexpr double pi = std::numbers::pi;
 
 std::string spring(const std::string& name, double omega, double amplitude) {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/ledger/ledger.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include "oiler/core/error.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 namespace {
 
 Ledger ledger_of(const std::string& text, std::int64_t steps = 20) {

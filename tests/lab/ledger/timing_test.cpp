@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Times from made-up clocks, so that each number is known.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <string>
-#include <vector>
-
-#include "oiler/lab/ledger/parts.hpp"
+#include "oiler/lab/ledger/timing.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 namespace {
 
 const std::string head = "[scene]\naxes = 1\nrate = 100\n";

@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/reference/exact_motions.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Attractor;
-using oiler::Bodies;
-using oiler::CoilSpring;
-using oiler::LinearDrag;
-using oiler::Precision;
-using oiler::QuadraticDrag;
-using oiler::Spring;
-using oiler::State;
-using oiler::Vec;
-using oiler::Vec3;
-using oiler::lab::exact_motions;
-using Real = long double;
+using namespace lab;
 using State3 = State<Real, 3>;
 using Complex = std::complex<Real>;
 
@@ -398,7 +382,7 @@ TEST(ExactMotions, WalkAsTheyAreAtEachTime) {
                Attractor{.centre = {0, 0, 2}, .gm = 1});
     auto closed_forms = exact_motions(bodies, 1);
     ASSERT_TRUE(closed_forms);
-    const oiler::lab::ExactMotions motions(std::move(*closed_forms));
+    const ExactMotions motions(std::move(*closed_forms));
     const auto walk = motions.walk(rate);
     std::vector<State3> walked(3);
     const auto expect_at = [&](std::int64_t tick) {
@@ -414,3 +398,4 @@ TEST(ExactMotions, WalkAsTheyAreAtEachTime) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/landing_motion.hpp"
 
-#include <gtest/gtest.h>
+#include "support/test.hpp"
 
-#include <cmath>
-
+namespace oiler::test {
 namespace {
 
-using oiler::Plane;
-using oiler::lab::LandingMotion;
-using oiler::lab::LinearMotion;
+using namespace lab;
 
 constexpr long double g = 9.81L;
 
@@ -63,3 +60,4 @@ TEST(LandingMotion, IsUnknownBelowAPlaneAndInACorner) {
 }
 
 }  // namespace
+}  // namespace oiler::test

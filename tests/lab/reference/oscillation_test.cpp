@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <numbers>
-
 #include "lab/motions.hpp"
-#include "oiler/lab/reference/exact_motions.hpp"
-#include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
+#include "oiler/lab/reference/path.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::lab::ExactMotion;
-using oiler::lab::ExactMotions;
-using oiler::lab::find_oscillation;
-using oiler::lab::Reference;
-using oiler::lab::SampleTimes;
-using oiler::test::along_x;
-using oiler::test::article_motion;
-using oiler::test::Motions;
-using oiler::test::Real;
-using oiler::test::State3;
 
 /// A reference of these motions that is meaningful up to its last sample.
 Reference reference_of(const Motions& motions, const SampleTimes& samples) {
@@ -118,3 +102,4 @@ TEST(FindOscillation, IsNoneForTooFewPeriodsOrSamples) {
 }
 
 }  // namespace
+}  // namespace oiler::test

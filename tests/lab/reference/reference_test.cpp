@@ -1,36 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/reference.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "lab/motions.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/reference.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Scene;
-using oiler::Vec;
-using oiler::lab::ClosedForm;
-using oiler::lab::ExactMotion;
-using oiler::lab::make_reference;
-using oiler::lab::Reference;
-using oiler::lab::ReferenceEffort;
-using oiler::lab::SampleTimes;
-using oiler::test::along_x;
-using oiler::test::article_motion;
-using oiler::test::holds;
-using oiler::test::Motions;
-using oiler::test::Real;
-using oiler::test::State3;
 
 constexpr double double_round_off = std::numeric_limits<double>::epsilon() / 2;
 
@@ -67,7 +44,7 @@ void expect_within_uncertainties(const Reference& reference, const Motions& moti
                                               static_cast<Real>(reference.samples.per_second));
             const State3 found = reference.motion->at(
                 row, static_cast<Real>(sample) / static_cast<Real>(reference.samples.per_second));
-            const oiler::lab::Uncertainty& uncertainty =
+            const Uncertainty& uncertainty =
                 reference.uncertainties[static_cast<std::size_t>(sample)];
             ASSERT_LE(length(found.x - exact.x), uncertainty.position + given)
                 << sample << " " << row;
@@ -80,7 +57,7 @@ void expect_within_uncertainties(const Reference& reference, const Motions& moti
 void expect_fine_steps(const Scene& scene, const Motions& motions, double given = 0) {
     const Reference reference = make_reference(scene, effort(), {}, none);
     EXPECT_FALSE(reference.closed_form);
-    EXPECT_TRUE(holds(reference.words, "in long double by")) << reference.words;
+    EXPECT_TRUE(holds(reference.words, "in long double by"));
     EXPECT_EQ(reference.why_no_longer, "");
     EXPECT_LE(reference.uncertainties.back().position, 1e-11 * reference.extent) << reference.words;
     EXPECT_GT(reference.uncertainties.back().position, 0);
@@ -103,7 +80,7 @@ TEST(FineSteps, AreInDoubleWhereThatSuffices) {
         ReferenceEffort asked = effort();
         asked.wanted = wanted;
         const Reference reference = make_reference(article_scene(0.125, 90), asked, {}, none);
-        EXPECT_TRUE(holds(reference.words, words)) << reference.words;
+        EXPECT_TRUE(holds(reference.words, words));
         EXPECT_LE(reference.uncertainties.back().position, std::max(wanted, 1e-11 * 2000));
         expect_within_uncertainties(reference, {article_motion(0.125)});
     }
@@ -139,7 +116,7 @@ TEST(FineSteps, OfAnOrbit) {
 // ω1 = √15 in phase and ω2 = √18 in antiphase. Neither reaches a wall or the other, where its
 // spring would turn over.
 TEST(FineSteps, OfTheChainMeetItsNormalModes) {
-    const Scene scene = oiler::read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
+    const Scene scene = read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
     const auto mass = [](Real sign) {
         return [sign](Real t) {
             const Real together = std::sqrt(15.0L);
@@ -175,8 +152,7 @@ TEST(FineSteps, OfADraggedProjectileMeetTheReference) {
         const double t = number(state.at("t"));
         const auto sample = std::lround(t * static_cast<double>(samples.per_second));
         const State3 found = fine.motion->at(0, t);
-        const oiler::lab::Uncertainty& uncertainty =
-            fine.uncertainties[static_cast<std::size_t>(sample)];
+        const Uncertainty& uncertainty = fine.uncertainties[static_cast<std::size_t>(sample)];
         const double given = double_round_off * (30 * t + 10 * t * t);
         EXPECT_LE(length(found.x -
                          Vec<Real, 3>{number<Real>(state.at("x")), number<Real>(state.at("y")), 0}),
@@ -215,7 +191,7 @@ TEST(ClosedFormReference, StatesItsError) {
     const Scene scene = article_scene(0, 20);
     const Reference reference = make_reference(scene, effort());
     EXPECT_TRUE(reference.closed_form);
-    EXPECT_TRUE(holds(reference.words, "confirmed by fine steps to")) << reference.words;
+    EXPECT_TRUE(holds(reference.words, "confirmed by fine steps to"));
     EXPECT_EQ(reference.why_no_longer, "");
     EXPECT_EQ(reference.meaningful_until, 20);
     expect_within_uncertainties(reference, {article_motion(0)});
@@ -235,8 +211,7 @@ TEST(ClosedFormReference, StatesThatItIsNotChecked) {
     none_at_all.most_work = 1;
     const Reference reference = make_reference(scene, none_at_all);
     EXPECT_TRUE(reference.closed_form);
-    EXPECT_TRUE(holds(reference.words, "not checked by fine steps: too much work"))
-        << reference.words;
+    EXPECT_TRUE(holds(reference.words, "not checked by fine steps: too much work"));
 }
 
 double largest_difference(const ExactMotion& a, const ExactMotion& b, const SampleTimes& samples) {
@@ -301,7 +276,7 @@ TEST(WrongClosedForm, OfOneBodyIsRejected) {
         return state;
     };
     const Reference reference = make_reference(scene, effort(), {}, claimed({right, wrong}));
-    EXPECT_TRUE(holds(reference.words, "differs by 0.001 m")) << reference.words;
+    EXPECT_TRUE(holds(reference.words, "differs by 0.001 m"));
     EXPECT_FALSE(reference.closed_form);
     expect_within_uncertainties(reference, {right, right});
 }
@@ -391,7 +366,7 @@ rest_length = 1.118
 )";
 
 TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
-    const Scene scene = oiler::parse_scene(double_pendulum, "double_pendulum");
+    const Scene scene = parse_scene(double_pendulum, "double_pendulum");
     const auto with = [&](double work) {
         ReferenceEffort limited;
         limited.most_work = work;
@@ -405,22 +380,21 @@ TEST(ChaoticScene, IsMeaningfulForAWhileOnly) {
     EXPECT_GT(poor.meaningful_until, 1) << poor.words;
     const SampleTimes& samples = poor.samples;
     for (std::int64_t sample = 0; samples.time(sample) < poor.meaningful_until; ++sample) {
-        const oiler::lab::Uncertainty& uncertainty =
-            poor.uncertainties[static_cast<std::size_t>(sample)];
+        const Uncertainty& uncertainty = poor.uncertainties[static_cast<std::size_t>(sample)];
         const Real t = static_cast<Real>(sample) / static_cast<Real>(samples.per_second);
         for (std::size_t row = 0; row < 2; ++row) {
             const State3 a = poor.motion->at(row, t);
             const State3 b = better.motion->at(row, t);
             const auto later = static_cast<std::size_t>(
                 std::ceil(t * static_cast<Real>(better.samples.per_second)));
-            const oiler::lab::Uncertainty& own = better.uncertainties[later];
+            const Uncertainty& own = better.uncertainties[later];
             ASSERT_LE(length(a.x - b.x), 100 * (uncertainty.position + own.position))
                 << samples.time(sample);
             ASSERT_LE(length(a.v - b.v), 100 * (uncertainty.velocity + own.velocity))
                 << samples.time(sample);
         }
     }
-    EXPECT_TRUE(holds(poor.why_no_longer, "chaotic")) << poor.why_no_longer;
+    EXPECT_TRUE(holds(poor.why_no_longer, "chaotic"));
     EXPECT_LE(poor.floor().position, 1e-3 * poor.extent);
 }
 
@@ -432,7 +406,7 @@ TEST(ReferenceByFineSteps, FollowsABounceAtAllTimes) {
     const Real e = 0.75L;
     const Real w = std::sqrt(g / 0.125L);
     const Real height = 2;
-    const Scene scene = oiler::parse_scene(
+    const Scene scene = parse_scene(
         "[scene]\naxes = 1\nduration = 1.2\n[gravity]\nacceleration = [-9.81]\n"
         "[[plane]]\nnormal = [1.0]\nrestitution = 0.75\n"
         "[[body]]\nposition = [2.25]\nquadratic_drag = 0.125\ncontact = 0.25\n",
@@ -461,7 +435,7 @@ TEST(ReferenceByFineSteps, FollowsABounceAtAllTimes) {
 
 // The reference of bodies that land with order 1 is told apart from chaos, before all work is done.
 TEST(ReferenceByFineSteps, SaysThatLinkedBodiesLandWithOrderOne) {
-    const Scene scene = oiler::parse_scene(
+    const Scene scene = parse_scene(
         "[scene]\naxes = 1\nduration = 2.0\n[gravity]\nacceleration = [-9.81]\n"
         "[[plane]]\nnormal = [1.0]\nrestitution = 0.5\n"
         "[[body]]\nname = \"a\"\nposition = [1.0]\ncontact = 0.0\n"
@@ -479,3 +453,4 @@ TEST(ReferenceByFineSteps, SaysThatLinkedBodiesLandWithOrderOne) {
 }
 
 }  // namespace
+}  // namespace oiler::test

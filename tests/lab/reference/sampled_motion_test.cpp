@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/sampled_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
 
 using namespace lab;
-using Real = long double;
 using State3 = State<Real, 3>;
 
 constexpr std::int64_t per_second = 10;

@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/samples.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-
 #include "support/oscillator.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Bodies;
-using oiler::Exit;
-using oiler::make_world;
-using oiler::Scene;
-using oiler::Settings;
-using oiler::lab::Density;
-using oiler::lab::require_measurable;
-using oiler::lab::sample_times_of;
-using oiler::lab::SampleTimes;
-using oiler::test::holds;
-using oiler::test::line_of_error;
+using namespace lab;
 
 Scene falling(std::int64_t rate, double duration, std::int64_t bodies = 1) {
     Scene scene;
@@ -123,3 +108,4 @@ TEST(RequireMeasurable, RefusesScenesThatAreTooLargeOrTooLong) {
 }
 
 }  // namespace
+}  // namespace oiler::test

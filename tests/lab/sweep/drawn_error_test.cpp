@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/drawn_error.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "oiler/lab/reference/exact_motions.hpp"
+#include "oiler/lab/reference/exact_motion.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
 
 using namespace lab;
-using Real = long double;
 using State3 = State<Real, 3>;
 
 LinearMotion oscillation(Real omega, Real amplitude) {

@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/judge.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <complex>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "support/oscillator.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
 
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::Exit;
-using oiler::find_method;
-using oiler::Method;
-using oiler::Move;
-using oiler::Precision;
-using oiler::Scene;
-using oiler::Settings;
-using oiler::Splitting;
-using oiler::Tableau;
-using oiler::lab::evaluations_per_step;
-using oiler::lab::judge;
-using oiler::lab::Judgement;
-using oiler::lab::Reference;
-using oiler::lab::why_not;
-using oiler::test::line_of_error;
-using Real = long double;
+using namespace lab;
 
 constexpr double start_x = 1000;
 const double omega = std::sqrt(15.0);
@@ -47,7 +25,7 @@ Scene spring(std::int64_t rate, double duration, double damping = 0, double stif
 }
 
 Reference reference_of(const Scene& scene) {
-    oiler::lab::ReferenceEffort effort;
+    ReferenceEffort effort;
     effort.most_work = 1e6;
     return make_reference(scene, effort);
 }
@@ -113,12 +91,12 @@ Errors errors_of(const std::vector<ExactState>& run, std::int64_t rate, double u
 /// The errors of a method that is stepped here.
 Errors stepped_errors(const Method& method, std::int64_t rate, double duration, double damping = 0,
                       double stiffness = 15) {
-    Bodies bodies = oiler::test::oscillator(Precision::double_, stiffness, damping, start_x);
+    Bodies bodies = oscillator(Precision::double_, stiffness, damping, start_x);
     std::vector<ExactState> run;
     const auto steps = static_cast<std::int64_t>(std::ceil(duration * static_cast<double>(rate)));
     for (std::int64_t tick = 0; tick <= steps; ++tick) {
         if (tick > 0) bodies.step(method, {{rate}, tick - 1, 1});
-        run.push_back({oiler::test::x_of(bodies), oiler::test::v_of(bodies)});
+        run.push_back({x_of(bodies), v_of(bodies)});
     }
     return errors_of(run, rate, duration, damping, stiffness);
 }
@@ -235,7 +213,8 @@ TEST(Judge, EndsEarlyAboveEnough) {
     EXPECT_LT(part.position_error, whole.position_error / 3);
 }
 
-// The largest error at the steps so far, at the ends of 64 parts: a quarter of the way at a quarter of the time.
+// The largest error at the steps so far, at the ends of 64 parts: a quarter of the way at a quarter
+// of the time.
 TEST(Judge, RecordsTheGrowthOfTheError) {
     const Scene scene = spring(60, 10);
     const Judgement judgement = judge(scene, with("semi_implicit_euler", 240), reference_of(scene));
@@ -453,3 +432,4 @@ TEST(Judge, RefusesAMethodThatCannotStepTheScene) {
 }
 
 }  // namespace
+}  // namespace oiler::test

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
+using namespace lab;
 namespace {
 
 TradeoffRow made_up(double error, double cost, bool stable = true) {
@@ -48,13 +44,13 @@ TEST(Pareto, HasTheRowsThatNoOtherBeats) {
     Dice dice;
     for (int round = 0; round < 300; ++round) {
         Tradeoff tradeoff;
-        tradeoff.ladders.resize(2);
+        tradeoff.all_series.resize(2);
         std::vector<Point> points;
         for (int i = dice.roll(15); i > 0; --i) {
             const double error = dice.roll(6) == 0 ? unknown : 1 + dice.roll(5);
             const double cost = dice.roll(6) == 0 ? unknown : 1 + dice.roll(5);
             const bool stable = dice.roll(6) != 0;
-            tradeoff.ladders[static_cast<std::size_t>(i % 2)].rows.push_back(
+            tradeoff.all_series[static_cast<std::size_t>(i % 2)].rows.push_back(
                 made_up(error, cost, stable));
             if (stable && !std::isnan(cost))
                 points.push_back({cost, std::isnan(error) ? 0 : error});
@@ -71,10 +67,10 @@ TEST(Pareto, HasTheRowsThatNoOtherBeats) {
 
 TEST(Pareto, UsesTheGivenCost) {
     Tradeoff tradeoff;
-    tradeoff.ladders.resize(1);
-    tradeoff.ladders[0].rows = {made_up(1, 10), made_up(2, 20)};
-    tradeoff.ladders[0].rows[0].judgement.evaluations = 5;
-    tradeoff.ladders[0].rows[1].judgement.evaluations = 4;
+    tradeoff.all_series.resize(1);
+    tradeoff.all_series[0].rows = {made_up(1, 10), made_up(2, 20)};
+    tradeoff.all_series[0].rows[0].judgement.evaluations = 5;
+    tradeoff.all_series[0].rows[1].judgement.evaluations = 4;
     EXPECT_EQ(pareto(tradeoff, time_of).size(), 1U);
     EXPECT_EQ(pareto(tradeoff, evaluations_of).size(), 2U);
 }

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "lab/article_errors.hpp"
 #include "lab/tradeoffs.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
-using namespace oiler::lab;
 namespace {
 
 Tradeoff swept(const MeasuredScene& measured, const SweepPlan& plan) {
@@ -26,12 +20,12 @@ const Tradeoff& whole_sweep() {
     return tradeoff;
 }
 
-// ---- rungs
+// ---- rates
 
-std::vector<std::int64_t> rungs_at(std::int64_t rate, std::int64_t most) {
+std::vector<std::int64_t> rates_at(std::int64_t rate, std::int64_t most) {
     Scene scene;
     scene.stepping.rate.steps = rate;
-    return rungs(scene, most);
+    return sweep_rates(scene, most);
 }
 
 /// Whether a rate is `base` times a power of two.
@@ -44,13 +38,13 @@ class Rungs : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t
 
 TEST_P(Rungs, AreDivisorsOf60AndDoublingsOf60And90) {
     const auto [own, most] = GetParam();
-    const std::vector<std::int64_t> all = rungs_at(own, most);
+    const std::vector<std::int64_t> all = rates_at(own, most);
     EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), std::less_equal{}));
     for (std::int64_t rate = 1; rate <= 2 * std::max(own, most); ++rate) {
-        const bool is_rung =
+        const bool is_included =
             rate == own ||
             (rate <= most && (60 % rate == 0 || is_doubled(rate, 60) || is_doubled(rate, 90)));
-        EXPECT_EQ(std::count(all.begin(), all.end(), rate), is_rung) << rate;
+        EXPECT_EQ(std::count(all.begin(), all.end(), rate), is_included) << rate;
     }
 }
 
@@ -60,41 +54,41 @@ INSTANTIATE_TEST_SUITE_P(All, Rungs,
                                          std::pair{7, 90}, std::pair{90, 61'440}));
 
 TEST(RungsAt, TheUsualRates) {
-    EXPECT_EQ(rungs_at(60, 500), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
+    EXPECT_EQ(rates_at(60, 500), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
                                                             60, 90, 120, 180, 240, 360, 480}));
-    EXPECT_EQ(rungs_at(600, 250), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
+    EXPECT_EQ(rates_at(600, 250), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
                                                              60, 90, 120, 180, 240, 600}));
 }
 
 TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
-    EXPECT_EQ(rungs_at(100, 10), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 100}));
-    EXPECT_EQ(rungs_at(60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
+    EXPECT_EQ(rates_at(100, 10), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 100}));
+    EXPECT_EQ(rates_at(60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
 }
 
-// The scene's own 1 Hz is always a rung.
+// The scene's own 1 Hz is always a rate.
 TEST(RungsAt, TheLimitItselfIsOne) {
     for (const std::int64_t most : {2, 10, 30, 60, 90, 120, 180, 240, 360, 480, 720, 960}) {
-        const std::vector<std::int64_t> all = rungs_at(1, most);
+        const std::vector<std::int64_t> all = rates_at(1, most);
         EXPECT_EQ(all.back(), most);
-        EXPECT_LT(rungs_at(1, most - 1).back(), most);
-        // The rungs below do not depend on the limit.
-        EXPECT_EQ(std::vector(all.begin(), all.end() - 1), rungs_at(1, most - 1));
+        EXPECT_LT(rates_at(1, most - 1).back(), most);
+        // The rates below do not depend on the limit.
+        EXPECT_EQ(std::vector(all.begin(), all.end() - 1), rates_at(1, most - 1));
     }
 }
 
 // ---- sweeping
 
-TEST(Sweep, ClimbsEachLadderByTheRungs) {
-    const std::vector<std::int64_t> rates = rungs(spring().scene, 800);
+TEST(Sweep, TakesTheRatesOfEachSeriesInOrder) {
+    const std::vector<std::int64_t> rates = sweep_rates(spring().scene, 800);
     EXPECT_TRUE(whole_sweep().complete());
-    EXPECT_EQ(whole_sweep().ladders.size(), 12U);
+    EXPECT_EQ(whole_sweep().all_series.size(), 12U);
     EXPECT_EQ(whole_sweep().current,
               (Stepping{&find_method("semi_implicit_euler"), {100}, Precision::double_}));
-    for (const Ladder& ladder : whole_sweep().ladders) {
-        EXPECT_FALSE(ladder.rows.empty());
-        for (std::size_t i = 0; i < ladder.rows.size(); ++i)
-            EXPECT_EQ(ladder.rows[i].stepping,
-                      (Stepping{ladder.method, {rates[i]}, ladder.precision}));
+    for (const RateSeries& series : whole_sweep().all_series) {
+        EXPECT_FALSE(series.rows.empty());
+        for (std::size_t i = 0; i < series.rows.size(); ++i)
+            EXPECT_EQ(series.rows[i].stepping,
+                      (Stepping{series.method, {rates[i]}, series.precision}));
     }
 }
 
@@ -139,16 +133,16 @@ TEST(Sweep, HasTheErrorsOfChordsBetweenExactSteps) {
 }
 
 TEST(Sweep, StoppedAndResumedEqualsAnUninterruptedOne) {
-    for (const int ladders : {1, 4, 7}) {
+    for (const int all_series : {1, 4, 7}) {
         Tradeoff tradeoff = started(spring(), small_plan());
         int done = 0;
         bool stopped = false;
         SweepWatch watch;
-        watch.ladder_done = [&](const Tradeoff&) { stopped = ++done >= ladders; };
+        watch.series_done = [&](const Tradeoff&) { stopped = ++done >= all_series; };
         watch.stopped = [&] { return stopped; };
         sweep(tradeoff, spring().scene, spring().reference, small_plan(), watch);
         EXPECT_FALSE(tradeoff.complete());
-        Tradeoff read = parse_tradeoff(to_json(tradeoff), "tradeoff.json");
+        Tradeoff read = parse_tradeoff(file_text(tradeoff), "tradeoff.json");
         expect_same_errors(read, tradeoff);
         sweep(read, spring().scene, spring().reference, small_plan(), {});
         EXPECT_TRUE(read.complete());
@@ -156,15 +150,15 @@ TEST(Sweep, StoppedAndResumedEqualsAnUninterruptedOne) {
     }
 }
 
-TEST(Sweep, KeepsFinishedLadders) {
+TEST(Sweep, KeepsFinishedSeries) {
     Tradeoff tradeoff = whole_sweep();
-    tradeoff.ladders[2].rows[0].judgement.position_error = 42;
-    int climbed = 0;
+    tradeoff.all_series[2].rows[0].judgement.position_error = 42;
+    int measured = 0;
     SweepWatch watch;
-    watch.ladder_done = [&](const Tradeoff&) { ++climbed; };
+    watch.series_done = [&](const Tradeoff&) { ++measured; };
     sweep(tradeoff, spring().scene, spring().reference, small_plan(), watch);
-    EXPECT_EQ(climbed, 0);
-    EXPECT_EQ(tradeoff.ladders[2].rows[0].judgement.position_error, 42);
+    EXPECT_EQ(measured, 0);
+    EXPECT_EQ(tradeoff.all_series[2].rows[0].judgement.position_error, 42);
 }
 
 TEST(Sweep, ReportsItsProgress) {
@@ -175,7 +169,7 @@ TEST(Sweep, ReportsItsProgress) {
     SweepWatch watch;
     watch.progress = [&](double share) { shares.push_back(share); };
     sweep(tradeoff, spring().scene, spring().reference, plan, watch);
-    EXPECT_EQ(shares.size(), tradeoff.ladders.size());
+    EXPECT_EQ(shares.size(), tradeoff.all_series.size());
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     EXPECT_GT(shares.front(), 0);
     EXPECT_NEAR(shares.back(), 1, 1e-12);
@@ -185,8 +179,8 @@ TEST(TimeRows, TimesStableRowsAndChangesNoError) {
     Tradeoff tradeoff = whole_sweep();
     EXPECT_FALSE(tradeoff.timed());
     std::vector<TradeoffRow*> rows;
-    for (Ladder& ladder : tradeoff.ladders)
-        for (TradeoffRow& row : ladder.rows) rows.push_back(&row);
+    for (RateSeries& series : tradeoff.all_series)
+        for (TradeoffRow& row : series.rows) rows.push_back(&row);
     SweepWatch watch;
     watch.ns_per_step = [](const Scene&, const Stepping&, std::int64_t) { return 3.0; };
     watch.ns_per_step_together = [](const Scene&, const Stepping&) { return 2.0; };
@@ -202,17 +196,17 @@ TEST(TimeRows, TimesStableRowsAndChangesNoError) {
     }
 }
 
-// ---- where ladders end
+// ---- where series end
 
-const Ladder& ladder_of(const Tradeoff& tradeoff, const char* name, Precision precision) {
-    for (const Ladder& ladder : tradeoff.ladders)
-        if (ladder.method->name == name && ladder.precision == precision) return ladder;
-    throw std::invalid_argument("no such ladder");
+const RateSeries& series_of(const Tradeoff& tradeoff, const char* name, Precision precision) {
+    for (const RateSeries& series : tradeoff.all_series)
+        if (series.method->name == name && series.precision == precision) return series;
+    throw std::invalid_argument("no such series");
 }
 
 // The distance of 0.8 m oscillates around 0.5 m with ω² = 2·15/s², each body with 0.15 m. The
 // chords of exact steps deviate by up to 0.15 m·ω²·dt²/8: 1.6e-4 m at 60 Hz, 0.7e-4 m at 90 Hz.
-TEST(Ladder, EndsBelowTheFloorOfTheReference) {
+TEST(RateSeries, EndsBelowTheFloorOfTheReference) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"kahan_li8_kdk"});
     MeasuredScene rough(
@@ -223,38 +217,38 @@ TEST(Ladder, EndsBelowTheFloorOfTheReference) {
     // An own error of 1e-6 m is a floor of 1e-4 m.
     for (Uncertainty& uncertainty : rough.reference.uncertainties) uncertainty.position = 1e-6;
     const Tradeoff tradeoff = swept(rough, plan);
-    const Ladder& ladder = ladder_of(tradeoff, "kahan_li8_kdk", Precision::double_);
-    EXPECT_EQ(ladder.end, "smaller errors are below the reference's floor");
-    ASSERT_GT(ladder.rows.size(), 1U);
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 90);
-    for (std::size_t i = 0; i < ladder.rows.size(); ++i)
-        EXPECT_EQ(ladder.rows[i].judgement.below_floor(), i + 1 == ladder.rows.size()) << i;
+    const RateSeries& series = series_of(tradeoff, "kahan_li8_kdk", Precision::double_);
+    EXPECT_EQ(series.end, "smaller errors are below the reference's floor");
+    ASSERT_GT(series.rows.size(), 1U);
+    EXPECT_EQ(series.rows.back().stepping.rate.steps, 90);
+    for (std::size_t i = 0; i < series.rows.size(); ++i)
+        EXPECT_EQ(series.rows[i].judgement.below_floor(), i + 1 == series.rows.size()) << i;
 }
 
 // The chords of exact steps deviate by up to 1000 m·15/s²·dt²/8, which is below 10⁻⁶ of the extent
 // of 1960 m from 978 Hz on: 2.03e-3 m at 960 Hz, 0.90e-3 m at 1440 Hz.
-TEST(Ladder, EndsWhereDrawnLinesAloneAreWrong) {
+TEST(RateSeries, EndsWhereDrawnLinesAloneAreWrong) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"exact"});
     plan.max_rate = 10'000;
     const Tradeoff tradeoff = swept(spring(), plan);
-    const Ladder& ladder = ladder_of(tradeoff, "exact", Precision::double_);
-    EXPECT_EQ(ladder.end, "smaller errors are those of the drawn lines, equal for all methods");
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 1440);
-    EXPECT_NEAR(ladder.rows.back().judgement.position_error, 15e3 / 8 / 1440 / 1440, 1e-5);
+    const RateSeries& series = series_of(tradeoff, "exact", Precision::double_);
+    EXPECT_EQ(series.end, "smaller errors are those of the drawn lines, equal for all methods");
+    EXPECT_EQ(series.rows.back().stepping.rate.steps, 1440);
+    EXPECT_NEAR(series.rows.back().judgement.position_error, 15e3 / 8 / 1440 / 1440, 1e-5);
 }
 
 // None of the last three rows improved on the best by a tenth, and in double the same runs have
 // less than half the error.
-TEST(Ladder, EndsAtRoundOff) {
+TEST(RateSeries, EndsAtRoundOff) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"rk4"});
     plan.max_rate = 1'000'000;
     const Tradeoff tradeoff = swept(spring(), plan);
-    const Ladder& ladder = ladder_of(tradeoff, "rk4", Precision::single);
-    EXPECT_EQ(ladder.end, "round-off keeps errors from falling");
+    const RateSeries& series = series_of(tradeoff, "rk4", Precision::single);
+    EXPECT_EQ(series.end, "round-off keeps errors from falling");
     std::vector<double> errors;
-    for (const TradeoffRow& row : ladder.rows)
+    for (const TradeoffRow& row : series.rows)
         if (row.judgement.stable && row.judgement.position_error < 0.1 * spring().reference.extent)
             errors.push_back(row.judgement.position_error);
     ASSERT_GT(errors.size(), 4U);
@@ -263,7 +257,7 @@ TEST(Ladder, EndsAtRoundOff) {
     EXPECT_LT(*(errors.end() - 4), 0.9 * *std::min_element(errors.begin(), errors.end() - 4));
     // 24 bits of 1000 m are 6e-5 m; thousands of roundings leave some hundred times that.
     EXPECT_LT(best, 0.1);
-    const Stepping in_double{ladder.method, ladder.rows.back().stepping.rate, Precision::double_};
+    const Stepping in_double{series.method, series.rows.back().stepping.rate, Precision::double_};
     EXPECT_LT(judge(spring().scene, Settings{in_double}, spring().reference).position_error,
               errors.back() / 2);
 }
@@ -271,7 +265,7 @@ TEST(Ladder, EndsAtRoundOff) {
 // A spring of ω = 100·2π rad/s at 1 to 30 Hz: implicit midpoint is stable, but errors of about the
 // amplitude have not begun to fall. That is not round-off. At 61,440 Hz a phase of ω·(ω·dt)²/12 rad
 // per second is lost.
-TEST(Ladder, WithErrorsThatHaveNotBegunToFallGoesOn) {
+TEST(RateSeries, WithErrorsThatHaveNotBegunToFallGoesOn) {
     SweepPlan plan{.methods = methods_of({"implicit_midpoint"}),
                    .precisions = {Precision::double_},
                    .max_rate = 61'440};
@@ -279,55 +273,55 @@ TEST(Ladder, WithErrorsThatHaveNotBegunToFallGoesOn) {
         one_axis + "duration = 0.5\n[[body]]\nposition = [1.0]\nname = \"a\"\n[[spring]]\n" +
         "body = \"a\"\nanchor = [0.0]\nstiffness = 394784.0\n");
     const Tradeoff tradeoff = swept(fast, plan);
-    const Ladder& ladder = tradeoff.ladders.front();
-    ASSERT_GT(ladder.rows.size(), 12U);
+    const RateSeries& series = tradeoff.all_series.front();
+    ASSERT_GT(series.rows.size(), 12U);
     for (std::size_t i = 0; i < 11; ++i)
-        EXPECT_GT(ladder.rows[i].judgement.position_error, 0.5) << i;
+        EXPECT_GT(series.rows[i].judgement.position_error, 0.5) << i;
     const double w = std::sqrt(394784.0);
     const double lost = 0.5 * w * (w / 61'440) * (w / 61'440) / 12;
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 61'440);
-    EXPECT_NEAR(ladder.rows.back().judgement.position_error, lost, 0.02 * lost);
+    EXPECT_EQ(series.rows.back().stepping.rate.steps, 61'440);
+    EXPECT_NEAR(series.rows.back().judgement.position_error, lost, 0.02 * lost);
 }
 
 // Semi-implicit Euler evaluates forces once per step: 10 s of one body at 360 Hz are 3600.
-TEST(Ladder, EndsWhereARunIsTooMuchWork) {
+TEST(RateSeries, EndsWhereARunIsTooMuchWork) {
     SweepPlan plan = small_plan();
     plan.methods = methods_of({"semi_implicit_euler"});
     plan.precisions = {Precision::double_};
     plan.most_work = 3600;
     const Tradeoff tradeoff = swept(spring(), plan);
-    const Ladder& ladder = tradeoff.ladders.front();
-    EXPECT_EQ(ladder.end, "a run at higher rates is too much work");
-    ASSERT_FALSE(ladder.rows.empty());
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 360);
-    EXPECT_EQ(ladder.rows.back().judgement.evaluations, 3600);
+    const RateSeries& series = tradeoff.all_series.front();
+    EXPECT_EQ(series.end, "a run at higher rates is too much work");
+    ASSERT_FALSE(series.rows.empty());
+    EXPECT_EQ(series.rows.back().stepping.rate.steps, 360);
+    EXPECT_EQ(series.rows.back().judgement.evaluations, 3600);
 }
 
-/// The last rate of explicit Euler's ladder on a spring, without a given limit.
+/// The last rate of explicit Euler's series on a spring, without a given limit.
 std::int64_t last_rate_on(const std::string& stiffness, const std::string& duration) {
     const MeasuredScene brief(one_axis + "duration = " + duration +
                               "\n[[body]]\nposition = [1.0]\nname = \"a\"\n[[spring]]\n" +
                               "body = \"a\"\nanchor = [0.0]\nstiffness = " + stiffness + "\n");
     const Tradeoff tradeoff = swept(
         brief, {.methods = methods_of({"explicit_euler"}), .precisions = {Precision::double_}});
-    EXPECT_EQ(tradeoff.ladders.front().end, "the highest rate of the sweep was reached");
-    return tradeoff.ladders.front().rows.back().stepping.rate.steps;
+    EXPECT_EQ(tradeoff.all_series.front().end, "the highest rate of the sweep was reached");
+    return tradeoff.all_series.front().rows.back().stepping.rate.steps;
 }
 
 // Without a limit, rates go to 1024 × 60 Hz, or to 64 × 48 per period of the fastest motion: with
-// 100 periods per second to 307,200 Hz, below which 60·2¹² Hz is the highest rung.
-TEST(Ladder, GoesUpToTheFastestMotionWhereNoLimitIsGiven) {
+// 100 periods per second to 307,200 Hz, below which 60·2¹² Hz is the highest rate.
+TEST(RateSeries, GoesUpToTheFastestMotionWhereNoLimitIsGiven) {
     EXPECT_EQ(last_rate_on("15.0", "2.0"), 61'440);
     EXPECT_EQ(last_rate_on("394784.0", "0.2"), 245'760);
 }
 
-TEST(Ladder, EndsAtTheHighestRateOfThePlan) {
-    const Ladder& ladder = ladder_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
-    EXPECT_EQ(ladder.end, "the highest rate of the sweep was reached");
-    EXPECT_EQ(ladder.rows.back().stepping.rate.steps, 720);
+TEST(RateSeries, EndsAtTheHighestRateOfThePlan) {
+    const RateSeries& series = series_of(whole_sweep(), "semi_implicit_euler", Precision::double_);
+    EXPECT_EQ(series.end, "the highest rate of the sweep was reached");
+    EXPECT_EQ(series.rows.back().stepping.rate.steps, 720);
 }
 
-TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {
+TEST(RateSeries, OfAMethodThatCannotStepTheSceneSaysWhy) {
     const MeasuredScene orbit(
         "[scene]\naxes = 2\nrate = 100\nduration = 3.0\n[[attractor]]\nposition = [0.0, 0.0]\ngm = "
         "1.0\n"
@@ -336,20 +330,20 @@ TEST(Ladder, OfAMethodThatCannotStepTheSceneSaysWhy) {
     const Tradeoff tradeoff = swept(orbit, plan);
     EXPECT_TRUE(tradeoff.complete());
     for (const Precision precision : plan.precisions) {
-        const Ladder& ladder = ladder_of(tradeoff, "exact", precision);
-        EXPECT_TRUE(ladder.rows.empty());
-        EXPECT_TRUE(holds(ladder.end, "exact")) << ladder.end;
-        EXPECT_TRUE(holds(ladder.end, "attractor")) << ladder.end;
-        EXPECT_FALSE(ladder_of(tradeoff, "velocity_verlet", precision).rows.empty());
+        const RateSeries& series = series_of(tradeoff, "exact", precision);
+        EXPECT_TRUE(series.rows.empty());
+        EXPECT_TRUE(holds(series.end, "exact"));
+        EXPECT_TRUE(holds(series.end, "attractor"));
+        EXPECT_FALSE(series_of(tradeoff, "velocity_verlet", precision).rows.empty());
     }
 }
 
-TEST(Ladder, ContinuesPastUnstableRates) {
-    const Ladder& ladder = ladder_of(whole_sweep(), "velocity_verlet", Precision::double_);
+TEST(RateSeries, ContinuesPastUnstableRates) {
+    const RateSeries& series = series_of(whole_sweep(), "velocity_verlet", Precision::double_);
     // Below 1.94 Hz, where ω·dt = 2, it is unstable.
-    EXPECT_FALSE(ladder.rows.front().judgement.stable);
-    EXPECT_TRUE(std::isnan(ladder.rows.front().judgement.position_error));
-    EXPECT_TRUE(ladder.rows.back().judgement.stable);
+    EXPECT_FALSE(series.rows.front().judgement.stable);
+    EXPECT_TRUE(std::isnan(series.rows.front().judgement.position_error));
+    EXPECT_TRUE(series.rows.back().judgement.stable);
 }
 
 // ---- shards
@@ -370,17 +364,17 @@ TEST(Merge, OfFourShardsIsOneRun) {
     std::size_t rows = 0;
     for (const Tradeoff& part : parts) {
         EXPECT_FALSE(part.complete());
-        EXPECT_EQ(part.ladders.size(), whole_sweep().ladders.size());
-        EXPECT_EQ(std::count_if(part.ladders.begin(), part.ladders.end(),
-                                [](const Ladder& ladder) { return ladder.done; }),
+        EXPECT_EQ(part.all_series.size(), whole_sweep().all_series.size());
+        EXPECT_EQ(std::count_if(part.all_series.begin(), part.all_series.end(),
+                                [](const RateSeries& series) { return series.done; }),
                   3);
         rows += part.rows().size();
     }
     EXPECT_EQ(rows, whole_sweep().rows().size());
     const Tradeoff merged = merge(parts);
     expect_same_errors(merged, whole_sweep());
-    EXPECT_EQ(to_json(merged), to_json(whole_sweep()));
-    EXPECT_EQ(to_json(merge({parts[2], parts[0], parts[3], parts[1]})), to_json(whole_sweep()));
+    EXPECT_EQ(file_text(merged), file_text(whole_sweep()));
+    EXPECT_EQ(file_text(merge({parts[2], parts[0], parts[3], parts[1]})), file_text(whole_sweep()));
 }
 
 TEST(Merge, NamesEachMachineOnce) {
@@ -406,8 +400,8 @@ TEST(Merge, RefusesPartsOfOtherSweeps) {
     expect_refused([](Tradeoff& part) { part.duration *= 2; });
     expect_refused([](Tradeoff& part) { part.current.rate.steps *= 2; });
     expect_refused([](Tradeoff& part) { part.reference.extent *= 2; });
-    expect_refused([](Tradeoff& part) { part.ladders.pop_back(); });
-    expect_refused([](Tradeoff& part) { std::swap(part.ladders[0], part.ladders[2]); });
+    expect_refused([](Tradeoff& part) { part.all_series.pop_back(); });
+    expect_refused([](Tradeoff& part) { std::swap(part.all_series[0], part.all_series[2]); });
 }
 
 TEST(Merge, RefusesAPartThatIsGivenTwice) {

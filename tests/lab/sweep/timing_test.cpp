@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Costs of rows from a made-up clock, so that each number is known.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using namespace lab;
 
 TradeoffRow row_at(std::int64_t rate, bool stable = true) {
     TradeoffRow row{.stepping = {&find_method("rk4"), {rate}, Precision::double_}};

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "lab/measured_scenes.hpp"
 #include "oiler/picture/palette.hpp"
-#include "support/text.hpp"
+#include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using namespace lab;
 
 TradeoffRow row_of(const char* method, std::int64_t rate, double us, double error) {
     TradeoffRow row{.stepping = {&find_method(method), {rate}, Precision::double_}};
@@ -25,25 +16,25 @@ TradeoffRow row_of(const char* method, std::int64_t rate, double us, double erro
     return row;
 }
 
-Ladder ladder_of(const char* method, const std::vector<TradeoffRow>& rows) {
+RateSeries series_of(const char* method, const std::vector<TradeoffRow>& rows) {
     return {.method = &find_method(method), .rows = rows, .done = true};
 }
 
 /// A scene of rk4 at 40 Hz, 1 m wide.
-Tradeoff made_up(const std::vector<Ladder>& ladders) {
+Tradeoff made_up(const std::vector<RateSeries>& all_series) {
     Tradeoff tradeoff;
     tradeoff.title = "Made up";
     tradeoff.current = {&find_method("rk4"), {40}, Precision::double_};
     tradeoff.reference.extent = 1;
     tradeoff.reference.floor.position = 1e-9;
-    tradeoff.ladders = ladders;
+    tradeoff.all_series = all_series;
     return tradeoff;
 }
 
 const CostAxis time_axis{time_of, 1e3, "computing for a second of the scene, µs", "µs"};
 
 Tradeoff three_rates() {
-    return made_up({ladder_of("rk4", {row_of("rk4", 20, 10, 1), row_of("rk4", 40, 100, 0.1),
+    return made_up({series_of("rk4", {row_of("rk4", 20, 10, 1), row_of("rk4", 40, 100, 0.1),
                                       row_of("rk4", 80, 1000, 0.01)})});
 }
 
@@ -91,10 +82,10 @@ TEST(Front, HasAMarkAtEachOfItsCorners) {
     Tradeoff tradeoff = three_rates();
     TradeoffRow in_float = row_of("rk4", 20, 5, 1);
     in_float.stepping.precision = Precision::single;
-    tradeoff.ladders.push_back({.method = &find_method("rk4"),
-                                .precision = Precision::single,
-                                .rows = {in_float},
-                                .done = true});
+    tradeoff.all_series.push_back({.method = &find_method("rk4"),
+                                   .precision = Precision::single,
+                                   .rows = {in_float},
+                                   .done = true});
     const Picture picture = work_precision(tradeoff, time_axis);
     const std::vector<Point> corners = front_of(picture);
     EXPECT_EQ(corners.size(), 3U);
@@ -130,7 +121,7 @@ TEST(WorkPrecisionPicture, HasRoomForErrorsOfGames) {
     std::vector<TradeoffRow> rows;
     for (int i = 0; i <= 12; ++i)
         rows.push_back(row_of("rk4", 20 << i, std::pow(2, i), std::pow(10, -i)));
-    Tradeoff tradeoff = made_up({ladder_of("rk4", rows)});
+    Tradeoff tradeoff = made_up({series_of("rk4", rows)});
     tradeoff.reference.floor.position = 1e-14;
     const Picture picture = work_precision(tradeoff, time_axis);
     const std::vector<Point> marks = marks_of(picture);
@@ -177,11 +168,11 @@ TEST(WorkPrecisionPicture, ListsTheLeastCostsInTheUnitOfItsAxis) {
 
 TEST(WorkPrecisionPicture, NamesCurvesThatLieOnEachOtherTogether) {
     const auto rows = [](const char* method) {
-        return ladder_of(method, {row_of(method, 20, 10, 1), row_of(method, 40, 100, 0.1)});
+        return series_of(method, {row_of(method, 20, 10, 1), row_of(method, 40, 100, 0.1)});
     };
     Tradeoff tradeoff = made_up({rows("rk4"), rows("velocity_verlet")});
     EXPECT_TRUE(has_label(work_precision(tradeoff, time_axis), "= velocity_verlet"));
-    tradeoff.ladders[1].rows[1].judgement.position_error = 0.2;
+    tradeoff.all_series[1].rows[1].judgement.position_error = 0.2;
     EXPECT_TRUE(has_label(work_precision(tradeoff, time_axis), "velocity_verlet"));
 }
 
@@ -206,13 +197,13 @@ TEST(EnergyPicture, ListsMethodsWithoutACurveBelowTheLegend) {
 
 // Only these methods step the scene, each at one rate, and each is on the Pareto front.
 Tradeoff of_methods(const std::vector<const char*>& names) {
-    std::vector<Ladder> ladders;
+    std::vector<RateSeries> all_series;
     double us = 1;
     for (const char* name : names) {
-        ladders.push_back(ladder_of(name, {row_of(name, 40, us, 1 / us)}));
+        all_series.push_back(series_of(name, {row_of(name, 40, us, 1 / us)}));
         us *= 2;
     }
-    return made_up(ladders);
+    return made_up(all_series);
 }
 
 TEST(NotableMethods, AreSixAtMost) {
@@ -235,8 +226,8 @@ TEST(WorkPrecisionPicture, HasLabelsThatDoNotTouch) {
         of_methods({"rk4", "semi_implicit_euler_drift_kick", "velocity_verlet",
                     "semi_implicit_euler", "mclachlan8_s15_kdk", "blanes_moan_srkn14a"});
     for (int i = 0; i < 4; ++i)
-        tradeoff.ladders.push_back(
-            ladder_of("exact", {row_of("exact", 10 << i, 50 << i, 0.1 * std::pow(10, -i))}));
+        tradeoff.all_series.push_back(
+            series_of("exact", {row_of("exact", 10 << i, 50 << i, 0.1 * std::pow(10, -i))}));
     const std::vector<Label> labels = work_precision(tradeoff, time_axis).labels;
     const auto width = [](const Label& label) {
         return 0.52F * label.size * static_cast<float>(label.text.size());

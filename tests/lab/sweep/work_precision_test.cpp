@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <ostream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "oiler/lab/sweep/tradeoff.hpp"
 #include "support/reference.hpp"
+#include "support/test.hpp"
 
+namespace oiler::test {
 namespace {
-
-using oiler::Bodies;
-using oiler::Damping;
-using oiler::Method;
-using oiler::Precision;
-using Real = long double;
 
 constexpr double stiffness = 15;  // N/m, of the article's spring, on 1 kg
 constexpr double damping = 0.1;   // N·s/m
@@ -57,7 +45,7 @@ struct Run {
 /// most 3·10⁻⁹ here, while errors near the target of 10⁻⁶ differ from it by at least 7·10⁻⁹.
 Run run(const Method& method, std::int64_t rate) {
     Bodies bodies(1, Precision::double_);
-    const oiler::Spring spring{.stiffness = stiffness, .damping = damping};
+    const Spring spring{.stiffness = stiffness, .damping = damping};
     bodies.add({.position = {1}}, spring);
     bodies.add({.velocity = {1}}, spring);
     bodies.step(method, {{rate}, 0, duration * rate});
@@ -70,12 +58,12 @@ Run run(const Method& method, std::int64_t rate) {
     return {norm(apart), bodies.evaluations()};
 }
 
-/// The evaluations of the first rung that meets the target together with the next. This rejects
-/// phases that are right by accident, as in the reference. 0 if no rung up to `most` does.
+/// The evaluations of the first rate that meets the target together with the next. This rejects
+/// phases that are right by accident, as in the reference. 0 if no rate up to `most` does.
 std::int64_t evaluations_to_meet(const Method& method, double target, std::int64_t most,
-                                 const std::vector<std::int64_t>& rungs) {
+                                 const std::vector<std::int64_t>& rates) {
     std::int64_t first = 0;
-    for (const std::int64_t rate : rungs) {
+    for (const std::int64_t rate : rates) {
         if (rate * duration * method.evaluations > most) break;
         const Run at = run(method, rate);
         if (at.error >= target)
@@ -88,20 +76,20 @@ std::int64_t evaluations_to_meet(const Method& method, double target, std::int64
     return 0;
 }
 
-std::vector<std::int64_t> lab_rungs() {
-    oiler::Scene scene;
+std::vector<std::int64_t> lab_rates() {
+    Scene scene;
     scene.stepping.rate.steps = 1;
-    return oiler::lab::rungs(scene, 1 << 22);
+    return lab::sweep_rates(scene, 1 << 22);
 }
 
-/// The evaluations of the first rung with at least the steps of `least` evaluations. Methods that
+/// The evaluations of the first rate with at least the steps of `least` evaluations. Methods that
 /// reuse the last kick for the next step need one more evaluation at the start.
-std::int64_t evaluations_of_rung_above(const Method& method, std::int64_t least,
-                                       const std::vector<std::int64_t>& rungs) {
+std::int64_t evaluations_of_rate_above(const Method& method, std::int64_t least,
+                                       const std::vector<std::int64_t>& rates) {
     const std::int64_t per_hertz = duration * method.evaluations;
-    for (const std::int64_t rate : rungs)
+    for (const std::int64_t rate : rates)
         if (rate * per_hertz + 1 >= least) return rate * per_hertz + 1;
-    throw std::out_of_range("no such rung");
+    throw std::out_of_range("no such rate");
 }
 
 /// The reference's name of a method as it is run here.
@@ -120,13 +108,13 @@ constexpr std::int64_t most_evaluations = 100'000;
 
 class WorkPrecision : public testing::TestWithParam<Named> {};
 
-// The errors are those after whole steps. The lab finds the first rung with the needed steps.
+// The errors are those after whole steps. The lab finds the first rate with the needed steps.
 TEST_P(WorkPrecision, TakesTheEvaluationsOfTheReference) {
     const auto table = reference("work_precision_spring").at("T=10 k=15 b=0.1");
     const auto& needed = table.at("force_evaluations_needed").at(GetParam().in_reference);
     const auto& targets = table.at("targets");
-    const auto rungs = lab_rungs();
-    const Method& method = oiler::find_method(GetParam().method);
+    const auto rates = lab_rates();
+    const Method& method = find_method(GetParam().method);
     std::size_t found = 0;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const double target = number(targets.at(i));
@@ -134,9 +122,9 @@ TEST_P(WorkPrecision, TakesTheEvaluationsOfTheReference) {
         ++found;
         const auto least = needed.at(i).get<std::int64_t>();
         if (least > most_evaluations) continue;
-        const std::int64_t evaluations = evaluations_to_meet(method, target, 3 * least, rungs);
+        const std::int64_t evaluations = evaluations_to_meet(method, target, 3 * least, rates);
         EXPECT_GE(evaluations, least) << target;
-        EXPECT_LE(evaluations, evaluations_of_rung_above(method, least, rungs)) << target;
+        EXPECT_LE(evaluations, evaluations_of_rate_above(method, least, rates)) << target;
     }
     EXPECT_EQ(found, 2U);
 }
@@ -156,21 +144,22 @@ INSTANTIATE_TEST_SUITE_P(
 // Rungs are 4/3 or 3/2 apart, and farther below 60 Hz; this test checks the number of steps. With 1
 // % fewer steps than in the reference, the error is above the target.
 TEST(WorkPrecisionOfSemiImplicitEuler, TakesTheStepsOfTheReferenceWithin1Percent) {
-    const Method& method = oiler::find_method("semi_implicit_euler");
+    const Method& method = find_method("semi_implicit_euler");
     EXPECT_LT(run(method, 1593).error, 1e-3);
     EXPECT_GT(run(method, 1577).error, 1e-3);
 }
 
 // 11 divisors of 60 below 60 Hz, 60·2⁰ to 60·2¹⁶, and 90·2⁰ to 90·2¹⁵.
-TEST(LabsLadder, HasRungsFourThirdsAndThreeHalvesApart) {
-    const auto rungs = lab_rungs();
-    ASSERT_EQ(rungs.size(), 11U + 17U + 16U);
-    EXPECT_EQ(rungs[11], 60);
-    EXPECT_EQ(rungs.back(), 60 << 16);
-    for (std::size_t i = 12; i < rungs.size(); ++i) {
+TEST(LabsRates, AreFourThirdsAndThreeHalvesApart) {
+    const auto rates = lab_rates();
+    ASSERT_EQ(rates.size(), 11U + 17U + 16U);
+    EXPECT_EQ(rates[11], 60);
+    EXPECT_EQ(rates.back(), 60 << 16);
+    for (std::size_t i = 12; i < rates.size(); ++i) {
         const bool to_power = i % 2 == 1;
-        EXPECT_EQ(rungs[i] * (to_power ? 3 : 2), rungs[i - 1] * (to_power ? 4 : 3)) << rungs[i];
+        EXPECT_EQ(rates[i] * (to_power ? 3 : 2), rates[i - 1] * (to_power ? 4 : 3)) << rates[i];
     }
 }
 
 }  // namespace
+}  // namespace oiler::test

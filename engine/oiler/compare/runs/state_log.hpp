@@ -10,6 +10,36 @@
 
 namespace oiler {
 
+/// The positions and velocities of all bodies at the ticks of a run. It is compact, because a trace
+/// may have 10 million rows.
+struct StateLog {
+    struct Tick {
+        std::int64_t tick = 0;
+        double time = 0;  ///< s
+        std::size_t first_row = 0;
+    };
+
+    std::string name;  ///< of the file, for messages
+    int axes = 0;
+    /// Whether each value is the shortest decimal of some float, read as a double. This is so in
+    /// the trace of a run in float. In a run in double a value usually has more digits.
+    bool floats = true;
+    std::vector<Tick> ticks;            ///< ascending; each has rows
+    std::vector<std::uint32_t> bodies;  ///< of each row, ascending within a tick
+    std::vector<double> values;         ///< of each row: the position in m, the velocity in m/s
+    std::vector<std::string> names{};   ///< of the bodies, by number; none in a trace
+
+    /// The number of values in a row.
+    [[nodiscard]] std::size_t width() const { return 2 * static_cast<std::size_t>(axes); }
+    /// The row after the last one of ticks[index].
+    [[nodiscard]] std::size_t end_row(std::size_t index) const {
+        return index + 1 < ticks.size() ? ticks[index + 1].first_row : bodies.size();
+    }
+    [[nodiscard]] std::span<const double> row(std::size_t index) const {
+        return std::span(values).subspan(index * width(), width());
+    }
+};
+
 /// The rows of a tick, from `row` to before `end`.
 struct Rows {
     std::size_t row = 0;
@@ -46,35 +76,5 @@ private:
 /// Empty if a log lacks the tick.
 [[nodiscard]] std::optional<TickPair> find_tick(const StateLog& a, const StateLog& b,
                                                 std::int64_t tick);
-
-/// The positions and velocities of all bodies at the ticks of a run. It is compact, because a trace
-/// may have 10 million rows.
-struct StateLog {
-    struct Tick {
-        std::int64_t tick = 0;
-        double time = 0;  ///< s
-        std::size_t first_row = 0;
-    };
-
-    std::string name;  ///< of the file, for messages
-    int axes = 0;
-    /// Whether each value is the shortest decimal of some float, read as a double. This is so in
-    /// the trace of a run in float. In a run in double a value usually has more digits.
-    bool floats = true;
-    std::vector<Tick> ticks;            ///< ascending; each has rows
-    std::vector<std::uint32_t> bodies;  ///< of each row, ascending within a tick
-    std::vector<double> values;         ///< of each row: the position in m, the velocity in m/s
-    std::vector<std::string> names{};   ///< of the bodies, by number; none in a trace
-
-    /// The number of values in a row.
-    [[nodiscard]] std::size_t width() const { return 2 * static_cast<std::size_t>(axes); }
-    /// The row after the last one of ticks[index].
-    [[nodiscard]] std::size_t end_row(std::size_t index) const {
-        return index + 1 < ticks.size() ? ticks[index + 1].first_row : bodies.size();
-    }
-    [[nodiscard]] std::span<const double> row(std::size_t index) const {
-        return std::span(values).subspan(index * width(), width());
-    }
-};
 
 }  // namespace oiler

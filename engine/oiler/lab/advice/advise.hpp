@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/json.hpp"
 #include "oiler/lab/advice/growth.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
@@ -86,7 +87,7 @@ void require_judgeable(const Scene& scene, const Reference& reference,
                                                 const Reference& reference,
                                                 const Requirements& requirements);
 
-/// "rk4 at 60 Hz in double"
-[[nodiscard]] std::string describe(const Stepping& choice);
+[[nodiscard]] Json to_json(const Advice& advice, const Scene& scene, const Reference& reference,
+                           const Requirements& requirements);
 
 }  // namespace oiler::lab

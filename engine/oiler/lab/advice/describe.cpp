@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "oiler/lab/advice/advise.hpp"
-
+#include "oiler/lab/sweep/tradeoff_file.hpp"
 namespace oiler::lab {
 namespace {
 
@@ -120,6 +120,45 @@ std::string describe_times(const Requirements& requirements) {
     return "at any time";
 }
 
+Json optional_number(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json with_frame(const TradeoffRow& row) {
+    Json json = to_json(row);
+    json["us_per_frame"] = row.ns_per_second / 60'000;
+    json["share_of_frame"] = row.ns_per_second / 1e9;
+    json["latency_ms"] = 1e3 / static_cast<double>(row.stepping.rate.steps);
+    return json;
+}
+
+Json with_frame(const std::optional<TradeoffRow>& row) {
+    return row ? with_frame(*row) : Json(nullptr);
+}
+
+Json ties_of(const Advice& advice) {
+    Json list = Json::array();
+    for (const TradeoffRow& row : advice.ties) list.push_back(with_frame(row));
+    return list;
+}
+
+Json growth_of(const Advice& advice, const Requirements& requirements) {
+    if (!advice.best || !requirements.position_error) return nullptr;
+    return {{"law", describe(advice.growth.law)},
+            {"holds_until", advice.growth.holds_until(*requirements.position_error)}};
+}
+
+Json alternatives_of(const Advice& advice) {
+    Json list = Json::array();
+    for (const Alternative& alternative : advice.alternatives) {
+        Json one = alternative.row ? with_frame(*alternative.row)
+                                   : Json{{"method", alternative.method->name}};
+        one["why"] = alternative.why;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
 }  // namespace
 
 std::string describe_time(double ns) {
@@ -127,12 +166,6 @@ std::string describe_time(double ns) {
                               : ns < 1e9 ? std::pair(1e6, "ms")
                                          : std::pair(1e9, "s");
     return fmt::format("{:.3g} {}", ns / unit, name);
-}
-
-std::string describe(const Stepping& choice) {
-    return fmt::format(
-        "{} at {} Hz in {}{}", choice.method->name, choice.rate.steps, name_of(choice.precision),
-        choice.damping ? fmt::format(", damping in the {}", name_of(*choice.damping)) : "");
 }
 
 std::vector<std::string> describe(const Advice& advice, const Scene& scene,
@@ -164,6 +197,36 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
         std::min(scene.duration, reference.meaningful_until), describe_times(requirements),
         reference.words));
     return words;
+}
+
+Json to_json(const Advice& advice, const Scene& scene, const Reference& reference,
+             const Requirements& requirements) {
+    const Uncertainty floor = reference.floor();
+    return {{"meets", advice.meets},
+            {"advice", with_frame(advice.best)},
+            {"perturbed_starts", advice.perturbed_starts},
+            {"growth", growth_of(advice, requirements)},
+            {"ties", ties_of(advice)},
+            {"threads", {{"count", advice.threads}, {"ns_per_second", advice.ns_on_threads}}},
+            {"runner_up", with_frame(advice.runner_up)},
+            {"current", with_frame(advice.current)},
+            {"alternatives", alternatives_of(advice)},
+            {"obstacles", advice.obstacles},
+            {"requirements",
+             {{"position_error", optional_number(requirements.position_error)},
+              {"at_steps", requirements.at_steps},
+              {"display", requirements.display > 0 ? Json(requirements.display) : Json("any")},
+              {"energy_drift", optional_number(requirements.energy_drift)},
+              {"us_per_frame",
+               requirements.ns_per_second ? Json(*requirements.ns_per_second / 60'000) : Json()}}},
+            {"reference",
+             {{"words", reference.words},
+              {"closed_form", reference.closed_form},
+              {"position_floor", floor.position},
+              {"energy_floor", floor.energy},
+              {"meaningful_until", reference.meaningful_until}}},
+            {"runs", advice.runs},
+            {"words", describe(advice, scene, reference, requirements)}};
 }
 
 }  // namespace oiler::lab

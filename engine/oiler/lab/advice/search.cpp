@@ -38,11 +38,11 @@ std::int64_t highest_rate(const Candidate& candidate, std::int64_t low, std::int
 double rounding_to_float(const Reference& reference) {
     constexpr double golden = 0.6180339887498949;
     constexpr int times = 16;
-    long double most = 0;
-    std::vector<State<long double, 3>> states(reference.motion->bodies());
+    Real most = 0;
+    std::vector<State3> states(reference.motion->bodies());
     for (int i = 0; i < times; ++i) {
         reference.motion->all_at(std::fmod(i * golden, 1.0) * reference.meaningful_until, states);
-        for (const State<long double, 3>& state : states)
+        for (const State3& state : states)
             for (int axis = 0; axis < 3; ++axis)
                 most = std::max(most, std::abs(state.x[axis] - static_cast<float>(state.x[axis])));
     }
@@ -50,6 +50,38 @@ double rounding_to_float(const Reference& reference) {
 }
 
 }  // namespace
+
+double Candidate::cost(std::int64_t rate) const {
+    constexpr double frames_per_second = 60;
+    const auto steps = static_cast<double>(rate);
+    const double frames = std::min(steps, frames_per_second);
+    return frames * first + (steps - frames) * further;
+}
+
+std::int64_t Candidate::least_rate(const TradeoffRow& row, double excess,
+                                   const Requirements& requirements, double extent) const {
+    const std::int64_t rate = row.stepping.rate.steps;
+    const bool falls = requirements.error_of(row.judgement) < largest_converging_error * extent;
+    if (!falls || excess <= 1) return rate + 1;
+    const double factor = least_factor(row.judgement, excess, requirements);
+    return std::max(rate + 1, static_cast<std::int64_t>(static_cast<double>(rate) * factor));
+}
+
+/// The smallest factor on the rate that may bring the error within the tolerances. At the steps,
+/// the error is taken to fall by one order more than the method's. The rest, that of the drawn
+/// lines, falls with the square of the step.
+double Candidate::least_factor(const Judgement& judgement, double excess,
+                               const Requirements& requirements) const {
+    constexpr double safety = 0.7;
+    const double steps =
+        method->order == exact_order ? 1 : std::pow(excess, 1.0 / (method->order + 1));
+    if (requirements.at_steps || !requirements.position_error || requirements.display > 0)
+        return steps;
+    const double at_steps = std::isnan(judgement.step_error) ? 0 : judgement.step_error;
+    const double lines = (judgement.position_error - at_steps) / *requirements.position_error;
+    const bool by_steps = at_steps > lines * *requirements.position_error;
+    return std::max(by_steps ? steps : 1, lines > 1 ? safety * std::sqrt(lines) : 1);
+}
 
 double excess(const Judgement& judgement, const Requirements& requirements) {
     return std::max(share_of(requirements.error_of(judgement), requirements.position_error),
@@ -66,14 +98,14 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
       ensemble_(scene, reference, requirements, watch.stopped) {
     // A run has a step at least.
     const double least = (1 - 1e-12) / reference.meaningful_until;
-    for (const std::int64_t rate : lab::rungs(scene, requirements.max_rate))
+    for (const std::int64_t rate : lab::sweep_rates(scene, requirements.max_rate))
         if (rate >= requirements.min_rate && rate <= requirements.max_rate &&
             static_cast<double>(rate) >= least)
-            rungs_.push_back(rate);
-    if (rungs_.empty())
+            rates_.push_back(rate);
+    if (rates_.empty())
         fail(Exit::usage, "no rates lie between {} and {} Hz: lower --min-rate",
              requirements.min_rate, requirements.max_rate);
-    drop_low_rungs();
+    drop_low_rates();
     const double rounding = rounding_to_float(reference);
     if (requirements.position_error && rounding > *requirements.position_error)
         too_coarse_float_ = rounding;
@@ -84,7 +116,7 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
 }
 
 /// Drops the rates at which the lines of any method are too coarse, except the highest.
-void Search::drop_low_rungs() {
+void Search::drop_low_rates() {
     if (!requirements_.position_error || requirements_.at_steps || requirements_.display > 0)
         return;
     const double most = *requirements_.position_error;
@@ -92,17 +124,17 @@ void Search::drop_low_rungs() {
         return least_drawn_error(*reference_.motion, rate, reference_.meaningful_until, most) >
                most;
     };
-    const auto first = std::find_if_not(rungs_.begin(), rungs_.end() - 1, is_too_low);
-    if (first != rungs_.begin()) too_low_ = *std::prev(first);
-    rungs_.erase(rungs_.begin(), first);
+    const auto first = std::find_if_not(rates_.begin(), rates_.end() - 1, is_too_low);
+    if (first != rates_.begin()) too_low_ = *std::prev(first);
+    rates_.erase(rates_.begin(), first);
 }
 
 void Search::add_candidates(const Method& method, Precision precision) {
-    if (!why_not(scene_, Settings{{&method, {rungs_.back()}, precision}}).empty()) return;
+    if (!why_not(scene_, Settings{{&method, {rates_.back()}, precision}}).empty()) return;
     add_candidate(method, precision, std::nullopt);
     if (reference_.conservative || !std::holds_alternative<Splitting>(method.rule)) return;
     const Damping other = method.damping == Damping::in_kick ? Damping::in_drift : Damping::in_kick;
-    if (why_not(scene_, Settings{{&method, {rungs_.back()}, precision, other}}).empty())
+    if (why_not(scene_, Settings{{&method, {rates_.back()}, precision, other}}).empty())
         add_candidate(method, precision, other);
 }
 
@@ -165,7 +197,7 @@ TradeoffRow Search::measure(const Stepping& choice) {
 }
 
 TradeoffRow Search::try_next(const Candidate& candidate) {
-    return try_choice(candidate.at(rungs_[candidate.next]));
+    return try_choice(candidate.at(rates_[candidate.next]));
 }
 
 bool Search::meets_tolerance(const TradeoffRow& row) {
@@ -179,11 +211,11 @@ double Search::cost_of(const Stepping& choice) const {
 }
 
 Stepping Search::within_cost(const Method& method, double cost) const {
-    Stepping best{&method, {rungs_.front()}, Precision::double_};
+    Stepping best{&method, {rates_.front()}, Precision::double_};
     bool found = false;
     for (const Candidate& candidate : candidates_) {
         if (candidate.method != &method) continue;
-        const std::int64_t rate = highest_rate(candidate, rungs_.front(), rungs_.back(), cost);
+        const std::int64_t rate = highest_rate(candidate, rates_.front(), rates_.back(), cost);
         if (!found || rate > best.rate.steps) best = candidate.at(rate);
         found = true;
     }
@@ -191,7 +223,7 @@ Stepping Search::within_cost(const Method& method, double cost) const {
 }
 
 double Search::next_cost(const Candidate& candidate) const {
-    return candidate.cost(rungs_[candidate.next]);
+    return candidate.cost(rates_[candidate.next]);
 }
 
 Candidate* Search::cheapest_next() {
@@ -206,7 +238,7 @@ bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
     return candidate.work_per_hertz * static_cast<double>(rate) <= requirements_.most_work;
 }
 
-/// Moves a candidate to the next rung that is worth a run, or marks it as over.
+/// Moves a candidate to the next rate that is worth a run, or marks it as over.
 void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess) {
     std::int64_t least = row.stepping.rate.steps + 1;
     if (row.judgement.stable) {
@@ -222,8 +254,8 @@ void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess
         if (!candidate.over)
             least = candidate.least_rate(row, excess, requirements_, reference_.extent);
     }
-    while (candidate.next < rungs_.size() && rungs_[candidate.next] < least) ++candidate.next;
-    if (candidate.next == rungs_.size() || !affordable(candidate, rungs_[candidate.next]))
+    while (candidate.next < rates_.size() && rates_[candidate.next] < least) ++candidate.next;
+    if (candidate.next == rates_.size() || !affordable(candidate, rates_[candidate.next]))
         candidate.over = true;
 }
 
@@ -251,9 +283,9 @@ void Search::find_cheapest() {
 void Search::report_progress() const {
     std::size_t done = 0;
     for (const Candidate& candidate : candidates_)
-        done += candidate.over ? rungs_.size() : candidate.next;
+        done += candidate.over ? rates_.size() : candidate.next;
     watch_.progress(static_cast<double>(done) /
-                    static_cast<double>(candidates_.size() * rungs_.size()));
+                    static_cast<double>(candidates_.size() * rates_.size()));
 }
 
 /// Tries the three settings with the smallest errors expected by their order, at the highest rates
@@ -263,8 +295,8 @@ void Search::try_highest() {
     std::vector<std::pair<double, Stepping>> highest;
     for (const Candidate& candidate : candidates_) {
         std::int64_t rate = candidate.tried;
-        for (const std::int64_t rung : rungs_)
-            if (affordable(candidate, rung)) rate = std::max(rate, rung);
+        for (const std::int64_t higher : rates_)
+            if (affordable(candidate, higher)) rate = std::max(rate, higher);
         if (candidate.tried == 0 || rate == candidate.tried || candidate.rounded) continue;
         const double times = static_cast<double>(rate) / static_cast<double>(candidate.tried);
         const int order = std::min(candidate.method->order, requirements_.at_steps ? 8 : 2);
@@ -317,12 +349,12 @@ void Search::refine_to_time() {
     }
 }
 
-/// Bisects between a rung that meets the tolerance and the one below. Returns false if there is
+/// Bisects between a rate that meets the tolerance and the one below. Returns false if there is
 /// none.
 bool Search::refine(const TradeoffRow& row) {
-    const auto rung = std::find(rungs_.begin(), rungs_.end(), row.stepping.rate.steps);
-    if (rung == rungs_.begin() && !too_low_) return false;
-    std::int64_t low = rung == rungs_.begin() ? *too_low_ : *std::prev(rung);
+    const auto found = std::find(rates_.begin(), rates_.end(), row.stepping.rate.steps);
+    if (found == rates_.begin() && !too_low_) return false;
+    std::int64_t low = found == rates_.begin() ? *too_low_ : *std::prev(found);
     std::int64_t high = row.stepping.rate.steps;
     Stepping choice = row.stepping;
     // Below 1/32 of the rate, the gain is not worth a run.

@@ -4,12 +4,39 @@
 #include <optional>
 #include <vector>
 
-#include "oiler/lab/advice/candidate.hpp"
 #include "oiler/lab/advice/ensemble.hpp"
-#include "oiler/lab/reference/run_work.hpp"
 
 namespace oiler::lab {
 
+/// A method in one precision, as far as a search has tried its rates.
+struct Candidate {
+    const Method* method = nullptr;
+    Precision precision = Precision::double_;
+    std::optional<Damping> damping{};
+    double first = unknown;     ///< ns, of the only step of a frame
+    double further = unknown;   ///< ns, of each further step of a frame
+    double work_per_hertz = 0;  ///< work of a run at 1 Hz
+    std::size_t next = 0;       ///< index of the next rate to try
+    Convergence convergence;
+    std::int64_t tried = 0;  ///< the last stable rate
+    double error = unknown;  ///< m, at that rate
+    bool rounded = false;    ///< only round-off causes the error
+    bool over = false;
+
+    [[nodiscard]] Stepping at(std::int64_t rate) const {
+        return {method, {rate}, precision, damping};
+    }
+    /// The computing time for a second of the scene at a rate, ns.
+    [[nodiscard]] double cost(std::int64_t rate) const;
+    /// The lowest rate above that of `row` which can meet the tolerances, by the method's order.
+    /// `excess` is that of the row.
+    [[nodiscard]] std::int64_t least_rate(const TradeoffRow& row, double excess,
+                                          const Requirements& requirements, double extent) const;
+
+private:
+    [[nodiscard]] double least_factor(const Judgement& judgement, double excess,
+                                      const Requirements& requirements) const;
+};
 /// Tries settings from the cheapest up and skips rates that the method's order rules out, until it
 /// has a setting that meets the tolerance and a runner-up.
 class Search {
@@ -47,12 +74,12 @@ public:
 
     /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
     [[nodiscard]] std::optional<double> too_coarse_float() const { return too_coarse_float_; }
-    [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rungs_; }
+    [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rates_; }
     [[nodiscard]] std::size_t perturbed_starts() const { return ensemble_.size(); }
     [[nodiscard]] std::int64_t runs() const { return static_cast<std::int64_t>(rows_.size()); }
 
 private:
-    void drop_low_rungs();
+    void drop_low_rates();
     void add_candidates(const Method& method, Precision precision);
     void add_candidate(const Method& method, Precision precision, std::optional<Damping> damping);
     Candidate* cheapest_next();
@@ -77,7 +104,7 @@ private:
     const Requirements& requirements_;
     const SweepWatch& watch_;
     RunWork work_;
-    std::vector<std::int64_t> rungs_;
+    std::vector<std::int64_t> rates_;
     std::optional<std::int64_t> too_low_;  ///< the highest rate that was dropped
     std::vector<Candidate> candidates_;
     Ensemble ensemble_;

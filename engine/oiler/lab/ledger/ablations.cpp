@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/lab/ledger/ablations.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
 
+#include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
-#include "oiler/lab/ledger/parts.hpp"
-#include "oiler/scene/grid.hpp"
-
+#include "oiler/core/seconds_since.hpp"
+#include "oiler/scene/make_world.hpp"
 namespace oiler::lab {
 namespace {
 
@@ -37,6 +42,44 @@ void remove_forces(Scene& scene) {
     std::erase_if(scene.forces, [](const SceneForce& force) {
         return std::holds_alternative<Force>(force.force);
     });
+}
+
+/// A force without a table of its own.
+struct Elsewhere {
+    std::string_view force;
+    std::string_view words;  ///< where scene files give it
+    void (*leave_out)(Scene&);
+};
+constexpr std::array elsewhere{
+    Elsewhere{"gravity", "[gravity]", [](Scene& scene) { scene.gravity.reset(); }},
+    Elsewhere{"spring", "anchored [[spring]] without `rest_length`",
+              [](Scene& scene) { remove_springs(scene, "spring"); }},
+    Elsewhere{"linear_drag", "`linear_drag`",
+              [](Scene& scene) {
+                  for_each_matter(scene, [](SceneMatter& matter) { matter.linear_drag = 0; });
+              }},
+    Elsewhere{"quadratic_drag", "`quadratic_drag`",
+              [](Scene& scene) {
+                  for_each_matter(scene, [](SceneMatter& matter) { matter.quadratic_drag = 0; });
+              }},
+    Elsewhere{"coil_spring", "anchored [[spring]] with `rest_length`",
+              [](Scene& scene) { remove_springs(scene, "coil_spring"); }},
+    Elsewhere{"attractor", "[[attractor]]", [](Scene& scene) { scene.attractors.clear(); }},
+};
+
+template <class Force>
+ForceDescription description_of() {
+    ForceDescription force{.name = Force::name, .plural = Force::plural};
+    for_each_field<Force>([&](const auto& field) { force.numbers.push_back(field.key); });
+    const auto found = std::ranges::find(elsewhere, Force::name, &Elsewhere::force);
+    if (found != elsewhere.end()) {
+        force.words = found->words;
+        force.leave_out = found->leave_out;
+    } else if constexpr (BodyForce<Force>) {
+        force.words = fmt::format("[[{}]]", Force::name);
+        force.leave_out = remove_forces<Force>;
+    }
+    return force;
 }
 
 /// Turns the nodes of a grid into bodies, and its hanging springs into springs; drops the springs
@@ -150,53 +193,128 @@ private:
     std::vector<Ablation> all_;
 };
 
+using Clock = std::chrono::steady_clock;
+
+/// The limit of bodies × steps of all worlds together. A step of fewer bodies than `block` counts
+/// as one of `block`.
+constexpr double most_body_steps = 1.5e9;
+constexpr double block = 16;
+/// The limit of bodies × comparisons of all worlds together.
+constexpr double most_compared_bodies = 4e7;
+constexpr double most_comparing_seconds = 10;
+
+/// Steps a world that may diverge.
+class TrialRun {
+public:
+    explicit TrialRun(const Scene& scene) : world_(make_world(scene, Settings{scene.stepping})) {
+        world_.require_applicable();
+    }
+
+    void step(std::int64_t count) try {
+        if (!diverged_) world_.step(count);
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) throw;
+        diverged_ = error.what();
+    }
+    [[nodiscard]] const Bodies& bodies() const { return world_.bodies(); }
+    [[nodiscard]] const std::optional<std::string>& diverged() const { return diverged_; }
+
+private:
+    World world_;
+    std::optional<std::string> diverged_;
+};
+
+class Comparing {
+public:
+    Comparing(const Scene& scene, const std::vector<Ablation>& ablations)
+        : whole_(scene), start_(whole_.bodies()) {
+        trials_.reserve(ablations.size());
+        for (const Ablation& ablation : ablations) trials_.emplace_back(ablation.scene);
+        result_.without.resize(ablations.size());
+    }
+
+    Comparison run(std::int64_t wanted, const LedgerProgress& progress) {
+        const std::int64_t steps = std::min(wanted, most_steps());
+        const std::int64_t stride = (steps + most_samples() - 1) / most_samples();
+        const auto started = Clock::now();
+        const auto goes_on = [&] {
+            return result_.steps < 2 || seconds_since(started) < most_comparing_seconds;
+        };
+        while (result_.steps < steps && !whole_.diverged() && goes_on()) {
+            advance(std::min({stride, steps - result_.steps, affordable(seconds_since(started))}));
+            progress(comparing_share * static_cast<double>(result_.steps) /
+                     static_cast<double>(steps));
+        }
+        result_.diverged = whole_.diverged();
+        for (std::size_t i = 0; i < trials_.size(); ++i)
+            result_.without[i].diverged = trials_[i].diverged();
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] double worlds() const { return static_cast<double>(trials_.size() + 1); }
+    [[nodiscard]] double bodies() const { return static_cast<double>(start_.size()); }
+
+    [[nodiscard]] std::int64_t most_steps() const {
+        const double most = most_body_steps / worlds() / std::max(bodies(), block);
+        return std::max<std::int64_t>(2, std::llround(most));
+    }
+    [[nodiscard]] std::int64_t most_samples() const {
+        const double most = most_compared_bodies / worlds() / std::max(bodies(), block);
+        return std::max<std::int64_t>(1, std::llround(most));
+    }
+
+    /// The number of steps that take about 1 s, if those so far took `seconds`.
+    [[nodiscard]] std::int64_t affordable(double seconds) const {
+        const double steps = static_cast<double>(result_.steps) / std::max(seconds, 1e-9);
+        return std::max<std::int64_t>(1, std::llround(steps));
+    }
+
+    void advance(std::int64_t count) {
+        whole_.step(count);
+        result_.steps += count;
+        if (whole_.diverged()) return;
+        ++result_.samples;
+        const Vec3 along = whole_.bodies().deviation_from(start_).along;
+        for (int axis = 0; axis < 3; ++axis)
+            result_.moved[axis] = std::max(result_.moved[axis], along[axis]);
+        for (std::size_t i = 0; i < trials_.size(); ++i) advance(trials_[i], i, count);
+    }
+    void advance(TrialRun& trial, std::size_t i, std::int64_t count) {
+        trial.step(count);
+        if (trial.diverged()) return;
+        double& change = result_.without[i].change;
+        change = std::max(change, whole_.bodies().deviation_from(trial.bodies()).distance);
+    }
+
+    TrialRun whole_;
+    Bodies start_;
+    std::vector<TrialRun> trials_;
+    Comparison result_;
+};
+
 }  // namespace
 
 const std::vector<ForceDescription>& force_descriptions() {
-    static const std::vector<ForceDescription> all{
-        {"gravity",
-         "gravity",
-         {"acceleration"},
-         "[gravity]",
-         [](Scene& scene) { scene.gravity.reset(); }},
-        {"spring",
-         "springs",
-         {"anchor", "stiffness", "damping"},
-         "anchored [[spring]] without `rest_length`",
-         [](Scene& scene) { remove_springs(scene, "spring"); }},
-        {"linear_drag",
-         "linear drag",
-         {"linear_drag"},
-         "`linear_drag`",
-         [](Scene& scene) {
-             for_each_matter(scene, [](SceneMatter& matter) { matter.linear_drag = 0; });
-         }},
-        {"quadratic_drag",
-         "quadratic drag",
-         {"quadratic_drag"},
-         "`quadratic_drag`",
-         [](Scene& scene) {
-             for_each_matter(scene, [](SceneMatter& matter) { matter.quadratic_drag = 0; });
-         }},
-        {"coil_spring",
-         "coil springs",
-         {"anchor", "stiffness", "damping", "rest_length"},
-         "anchored [[spring]] with `rest_length`",
-         [](Scene& scene) { remove_springs(scene, "coil_spring"); }},
-        {"attractor",
-         "attractors",
-         {"position", "gm"},
-         "[[attractor]]",
-         [](Scene& scene) { scene.attractors.clear(); }},
-        {"wind", "wind", {"velocity", "drag"}, "[[wind]]", remove_forces<Wind>},
-        {"drive", "drives", {"amplitude", "frequency", "phase"}, "[[drive]]", remove_forces<Drive>},
-    };
+    static const std::vector<ForceDescription> all = [] {
+        std::vector<ForceDescription> descriptions;
+        for_each_index<force_count>([&](auto kind) {
+            descriptions.push_back(
+                description_of<std::tuple_element_t<kind, ForceList<double, 3>>>());
+        });
+        return descriptions;
+    }();
     return all;
 }
 
 std::vector<Ablation> ablations(const Scene& scene, const std::vector<std::string_view>& forces,
                                 bool linked) {
     return Ablations(scene).run(forces, linked);
+}
+
+Comparison compare(const Scene& scene, const std::vector<Ablation>& ablations, std::int64_t steps,
+                   const LedgerProgress& progress) {
+    return Comparing(scene, ablations).run(steps, progress);
 }
 
 }  // namespace oiler::lab

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/lab/ledger/timing.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 
 #include "oiler/core/seconds_since.hpp"
-#include "oiler/lab/ledger/parts.hpp"
+#include "oiler/lab/ledger/ablations.hpp"
 #include "oiler/scene/make_world.hpp"
 
 namespace oiler::lab {
@@ -28,14 +30,6 @@ double thread_cpu_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// The value below which this share of the values is, between neighbours if need be.
-double value_at(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<std::size_t>(at);
-    const double high = sorted[std::min(low + 1, sorted.size() - 1)];
-    return sorted[low] + (high - sorted[low]) * (at - static_cast<double>(low));
 }
 
 /// A copy of all bodies would share a solver's memory, which then is not free for the next solver.
@@ -149,13 +143,6 @@ double cpu_seconds(Bodies& bodies, const Method& method, const Steps& steps) {
     const double seconds = seconds_since(start);
     const double cpu = thread_cpu_seconds() - cpu_start;
     return cpu > 0 ? std::min(cpu, seconds) : seconds;
-}
-
-Median median_of(std::vector<double> values) {
-    std::erase_if(values, [](double value) { return !std::isfinite(value); });
-    if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
-    return {value_at(values, 0.5), (value_at(values, 0.75) - value_at(values, 0.25)) / 2};
 }
 
 Timing race(const std::vector<const Scene*>& scenes, std::int64_t steps, const StepTimer& timer,

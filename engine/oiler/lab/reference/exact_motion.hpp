@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "oiler/lab/reference/landing_motion.hpp"
-#include "oiler/lab/reference/linear_motion.hpp"
 #include "oiler/lab/reference/motion.hpp"
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -16,14 +15,14 @@ namespace oiler::lab {
 
 /// An elliptic orbit around one attractor.
 struct OrbitMotion {
-    long double gm = 0;            ///< m³/s²
-    Vec<long double, 3> centre{};  ///< m
-    Ellipse<long double> ellipse;  ///< around the centre
-    long double nearest = 0;       ///< m, distance of the pericentre
+    Real gm = 0;            ///< m³/s²
+    Real3 centre{};         ///< m
+    Ellipse<Real> ellipse;  ///< around the centre
+    Real nearest = 0;       ///< m, distance of the pericentre
 };
 
 /// A motion that is given as a function of time.
-using GivenMotion = std::function<State<long double, 3>(long double t)>;
+using GivenMotion = std::function<State3(Real t)>;
 
 /// The closed form of a body's motion.
 class ExactMotion {
@@ -32,20 +31,19 @@ public:
     ExactMotion(const OrbitMotion& motion) : motion_(motion) {}
     ExactMotion(LandingMotion motion) : motion_(std::move(motion)) {}
     template <class F>
-    requires std::invocable<const F&, long double> ExactMotion(F motion)
+    requires std::invocable<const F&, Real> ExactMotion(F motion)
         : motion_(GivenMotion(std::move(motion))) {}
 
     /// Position and velocity t seconds after the start.
-    State<long double, 3> operator()(long double t) const;
+    State3 operator()(Real t) const;
     [[nodiscard]] const LinearMotion* linear() const { return std::get_if<LinearMotion>(&motion_); }
     [[nodiscard]] const OrbitMotion* orbit() const { return std::get_if<OrbitMotion>(&motion_); }
     /// See Motion::bend; 0 for a given motion.
-    [[nodiscard]] double bend(const State<long double, 3>& first, const State<long double, 3>& last,
-                              long double from, long double to) const;
+    [[nodiscard]] double bend(const State3& first, const State3& last, Real from, Real to) const;
     /// A bound of all bends over 1 s, of the whole motion; those over h s are h⁴ times that.
     [[nodiscard]] double steady_bend() const;
     /// See Motion::enclosure.
-    [[nodiscard]] Ball enclosure(const State<long double, 3>& state) const;
+    [[nodiscard]] Ball enclosure(const State3& state) const;
 
 private:
     std::variant<LinearMotion, OrbitMotion, LandingMotion, GivenMotion> motion_;
@@ -57,5 +55,38 @@ private:
 /// landing that landing_motion does not know.
 [[nodiscard]] std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies,
                                                                     double until);
+
+/// The closed forms of a scene. Bodies with equal stiffness and damping share the factors of a
+/// time.
+class ExactMotions : public Motion {
+public:
+    explicit ExactMotions(std::vector<ExactMotion> motions);
+
+    [[nodiscard]] std::size_t bodies() const override { return motions_.size(); }
+    [[nodiscard]] State3 at(std::size_t row, Real t) const override { return motions_[row](t); }
+    void all_at(Real t, std::span<State3> states) const override;
+    [[nodiscard]] Walk walk(std::int64_t rate) const override;
+    [[nodiscard]] double bend(std::size_t row, const State3& first, const State3& last, Real from,
+                              Real to) const override {
+        return motions_[row].bend(first, last, from, to);
+    }
+    [[nodiscard]] double bend_of_any(std::size_t row, Real h) const override {
+        const auto length = static_cast<double>(h);
+        return length * length * length * length * steady_bends_[row];
+    }
+    [[nodiscard]] Ball enclosure(std::size_t row, const State3& state) const override {
+        return motions_[row].enclosure(state);
+    }
+
+private:
+    class Blocks;
+    static constexpr std::size_t alone = static_cast<std::size_t>(-1);
+
+    std::vector<ExactMotion> motions_;
+    std::vector<double> steady_bends_;  ///< see ExactMotion::steady_bend
+    /// The first body of each group with equal k and c, and the group of each body.
+    std::vector<std::size_t> first_of_group_;
+    std::vector<std::size_t> group_;
+};
 
 }  // namespace oiler::lab

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "oiler/lab/reference/fine_steps.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/lab/reference/parts.hpp"
-#include "oiler/lab/reference/run_work.hpp"
-
 namespace oiler::lab {
 namespace {
-
-using Real = long double;
 
 constexpr std::size_t fewest_runs = 3;
 /// Extrapolations per run. Each removes another power of dt from the error.
@@ -50,8 +47,8 @@ const Method& finest_method(const Scene& scene) {
 Trajectory extrapolated(const Trajectory& fine, Trajectory coarse, Real divisor) {
     const Real share = 1 / divisor;
     for (std::size_t i = 0; i < fine.states.size(); ++i) {
-        const State<Real, 3>& a = fine.states[i];
-        State<Real, 3>& b = coarse.states[i];
+        const State3& a = fine.states[i];
+        State3& b = coarse.states[i];
         b = {a.x + (a.x - b.x) * share, a.v + (a.v - b.v) * share};
     }
     return coarse;
@@ -77,8 +74,8 @@ std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b, B
     };
     for (std::int64_t sample = 0; sample < a.samples(); ++sample) {
         for (std::size_t row = 0; row < a.bodies; ++row) {
-            const State<Real, 3>& one = a.at(sample, row);
-            const State<Real, 3>& other = b.at(sample, row);
+            const State3& one = a.at(sample, row);
+            const State3& other = b.at(sample, row);
             most.position = larger(most.position, distance(one.x, other.x));
             most.velocity = larger(most.velocity, distance(one.v, other.v));
         }
@@ -97,7 +94,7 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
                              : std::numeric_limits<double>::epsilon();
     double x = 0;
     double v = 0;
-    for (const State<Real, 3>& state : trajectory.states) {
+    for (const State3& state : trajectory.states) {
         x = std::max(x, static_cast<double>(largest(state.x)));
         v = std::max(v, static_cast<double>(largest(state.v)));
     }
@@ -114,7 +111,7 @@ void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
         const BodyImpact impact = bodies.impact_at(i, rate);
         const Vec3& normal = bodies.planes()[impact.plane].normal;
         const double radius = bodies.contact(impact.row)->radius;
-        const Vec<Real, 3> x = to_real(impact.point + normal * (radius / length(normal)));
+        const Real3 x = to_real(impact.point + normal * (radius / length(normal)));
         trajectory.kinks.resize(trajectory.bodies);
         trajectory.kinks[impact.row].push_back(
             {impact.time, {x, to_real(impact.before)}, {x, to_real(impact.after)}});

@@ -8,10 +8,6 @@
 namespace oiler::lab {
 namespace {
 
-using Real = long double;
-using Real3 = Vec<Real, 3>;
-using State3 = State<Real, 3>;
-
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 constexpr std::size_t most_pieces = 20'000;
 /// So many short flights in a row do not end, as in a corner.
@@ -30,13 +26,9 @@ struct Surface {
 };
 
 Surface surface_of(const Plane& plane, Real radius) {
-    const Real3 n{plane.normal[0], plane.normal[1], plane.normal[2]};
+    const Real3 n = to_real(plane.normal);
     const Real size = std::sqrt(squared_length(n));
     return {n / size, plane.offset / size + radius, plane.restitution, plane.friction};
-}
-
-State3 after(const LinearMotion& motion, Real t) {
-    return state_after(motion, motion.start, factors_at(motion, t));
 }
 
 Real3 acceleration(const LinearMotion& motion, const State3& state) {
@@ -175,21 +167,21 @@ private:
                 if (&surface == bearing) continue;
                 const bool leaves = from == 0 && touches(surface);
                 const auto gap = [&](Real t) {
-                    return leaves && t == 0 ? Real(0) : surface.gap(after(motion, t));
+                    return leaves && t == 0 ? Real(0) : surface.gap(motion.at(t));
                 };
-                const auto speed = [&](Real t) { return surface.speed(after(motion, t)); };
+                const auto speed = [&](Real t) { return surface.speed(motion.at(t)); };
                 if (leaves && gap(to) < 0 && !(speed(0) > 0)) continue;
                 keep(first_negative(gap, speed, from, to));
             }
             if (largest(braked) > 0 && largest(motion.start.v) > 0) {
-                const auto speed = [&](Real t) { return dot(after(motion, t).v, braked); };
+                const auto speed = [&](Real t) { return dot(motion.at(t).v, braked); };
                 const auto slope = [&](Real t) {
-                    return dot(acceleration(motion, after(motion, t)), braked);
+                    return dot(acceleration(motion, motion.at(t)), braked);
                 };
                 stops = keep(first_negative(speed, slope, from, to));
             }
             if (!end) continue;
-            state_ = after(motion, *end);
+            state_ = motion.at(*end);
             if (stops) state_.v -= braked * dot(state_.v, braked);
             still_ = stops ? 1e-12L * largest(motion.start.v) : Real(0);
             t_ += *end;
@@ -220,10 +212,31 @@ Real fastest_in(const LinearMotion& motion, const State3& end) {
 
 }  // namespace
 
+LinearFactors factors_at(const LinearMotion& motion, Real t) {
+    if (motion.k == 0)
+        return {{1, 0},
+                linear_drag_motion<Real>({0, 1}, 0, motion.c, t),
+                linear_drag_motion<Real>({0, 0}, 1, motion.c, t)};
+    // The velocity of the second motion plus c times its position is the position of the first.
+    const oiler::Motion<Real> from_v = damped_oscillator<Real>(1, motion.k, motion.c, {0, 1}, t);
+    return {{from_v.v + motion.c * from_v.x, -motion.k * from_v.x}, from_v, {}};
+}
+
+State3 state_after(const LinearMotion& motion, const State3& start, const LinearFactors& factors) {
+    if (motion.k == 0)
+        return {start.x + start.v * factors.from_v.x + motion.acceleration * factors.pushed.x,
+                start.v * factors.from_v.v + motion.acceleration * factors.pushed.v};
+    const Real3 from = start.x - motion.rest;
+    return {motion.rest + from * factors.from_x.x + start.v * factors.from_v.x,
+            from * factors.from_x.v + start.v * factors.from_v.v};
+}
+
+State3 LinearMotion::at(Real t) const { return state_after(*this, start, factors_at(*this, t)); }
+
 LandingMotion::LandingMotion(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
         const Real length = i + 1 < pieces_.size() ? pieces_[i + 1].from - pieces_[i].from : 0;
-        const State3 end = after(pieces_[i].motion, length);
+        const State3 end = pieces_[i].motion.at(length);
         fastest_ = std::max(fastest_, static_cast<double>(fastest_in(pieces_[i].motion, end)));
     }
 }
@@ -237,7 +250,7 @@ std::size_t LandingMotion::index_at(Real t) const {
 
 State3 LandingMotion::at(Real t) const {
     const Piece& piece = pieces_[index_at(t)];
-    return after(piece.motion, t - piece.from);
+    return piece.motion.at(t - piece.from);
 }
 
 const LinearMotion* LandingMotion::piece(Real from, Real to) const {

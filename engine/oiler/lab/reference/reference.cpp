@@ -8,16 +8,13 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/exact_motions.hpp"
 #include "oiler/lab/reference/fastest_motion.hpp"
-#include "oiler/lab/reference/parts.hpp"
+#include "oiler/lab/reference/fine_steps.hpp"
+#include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/scales.hpp"
 
 namespace oiler::lab {
 namespace {
-
-using Real = long double;
-using State3 = State<Real, 3>;
 
 /// A closed form is compared with fine steps of this error, as a fraction of the extent.
 constexpr double checked_to = 1e-9;
@@ -338,6 +335,28 @@ Uncertainty Reference::floor() const {
 Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
                          const Perturbation& start, const ClosedForm& closed_form) {
     return ReferenceBuilder(scene, effort, start).run(closed_form);
+}
+
+TrueEnergy::TrueEnergy(const Scene& scene, const Reference& reference)
+    : reference_(reference),
+      bodies_(
+          make_world(scene,
+                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
+                     reference.start)
+              .bodies()),
+      states_(bodies_.size()),
+      at_start_(bodies_.energy().total()) {}
+
+double TrueEnergy::at(Real t) {
+    if (reference_.conservative) return at_start_;
+    reference_.motion->all_at(t, states_);
+    return of(states_);
+}
+
+double TrueEnergy::of(std::span<const State3> states) {
+    if (reference_.conservative) return at_start_;
+    for (std::size_t row = 0; row < states.size(); ++row) bodies_.set_state(row, states[row]);
+    return bodies_.energy().total();
 }
 
 }  // namespace oiler::lab

@@ -4,14 +4,17 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "oiler/lab/reference/exact_motion.hpp"
-#include "oiler/lab/reference/perturbation.hpp"
 #include "oiler/lab/reference/samples.hpp"
 
 namespace oiler::lab {
+
+/// The smallest error that a reference resolves, as a multiple of its own error.
+inline constexpr double margin = 100;
 
 /// Bounds of the error up to a sample.
 struct Uncertainty {
@@ -82,5 +85,22 @@ using ClosedForm =
 [[nodiscard]] Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
                                        const Perturbation& start = {},
                                        const ClosedForm& closed_form = exact_motions);
+
+/// The energy of a scene's true motion.
+class TrueEnergy {
+public:
+    TrueEnergy(const Scene& scene, const Reference& reference);
+
+    /// The energy at a time (s), J.
+    [[nodiscard]] double at(Real t);
+    /// The energy in states of the true motion, J.
+    [[nodiscard]] double of(std::span<const State3> states);
+
+private:
+    const Reference& reference_;
+    Bodies bodies_;
+    std::vector<State3> states_;
+    double at_start_;  ///< J
+};
 
 }  // namespace oiler::lab

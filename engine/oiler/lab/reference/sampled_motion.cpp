@@ -9,9 +9,6 @@
 namespace oiler::lab {
 namespace {
 
-using Real = long double;
-using State3 = State<Real, 3>;
-
 constexpr std::size_t most_nodes = 4;
 
 /// The places of nodes, in spacings of samples.

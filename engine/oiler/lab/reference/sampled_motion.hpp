@@ -13,25 +13,24 @@ namespace oiler::lab {
 
 /// A sudden change of a body's velocity, by an impact.
 struct Kink {
-    long double time;  ///< s
-    State<long double, 3> before;
-    State<long double, 3> after;
+    Real time;  ///< s
+    State3 before;
+    State3 after;
 };
 
 /// Positions and velocities of all bodies at every sample.
 struct Trajectory {
     std::size_t bodies = 0;
     /// Of all bodies at the first sample, then at the next.
-    std::vector<State<long double, 3>> states{};
+    std::vector<State3> states{};
     /// Per body, in the order of time; empty if no body has any.
     std::vector<std::vector<Kink>> kinks{};
 
-    [[nodiscard]] const State<long double, 3>& at(std::int64_t sample, std::size_t row) const {
+    [[nodiscard]] const State3& at(std::int64_t sample, std::size_t row) const {
         return states[static_cast<std::size_t>(sample) * bodies + row];
     }
     /// The kinks of a body after `from` and before `to`, s.
-    [[nodiscard]] std::span<const Kink> kinks_between(std::size_t row, long double from,
-                                                      long double to) const;
+    [[nodiscard]] std::span<const Kink> kinks_between(std::size_t row, Real from, Real to) const;
     [[nodiscard]] std::int64_t samples() const {
         return bodies == 0 ? 0 : static_cast<std::int64_t>(states.size() / bodies);
     }
@@ -45,23 +44,22 @@ public:
     SampledMotion(Trajectory trajectory, std::int64_t per_second, double fastest);
 
     [[nodiscard]] std::size_t bodies() const override { return trajectory_.bodies; }
-    [[nodiscard]] State<long double, 3> at(std::size_t row, long double t) const override;
-    void all_at(long double t, std::span<State<long double, 3>> states) const override;
+    [[nodiscard]] State3 at(std::size_t row, Real t) const override;
+    void all_at(Real t, std::span<State3> states) const override;
     /// A cubic over 1/8 of the shortest period, or between two samples, follows a motion without
     /// kinks.
-    [[nodiscard]] double bend(std::size_t row, const State<long double, 3>&,
-                              const State<long double, 3>&, long double from,
-                              long double to) const override;
+    [[nodiscard]] double bend(std::size_t row, const State3&, const State3&, Real from,
+                              Real to) const override;
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 
 private:
     /// The sample at exactly that time.
-    [[nodiscard]] std::optional<std::int64_t> sample_at(long double t) const;
+    [[nodiscard]] std::optional<std::int64_t> sample_at(Real t) const;
 
     Trajectory trajectory_;
     std::int64_t per_second_;
-    long double longest_cubic_;  ///< s
-    double fastest_ = 0;         ///< m/s, if there are kinks
+    Real longest_cubic_;  ///< s
+    double fastest_ = 0;  ///< m/s, if there are kinks
 };
 
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It

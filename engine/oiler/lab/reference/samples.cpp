@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/random.hpp"
 #include "oiler/lab/reference/fastest_motion.hpp"
 
 namespace oiler::lab {
@@ -19,6 +20,23 @@ constexpr double fewest_samples = 20;
 constexpr double most_states = 1.5e6;
 
 }  // namespace
+
+World make_world(const Scene& scene, const Settings& settings, const Perturbation& perturbation) {
+    World world = make_world(scene, settings);
+    if (perturbation.seed == 0) return world;
+    Random random(Random::mixed(perturbation.seed));
+    const auto moved = [&](Vec3 vector, double most) {
+        for (int axis = 0; axis < scene.axes; ++axis)
+            vector[axis] += most * (2 * random.fraction() - 1);
+        return vector;
+    };
+    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+        const Entity entity = world.entity_of_row(row);
+        world.teleport(entity, moved(world.position(entity), perturbation.position));
+        world.set_velocity(entity, moved(world.velocity(entity), perturbation.velocity));
+    }
+    return world;
+}
 
 void require_measurable(const Scene& scene) {
     const std::int64_t bodies = scene.body_count();
@@ -55,6 +73,19 @@ Follower::Follower(const Scene& scene, const Settings& settings, const Perturbat
 bool Follower::go_to(std::int64_t sample) {
     const std::int64_t steps = sample * steps_per_sample_ - world_.tick();
     return steps == 0 || !world_.try_step(steps);
+}
+
+RunWork::RunWork(const Scene& scene) {
+    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
+    const auto size = static_cast<double>(bodies.size());
+    const auto links = static_cast<double>(bodies.link_count());
+    per_evaluation_ = size + links;
+    // A few iterations; each factorises the matrix of a net.
+    to_solve_ = 4 * (links > 0 ? std::sqrt(size * scene.axes) : 1);
+}
+
+double RunWork::per_step(const Method& method) const {
+    return per_evaluation_ * (method.evaluations > 0 ? method.evaluations : to_solve_);
 }
 
 }  // namespace oiler::lab

@@ -3,9 +3,21 @@
 
 #include <cstdint>
 
-#include "oiler/lab/reference/perturbation.hpp"
+#include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
+
+/// Random changes of all bodies' starts.
+struct Perturbation {
+    std::uint64_t seed = 0;  ///< 0 for none
+    double position = 0;     ///< m, the largest along each axis
+    double velocity = 0;     ///< m/s, the largest along each axis
+};
+
+/// Makes a world of the scene whose bodies start from the perturbed state.
+[[nodiscard]] World make_world(const Scene& scene, const Settings& settings,
+                               const Perturbation& perturbation);
 
 /// The times at which a run is sampled: `per_second` per second, from 0 s to the end.
 struct SampleTimes {
@@ -52,6 +64,17 @@ public:
 private:
     World world_;
     std::int64_t steps_per_sample_;
+};
+
+/// Estimates the work of a step: force evaluations, each on one body or link.
+class RunWork {
+public:
+    explicit RunWork(const Scene& scene);
+    [[nodiscard]] double per_step(const Method& method) const;
+
+private:
+    double per_evaluation_;
+    double to_solve_;  ///< evaluations per implicit step
 };
 
 }  // namespace oiler::lab

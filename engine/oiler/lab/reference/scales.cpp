@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/lab/reference/parts.hpp"
-
 namespace oiler::lab {
 namespace {
 
@@ -33,9 +31,9 @@ bool is_damped(const GivenForces& forces) {
 
 Scales scales_of(const Motion& motion, const std::vector<double>& times, Bodies bodies) {
     Scales scales;
-    std::vector<State<long double, 3>> start(motion.bodies());
+    std::vector<State3> start(motion.bodies());
     motion.all_at(0, start);
-    std::vector<State<long double, 3>> states = start;
+    std::vector<State3> states = start;
     double least = INFINITY;
     double most = -INFINITY;
     for (const double t : times) {

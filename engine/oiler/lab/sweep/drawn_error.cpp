@@ -5,13 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "oiler/lab/reference/parts.hpp"
-
 namespace oiler::lab {
 namespace {
 
-using Real = long double;
-using Real3 = Vec<Real, 3>;
 using Offset = Vec<double, 3>;
 
 /// A part of a step is divided while the cubic through its ends may deviate by more than this
@@ -74,7 +70,7 @@ void DrawnError::add_part(const DrawnStep& step, const Part& part) {
     if (!may_exceed(step, part, most_ * (1 + tolerable_bend))) return;
     const Real middle = (part.from + part.to) / 2;
     if (!(middle > part.from && middle < part.to)) return;
-    const State<Real, 3> there = motion_.at(step.row, middle);
+    const State3 there = motion_.at(step.row, middle);
     const Offset offset = narrowed(drawn_at(step, middle) - there.x);
     add_part(step, {part.from, middle, part.true_from, there, part.offset_from, offset});
     add_part(step, {middle, part.to, there, part.true_to, offset, part.offset_to});
@@ -99,9 +95,9 @@ void DrawnError::sample(const Part& part, const Offset& p, const Offset& q) {
 
 double least_drawn_error(const Motion& motion, std::int64_t rate, double until, double enough) {
     const Motion::Walk walk = motion.walk(2 * rate);
-    std::vector<State<Real, 3>> from(motion.bodies());
-    std::vector<State<Real, 3>> middle = from;
-    std::vector<State<Real, 3>> to = from;
+    std::vector<State3> from(motion.bodies());
+    std::vector<State3> middle = from;
+    std::vector<State3> to = from;
     walk(0, to);
     const auto steps = static_cast<std::int64_t>(std::floor(until * static_cast<double>(rate)));
     double least = 0;

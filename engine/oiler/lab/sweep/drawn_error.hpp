@@ -10,12 +10,12 @@ namespace oiler::lab {
 /// One step of a body: its drawn line and its true motion. States are at the step's two ends.
 struct DrawnStep {
     std::size_t row = 0;
-    long double from = 0;  ///< s
-    long double to = 0;    ///< s
-    State<long double, 3> run_from{};
-    State<long double, 3> run_to{};
-    State<long double, 3> true_from{};
-    State<long double, 3> true_to{};
+    Real from = 0;  ///< s
+    Real to = 0;    ///< s
+    State3 run_from{};
+    State3 run_to{};
+    State3 true_from{};
+    State3 true_to{};
 };
 
 /// The largest distance of drawn lines from the true motion. Within a step, the motion is divided
@@ -29,7 +29,7 @@ public:
         : motion_(motion), least_(least), display_(display) {}
 
     /// Includes a step up to the time `until`, s.
-    void add(const DrawnStep& step, long double until);
+    void add(const DrawnStep& step, Real until);
     [[nodiscard]] double error() const { return most_; }
 
 private:
@@ -37,12 +37,12 @@ private:
 
     /// A part of a step; offsets are those of the line from the true motion, m.
     struct Part {
-        long double from, to;
-        State<long double, 3> true_from, true_to;
+        Real from, to;
+        State3 true_from, true_to;
         Offset offset_from, offset_to;
     };
 
-    void add_frames(const DrawnStep& step, long double until);
+    void add_frames(const DrawnStep& step, Real until);
     void add_part(const DrawnStep& step, const Part& part);
     [[nodiscard]] bool may_exceed(const DrawnStep& step, const Part& part, double most) const;
     /// p and q: see add_part.

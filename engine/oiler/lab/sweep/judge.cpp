@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/parts.hpp"
 #include "oiler/lab/reference/path.hpp"
-#include "oiler/lab/reference/true_energy.hpp"
 #include "oiler/lab/sweep/drawn_error.hpp"
 
 namespace oiler::lab {
@@ -19,9 +17,6 @@ constexpr double lost = 10;
 constexpr std::int64_t short_steps_rate = 1'000'000;  // Hz
 /// Below this fraction of the largest coordinate, an error is never a loss of stability.
 constexpr double negligible = 1e-9;
-
-using Real = long double;
-using State3 = State<Real, 3>;
 
 /// The times at which a run's oscillation crosses its level upwards, on the drawn lines.
 class Crossings {

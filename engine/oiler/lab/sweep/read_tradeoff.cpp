@@ -9,7 +9,6 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"
-#include "oiler/lab/sweep/json.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 
 namespace oiler::lab {
@@ -84,8 +83,7 @@ const Method& to_method(const Field& field) {
 }
 
 Precision to_precision(const Field& field) {
-    for (const Precision precision : {Precision::single, Precision::double_})
-        if (field.text() == name_of(precision)) return precision;
+    if (const auto precision = find_precision(field.text())) return *precision;
     field.refuse("float or double");
 }
 
@@ -100,10 +98,9 @@ std::optional<Damping> to_damping(const Field& field, const Method& method) {
         if (!field.is_null()) field.refuse("null for a method that does not split");
         return std::nullopt;
     }
-    for (const Damping damping : {Damping::in_kick, Damping::in_drift})
-        if (field.text() == name_of(damping))
-            return damping == method.damping ? std::nullopt : std::optional(damping);
-    field.refuse("kick or drift");
+    const auto damping = find_damping(field.text());
+    if (!damping) field.refuse("kick or drift");
+    return damping == method.damping ? std::nullopt : damping;
 }
 
 Stepping to_stepping(const Field& field) {
@@ -157,44 +154,44 @@ std::string to_fingerprint(const Field& field) {
     return text;
 }
 
-Ladder to_ladder(const Field& field) {
-    Ladder ladder{.method = &to_method(field["method"]),
-                  .precision = to_precision(field["precision"]),
-                  .end = field["end"].text(),
-                  .done = field["done"].flag()};
-    if (ladder.done == ladder.end.empty())
-        field["end"].refuse(ladder.done ? "the reason of the end of a ladder that is done"
+RateSeries to_series(const Field& field) {
+    RateSeries series{.method = &to_method(field["method"]),
+                      .precision = to_precision(field["precision"]),
+                      .end = field["end"].text(),
+                      .done = field["done"].flag()};
+    if (series.done == series.end.empty())
+        field["end"].refuse(series.done ? "the reason of the end of a ladder that is done"
                                         : "no text for a ladder that is not done");
-    return ladder;
+    return series;
 }
 
 /// Each method once in each precision.
-std::vector<Ladder> to_ladders(const Field& field) {
-    std::vector<Ladder> ladders;
+std::vector<RateSeries> to_all_series(const Field& field) {
+    std::vector<RateSeries> all_series;
     std::set<std::pair<const Method*, Precision>> all;
     std::set<const Method*> methods;
     std::set<Precision> precisions;
     for (const Field& item : field.items()) {
-        const Ladder& ladder = ladders.emplace_back(to_ladder(item));
-        methods.insert(ladder.method);
-        precisions.insert(ladder.precision);
-        if (!all.emplace(ladder.method, ladder.precision).second)
+        const RateSeries& series = all_series.emplace_back(to_series(item));
+        methods.insert(series.method);
+        precisions.insert(series.precision);
+        if (!all.emplace(series.method, series.precision).second)
             item.refuse("each method once in each precision");
     }
-    if (ladders.empty() || all.size() != methods.size() * precisions.size())
+    if (all_series.empty() || all.size() != methods.size() * precisions.size())
         field.refuse("each method in each precision");
-    return ladders;
+    return all_series;
 }
 
-void add_row(std::vector<Ladder>& ladders, const Field& field) {
+void add_row(std::vector<RateSeries>& all_series, const Field& field) {
     TradeoffRow row = to_row(field);
-    const auto ladder = std::ranges::find_if(ladders, [&](const Ladder& one) {
+    const auto series = std::ranges::find_if(all_series, [&](const RateSeries& one) {
         return one.method == row.stepping.method && one.precision == row.stepping.precision;
     });
-    if (ladder == ladders.end() || !ladder->done) field.refuse("a row of a ladder that is done");
-    if (!ladder->rows.empty() && row.stepping.rate.steps <= ladder->rows.back().stepping.rate.steps)
+    if (series == all_series.end() || !series->done) field.refuse("a row of a ladder that is done");
+    if (!series->rows.empty() && row.stepping.rate.steps <= series->rows.back().stepping.rate.steps)
         field["rate"].refuse("a higher rate than in the row before");
-    ladder->rows.push_back(std::move(row));
+    series->rows.push_back(std::move(row));
 }
 
 /// Fields that follow from the others must agree with them.
@@ -202,13 +199,9 @@ void check_derived(const Field& field, const Tradeoff& tradeoff) {
     if (field["complete"].flag() != tradeoff.complete())
         field["complete"].refuse("what the ladders say");
     std::set<std::string> front;
-    const auto key = [](const Stepping& choice) {
-        return fmt::format("{} {} {}", choice.method->name, choice.rate.steps,
-                           name_of(choice.precision));
-    };
-    for (const TradeoffRow* row : pareto(tradeoff, time_of)) front.insert(key(row->stepping));
+    for (const TradeoffRow* row : pareto(tradeoff, time_of)) front.insert(describe(row->stepping));
     for (const Field& row : field["rows"].items())
-        if (row["pareto"].flag() != front.contains(key(to_stepping(row))))
+        if (row["pareto"].flag() != front.contains(describe(to_stepping(row))))
             row["pareto"].refuse("what errors and times say");
 }
 
@@ -219,13 +212,13 @@ Tradeoff to_tradeoff(const Field& field) {
                       .duration = field["duration"].positive(),
                       .current = to_stepping(field["current"]),
                       .reference = to_reference(field["reference"]),
-                      .ladders = to_ladders(field["ladders"])};
+                      .all_series = to_all_series(field["ladders"])};
     if (tradeoff.reference.meaningful_until > tradeoff.duration)
         field["reference"]["meaningful_until"].refuse("at most the duration");
     for (const Field& machine : field["machines"].items())
         tradeoff.machines.push_back(to_machine(machine));
     if (tradeoff.machines.empty()) field["machines"].refuse("a machine");
-    for (const Field& row : field["rows"].items()) add_row(tradeoff.ladders, row);
+    for (const Field& row : field["rows"].items()) add_row(tradeoff.all_series, row);
     check_derived(field, tradeoff);
     return tradeoff;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/median.hpp"
 #include "oiler/core/seconds_since.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
@@ -81,13 +82,6 @@ void repeat_scene(const World& start, double duration, std::int64_t steps, Measu
     }
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<std::size_t>(at);
-    const double high = sorted[std::min(low + 1, sorted.size() - 1)];
-    return sorted[low] + (high - sorted[low]) * (at - static_cast<double>(low));
-}
-
 }  // namespace
 
 double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t per_frame) try {
@@ -101,8 +95,7 @@ double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t pe
         return frames.back();
     });
     if (frames.empty() || std::isnan(frames.back())) return unknown;
-    std::sort(frames.begin(), frames.end());
-    return 1e9 * quantile(frames, 0.5) / static_cast<double>(per_frame);
+    return 1e9 * median_of(std::move(frames)).value / static_cast<double>(per_frame);
 } catch (const Error&) {
     return unknown;
 }
@@ -121,8 +114,7 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
         return calls.back();
     });
     if (calls.empty() || std::isnan(calls.back())) return unknown;
-    std::sort(calls.begin(), calls.end());
-    return 1e9 * quantile(calls, 0.5) / static_cast<double>(steps);
+    return 1e9 * median_of(std::move(calls)).value / static_cast<double>(steps);
 } catch (const Error&) {
     return unknown;
 }
@@ -159,9 +151,9 @@ void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int ro
         }
     for (std::size_t i = 0; i < stable.size(); ++i) {
         TradeoffRow& row = *stable[i];
-        std::sort(times[i].begin(), times[i].end());
-        row.ns_per_second = quantile(times[i], 0.5);
-        row.ns_spread = (quantile(times[i], 0.75) - quantile(times[i], 0.25)) / 2;
+        const Median time = median_of(std::move(times[i]));
+        row.ns_per_second = time.value;
+        row.ns_spread = time.spread;
         row.ns_together = static_cast<double>(row.stepping.rate.steps) *
                           watch.ns_per_step_together(scene, row.stepping);
     }

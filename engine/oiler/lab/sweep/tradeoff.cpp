@@ -5,36 +5,35 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <thread>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/parts.hpp"
-#include "oiler/lab/reference/run_work.hpp"
-#include "oiler/lab/sweep/convergence.hpp"
+#include "oiler/core/version.hpp"
 
 namespace oiler::lab {
 namespace {
 
-class Climb {
+class SeriesRun {
 public:
-    Climb(Ladder& ladder, const Scene& scene, const Reference& reference, const SweepPlan& plan,
-          const RunWork& work, const std::vector<std::int64_t>& rungs)
-        : ladder_(ladder),
+    SeriesRun(RateSeries& series, const Scene& scene, const Reference& reference,
+              const SweepPlan& plan, const RunWork& work, const std::vector<std::int64_t>& rates)
+        : series_(series),
           scene_(scene),
           reference_(reference),
           plan_(plan),
           work_(work),
-          rungs_(rungs) {}
+          rates_(rates) {}
 
-    /// A stopped call leaves the ladder unchanged.
+    /// A stopped call leaves the series unchanged.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
-        std::string end = why_not(scene_, Settings{choice(rungs_.back())});
-        const double work_per_hertz = work_.per_step(*ladder_.method) * reference_.meaningful_until;
+        std::string end = why_not(scene_, Settings{choice(rates_.back())});
+        const double work_per_hertz = work_.per_step(*series_.method) * reference_.meaningful_until;
         Convergence convergence(largest_converging_error * reference_.extent);
-        for (const std::int64_t rate : rungs_) {
+        for (const std::int64_t rate : rates_) {
             if (!end.empty()) break;
             if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
                 end = "a run at higher rates is too much work";
@@ -49,9 +48,9 @@ public:
             convergence.take(judgement.position_error);
             end = why_ended(rows.back(), convergence, stopped);
         }
-        ladder_.rows = std::move(rows);
-        ladder_.end = end.empty() ? "the highest rate of the sweep was reached" : end;
-        ladder_.done = true;
+        series_.rows = std::move(rows);
+        series_.end = end.empty() ? "the highest rate of the sweep was reached" : end;
+        series_.done = true;
     }
 
 private:
@@ -76,15 +75,15 @@ private:
                !(judgement.step_error > little * judgement.position_error);
     }
     [[nodiscard]] Stepping choice(std::int64_t rate) const {
-        return {ladder_.method, {rate}, ladder_.precision};
+        return {series_.method, {rate}, series_.precision};
     }
 
-    Ladder& ladder_;
+    RateSeries& series_;
     const Scene& scene_;
     const Reference& reference_;
     const SweepPlan& plan_;
     const RunWork& work_;
-    const std::vector<std::int64_t>& rungs_;
+    const std::vector<std::int64_t>& rates_;
 };
 
 /// Calls task(i, stopped) for each i below `count`. If one throws, all stop and the exception is
@@ -123,9 +122,22 @@ std::int64_t max_rate_of(const SweepPlan& plan, const Reference& reference) {
 
 }  // namespace
 
+Machine this_machine() {
+    Machine machine{.cpu = "unknown",
+                    .cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency())),
+                    .compiler = compiler()};
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with("model name")) continue;
+        machine.cpu = line.substr(std::min(line.size(), line.find(':') + 2));
+        break;
+    }
+    return machine;
+}
+
 bool Tradeoff::complete() const {
-    return std::all_of(ladders.begin(), ladders.end(),
-                       [](const Ladder& ladder) { return ladder.done; });
+    return std::all_of(all_series.begin(), all_series.end(),
+                       [](const RateSeries& series) { return series.done; });
 }
 
 bool Tradeoff::timed() const {
@@ -137,8 +149,8 @@ bool Tradeoff::timed() const {
 
 std::vector<const TradeoffRow*> Tradeoff::rows() const {
     std::vector<const TradeoffRow*> all;
-    for (const Ladder& ladder : ladders)
-        for (const TradeoffRow& row : ladder.rows) all.push_back(&row);
+    for (const RateSeries& series : all_series)
+        for (const TradeoffRow& row : series.rows) all.push_back(&row);
     return all;
 }
 
@@ -177,7 +189,7 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
     return front;
 }
 
-std::vector<std::int64_t> rungs(const Scene& scene, std::int64_t max_rate) {
+std::vector<std::int64_t> sweep_rates(const Scene& scene, std::int64_t max_rate) {
     constexpr std::int64_t usual = 60;
     std::set<std::int64_t> all;
     for (std::int64_t rate = 1; rate < usual; ++rate)
@@ -209,30 +221,30 @@ Tradeoff start_tradeoff(const Scene& scene, const Reference& reference, const Sw
                       .machines = {this_machine()}};
     for (const Method* method : plan.methods)
         for (const Precision precision : plan.precisions)
-            tradeoff.ladders.push_back({.method = method, .precision = precision});
+            tradeoff.all_series.push_back({.method = method, .precision = precision});
     return tradeoff;
 }
 
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch) {
-    const std::vector<std::int64_t> rates = rungs(scene, max_rate_of(plan, reference));
+    const std::vector<std::int64_t> rates = sweep_rates(scene, max_rate_of(plan, reference));
     std::vector<std::size_t> open;
-    for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.ladders.size();
+    for (auto i = static_cast<std::size_t>(plan.shard - 1); i < tradeoff.all_series.size();
          i += static_cast<std::size_t>(plan.shards))
-        if (!tradeoff.ladders[i].done) open.push_back(i);
+        if (!tradeoff.all_series[i].done) open.push_back(i);
     const RunWork work(scene);
     double all = 0;
-    for (const std::size_t i : open) all += work.per_step(*tradeoff.ladders[i].method);
+    for (const std::size_t i : open) all += work.per_step(*tradeoff.all_series[i].method);
     double done = 0;
     std::mutex mutex;
     on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
-        Ladder ladder = tradeoff.ladders[open[at]];
-        Climb(ladder, scene, reference, plan, work, rates).run(stopped);
-        if (!ladder.done) return;
+        RateSeries series = tradeoff.all_series[open[at]];
+        SeriesRun(series, scene, reference, plan, work, rates).run(stopped);
+        if (!series.done) return;
         const std::lock_guard lock(mutex);
-        done += work.per_step(*ladder.method);
-        tradeoff.ladders[open[at]] = std::move(ladder);
-        watch.ladder_done(tradeoff);
+        done += work.per_step(*series.method);
+        tradeoff.all_series[open[at]] = std::move(series);
+        watch.series_done(tradeoff);
         watch.progress(done / all);
     });
 }

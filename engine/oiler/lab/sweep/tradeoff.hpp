@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "oiler/lab/sweep/judge.hpp"
-#include "oiler/lab/sweep/machine.hpp"
 
 namespace oiler::lab {
+
+/// The machine on which times were measured.
+struct Machine {
+    std::string cpu;
+    int cores = 1;
+    std::string compiler;
+    friend bool operator==(const Machine&, const Machine&) = default;
+};
+
+[[nodiscard]] Machine this_machine();
 
 /// A setting, its errors and its cost.
 struct TradeoffRow {
@@ -22,8 +32,8 @@ struct TradeoffRow {
     double ns_together = unknown;  ///< ns per simulated second at many steps per call
 };
 
-/// A method in one precision at ever higher rates.
-struct Ladder {
+/// A method in one precision, at rates in ascending order. Files call it a ladder.
+struct RateSeries {
     const Method* method = nullptr;
     Precision precision = Precision::double_;
     std::vector<TradeoffRow> rows{};
@@ -52,7 +62,7 @@ struct SweepPlan {
     std::vector<Precision> precisions{Precision::single, Precision::double_};
     std::int64_t max_rate = 0;  ///< 1/s; 0 for 61,440, or more for fast motion
     double most_work = 1e9;     ///< force evaluations, each on one body or link, per run
-    int shard = 1;              ///< from 1 to `shards`: every `shards`-th ladder
+    int shard = 1;              ///< from 1 to `shards`: every `shards`-th series
     int shards = 1;
 };
 
@@ -65,8 +75,8 @@ struct Tradeoff {
     Stepping current{};       ///< the scene's own setting
     ReferenceSummary reference{};
     std::vector<Machine> machines{};
-    std::vector<Ladder> ladders{};  ///< all of the plan; ladders of other shards are not done
-    std::string file{};             ///< from which it was read, for messages
+    std::vector<RateSeries> all_series{};  ///< all of the plan; series of other shards are not done
+    std::string file{};                    ///< from which it was read, for messages
 
     [[nodiscard]] bool complete() const;
     /// Whether all stable rows were timed.
@@ -86,9 +96,39 @@ using Cost = double (*)(const TradeoffRow& row);
 /// Errors below the reference's floor count as 0.
 [[nodiscard]] std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost);
 
-/// The rates of a ladder from 1 Hz to `max_rate`: the divisors of 60, 60·2ⁿ and 90·2ⁿ, and the
+/// The rates of a series from 1 Hz to `max_rate`: the divisors of 60, 60·2ⁿ and 90·2ⁿ, and the
 /// scene's own rate, even above `max_rate`.
-[[nodiscard]] std::vector<std::int64_t> rungs(const Scene& scene, std::int64_t max_rate);
+[[nodiscard]] std::vector<std::int64_t> sweep_rates(const Scene& scene, std::int64_t max_rate);
+
+/// Errors above this fraction of the extent do not follow the method's order.
+inline constexpr double largest_converging_error = 0.1;
+
+/// The convergence of a method's error with its rate. Errors above `begun` (m) are no evidence:
+/// they have not begun to fall.
+class Convergence {
+public:
+    explicit Convergence(double begun) : begun_(begun) {}
+
+    /// Takes the error at the next higher rate.
+    void take(double error) {
+        if (!(error < begun_)) return;
+        vain_ = error >= improvement * best_ ? vain_ + 1 : 0;
+        best_ = std::fmin(best_, error);
+    }
+    /// Whether errors no longer fall.
+    [[nodiscard]] bool stalled() const { return vain_ >= most_vain; }
+    /// Forgets the rates without improvement.
+    void restart() { vain_ = 0; }
+
+private:
+    /// An error above this fraction of the best so far is no improvement.
+    static constexpr double improvement = 0.9;
+    static constexpr int most_vain = 3;
+
+    double begun_;
+    double best_ = std::numeric_limits<double>::infinity();
+    int vain_ = 0;
+};
 
 /// Whether only round-off causes a row's error: the same run in long double halves it.
 [[nodiscard]] bool is_round_off(const Scene& scene, const TradeoffRow& row,
@@ -101,11 +141,11 @@ using Cost = double (*)(const TradeoffRow& row);
 /// Measures the cost of a step at many steps per call, ns; `unknown` for an unstable run.
 [[nodiscard]] double ns_per_step_together(const Scene& scene, const Stepping& choice);
 
-/// Callbacks of a sweep: progress, stopping, and each finished ladder.
+/// Callbacks of a sweep: progress, stopping, and each finished series.
 struct SweepWatch {
     std::function<void(double share)> progress = [](double) {};
     std::function<bool()> stopped = [] { return false; };
-    std::function<void(const Tradeoff&)> ladder_done = [](const Tradeoff&) {};
+    std::function<void(const Tradeoff&)> series_done = [](const Tradeoff&) {};
     /// Measures all costs. Tests replace it.
     std::function<double(const Scene&, const Stepping&, std::int64_t per_frame)> ns_per_step =
         [](const Scene& scene, const Stepping& choice, std::int64_t per_frame) {
@@ -123,13 +163,13 @@ struct SweepWatch {
 [[nodiscard]] double ns_per_second(const Scene& scene, const Stepping& choice,
                                    const SweepWatch& watch);
 
-/// A trade-off with all ladders of the plan, without rows.
+/// A trade-off with all series of the plan, without rows.
 [[nodiscard]] Tradeoff start_tradeoff(const Scene& scene, const Reference& reference,
                                       const SweepPlan& plan);
 
-/// Climbs each unfinished ladder of the plan's shard until errors are below the reference's floor,
-/// round-off keeps them from falling, or a run is too much work. Uses all cores; errors do not
-/// depend on their number.
+/// Runs each unfinished series of the plan's shard at its rates, lowest first, until errors are
+/// below the reference's floor, round-off keeps them from falling, or a run is too much work. Uses
+/// all cores; errors do not depend on their number.
 void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
            const SweepPlan& plan, const SweepWatch& watch);
 

@@ -8,11 +8,9 @@
 #include <span>
 #include <utility>
 
-#include "oiler/physics/contacts/impact.hpp"
 #include "oiler/physics/contacts/lift.hpp"
-#include "oiler/physics/contacts/may_meet.hpp"
+#include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/contacts/root.hpp"
-#include "oiler/physics/contacts/slide_end.hpp"
 #include "oiler/physics/contacts/support.hpp"
 
 namespace oiler {
@@ -34,29 +32,29 @@ enum class Landed {
 template <std::floating_point T, int Axes, class Body, class Report>
 class Landing {
 public:
-    using Surface = PlaneOf<T, Axes>;
-    using Vector = Vec<T, Axes>;
-    using Motion = State<T, Axes>;
-    using Bearing = Support<T, Axes>;
+    using Plane = PlaneOf<T, Axes>;
+    using Vec = oiler::Vec<T, Axes>;
+    using State = oiler::State<T, Axes>;
+    using Support = oiler::Support<T, Axes>;
 
-    Landing(std::span<const Surface> planes, T radius, Body& body, Report report)
+    Landing(std::span<const Plane> planes, T radius, Body& body, Report report)
         : planes_(planes), radius_(radius), body_(body), report_(report) {}
 
     /// Steps the state by `duration` s.
-    [[nodiscard]] Landed step(Motion& state, T duration) {
+    [[nodiscard]] Landed step(State& state, T duration) {
         duration_ = left_ = duration;
         const T speed = largest(body_.accelerate(state, T(0))) * duration;
         hidden_ = {8 * epsilon * speed, 8 * epsilon * speed * duration};
         lift(state);
-        for (const Surface& plane : planes_)
+        for (const Plane& plane : planes_)
             if (touches(plane, state) && leaving_speed(plane, state.v) <= speed_noise(state))
                 resting_ |= bit_of(plane);
         for (int events = 0; left_ > 0; ++events) {
             if (events == 2 * most_events) return Landed::unresolved;
             if (events >= most_events) stop_in_corner(state);
             if (bounce(state)) continue;
-            const Vector a = body_.accelerate(state, start_);
-            const auto support = Bearing::against(a, planes_, bearing_planes(state, a));
+            const Vec a = body_.accelerate(state, start_);
+            const auto support = Support::against(a, planes_, bearing_planes(state, a));
             if (support.empty()) {
                 take_off(~PlaneSet{0});
                 fly(state);
@@ -80,37 +78,36 @@ private:
     /// So many are followed nevertheless, where friction stops the body between them.
     static constexpr int most_followed = 64;
 
-    [[nodiscard]] T gap_noise(const Surface& plane, const Motion& state) const {
+    [[nodiscard]] T gap_noise(const Plane& plane, const State& state) const {
         return hidden_distance(plane, state, radius_, duration_) + hidden_.distance;
     }
-    [[nodiscard]] T speed_noise(const Motion& state) const {
+    [[nodiscard]] T speed_noise(const State& state) const {
         return hidden_speed(state.v) + hidden_.speed;
     }
-    [[nodiscard]] T gap_of(const Surface& plane, const Vector& x) const {
+    [[nodiscard]] T gap_of(const Plane& plane, const Vec& x) const {
         return gap(plane, x, radius_);
     }
-    [[nodiscard]] bool touches(const Surface& plane, const Motion& state) const {
+    [[nodiscard]] bool touches(const Plane& plane, const State& state) const {
         return gap_of(plane, state.x) <= gap_noise(plane, state);
     }
-    [[nodiscard]] std::size_t index_of(const Surface& plane) const {
+    [[nodiscard]] std::size_t index_of(const Plane& plane) const {
         return static_cast<std::size_t>(&plane - planes_.data());
     }
-    [[nodiscard]] PlaneSet bit_of(const Surface& plane) const {
+    [[nodiscard]] PlaneSet bit_of(const Plane& plane) const {
         return PlaneSet{1} << index_of(plane);
     }
-    void report(Meeting kind, const Surface& plane, T after_start, const Motion& state,
-                const Vector& before) {
+    void report(Meeting kind, const Plane& plane, T after_start, const State& state,
+                const Vec& before) {
         report_(ImpactOf<T, Axes>{kind, index_of(plane), after_start, state.x, before, state.v});
     }
 
     /// Moves a body that is below planes onto them.
-    void lift(Motion& state) {
+    void lift(State& state) {
         PlaneSet reported = 0;
         lift_onto(
-            planes_, state.x,
-            [&](const Surface& plane, const Vector& x) { return gap_of(plane, x); },
-            [&](const Surface& plane) { return gap_noise(plane, state); },
-            [&](const Surface& plane) {
+            planes_, state.x, [&](const Plane& plane, const Vec& x) { return gap_of(plane, x); },
+            [&](const Plane& plane) { return gap_noise(plane, state); },
+            [&](const Plane& plane) {
                 if ((reported & bit_of(plane)) == 0)
                     report(Meeting::lifted, plane, start_, state, state.v);
                 reported |= bit_of(plane);
@@ -119,11 +116,11 @@ private:
 
     /// The first part of what is left of the step.
     struct Leg {
-        Motion end;
+        State end;
         T tau;
     };
     /// Moves the body to the end of a leg, and returns its time.
-    T advance(Motion& state, const Leg& leg) {
+    T advance(State& state, const Leg& leg) {
         state = leg.end;
         start_ += leg.tau;
         left_ = leg.tau < left_ ? left_ - leg.tau : T(0);
@@ -139,7 +136,7 @@ private:
         resting_ &= ~from;
         rest_.reset();
     }
-    void report_rests(const Motion& state, const Bearing& support) {
+    void report_rests(const State& state, const Support& support) {
         for (std::size_t i = 0; i < support.size(); ++i) {
             const bool rested = (resting_ & bit_of(support[i])) != 0;
             if (!rested) report(Meeting::rest, support[i], start_, state, state.v);
@@ -149,46 +146,46 @@ private:
 
     /// The planes that may bear the body: those that it touches without leaving them, or leaves for
     /// flights lower than round-off shows.
-    [[nodiscard]] PlaneSet bearing_planes(const Motion& state, const Vector& a) const {
+    [[nodiscard]] PlaneSet bearing_planes(const State& state, const Vec& a) const {
         PlaneSet set = 0;
         PlaneSet left = 0;
-        for (const Surface& plane : planes_) {
+        for (const Plane& plane : planes_) {
             if (!touches(plane, state)) continue;
             const bool leaves = leaving_speed(plane, state.v) > speed_noise(state);
             (leaves ? left : set) |= bit_of(plane);
         }
         if (left == 0) return set;
-        const Vector pulled = Bearing::against(a, planes_, set).without_push(a);
-        for (const Surface& plane : planes_)
+        const Vec pulled = Support::against(a, planes_, set).without_push(a);
+        for (const Plane& plane : planes_)
             if ((left & bit_of(plane)) != 0 && is_hidden_flight(plane, state, pulled))
                 set |= bit_of(plane);
         return set;
     }
     /// Whether round-off hides the height of a flight off a plane under an acceleration.
-    [[nodiscard]] bool is_hidden_flight(const Surface& plane, const Motion& state,
-                                        const Vector& a) const {
+    [[nodiscard]] bool is_hidden_flight(const Plane& plane, const State& state,
+                                        const Vec& a) const {
         const T u = leaving_speed(plane, state.v);
         const T pull = -dot(plane.normal, a);
         return pull > 0 && u * u <= 2 * pull * gap_noise(plane, state);
     }
 
     /// Resolves the first impact on a plane that the body touches. Returns false if there is none.
-    bool bounce(Motion& state) {
-        for (const Surface& plane : planes_) {
+    bool bounce(State& state) {
+        for (const Plane& plane : planes_) {
             const T speed = -leaving_speed(plane, state.v);
             if (!(speed > speed_noise(state)) || !touches(plane, state)) continue;
-            const Vector before = state.v;
+            const Vec before = state.v;
             state.x -= plane.normal * gap_of(plane, state.x);
             met_ |= bit_of(plane);
             const T kept = plane.restitution * speed;
             take_off(bit_of(plane));
             if (++bounces_at_once_ > most_bounces_at_once) {
                 state.v =
-                    Bearing::against(before, planes_, touched_planes(state)).without_push(before);
+                    Support::against(before, planes_, touched_planes(state)).without_push(before);
                 report(Meeting::bounce, plane, start_, state, before);
                 return true;
             }
-            const Vector along = landed(plane, before, speed);
+            const Vec along = landed(plane, before, speed);
             state.v = pushed_off(plane, along, kept);
             report(Meeting::bounce, plane, start_, state, before);
             follow_bounce(plane, state, along, kept);
@@ -197,14 +194,14 @@ private:
         return false;
     }
     /// Puts a body that bounces between planes that bear it together onto all of them.
-    void stop_in_corner(Motion& state) {
-        const Vector a = body_.accelerate(state, start_);
-        const auto corner = Bearing::against(a, planes_, met_);
+    void stop_in_corner(State& state) {
+        const Vec a = body_.accelerate(state, start_);
+        const auto corner = Support::against(a, planes_, met_);
         if (corner.size() >= 2) rest_on(corner, state);
     }
-    [[nodiscard]] PlaneSet touched_planes(const Motion& state) const {
+    [[nodiscard]] PlaneSet touched_planes(const State& state) const {
         PlaneSet set = 0;
-        for (const Surface& plane : planes_)
+        for (const Plane& plane : planes_)
             if (touches(plane, state)) set |= bit_of(plane);
         return set;
     }
@@ -214,14 +211,14 @@ private:
     /// body slides with the velocity `along` that it had between landing and being pushed off:
     /// under constant forces, this gives the same velocity and place as all the flights, unless
     /// friction stops it in an impact.
-    void follow_bounce(const Surface& plane, Motion& state, const Vector& along, T kept) {
-        const Vector a = body_.accelerate(state, start_);
+    void follow_bounce(const Plane& plane, State& state, const Vec& along, T kept) {
+        const Vec a = body_.accelerate(state, start_);
         const PlaneSet others = bearing_planes(state, a) & ~bit_of(plane);
-        const T pull = -dot(plane.normal, Bearing::against(a, planes_, others).without_push(a));
+        const T pull = -dot(plane.normal, Support::against(a, planes_, others).without_push(a));
         if (!(pull > 0)) return;
         const T flight = 2 * kept / pull;
         const T lost = 1 - plane.restitution;
-        const auto bearing = Bearing::against(a, planes_, others | bit_of(plane));
+        const auto bearing = Support::against(a, planes_, others | bit_of(plane));
         if (is_stopped_between(plane, along, kept, bearing.without_push(a)) &&
             ++followed_ <= most_followed) {
             return;
@@ -233,31 +230,31 @@ private:
             report_rest(plane, state, bearing, a, T(0));
         } else if (flight < shortest_flight * left_) {
             // Without its normal speed, the body may rest on further planes, or go into one.
-            Motion sliding{state.x, along};
-            const auto carried = Bearing::against(a, planes_, bearing_planes(sliding, a));
+            State sliding{state.x, along};
+            const auto carried = Support::against(a, planes_, bearing_planes(sliding, a));
             if (!carried.has(plane) || enters_other(sliding, along, carried)) return;
             T tau = glide(sliding, carried);
-            if (sliding.v == Vector{} && left_ > 0) tau += glide(sliding, carried);
+            if (sliding.v == Vec{} && left_ > 0) tau += glide(sliding, carried);
             state = {sliding.x, pushed_off(plane, sliding.v, kept * (1 - tau * lost / flight))};
             settled_ = false;
         }
     }
     /// Whether friction stops the body in one of the impacts to come. From there on, it does not
     /// slide as with all the flights, because friction does not act between impacts.
-    [[nodiscard]] static bool is_stopped_between(const Surface& plane, const Vector& along, T kept,
-                                                 const Vector& pull) {
-        if (plane.friction == 0 || (along == Vector{} && pull == Vector{})) return false;
+    [[nodiscard]] static bool is_stopped_between(const Plane& plane, const Vec& along, T kept,
+                                                 const Vec& pull) {
+        if (plane.friction == 0 || (along == Vec{} && pull == Vec{})) return false;
         const T pushes = (1 + plane.restitution) * kept;
         return (1 - plane.restitution) * length(along) <= plane.friction * pushes;
     }
     /// The bounces of a body that slides end `after` s from now.
-    void report_rest(const Surface& plane, const Motion& state, const Bearing& bearing,
-                     const Vector& a, T after) {
+    void report_rest(const Plane& plane, const State& state, const Support& bearing, const Vec& a,
+                     T after) {
         const T speed = length(state.v);
-        Motion end = state;
+        State end = state;
         if (speed > 0) {
-            const Vector direction = state.v * (1 / speed);
-            const Vector slowing = bearing.without_push(a) - direction * bearing.grip(a);
+            const Vec direction = state.v * (1 / speed);
+            const Vec slowing = bearing.without_push(a) - direction * bearing.grip(a);
             const T rate = -dot(slowing, direction);
             const T tau = rate * after > speed ? speed / rate : after;
             end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
@@ -266,43 +263,42 @@ private:
         resting_ |= bit_of(plane);
     }
 
-    void fly(Motion& state) {
+    void fly(State& state) {
         const auto move = [&](T tau) { return body_.fly(state, start_, tau); };
         Leg leg{move(left_), left_};
-        for (const Surface& plane : planes_) end_at_impact(plane, state, leg, move);
+        for (const Plane& plane : planes_) end_at_impact(plane, state, leg, move);
         advance(state, leg);
     }
 
     /// Steps a body on the planes that bear it, and returns the time until that ends, s.
-    T glide(Motion& state, const Bearing& support) {
+    T glide(State& state, const Support& support) {
         rest_on(support, state);
-        const Vector a = body_.accelerate(state, start_);
+        const Vec a = body_.accelerate(state, start_);
         return sticks(support, state, a) ? stick(state, support) : slide(state, support, a);
     }
-    void rest_on(const Bearing& support, Motion& state) const {
+    void rest_on(const Support& support, State& state) const {
         const T noise = speed_noise(state);
         state.v = support.without_push(state.v);
         if (largest(state.v) <= noise) state.v = {};
-        state.x =
-            support.onto(state.x, [&](const Surface& plane) { return gap_of(plane, state.x); });
+        state.x = support.onto(state.x, [&](const Plane& plane) { return gap_of(plane, state.x); });
     }
     /// How much more than the pull along the planes friction could hold, m/s²; negative if it does
     /// not hold.
-    [[nodiscard]] static T surplus_of_grip(const Bearing& support, const Vector& a) {
+    [[nodiscard]] static T surplus_of_grip(const Support& support, const Vec& a) {
         return support.grip(a) + 4 * epsilon * largest(a) - length(support.without_push(a));
     }
-    [[nodiscard]] static bool sticks(const Bearing& support, const Motion& state, const Vector& a) {
-        return state.v == Vector{} && surplus_of_grip(support, a) >= 0;
+    [[nodiscard]] static bool sticks(const Support& support, const State& state, const Vec& a) {
+        return state.v == Vec{} && surplus_of_grip(support, a) >= 0;
     }
     /// Holds a body at rest until the forces let it slide or take it off.
-    T stick(Motion& state, const Bearing& support) {
+    T stick(State& state, const Support& support) {
         const T whole = left_;
         if (!body_.forces_change()) {
             settled_ = true;
             return advance(state, {state, whole});
         }
         const auto held = [&](T tau) {
-            const Vector a = body_.accelerate(state, start_ + tau);
+            const Vec a = body_.accelerate(state, start_ + tau);
             return std::min(surplus_of_grip(support, a), least_reaction(support, a));
         };
         const T at_end = held(whole);
@@ -312,37 +308,37 @@ private:
                 : narrow_bracket<T>(held, {0, whole}, std::max(held(0), T(0)), at_end, -1).after;
         return advance(state, {state, tau});
     }
-    [[nodiscard]] static T least_reaction(const Bearing& support, const Vector& a) {
-        const Vector reaction = support.reactions(a);
+    [[nodiscard]] static T least_reaction(const Support& support, const Vec& a) {
+        const Vec reaction = support.reactions(a);
         return *std::min_element(reaction.axis.begin(),
                                  reaction.axis.begin() + static_cast<int>(support.size()));
     }
 
     /// Whether a pull turns a velocity.
-    [[nodiscard]] static bool is_across(const Vector& v, const Vector& pull) {
+    [[nodiscard]] static bool is_across(const Vec& v, const Vec& pull) {
         const T square = dot(pull, pull);
         if (!(square > 0)) return false;
         return largest(v - pull * (dot(v, pull) / square)) > 64 * epsilon * largest(v);
     }
     /// Whether a velocity goes into a plane that the body touches and that does not bear it.
-    [[nodiscard]] bool enters_other(const Motion& state, const Vector& v,
-                                    const Bearing& support) const {
-        return std::any_of(planes_.begin(), planes_.end(), [&](const Surface& plane) {
+    [[nodiscard]] bool enters_other(const State& state, const Vec& v,
+                                    const Support& support) const {
+        return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
             return !support.has(plane) && touches(plane, state) &&
                    -leaving_speed(plane, v) > speed_noise(state);
         });
     }
-    T slide(Motion& state, const Bearing& support, const Vector& a) {
+    T slide(State& state, const Support& support, const Vec& a) {
         if (enters_other(state, state.v, support)) return 0;
-        const Vector pull = support.without_push(a);
-        const Vector direction = normalised(state.v == Vector{} ? pull : state.v);
+        const Vec pull = support.without_push(a);
+        const Vec direction = normalised(state.v == Vec{} ? pull : state.v);
         const T grip = support.grip(a);
         const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
         const Friction<T, Axes> friction{direction, free_to_turn && is_across(state.v, pull)};
         const auto move = [&](T tau) { return body_.slide(state, start_, tau, support, friction); };
-        if (free_to_turn && state.v != Vector{} && dot(pull, pull) < grip * grip)
+        if (free_to_turn && state.v != Vec{} && dot(pull, pull) < grip * grip)
             if (const auto end = slide_end(state.v, pull, grip); end.time <= left_) {
-                Leg leg{{state.x + end.way, Vector{}}, end.time};
+                Leg leg{{state.x + end.way, Vec{}}, end.time};
                 end_at_other_planes(state, support, leg, move);
                 return advance(state, leg);
             }
@@ -353,7 +349,7 @@ private:
         };
         end_where_negative(borne, least_reaction(support, a), leg, move);
         const auto speed = [&](T tau) { return dot(move(tau).v, direction); };
-        if (grip > 0 && state.v != Vector{} &&
+        if (grip > 0 && state.v != Vec{} &&
             end_where_negative(speed, dot(state.v, direction), leg, move)) {
             leg.end.v -= direction * dot(leg.end.v, direction);
             if (largest(leg.end.v) <= 64 * epsilon * largest(state.v)) leg.end.v = {};
@@ -361,8 +357,8 @@ private:
         return advance(state, leg);
     }
     template <class Move>
-    void end_at_other_planes(const Motion& state, const Bearing& support, Leg& leg, Move move) {
-        for (const Surface& plane : planes_)
+    void end_at_other_planes(const State& state, const Support& support, Leg& leg, Move move) {
+        for (const Plane& plane : planes_)
             if (!support.has(plane)) end_at_impact(plane, state, leg, move);
     }
     /// Ends the leg where a function of the time is first negative, if it is at the end.
@@ -376,7 +372,7 @@ private:
     }
 
     template <class Move>
-    void end_at_impact(const Surface& plane, const Motion& state, Leg& leg, Move move) {
+    void end_at_impact(const Plane& plane, const State& state, Leg& leg, Move move) {
         const auto bracket = impact(plane, state, leg, move);
         if (!bracket) return;
         leg = {move(bracket->before), bracket->before};
@@ -384,7 +380,7 @@ private:
     /// The time of the first impact on a plane within a leg, if there is one. A body that is above
     /// the plane at both ends may have been below it between them, where it turned.
     template <class Move>
-    [[nodiscard]] std::optional<Bracket<T>> impact(const Surface& plane, const Motion& state,
+    [[nodiscard]] std::optional<Bracket<T>> impact(const Plane& plane, const State& state,
                                                    const Leg& leg, Move move) const {
         const T noise = gap_noise(plane, state);
         const auto height = [&](T tau) { return gap_of(plane, move(tau).x); };
@@ -419,7 +415,7 @@ private:
         return between(0, start, lowest, h_lowest);
     }
 
-    std::span<const Surface> planes_;
+    std::span<const Plane> planes_;
     T radius_;
     Body& body_;
     Report report_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "oiler/physics/state.hpp"
 
@@ -65,6 +68,60 @@ template <std::floating_point T, int Axes>
 [[nodiscard]] Vec<T, Axes> pushed_off(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& along,
                                       T kept) {
     return braked(plane, along, kept) + plane.normal * kept;
+}
+
+/// What happened between a body and a plane.
+enum class Meeting {
+    bounce,
+    rest,   ///< the bounces have ended
+    lifted  ///< the body was below the plane, and was moved onto it
+};
+
+/// A meeting of a body with a plane, within a step.
+template <class T, int Axes>
+struct ImpactOf {
+    Meeting kind;
+    std::size_t plane;    ///< its index
+    T after_start;        ///< s, since the start of the step
+    Vec<T, Axes> x;       ///< m, of the body
+    Vec<T, Axes> before;  ///< m/s
+    Vec<T, Axes> after;   ///< m/s
+};
+
+/// The distance from a plane that round-off hides in a step of `duration` s, m.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T hidden_distance(const PlaneOf<T, Axes>& plane, const State<T, Axes>& state,
+                                T radius, T duration) {
+    return 8 * std::numeric_limits<T>::epsilon() *
+           (largest(state.x) + largest(state.v) * duration + std::abs(plane.offset) + radius);
+}
+/// The speed towards a plane that round-off hides, m/s.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T hidden_speed(const Vec<T, Axes>& v) {
+    return 8 * std::numeric_limits<T>::epsilon() * largest(v);
+}
+
+/// Whether a body that is above a plane at the start and at the end of `duration` s may have been
+/// below it between, where it turned: a tangent to its path passes through the plane. h are gaps,
+/// m, and u speeds away from the plane, m/s.
+template <std::floating_point T>
+[[nodiscard]] bool may_dip(T h_start, T u_start, T h_end, T u_end, T duration) {
+    return u_start < 0 && u_end > 0 &&
+           (h_start + u_start * duration < 0 || h_end - u_end * duration < 0);
+}
+
+/// Whether a body may have met a plane in a step of `duration` s that ignored it: the body ends
+/// below the plane, may have dipped below it, or began on or below it and did not leave it.
+template <std::floating_point T, int Axes>
+[[nodiscard]] bool may_meet(const PlaneOf<T, Axes>& plane, T radius, const State<T, Axes>& start,
+                            const State<T, Axes>& end, T duration) {
+    const T noise = hidden_distance(plane, start, radius, duration);
+    const T h = gap(plane, start.x, radius);
+    const T u = leaving_speed(plane, start.v);
+    const T h_end = gap(plane, end.x, radius);
+    const T u_end = leaving_speed(plane, end.v);
+    const bool began_on = h <= noise && (u <= hidden_speed(start.v) || h < -noise);
+    return h_end < 0 || began_on || may_dip(h, u, h_end, u_end, duration);
 }
 
 }  // namespace oiler

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
+#include <algorithm>
+#include <cmath>
 
-#include "oiler/physics/forces/direction.hpp"
-#include "oiler/physics/forces/jacobian.hpp"
-#include "oiler/physics/state.hpp"
+#include "oiler/physics/forces/force.hpp"
 
 namespace oiler {
 
@@ -19,9 +17,11 @@ struct AttractorForce {
     V gm{};                 ///< m³/s²
 
     static constexpr std::string_view name = "attractor";
+    static constexpr std::string_view plural = "attractors";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(&AttractorForce::centre, &AttractorForce::gm);
+        return std::tuple(KeyedField{"position", &AttractorForce::centre},
+                          KeyedField{"gm", &AttractorForce::gm});
     }
     constexpr AttractorForce per_unit_mass(V) const { return *this; }
 
@@ -45,6 +45,22 @@ struct AttractorForce {
     }
     constexpr V potential(const State<V, Axes>& state) const {
         return -quotient_of_nonzero(gm, Direction<V, Axes>(state.x - centre).length);
+    }
+    /// The angular speed of a circular orbit at the distance of closest approach. A body that falls
+    /// straight in passes the attractor arbitrarily fast; its orbit is bounded at 10⁻³ of the
+    /// distance.
+    V fastest(const State<V, Axes>& state) const {
+        constexpr V least = 1e-3;
+        const Vec<V, Axes> from = state.x - centre;
+        const V distance = length(from);
+        if (distance == 0 || gm == 0) return 0;
+        const V size = std::abs(gm);
+        const V along = dot(from, state.v);
+        const V area2 = distance * distance * squared_length(state.v) - along * along;
+        const V energy = squared_length(state.v) / 2 - size / distance;
+        const V e = std::sqrt(std::max(V(0), 1 + 2 * energy * area2 / (size * size)));
+        const V nearest = std::clamp(area2 / size / (1 + e), least * distance, distance);
+        return std::sqrt(size / nearest) / nearest;
     }
 };
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
-#include "oiler/physics/forces/direction.hpp"
-#include "oiler/physics/forces/jacobian.hpp"
+#include "oiler/physics/forces/force.hpp"
 #include "oiler/physics/response.hpp"
-#include "oiler/physics/state.hpp"
 
 namespace oiler {
 
@@ -22,10 +17,13 @@ struct CoilSpringForce {
     V rest_length{};        ///< L, m
 
     static constexpr std::string_view name = "coil_spring";
+    static constexpr std::string_view plural = "coil springs";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(&CoilSpringForce::anchor, &CoilSpringForce::stiffness,
-                          &CoilSpringForce::damping, &CoilSpringForce::rest_length);
+        return std::tuple(KeyedField{"anchor", &CoilSpringForce::anchor},
+                          KeyedField{"stiffness", &CoilSpringForce::stiffness},
+                          KeyedField{"damping", &CoilSpringForce::damping},
+                          KeyedField{"rest_length", &CoilSpringForce::rest_length});
     }
     constexpr CoilSpringForce per_unit_mass(V mass) const {
         return {anchor, stiffness / mass, damping / mass, rest_length};
@@ -61,6 +59,7 @@ struct CoilSpringForce {
         const V tension = stiffness * (rest_length * d.inverse_length - V(1));
         return {across * tension - along * stiffness - turning * damping, along * -damping};
     }
+    constexpr CoilSpringForce line_spring() const { return *this; }
     constexpr V potential(const State<V, Axes>& state) const {
         const V stretch = Direction<V, Axes>(state.x - anchor).length - rest_length;
         return V(0.5) * stiffness * stretch * stretch;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
+#include <cmath>
+#include <numbers>
 
 #include "oiler/math/sine.hpp"
-#include "oiler/physics/forces/jacobian.hpp"
-#include "oiler/physics/state.hpp"
+#include "oiler/physics/forces/force.hpp"
 
 namespace oiler {
 
@@ -18,10 +17,13 @@ struct DriveForce {
     V phase{};                 ///< φ, rad
 
     static constexpr std::string_view name = "drive";
+    static constexpr std::string_view plural = "drives";
     static constexpr bool everywhere = false;
     static constexpr bool depends_on_time = true;
     static constexpr auto fields() {
-        return std::tuple(&DriveForce::amplitude, &DriveForce::frequency, &DriveForce::phase);
+        return std::tuple(KeyedField{"amplitude", &DriveForce::amplitude},
+                          KeyedField{"frequency", &DriveForce::frequency},
+                          KeyedField{"phase", &DriveForce::phase});
     }
     constexpr DriveForce per_unit_mass(V mass) const {
         return {amplitude * (V(1) / mass), frequency, phase};
@@ -37,7 +39,10 @@ struct DriveForce {
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>&) const { return {}; }
     /// 0: a force that depends on time has no potential.
     constexpr V potential(const State<V, Axes>&) const { return V(0); }
-    friend constexpr bool operator==(const DriveForce&, const DriveForce&) = default;
+    V fastest(const State<V, Axes>&) const {
+        if (!(squared_length(amplitude) > 0)) return 0;
+        return 2 * std::numbers::pi_v<V> * std::abs(frequency);
+    }
 
 private:
     static constexpr long double per_radian = 0.159154943091895335768883763372514362L;

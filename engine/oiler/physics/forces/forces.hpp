@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <type_traits>
 
 #include "oiler/physics/forces/attractor.hpp"
@@ -20,15 +19,19 @@ namespace oiler {
 // A force is one type: its numbers and its physics. A user gives the numbers in the units of the
 // fields. The columns hold the force per unit mass, so that a step loads no mass.
 //
-// Every force has: `name`; `everywhere`, whether all bodies share one; `fields()`, its numbers in
-// the order of the columns; `per_unit_mass(m)`.
+// Every force has: `name` and `plural`; `everywhere`, whether all bodies share one; `fields()`, its
+// numbers in the order of the columns, each with its key in scene files; `per_unit_mass(m)`.
 //
 // A force that is linear in position and velocity has `linear_fields()`, and needs nothing else.
 // Every other force has `accelerate(state, t)` in m/s²; `jacobian(state)`; `potential(state)` in
-// J/kg; and one or both of
+// J/kg; one or both of
 // - `field(x, t)`, the part of the acceleration that depends on position and time alone;
 // - `damp(state, number)`, the exact flow of the part that depends on velocity, at a fixed
-//   position. `prepare_damping(tau)` returns its number for tau s.
+//   position. `prepare_damping(tau)` returns its number for tau s;
+// and, because it limits the timestep, one of
+// - `line_spring()`, its spring and damper along the line to an anchor, a CoilSpringForce;
+// - `air_drag()`, its quadratic drag, an AirDrag;
+// - `fastest(state)`, the largest angular frequency of its motion from a state in double on, rad/s.
 // `depends_on_time` marks a field that depends on t, in s.
 
 /// All forces. Accelerations are summed in this order, after that of the linear forces.
@@ -56,6 +59,14 @@ using Attractor = AttractorForce<double, 3>;
 using Wind = WindForce<double, 3>;
 using Drive = DriveForce<double, 3>;
 
+/// Calls `f` with each field of a force.
+template <class Force, class F>
+[[gnu::always_inline]] constexpr void for_each_field(F f) {
+    constexpr auto fields = Force::fields();
+    std::apply(
+        [&](const auto&... field) __attribute__((always_inline)) { (f(field), ...); }, fields);
+}
+
 /// Calls `f` with each number of a force in the order of its fields; vectors axis by axis.
 template <class Force, class F>
 [[gnu::always_inline]] constexpr void for_each_number(Force& force, F f) {
@@ -65,7 +76,8 @@ template <class Force, class F>
         else
             f(field);
     };
-    std::apply([&](auto... member) { (visit(force.*member), ...); }, Force::fields());
+    for_each_field<Force>([&](const auto& field)
+                              __attribute__((always_inline)) { visit(force.*field.member); });
 }
 
 /// The number of numbers in a force.
@@ -85,6 +97,28 @@ template <class Force, class State, class V>
 concept Damps = requires(const Force& force, State& state, const V& number) {
     force.damp(state, number);
 };
+
+/// A force with a spring and a damper along a line.
+template <class Force>
+concept LineSpring = requires(const Force& force) {
+    force.line_spring();
+};
+
+/// A force with quadratic drag.
+template <class Force>
+concept DragsInAir = requires(const Force& force) {
+    force.air_drag();
+};
+
+/// Whether all numbers of two forces are equal.
+template <class Force>
+requires requires { Force::fields(); }
+[[nodiscard]] constexpr bool operator==(const Force& a, const Force& b) {
+    bool equal = true;
+    for_each_field<Force>(
+        [&](const auto& field) { equal = equal && a.*field.member == b.*field.member; });
+    return equal;
+}
 
 /// Whether a force has any number other than 0.
 template <class Force>

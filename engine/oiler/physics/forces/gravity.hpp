@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
 #include "oiler/physics/forces/linear_force.hpp"
 
 namespace oiler {
@@ -14,8 +11,11 @@ struct GravityForce {
     Vec<V, Axes> acceleration{};  ///< m/s²
 
     static constexpr std::string_view name = "gravity";
+    static constexpr std::string_view plural = "gravity";
     static constexpr bool everywhere = true;
-    static constexpr auto fields() { return std::tuple(&GravityForce::acceleration); }
+    static constexpr auto fields() {
+        return std::tuple(KeyedField{"acceleration", &GravityForce::acceleration});
+    }
     static constexpr auto linear_fields() {
         return LinearFields{&GravityForce::acceleration, Absent{}, Absent{}, Absent{}};
     }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
 #include "oiler/physics/forces/linear_force.hpp"
 
 namespace oiler {
@@ -14,8 +11,11 @@ struct LinearDragForce {
     V coefficient{};  ///< b, N·s/m
 
     static constexpr std::string_view name = "linear_drag";
+    static constexpr std::string_view plural = "linear drag";
     static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&LinearDragForce::coefficient); }
+    static constexpr auto fields() {
+        return std::tuple(KeyedField{"linear_drag", &LinearDragForce::coefficient});
+    }
     static constexpr auto linear_fields() {
         return LinearFields{Absent{}, Absent{}, Absent{}, &LinearDragForce::coefficient};
     }

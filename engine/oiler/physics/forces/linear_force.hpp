@@ -3,8 +3,7 @@
 
 #include <type_traits>
 
-#include "oiler/physics/forces/jacobian.hpp"
-#include "oiler/physics/state.hpp"
+#include "oiler/physics/forces/force.hpp"
 
 namespace oiler {
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
-#include "oiler/physics/forces/jacobian.hpp"
-#include "oiler/physics/state.hpp"
+#include "oiler/physics/forces/force.hpp"
 
 namespace oiler {
 
@@ -16,8 +12,11 @@ struct QuadraticDragForce {
     V coefficient{};  ///< c, N·s²/m²
 
     static constexpr std::string_view name = "quadratic_drag";
+    static constexpr std::string_view plural = "quadratic drag";
     static constexpr bool everywhere = false;
-    static constexpr auto fields() { return std::tuple(&QuadraticDragForce::coefficient); }
+    static constexpr auto fields() {
+        return std::tuple(KeyedField{"quadratic_drag", &QuadraticDragForce::coefficient});
+    }
     constexpr QuadraticDragForce per_unit_mass(V mass) const { return {coefficient / mass}; }
 
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
@@ -42,6 +41,7 @@ struct QuadraticDragForce {
                 Matrix<V, Axes>::scalar(-coefficient * speed) +
                     Matrix<V, Axes>::outer(direction, state.v * -coefficient)};
     }
+    constexpr AirDrag<V, Axes> air_drag() const { return {coefficient, {}}; }
     constexpr V potential(const State<V, Axes>&) const { return V(0); }
 };
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
 #include "oiler/physics/forces/linear_force.hpp"
 
 namespace oiler {
@@ -16,9 +13,12 @@ struct SpringForce {
     V damping{};            ///< b, N·s/m
 
     static constexpr std::string_view name = "spring";
+    static constexpr std::string_view plural = "springs";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(&SpringForce::anchor, &SpringForce::stiffness, &SpringForce::damping);
+        return std::tuple(KeyedField{"anchor", &SpringForce::anchor},
+                          KeyedField{"stiffness", &SpringForce::stiffness},
+                          KeyedField{"damping", &SpringForce::damping});
     }
     static constexpr auto linear_fields() {
         return LinearFields{Absent{}, &SpringForce::anchor, &SpringForce::stiffness,

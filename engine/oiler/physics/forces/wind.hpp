@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
-#include <tuple>
-
 #include "oiler/physics/forces/quadratic_drag.hpp"
 
 namespace oiler {
@@ -15,9 +12,11 @@ struct WindForce {
     V coefficient{};          ///< c, N·s²/m²
 
     static constexpr std::string_view name = "wind";
+    static constexpr std::string_view plural = "wind";
     static constexpr bool everywhere = false;
     static constexpr auto fields() {
-        return std::tuple(&WindForce::velocity, &WindForce::coefficient);
+        return std::tuple(KeyedField{"velocity", &WindForce::velocity},
+                          KeyedField{"drag", &WindForce::coefficient});
     }
     constexpr WindForce per_unit_mass(V mass) const { return {velocity, coefficient / mass}; }
 
@@ -35,8 +34,8 @@ struct WindForce {
     constexpr Jacobian<V, Axes> jacobian(const State<V, Axes>& state) const {
         return drag().jacobian(in_air(state));
     }
+    constexpr AirDrag<V, Axes> air_drag() const { return {coefficient, velocity}; }
     constexpr V potential(const State<V, Axes>&) const { return V(0); }
-    friend constexpr bool operator==(const WindForce&, const WindForce&) = default;
 
 private:
     [[gnu::always_inline]] constexpr QuadraticDragForce<V, Axes> drag() const {

@@ -378,6 +378,12 @@ const Method& find_method(std::string_view name) {
 
 std::string_view name_of(Damping damping) { return damping == Damping::in_kick ? "kick" : "drift"; }
 
+std::optional<Damping> find_damping(std::string_view name) {
+    for (const Damping damping : {Damping::in_kick, Damping::in_drift})
+        if (name_of(damping) == name) return damping;
+    return std::nullopt;
+}
+
 int evaluations_with(const Method& method, Damping damping) {
     const auto* const splitting = std::get_if<Splitting>(&method.rule);
     const bool shares = splitting && splitting->stages().front().move == Move::kick &&

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -81,6 +82,8 @@ enum class Damping {
 
 /// "kick" or "drift", as in the options.
 [[nodiscard]] std::string_view name_of(Damping damping);
+/// The damping of such a name; empty if there is none.
+[[nodiscard]] std::optional<Damping> find_damping(std::string_view name);
 
 /// The order of a method whose only error is round-off.
 inline constexpr int exact_order = std::numeric_limits<int>::max();

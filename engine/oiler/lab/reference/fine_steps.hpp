@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "oiler/lab/reference/reference.hpp"
+#include "oiler/lab/reference/sampled_motion.hpp"
+
+namespace oiler::lab {
+
+/// A reference is usable while it resolves errors of this fraction of its extent.
+inline constexpr double resolution = 1e-3;
+
+/// A run in steps so fine that their own error is known. Uncertainties of energies are in J. Empty
+/// if no run was finite or too few were affordable.
+struct FineSteps {
+    Trajectory trajectory{};
+    std::vector<Uncertainty> uncertainties{};
+    std::string words{};
+    Trajectory finest_run{};  ///< from which the trajectory was extrapolated
+    Stepping stepping{};      ///< of the finest run
+    bool sufficient = false;  ///< whether the error at the end is no more than the wanted one
+    bool affordable = false;  ///< whether the coarsest run was within the work limit
+    /// They do with order 1, so that the error falls slowly.
+    bool linked_bodies_land = false;
+};
+
+/// Halves the step until the Romberg extrapolation changes by no more than the wanted error. Stops
+/// earlier if the work limit is reached or if two halvings in a row bring no improvement. Steps in
+/// double are tried before long double if a wanted error is given.
+[[nodiscard]] FineSteps fine_steps(const Scene& scene, const Perturbation& start,
+                                   const SampleTimes& samples, const ReferenceEffort& effort);
+
+/// The largest number of samples for which fine steps can afford the fewest runs.
+[[nodiscard]] double most_samples(const Scene& scene, const ReferenceEffort& effort);
+
+}  // namespace oiler::lab

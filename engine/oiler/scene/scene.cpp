@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oiler {
+
+std::vector<GridLink> links_of(const SceneGrid& grid) {
+    const double length = grid.rest_length.value_or(grid.spacing);
+    const Link along{grid.stiffness, grid.damping, length};
+    const Link across{grid.stiffness, grid.damping, length * std::sqrt(2.0)};
+    std::vector<GridLink> links{{1, 0, along}, {0, 1, along}};
+    if (grid.diagonals) links.insert(links.end(), {{1, 1, across}, {-1, 1, across}});
+    return links;
+}
+
+Vec3 node_position(const SceneGrid& grid, std::int64_t column, std::int64_t row) {
+    Vec3 position = grid.origin;
+    position[0] += static_cast<double>(column) * grid.spacing;
+    if (row > 0) position[1] += static_cast<double>(row) * grid.spacing;
+    return position;
+}
+
+std::optional<std::size_t> node_at(const SceneGrid& grid, std::int64_t column, std::int64_t row) {
+    if (column < 0 || row < 0 || column >= grid.count[0] || row >= grid.count[1])
+        return std::nullopt;
+    return static_cast<std::size_t>(row * grid.count[0] + column);
+}
+
+std::vector<std::size_t> anchored_nodes(const SceneGrid& grid) {
+    std::vector<std::size_t> nodes;
+    const std::int64_t step =
+        grid.hang == Hang::corners ? std::max<std::int64_t>(1, grid.count[0] - 1) : 1;
+    for (std::int64_t column = 0; grid.hang != Hang::none && column < grid.count[0]; column += step)
+        nodes.push_back(*node_at(grid, column, grid.count[1] - 1));
+    return nodes;
+}
+
+}  // namespace oiler

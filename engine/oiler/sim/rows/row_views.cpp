@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/sim/rows/row_views.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "oiler/core/error.hpp"
+#include "oiler/physics/response.hpp"
+
+namespace oiler {
+namespace {
+
+/// The index of a field's first number among the numbers of its force.
+template <class Force, class Field>
+constexpr std::size_t offset_of(Field field) {
+    std::size_t offset = 0;
+    bool found = false;
+    const auto visit = [&]<class Other>(Other other) {
+        if constexpr (std::is_same_v<Field, Other>) found = found || other == field;
+        if (found) return;
+        Force force{};
+        if constexpr (requires { (force.*other).axis; })
+            offset += (force.*other).axis.size();
+        else
+            ++offset;
+    };
+    for_each_field<Force>([&](const auto& other) { visit(other.member); });
+    return offset;
+}
+
+template <class T>
+bool is_zero(const Parameter<T>& number) {
+    return number.shared() && number[0] == 0;
+}
+
+/// Collects which columns hold the numbers of the linear forces.
+template <class T, int Axes>
+class Collector {
+public:
+    explicit Collector(const Columns<T, Axes>& columns) {
+        for_each_index<force_count>([&](auto kind) {
+            using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
+            if constexpr (Linear<Force>)
+                for (const auto& numbers : std::get<kind>(columns.forces))
+                    add<Force>(numbers, kind_bit<Force, T, Axes>);
+        });
+    }
+
+    [[nodiscard]] const LinearColumns<T, Axes>& columns() const { return columns_; }
+    /// Whether a number is the sum of several columns.
+    [[nodiscard]] bool needs_sums() const { return needs_sums_; }
+
+private:
+    template <class Force, class Numbers>
+    void add(const Numbers& numbers, Kinds kind) {
+        constexpr auto fields = Force::linear_fields();
+        using Parts = typename decltype(fields)::Parts;
+        for (std::size_t i = 0; i < Axes; ++i) {
+            if constexpr (Parts::constant)
+                add(numbers[offset_of<Force>(fields.constant) + i], columns_.axis[i].constant);
+            if constexpr (Parts::spring) {
+                const bool acts =
+                    add(numbers[offset_of<Force>(fields.stiffness)], columns_.axis[i].stiffness);
+                if (acts)
+                    columns_.axis[i].centre =
+                        NumberView<T>(numbers[offset_of<Force>(fields.centre) + i]);
+                columns_.axis[i].spring_kinds |= kind;
+            }
+            if constexpr (Parts::damping) {
+                add(numbers[offset_of<Force>(fields.damping)], columns_.axis[i].damping);
+                columns_.axis[i].damping_kinds |= kind;
+            }
+        }
+    }
+    bool add(const Parameter<T>& number, NumberView<T>& to) {
+        if (is_zero(number)) return false;
+        needs_sums_ = needs_sums_ || to;
+        to = NumberView<T>(number);
+        return true;
+    }
+
+    LinearColumns<T, Axes> columns_;
+    bool needs_sums_ = false;
+};
+
+template <class T>
+NumberView<T> view_of(const Parameter<T>& number) {
+    return is_zero(number) ? NumberView<T>() : NumberView<T>(number);
+}
+
+/// Sums are rounded to T once.
+template <class T>
+using SumOf = std::conditional_t<std::is_same_v<T, float>, double, T>;
+
+template <class T, int Axes>
+void fill_sums(LinearSums<T, Axes>& sums, const Columns<T, Axes>& columns) {
+    using Sum = SumOf<T>;
+    sums = {};
+    for (std::size_t row = 0; row < columns.size; ++row) {
+        LinearForce<Sum, Axes> sum;
+        for_each_force<Sum>(columns, row, [&]<class Force>(const Force& force) {
+            if constexpr (Linear<Force>) sum = sum + linear_form(force);
+        });
+        for (std::size_t i = 0; i < Axes; ++i) {
+            sums.constant[i].push(static_cast<T>(sum.constant.axis[i]));
+            sums.centre[i].push(static_cast<T>(sum.centre.axis[i]));
+        }
+        sums.stiffness.push(static_cast<T>(sum.stiffness));
+        sums.damping.push(static_cast<T>(sum.damping));
+    }
+    sums.valid = true;
+}
+
+/// The linear forces of the columns. Numbers that several forces share are the sums of the columns
+/// or, if those are not valid, `sums`, which are filled then.
+template <class T, int Axes>
+LinearColumns<T, Axes> linear_columns(const Columns<T, Axes>& columns, LinearSums<T, Axes>& sums) {
+    const Collector<T, Axes> collected(columns);
+    LinearColumns<T, Axes> linear = collected.columns();
+    const bool valid = columns.linear_sums.valid;
+    if (collected.needs_sums() && !valid) fill_sums(sums, columns);
+    const LinearSums<T, Axes>& of = valid ? columns.linear_sums : sums;
+    for (std::size_t i = 0; i < Axes; ++i) {
+        LinearAxis<T>& axis = linear.axis[i];
+        if (collected.needs_sums()) {
+            axis.constant = view_of(of.constant[i]);
+            axis.centre = NumberView<T>(of.centre[i]);
+            axis.stiffness = view_of(of.stiffness);
+            axis.damping = view_of(of.damping);
+        }
+        if (!columns.applied.empty()) axis.applied = NumberView<T>(columns.applied.acceleration[i]);
+    }
+    return linear;
+}
+
+template <class T>
+struct Oscillator {
+    T k;  // 1/s²
+    T c;  // 1/s
+    auto operator<=>(const Oscillator&) const = default;
+};
+
+/// The oscillator of row `row`, the same along all axes; `k` is 0 unless springs belong to the
+/// flow.
+template <class T>
+Oscillator<T> oscillator_of(const LinearAxis<T>& forces, std::size_t row, bool with_springs) {
+    return {with_springs && forces.stiffness ? forces.stiffness.template at<T>(row) : T(0),
+            forces.damping ? forces.damping.template at<T>(row) : T(0)};
+}
+
+/// Whether all rows have the same oscillator.
+template <class T>
+bool rows_agree(const LinearAxis<T>& forces, bool with_springs) {
+    return (!with_springs || forces.stiffness.is_shared()) && forces.damping.is_shared();
+}
+
+template <class T>
+void require_finite(const Response<T>& response, const Oscillator<T>& of, T duration) {
+    if (std::isfinite(response.reach) && std::isfinite(response.decay)) return;
+    fail(Exit::usage,
+         "damping of {} 1/s overflows over {} s{}; take a higher rate, or implicit_euler", of.c,
+         duration, duration < 0 ? ", a backward drift of the method" : "");
+}
+
+template <class T>
+Response<T> response_of(const Oscillator<T>& oscillator, T duration) {
+    const auto response = oscillator_response(oscillator.k, oscillator.c, duration);
+    require_finite(response, oscillator, duration);
+    return response;
+}
+
+/// The responses of `rows` rows; each distinct one is computed once.
+template <class T>
+FlowColumns<T> flow_columns(const LinearAxis<T>& forces, std::size_t rows, T duration,
+                            bool with_springs) {
+    const auto first = oscillator_of(forces, 0, with_springs);
+    if (rows_agree(forces, with_springs)) {
+        const Response<T> response = response_of(first, duration);
+        return {{response.reach, rows}, {response.sway, rows}, {response.decay, rows}};
+    }
+    FlowColumns<T> flow;
+    std::map<Oscillator<T>, Response<T>> known;
+    for (std::size_t row = 0; row < rows; ++row) {
+        const Oscillator<T> oscillator = oscillator_of(forces, row, with_springs);
+        auto at = known.find(oscillator);
+        if (at == known.end())
+            at = known.emplace(oscillator, response_of(oscillator, duration)).first;
+        flow.reach.push(at->second.reach);
+        flow.sway.push(at->second.sway);
+        flow.decay.push(at->second.decay);
+    }
+    return flow;
+}
+
+/// The numbers of prepare_damping over `duration`, for each kind and force.
+template <class T, int Axes>
+auto damping_numbers(const Columns<T, Axes>& columns, T duration) {
+    std::array<std::vector<Parameter<T>>, force_count> all;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
+        if constexpr (Damps<Force, State<T, Axes>, T>)
+            for (std::size_t index = 0; index < std::get<kind>(columns.forces).size(); ++index) {
+                Parameter<T>& numbers = all[kind].emplace_back();
+                for (std::size_t row = 0; row < columns.size; ++row)
+                    numbers.push(force_at<Force, T>(columns, index, row).prepare_damping(duration));
+            }
+    });
+    return all;
+}
+
+/// The durations (s) over which steps with a plan use exact flows; empty for plans that use none.
+template <class T>
+std::span<const T> durations_of(const Plan<T>& plan) {
+    if (const auto* exact = std::get_if<ExactPlan<T>>(&plan)) return {&exact->dt, 1};
+    const auto* split = std::get_if<SplittingPlan<T>>(&plan);
+    if (!split || split->damping == Damping::in_kick) return {};
+    return {split->drifts.data(), split->drift_count};
+}
+
+template <class T>
+bool has_springs_in_flows(const Plan<T>& plan) {
+    return std::holds_alternative<ExactPlan<T>>(plan);
+}
+
+/// Fills the flows of the columns with those of the plan, unless they are valid: one response per
+/// distinct damping (and stiffness) and duration.
+template <class T, int Axes>
+void fill_flows(Columns<T, Axes>& columns, const LinearAxis<T>& forces, const Plan<T>& plan) {
+    const std::span<const T> durations = durations_of(plan);
+    if (durations.empty()) return;
+    const auto* split = std::get_if<SplittingPlan<T>>(&plan);
+    const T half_step = split ? split->half_step : T(0);
+    Flows<T>& flows = columns.flows;
+    if (flows.valid && std::ranges::equal(flows.durations, durations) &&
+        flows.half_step == half_step)
+        return;
+    Flows<T> filled;
+    filled.durations = {durations.begin(), durations.end()};
+    filled.half_step = half_step;
+    const bool with_springs = has_springs_in_flows(plan);
+    if (with_springs || forces.damping)
+        for (const T duration : durations)
+            filled.of.push_back(flow_columns(forces, columns.size, duration, with_springs));
+    if (half_step != 0) filled.damping_numbers = damping_numbers(columns, half_step);
+    filled.valid = true;
+    flows = std::move(filled);
+}
+
+/// Whether a response is finite for certain: all products in it are small.
+template <class T>
+bool stays_finite(const Oscillator<T>& of, T duration) {
+    constexpr T largest = 1e30F;
+    return std::abs(of.c) < largest && std::abs(of.k) < largest && std::abs(duration) < largest &&
+           std::abs(of.c * duration) < 1 && std::abs(of.k * duration * duration) < 1;
+}
+
+template <class Stored, class T, class Views>
+void view_others(const Stored& stored, const std::vector<Parameter<T>>& damping_numbers,
+                 Views& views) {
+    views.resize(stored.size());
+    for (std::size_t index = 0; index < stored.size(); ++index) {
+        for (std::size_t i = 0; i < stored[index].size(); ++i)
+            views[index].numbers[i] = NumberView<T>(stored[index][i]);
+        if (index < damping_numbers.size())
+            views[index].damping_number = NumberView<T>(damping_numbers[index]);
+    }
+}
+
+}  // namespace
+
+template <std::floating_point T, int Axes>
+RowViews<T, Axes>::RowViews(Columns<T, Axes>& columns, const Plan<T>& plan)
+    : linear_(linear_columns(columns, columns.linear_sums)), others_(columns.views) {
+    fill_flows(columns, linear_.axis[0], plan);
+    for (std::size_t i = 0; i < columns.flows.of.size(); ++i) {
+        const FlowColumns<T>& flow = columns.flows.of[i];
+        flows_[i] = {NumberView<T>(flow.reach), NumberView<T>(flow.sway),
+                     NumberView<T>(flow.decay)};
+    }
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
+        if constexpr (!Linear<Force>)
+            view_others(std::get<kind>(columns.forces), columns.flows.damping_numbers[kind],
+                        std::get<kind>(columns.views));
+    });
+}
+
+template <std::floating_point T, int Axes>
+void require_flows(const Columns<T, Axes>& columns, const Plan<T>& plan) {
+    const std::span<const T> durations = durations_of(plan);
+    if (durations.empty()) return;
+    LinearSums<T, Axes> sums;
+    const LinearAxis<T> forces = linear_columns(columns, sums).axis[0];
+    const bool with_springs = has_springs_in_flows(plan);
+    if (!with_springs && !forces.damping) return;
+    const std::size_t rows = rows_agree(forces, with_springs) ? 1 : columns.size;
+    for (const T duration : durations)
+        for (std::size_t row = 0; row < rows; ++row) {
+            const Oscillator<T> oscillator = oscillator_of(forces, row, with_springs);
+            if (!stays_finite(oscillator, duration)) response_of(oscillator, duration);
+        }
+}
+
+template class RowViews<float, 1>;
+template class RowViews<float, 2>;
+template class RowViews<float, 3>;
+template class RowViews<double, 1>;
+template class RowViews<double, 2>;
+template class RowViews<double, 3>;
+template class RowViews<long double, 1>;
+template class RowViews<long double, 2>;
+template class RowViews<long double, 3>;
+
+template void require_flows(const Columns<float, 1>&, const Plan<float>&);
+template void require_flows(const Columns<float, 2>&, const Plan<float>&);
+template void require_flows(const Columns<float, 3>&, const Plan<float>&);
+template void require_flows(const Columns<double, 1>&, const Plan<double>&);
+template void require_flows(const Columns<double, 2>&, const Plan<double>&);
+template void require_flows(const Columns<double, 3>&, const Plan<double>&);
+template void require_flows(const Columns<long double, 1>&, const Plan<long double>&);
+template void require_flows(const Columns<long double, 2>&, const Plan<long double>&);
+template void require_flows(const Columns<long double, 3>&, const Plan<long double>&);
+
+}  // namespace oiler

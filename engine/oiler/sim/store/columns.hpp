@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "oiler/physics/advance.hpp"
+#include "oiler/physics/forces/forces.hpp"
+#include "oiler/physics/plan.hpp"
+#include "oiler/physics/rate.hpp"
+#include "oiler/physics/state.hpp"
+#include "oiler/sim/store/column.hpp"
+#include "oiler/sim/store/contacts.hpp"
+#include "oiler/sim/store/links.hpp"
+
+namespace oiler {
+
+/// One vector per row.
+template <class T, int Axes>
+using VecColumns = std::array<Column<T>, Axes>;
+
+template <class T, std::size_t Axes>
+[[nodiscard]] T largest(const std::array<Column<T>, Axes>& columns) {
+    T size = 0;
+    for (const Column<T>& column : columns)
+        for (std::size_t row = 0; row < column.size(); ++row)
+            size = larger(size, std::abs(column[row]));
+    return size;
+}
+
+/// The states of all rows: the numbers that a step changes.
+template <std::floating_point T, int Axes>
+struct MotionColumns {
+    VecColumns<T, Axes> x{generate<Axes>([](auto i) { return Column<T>(i); })};         ///< m
+    VecColumns<T, Axes> v{generate<Axes>([](auto i) { return Column<T>(Axes + i); })};  ///< m/s
+};
+
+template <class T, int Axes>
+void clear_padding(MotionColumns<T, Axes>& motion) {
+    for (auto* vector : {&motion.x, &motion.v})
+        for (Column<T>& column : *vector) column.clear_padding();
+}
+
+template <Number V, std::floating_point T>
+[[gnu::always_inline]] inline V load(const Column<T>& column, std::size_t row) {
+    if constexpr (std::is_same_v<V, T>)
+        return column[row];
+    else
+        return V::load(column.data() + row);
+}
+template <Number V, std::floating_point T>
+[[gnu::always_inline]] inline void store(const V& value, Column<T>& column, std::size_t row) {
+    if constexpr (std::is_same_v<V, T>)
+        column[row] = value;
+    else
+        value.store(column.data() + row);
+}
+
+template <Number V, class T, std::size_t Axes>
+[[gnu::always_inline]] inline Vec<V, int{Axes}> load(const std::array<Column<T>, Axes>& columns,
+                                                     std::size_t row) {
+    return {generate<Axes>([&](auto i) { return load<V>(columns[i], row); })};
+}
+template <Number V, class T, std::size_t Axes, int A>
+[[gnu::always_inline]] inline void store(const Vec<V, A>& value,
+                                         std::array<Column<T>, Axes>& columns, std::size_t row) {
+    for_each_index<Axes>([&](auto i) { store(value.axis[i], columns[i], row); });
+}
+template <Number V, class T, int Axes>
+[[gnu::always_inline]] inline State<V, Axes> load(const MotionColumns<T, Axes>& motion,
+                                                  std::size_t row) {
+    return {load<V>(motion.x, row), load<V>(motion.v, row)};
+}
+template <Number V, class T, int Axes>
+[[gnu::always_inline]] inline void store(const State<V, Axes>& state,
+                                         MotionColumns<T, Axes>& motion, std::size_t row) {
+    store(state.x, motion.x, row);
+    store(state.v, motion.v, row);
+}
+
+/// The forces from outside over the next step, such as a thrust.
+template <std::floating_point T, int Axes>
+struct AppliedForces {
+    VecColumns<T, Axes> acceleration;  ///< m/s²; without rows until the first force
+    std::vector<std::size_t> rows;     ///< those on which a force was applied, perhaps twice
+
+    [[nodiscard]] bool empty() const { return rows.empty(); }
+    void add(std::size_t row, const Vec<T, Axes>& change, std::size_t row_count) {
+        for (std::size_t i = 0; i < Axes; ++i) {
+            while (acceleration[i].size() < row_count) acceleration[i].push(T(0));
+            acceleration[i][row] += change.axis[i];
+        }
+        rows.push_back(row);
+    }
+    /// The sum of the accelerations of a row, m/s².
+    [[nodiscard]] Vec<T, Axes> sum(std::size_t row) const {
+        if (row >= acceleration[0].size()) return {};
+        return {generate<Axes>([&](auto axis) { return acceleration[axis][row]; })};
+    }
+    void clear() {
+        for (const std::size_t row : rows)
+            for (Column<T>& column : acceleration) column[row] = T(0);
+        rows.clear();
+    }
+    void push_row() {
+        if (acceleration[0].size() > 0)
+            for (Column<T>& column : acceleration) column.push(T(0));
+    }
+    /// Removes `row`, to whose place row `last` moves.
+    void swap_remove(std::size_t row, std::size_t last) {
+        if (acceleration[0].size() > 0)
+            for (Column<T>& column : acceleration) column.swap_remove(row);
+        std::erase(rows, row);
+        std::replace(rows.begin(), rows.end(), last, row);
+    }
+};
+
+/// The numbers of one force for all rows.
+template <class Force, class T>
+using ForceColumns = std::array<Parameter<T>, number_count<Force>()>;
+
+template <class List, class T>
+struct ForceColumnsOf;
+template <class... Force, class T>
+struct ForceColumnsOf<std::tuple<Force...>, T> {
+    using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
+};
+
+/// Where the numbers of one force are, and its number of prepare_damping.
+template <class Force, class T>
+struct ForceView {
+    std::array<NumberView<T>, number_count<Force>()> numbers;
+    NumberView<T> damping_number;
+};
+
+template <class List, class T>
+struct ForceViewsOf;
+template <class... Force, class T>
+struct ForceViewsOf<std::tuple<Force...>, T> {
+    using type = std::tuple<std::vector<ForceView<Force, T>>...>;
+};
+
+/// The Response of each row over one duration.
+template <class T>
+struct FlowColumns {
+    Parameter<T> reach;
+    Parameter<T> sway;
+    Parameter<T> decay;
+};
+
+/// The exact flows of a plan, computed once for all its steps.
+template <class T>
+struct Flows {
+    bool valid = false;
+    std::vector<T> durations;        ///< s
+    std::vector<FlowColumns<T>> of;  ///< per duration; empty without damping
+    T half_step = 0;                 ///< s
+    /// The numbers of prepare_damping over a half-step, per kind and force of that kind.
+    std::array<std::vector<Parameter<T>>, force_count> damping_numbers;
+};
+
+/// The sums of all linear forces on each row, for scenes where several forces share a number.
+template <class T, int Axes>
+struct LinearSums {
+    bool valid = false;
+    std::array<Parameter<T>, Axes> constant;
+    std::array<Parameter<T>, Axes> centre;
+    Parameter<T> stiffness;
+    Parameter<T> damping;
+};
+
+/// A set of kinds of force: a bit for each type in ForceList.
+using Kinds = std::uint16_t;
+static_assert(force_count <= 16);
+
+template <class Force, Number V, int Axes>
+inline constexpr std::size_t kind_index =
+    index_of<Force>(static_cast<ForceList<V, Axes>*>(nullptr));
+template <class Force, Number V, int Axes>
+inline constexpr Kinds kind_bit = static_cast<Kinds>(1U << kind_index<Force, V, Axes>);
+
+template <class T>
+class LinkSolver;
+
+/// The data that steps of linked rows reuse in the next step.
+template <class T, int Axes>
+struct LinkCache {
+    bool valid = false;  ///< false after a change of bodies, masses, forces or links
+    PreparedLinks<T> links;
+    PointLinks<T, Axes> point_links;
+    Stages<MotionColumns<T, Axes>> stages;        ///< scratch
+    VecColumns<T, Axes> acceleration;             ///< m/s², scratch
+    VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
+    MotionColumns<T, Axes> before;                ///< at the start of a step that may land
+    bool field_valid = false;                     ///< also false after a change of positions
+    std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
+    T solver_tau = 0;                             ///< s
+};
+
+/// The plan of the last step with a method of the list; most steps reuse it.
+template <class T>
+struct PlanCache {
+    const Method* method = nullptr;
+    Rate rate{};
+    Damping damping = Damping::in_kick;
+    Plan<T> plan = ExactPlan<T>{0};
+};
+
+/// All bodies of a world. Numbers that every step needs are in separate columns from those that it
+/// does not need (masses).
+template <std::floating_point T, int Axes>
+struct Columns {
+    std::size_t size = 0;
+    MotionColumns<T, Axes> motion;
+    Parameter<double> mass;  ///< kg
+    /// The number of forces of each kind is that of the body with the most.
+    typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
+    Parameter<Kinds> kinds;  ///< per row: those with any number other than 0
+    AppliedForces<T, Axes> applied;
+    Contacts<T, Axes> contacts;
+    std::vector<LinkRow<T>> links;
+    std::vector<PointLinkRow<T, Axes>> point_links;
+    /// The number of evaluations of the forces on the first row.
+    std::int64_t evaluations = 0;
+    PlanCache<T> plan_cache;
+    /// Caches that are valid until the forces change.
+    Flows<T> flows;
+    LinearSums<T, Axes> linear_sums;
+    /// Memory of RowViews, which every call fills.
+    typename ForceViewsOf<ForceList<T, Axes>, T>::type views;
+    LinkCache<T, Axes> link_cache;
+
+    [[nodiscard]] bool has_links() const { return !links.empty() || !point_links.empty(); }
+    void forces_changed() {
+        flows.valid = false;
+        linear_sums.valid = false;
+        link_cache.valid = false;
+        link_cache.field_valid = false;
+    }
+    void state_changed() { link_cache.field_valid = false; }
+    void forces_changed(std::size_t row) {
+        contacts.wake(row);
+        forces_changed();
+    }
+    void state_changed(std::size_t row) {
+        contacts.wake(row);
+        state_changed();
+    }
+};
+
+/// The kinds of force on the rows of the block of row_padding rows from `row` on.
+template <std::floating_point T, int Axes>
+[[nodiscard]] [[gnu::always_inline]] inline Kinds kinds_of_block(const Columns<T, Axes>& columns,
+                                                                 std::size_t row) {
+    if (columns.kinds.shared()) return columns.kinds[row];
+    Kinds all = 0;
+    for (std::size_t i = row; i < std::min(row + row_padding, columns.size); ++i)
+        all = static_cast<Kinds>(all | columns.kinds[i]);
+    return all;
+}
+
+/// The state of row `row` in the Number `V`.
+template <Number V, std::floating_point T, int Axes>
+[[nodiscard]] State<V, Axes> state_of(const Columns<T, Axes>& columns, std::size_t row) {
+    return {{generate<Axes>([&](auto i) { return V(columns.motion.x[i][row]); })},
+            {generate<Axes>([&](auto i) { return V(columns.motion.v[i][row]); })}};
+}
+
+/// The columns of one kind of force.
+template <class Force, Number V, int Axes, std::floating_point T>
+[[nodiscard]] const auto& stored(const Columns<T, Axes>& columns) {
+    return std::get<kind_index<Force, V, Axes>>(columns.forces);
+}
+
+/// A force per unit mass on row `row`.
+template <class Force, Number V, std::floating_point T, int Axes>
+[[nodiscard]] Force force_at(const Columns<T, Axes>& columns, std::size_t index, std::size_t row) {
+    const auto& numbers = stored<Force, V>(columns)[index];
+    Force force;
+    std::size_t next = 0;
+    for_each_number(force, [&](V& number) { number = V(numbers[next++][row]); });
+    return force;
+}
+
+/// Calls f(force) for each force of row `row` in the Number `V`, also for those that are zero.
+template <Number V, std::floating_point T, int Axes, class F>
+void for_each_force(const Columns<T, Axes>& columns, std::size_t row, F f) {
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<V, Axes>>;
+        for (std::size_t index = 0; index < stored<Force, V>(columns).size(); ++index)
+            f(force_at<Force, V>(columns, index, row));
+    });
+}
+
+}  // namespace oiler

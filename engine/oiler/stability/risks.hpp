@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "oiler/stability/preflight.hpp"
+
+namespace oiler {
+
+/// Adds the springs, dampers and linear drag that are outside the region: one risk per body without
+/// links and one per component of linked bodies.
+void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks);
+
+/// Whether upper bounds of all springs show that no motion of the bodies is outside the region, in
+/// whatever direction their springs turn.
+[[nodiscard]] bool contains_all_springs(const Bodies& bodies, Region& region, double dt);
+
+/// The factor on the step up to which the risk's bodies are stable; 0 if they never are.
+[[nodiscard]] double spring_limit(const Risk& risk, const Method& method, Damping damping,
+                                  double dt);
+
+/// Adds the bodies whose quadratic drag is too strong for the method: bodies that diverge alone in
+/// a trial of 512 steps, and falling bodies whose terminal speed is not stable. The speed alone
+/// decides for linked and attracted bodies, and beyond 10,000 trials.
+void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
+                    std::vector<Risk>& risks);
+
+/// The factor on dt up to which the body of a risk of quadratic drag does not diverge.
+[[nodiscard]] double drag_limit(const Risk& risk, const Method& method, const Steps& steps);
+
+/// The largest c·|v|·dt at which no step makes a body faster; infinite if there is none below 1000.
+[[nodiscard]] double quadratic_drag_limit(const Method& method, Damping damping);
+
+/// Adds the bodies that an attractor pulls faster than the method follows. If one attractor is the
+/// only force on a body that returns, 20 revolutions are tried. Else the local frequency √(2gm/r³)
+/// of radial motion decides, at the present distance or at the closest point of a known orbit.
+/// Bodies on an attractor are added for every method.
+void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
+                         std::vector<Risk>& risks);
+
+/// The factor on dt below which an orbit is followed, by descent in steps of 15 % to the first of
+/// four in a row; 0 if it is below 10⁻⁴.
+[[nodiscard]] double orbit_limit(const Orbit& orbit, const Method& method, Damping damping,
+                                 const Rate& rate);
+
+/// Adds moving bodies whose position in float does not change for 64 steps, because its steps are
+/// shorter than half of its last place. Axes with less than a thousandth of the speed are left out,
+/// and so are forces of links.
+void add_rounding_risks(const Bodies& bodies, const Method& method, double dt,
+                        std::vector<Risk>& risks);
+
+/// The rate of steps of dt·`factor`, to seven digits or more.
+[[nodiscard]] Rate scaled_rate(const Rate& rate, double factor);
+
+/// Whether any body has a force of a type for which `test` holds.
+template <class Test>
+bool any_body_has(const Bodies& bodies, Test test) {
+    std::vector<std::string_view> names;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<double, 3>>;
+        if (test.template operator()<Force>()) names.push_back(Force::name);
+    });
+    return std::ranges::any_of(bodies.stored(), [&](const Stored& stored) {
+        return stored.rows > 0 && std::ranges::count(names, stored.of) > 0;
+    });
+}
+
+/// Bisects between a stable and an unstable factor on dt. Returns a stable one, relative to
+/// `tolerance`.
+template <class IsStable>
+double edge_between(double stable, double unstable, double tolerance, IsStable is_stable) {
+    while (unstable - stable > tolerance * unstable) {
+        const double middle = (stable + unstable) / 2;
+        (is_stable(middle) ? stable : unstable) = middle;
+    }
+    return stable;
+}
+
+/// The largest factor on dt that three smaller ones confirm, and the next larger one.
+struct Descent {
+    double stable = 1;
+    double unstable = 1;
+    bool found = false;
+};
+
+/// Tries factors on dt from `first` to `least`, each 15 % smaller than the one before, up to four
+/// stable ones in a row.
+template <class IsStable>
+Descent descend(double first, double least, IsStable is_stable) {
+    constexpr double ratio = 0.85;
+    Descent to{.unstable = first / ratio};
+    int in_a_row = 0;
+    for (double factor = first; in_a_row < 4; factor *= ratio) {
+        if (factor < least) return to;
+        if (!is_stable(factor)) {
+            to.unstable = factor;
+            in_a_row = 0;
+        } else if (++in_a_row == 1) {
+            to.stable = factor;
+        }
+    }
+    to.found = true;
+    return to;
+}
+
+}  // namespace oiler

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// Plays the demos cannon, bounce, stability_map and cloth, and films spring_damper.
+#include <fmt/format.h>
+
+#include "app/played.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr double g = 9.81;  // m/s²
+
+struct Aim {
+    double x, y;  // m, where the mouse points
+};
+
+/// Hits a target at (x, y) with the speed of a number of steps of charging, without air: the
+/// smaller solution of tan θ = (v² ± √(v⁴ − g(g·x² + 2·y·v²)))/(g·x), from a muzzle that is 2.2 m
+/// from the pivot.
+Aim aim_at(double x, double y, int steps) {
+    const double v2 = std::pow(6 + 16.0 * steps / 60, 2);
+    double angle = 0.5;
+    for (int i = 0; i < 100; ++i) {
+        const double dx = x - 3 - 2.2 * std::cos(angle);
+        const double dy = y - 1.2 - 2.2 * std::sin(angle);
+        angle = std::atan((v2 - std::sqrt(v2 * v2 - g * (g * dx * dx + 2 * dy * v2))) / (g * dx));
+    }
+    return {3 + 12 * std::cos(angle), 1.2 + 12 * std::sin(angle)};
+}
+
+std::string shot(int step, const Aim& aim, int charging, const std::string& button) {
+    return fmt::format("{} mouse {} {}\n{} hold {}\n{} release {}\n", step, aim.x, aim.y, step,
+                       button, step + charging, button);
+}
+
+bool has(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+TEST(Cannon, HitsWhereTheFormulaAimsAndReachesTheSecondLevel) {
+    const Folder folder;
+    const std::string script = shot(0, aim_at(17, 5, 45), 45, "Mouse left") +
+                               shot(60, aim_at(25, 9.5, 60), 60, "Space") +
+                               shot(130, aim_at(33, 4, 70), 70, "Pad south");
+    const auto texts = texts_of("cannon" + with_script(folder, script), 9);
+    ASSERT_EQ(texts.size(), 9U);
+    EXPECT_TRUE(has(texts[0], "Level 1 of 4\nScore 0   Shots 0\n")) << texts[0];
+    EXPECT_TRUE(has(texts[3], "Score 100   Shots 2\n")) << texts[3];
+    EXPECT_TRUE(has(texts[5], "Level 1 of 4\nScore 300   Shots 3\n")) << texts[5];
+    EXPECT_TRUE(has(texts[8], "Level 2 of 4\nScore 300   Shots 3\n")) << texts[8];
+    // The radii of ball and target are 1.1 m together.
+    for (const double y : {5 - 1.5, 5 + 1.5}) {
+        const std::string beside = shot(0, aim_at(17, y, 45), 45, "Mouse left");
+        const std::string text = texts_of("cannon" + with_script(folder, beside), 3)[2];
+        EXPECT_TRUE(has(text, "Score 0   Shots 1\n")) << text;
+    }
+}
+
+TEST(Cannon, ItsScriptHitsRestartsPausesAndReachesTheSecondLevel) {
+    const Folder folder;
+    const std::string script = text_of(OILER_SOURCE "/demos/scripts/cannon.txt");
+    const auto texts = texts_of("cannon" + with_script(folder, script), 12);
+    ASSERT_EQ(texts.size(), 12U);
+    EXPECT_TRUE(has(texts[2], "Score 100   Shots 1\n")) << texts[2];
+    EXPECT_TRUE(has(texts[3], "Level 1 of 4\nScore 0   Shots 0\n")) << texts[3];
+    EXPECT_TRUE(has(texts[10], "Pause\nEscape: resume   R: restart   Q: quit\n")) << texts[10];
+    EXPECT_TRUE(has(texts[11], "Level 2 of 4\nScore 300   Shots 3\n")) << texts[11];
+    EXPECT_FALSE(has(texts[11], "Pause")) << texts[11];
+    const std::string tape = " '" + (folder / "tape").string() + "'";
+    shell("cannon --steps 660 --record" + tape + with_script(folder, script), 0);
+    shell("cannon --quiet --threads 2 --steps 660 --replay" + tape, 0);
+}
+
+// No step is taken in the menu, and Q ends the program there.
+TEST(Cannon, TheMenuHoldsTheWorldAndQuits) {
+    const Folder folder;
+    const auto report =
+        report_of("cannon --steps 100" + with_script(folder, "10 press Escape\n60 press Q\n"));
+    EXPECT_EQ(report.at("steps"), 60);
+    const auto held =
+        report_of("cannon --steps 60" + with_script(folder, "10 press Escape\n50 press Escape\n"));
+    EXPECT_EQ(held.at("state_hash"), report_of("cannon --quiet --steps 20").at("state_hash"));
+    const auto paused = report_of("cannon --steps 60" + with_script(folder, "20 press Escape\n"));
+    EXPECT_EQ(paused.at("energy"), held.at("energy"));
+    EXPECT_NE(paused.at("state_hash"), held.at("state_hash")) << "the hash covers the menu";
+    EXPECT_EQ(report_of("cannon --steps 100" + with_script(folder, "60 press Q\n")).at("steps"),
+              100);
+}
+
+// A ball comes every 0.08 s, rounded up to 5 steps of 1/60 s, and leaves after 7 s.
+TEST(Bounce, BallsComeAndLeave) {
+    const Folder folder;
+    EXPECT_EQ(report_of("bounce --quiet --steps 60").at("bodies"), 60 / 5);
+    EXPECT_EQ(report_of("bounce --steps 60" + with_script(folder, "30 press Space\n")).at("bodies"),
+              60 / 5 + 40);
+    EXPECT_EQ(report_of("bounce --quiet --steps 900").at("bodies"), 7 * 60 / 5);
+}
+
+// Plays the demos stability_map and cloth.
+
+/// Moves the mouse to a place on the canvas of 640 × 360 units. Without a camera of its own, the
+/// picture of a game is 10 m high around the origin, so that 36 units are 1 m.
+std::string mouse(int step, double x, double y) {
+    return fmt::format("{} mouse {} {}\n", step, (x - 320) / 36, (y - 180) / 36);
+}
+/// Drags the crosshair to a point of the map, which is 272 units wide and 252 high.
+std::string drag_to(double omega_dt, double zeta) {
+    return mouse(0, 44 + 272 * omega_dt / 3.2, 60 + 252 * zeta / 1.4) + "1 click left\n";
+}
+/// The texts of the map after 1 s.
+std::string map_after(const std::string& script, const std::string& options = "") {
+    const Folder folder;
+    return texts_of("stability_map " + options + with_script(folder, script), 2).at(1);
+}
+
+struct Spring {
+    double omega_dt, zeta;
+};
+
+// In units of dt a step of semi-implicit Euler has the determinant 1 − c and the trace 2 − c − q²,
+// with q = ω·dt and c = 2ζq. Where its eigenvalues are complex, their modulus is the root of the
+// determinant. It is stable up to 1 + trace + determinant = 0, q = 2(√(1 + ζ²) − ζ).
+TEST(StabilityMap, SaysWhatTheTheoryOfSemiImplicitEulerSays) {
+    for (const auto& [q, zeta] : {Spring{1.7, 0.1}, {0.5, 0.02}, {1, 0.04}, {1.2, 0.2}}) {
+        const std::string text = map_after(drag_to(q, zeta));
+        const double left = std::pow(1 - 2 * zeta * q, std::numbers::pi / q);
+        EXPECT_TRUE(holds(text, fmt::format("{}: {:.0f} % left after a period\n",
+                                            left < 0.1 ? "rests" : "rings", 100 * left)))
+            << q << text;
+        const double limit = 2 * (std::sqrt(1 + zeta * zeta) - zeta);
+        EXPECT_TRUE(holds(text, fmt::format("1 kg on {:.0f} N/m needs ω·dt ≤ {:.2f}, so {:.0f} Hz.",
+                                            std::pow(60 * q, 2), limit, std::ceil(60 * q / limit))))
+            << q << text;
+    }
+}
+
+// Its determinant is 1 − c + q²: it explodes beyond q = 2ζ.
+TEST(StabilityMap, ExplicitEulerExplodesUnlessItIsDamped) {
+    const std::string undamped = map_after(drag_to(1, 0), "--method explicit_euler");
+    EXPECT_TRUE(holds(undamped, "explodes: × 1.41 per step\n"));
+    EXPECT_TRUE(holds(undamped, "1 kg on 3600 N/m explodes at any rate.\n"));
+    const std::string damped = map_after(drag_to(1, 0.3), "--method explicit_euler --rate 100");
+    EXPECT_TRUE(holds(damped, "explodes: × 1.18 per step\n"));
+    EXPECT_TRUE(holds(damped, "1 kg on 10000 N/m needs ω·dt ≤ 0.60, so 167 Hz.\n"));
+}
+
+// Implicit Euler multiplies the amplitude by 1/√(1 + c + q²).
+TEST(StabilityMap, ImplicitEulerNeverExplodes) {
+    const std::string text = map_after(drag_to(3, 0), "--method implicit_euler");
+    const double left = 100 * std::pow(1 + 9, -std::numbers::pi / 3);
+    EXPECT_TRUE(holds(text, fmt::format("rests: {:.0f} % left", left)));
+    EXPECT_TRUE(holds(text, "the limit is off the map."));
+}
+
+// Undamped, velocity Verlet keeps the amplitude up to ω·dt = 2.
+TEST(StabilityMap, TheMethodIsChosenByClickSpaceAndOption) {
+    const std::string kept = "rings: 100 % left after a period\n";
+    const std::string script = drag_to(1.5, 0);
+    EXPECT_TRUE(holds(map_after(script, "--method velocity_verlet"), kept));
+    EXPECT_TRUE(holds(map_after(script + mouse(5, 400, 72) + "6 click left\n"), kept))
+        << "the fourth line from 117 down, 13 units each";
+    EXPECT_FALSE(holds(map_after(script + mouse(5, 400, 46) + "6 click left\n"), kept));
+    const std::string twice = "5 press Space\n6 press Space\n";
+    EXPECT_TRUE(holds(map_after(script + twice), kept));
+    EXPECT_TRUE(holds(map_after(script + "5 press Space\n", "--method implicit_euler"),
+                      "explodes: × 1.8 per step\n"))
+        << "explicit Euler, the first";
+    EXPECT_TRUE(holds(map_after(script, "--method rk3_kutta"), "\nrk3_kutta\n"));
+}
+
+TEST(StabilityMap, KeysMoveTheCrosshairAndAReplayIsEqual) {
+    const Folder folder;
+    const std::string script = "0 hold Right\n30 release Right\n30 hold Up\n60 press Space\n";
+    const std::string text = texts_of("stability_map" + with_script(folder, script), 3).at(2);
+    EXPECT_TRUE(holds(text, "ω·dt = 1.90 at 60 Hz, ζ = 0.70"));
+    const std::string tape = " '" + (folder / "tape").string() + "'";
+    const std::string record = "stability_map --steps 120 --record" + tape;
+    ASSERT_EQ(shell(record + with_script(folder, script)).exit, 0);
+    shell("stability_map --quiet --steps 120 --replay" + tape, 0);
+}
+
+double threads_of(const std::string& command) {
+    return report_of(command).at("readings").at("threads").get<double>();
+}
+
+// 19 × 12 bodies: 18·12 + 19·11 threads across and down, 2·18·11 diagonals.
+constexpr int all_threads = 18 * 12 + 19 * 11 + 2 * 18 * 11;
+
+// The fastest wave of the flat net has ω² = 8·k/m, k = 70 N/m, m = 0.02 kg, and velocity Verlet
+// follows it from ω/2 on, 83.7 Hz.
+TEST(Cloth, TearsItselfToPiecesBelowTheRateOfItsFastestWave) {
+    EXPECT_EQ(threads_of("cloth --quiet --steps 1000 --rate 100"), all_threads);
+    EXPECT_LT(threads_of("cloth --quiet --steps 800 --rate 80"), all_threads / 2);
+    EXPECT_EQ(threads_of("cloth --quiet --steps 160 --rate 40 --method implicit_midpoint"),
+              all_threads);
+}
+
+// Crumpled, ω² is at most 16·k/m. The limit of ω·dt is 2, and 2(√(1 + ζ²) − ζ) for semi-implicit
+// Euler with damping in the kick, of 0.01 N·s/m in each thread.
+TEST(Cloth, NamesTheRatesThatTheMethodNeeds) {
+    const auto says = [](const std::string& options, const std::string& words) {
+        const std::string text = texts_of("cloth --quiet " + options, 1).at(0);
+        EXPECT_TRUE(holds(text, words));
+    };
+    const double flat = std::sqrt(8 * 70 / 0.02);
+    const auto needs = [&](double limit, const char* verdict) {
+        return fmt::format("\nIt needs {:.0f} Hz while flat, up to {:.0f} Hz crumpled: {}.\n",
+                           std::ceil(flat / limit), std::ceil(std::sqrt(2) * flat / limit),
+                           verdict);
+    };
+    says("", "velocity_verlet at 120 Hz" + needs(2, "it holds"));
+    says("--rate 100", needs(2, "do not crumple it"));
+    says("--rate 80", needs(2, "it tears itself to pieces"));
+    const auto in_kick = [](double n) {
+        const double omega = std::sqrt(n * 70 / 0.02);
+        const double zeta = n * 0.01 / 0.02 / (2 * omega);
+        return std::ceil(omega / (2 * (std::sqrt(1 + zeta * zeta) - zeta)));
+    };
+    says("--method semi_implicit_euler",
+         fmt::format(
+             "\nIt needs {:.0f} Hz while flat, up to {:.0f} Hz crumpled: do not crumple it.\n",
+             in_kick(8), in_kick(16)));
+    says("--method implicit_midpoint", "\nIt holds at any rate.\n");
+}
+
+TEST(Cloth, IsPulledCutPinnedAndHungAnew) {
+    const Folder folder;
+    const auto threads = [&](int steps, const std::string& script) {
+        return threads_of(fmt::format("cloth --steps {}", steps) + with_script(folder, script));
+    };
+    const std::string knife =
+        "0 mouse -3 0\n0 hold Mouse right\n1 mouse 3 0\n2 release Mouse right\n";
+    // Between two rows: 19 threads down and 36 diagonals.
+    EXPECT_EQ(threads(10, knife), all_threads - 19 - 36);
+    EXPECT_EQ(threads(10, "0 mouse -3 0\n1 mouse 3 0\n"), all_threads);
+    EXPECT_EQ(threads(30, knife + "20 press R\n"), all_threads);
+    const auto lowest = [&](const std::string& script) {
+        double low = 0;
+        for (const TraceRow& row : trace_of("cloth --steps 120" + with_script(folder, script)))
+            if (row.tick == 120) low = std::min(low, row.y);
+        return low;
+    };
+    const double hanging = lowest("");
+    EXPECT_LT(lowest("10 mouse 0 -0.3\n10 hold Mouse left\n20 mouse 0 -1\n"), hanging - 0.1);
+    // Without its left nail, the corner falls.
+    EXPECT_LT(lowest("10 mouse -1.53 1.25\n10 press Space\n"), hanging);
+    const std::string unpinned = "10 mouse -1.53 1.25\n10 press Space\n11 mouse -3 0\n";
+    EXPECT_EQ(lowest(unpinned + "12 press Space\n"), lowest(unpinned))
+        << "Space is nothing where no cloth is";
+}
+
+TEST(Cloth, AReplayOfItsScriptIsEqual) {
+    const Folder folder;
+    const std::string script = text_of(OILER_SOURCE "/demos/scripts/cloth.txt");
+    const std::string tape = " '" + (folder / "tape").string() + "'";
+    ASSERT_EQ(shell("cloth --steps 340 --record" + tape + with_script(folder, script)).exit, 0);
+    shell("cloth --quiet --threads 2 --steps 340 --replay" + tape, 0);
+}
+
+// Films the demo spring_damper, whose wall, mass and curves stay beside each other.
+
+std::vector<json> pictures_of(const std::string& options) {
+    const Folder folder;
+    const std::string out = (folder / "film").string();
+    std::istringstream lines(shell("spring_damper --headless --quiet --size 16x9 --out '" + out +
+                                   "' " + options + " && gzip -dc '" + out + "/frames.jsonl.gz'")
+                                 .out);
+    std::vector<json> pictures;
+    for (std::string line; std::getline(lines, line);)
+        pictures.push_back(json::parse(line).at("picture"));
+    return pictures;
+}
+
+/// The left end of a line.
+double left_of(const json& line) {
+    double left = INFINITY;
+    for (std::size_t i = 0; i < line["points"].size(); i += 2)
+        left = std::min(left, line["points"][i].get<double>());
+    return left;
+}
+
+/// The only line of that width.
+const json& line_of(const json& picture, const char* space, double width) {
+    const auto& lines = picture.at("lines");
+    return *std::ranges::find_if(
+        lines, [&](const json& one) { return one["space"] == space && one["width"] == width; });
+}
+
+const char* const settings[] = {"--fps 10 --frames 40",
+                                "--method explicit_euler --rate 8 --fps 4 --frames 80",
+                                "--method explicit_euler --rate 1 --fps 1 --frames 50"};
+
+TEST(SpringDamperDemo, ItsMassStaysOnOneSideOfTheWallAndInThePicture) {
+    for (const char* const options : settings) {
+        const std::vector<json> pictures = pictures_of(options);
+        ASSERT_GE(pictures.size(), 40U);
+        for (const json& picture : pictures) {
+            const double wall = left_of(line_of(picture, "world", 3));
+            const double exact = left_of(line_of(picture, "world", 2));
+            const json& mass = picture.at("discs").at(0);
+            const double half_width = picture.at("height").get<double>() * 16 / 9 / 2;
+            const double x = mass["centre"][0];
+            const double radius = mass["radius"];
+            EXPECT_GT(wall, -half_width) << options;
+            EXPECT_GT(x - radius, wall) << options;
+            EXPECT_GT(exact, wall) << options;
+            EXPECT_LT(x + radius, half_width) << options;
+        }
+    }
+}
+
+// The positions are in a box from 152 to 256 units. A curve that leaves it is cut at its edges.
+TEST(SpringDamperDemo, ItsCurveStaysWithinItsPlot) {
+    constexpr int part = 12;  // of the key: the simulated positions
+    for (const char* const options : settings) {
+        std::size_t curves = 0;
+        for (const json& picture : pictures_of(options))
+            for (const json& line : picture.at("lines")) {
+                if (line["key"][1] != part) continue;
+                ++curves;
+                for (std::size_t i = 1; i < line["points"].size(); i += 2) {
+                    EXPECT_GT(line["points"][i], 152) << options;
+                    EXPECT_LT(line["points"][i], 256) << options;
+                }
+            }
+        EXPECT_GE(curves, 39U) << options;
+    }
+}
+
+}  // namespace
+}  // namespace oiler::test
