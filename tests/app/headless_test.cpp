@@ -2,7 +2,7 @@
 // Tests the number of frames of a film, and its manifest.
 #include <nlohmann/json.hpp>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"
 
@@ -35,7 +35,7 @@ protected:
         const Folder folder;
         options.out = folder / "film";
         AnyGameOf<G> game(options.settings);
-        Recorder none({}, {}, game.world());
+        TraceWriter none({}, {}, game.world());
         Playback playback(game, none, Keep::hashes, profile);
         About about = Walker::about;
         about.duration = seconds;
@@ -43,7 +43,14 @@ protected:
         const MakeGame make = [](const Settings& settings) {
             return std::make_unique<AnyGameOf<G>>(settings);
         };
-        EXPECT_EQ(run_headless(playback, nobody, options, about, make, profile), Exit::done);
+        GameRun run{.options = options,
+                    .about = about,
+                    .make = make,
+                    .playback = playback,
+                    .live = nobody,
+                    .inputs = nobody,
+                    .profile = profile};
+        EXPECT_EQ(run_headless(run), Exit::done);
         const auto manifest = nlohmann::json::parse(text_of(folder / "film/manifest.json"));
         EXPECT_EQ(names_in(folder / "film").size(), manifest["frames"].size() + 2);
         return manifest;

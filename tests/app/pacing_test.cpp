@@ -3,7 +3,7 @@
 // the stamps of the frames.
 #include <functional>
 
-#include "oiler/app/kept_pace.hpp"
+#include "oiler/app/game_clock.hpp"
 #include "oiler/app/playback.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -67,7 +67,7 @@ std::vector<Displayed> shown(
     const std::vector<double>& frames,
     const std::function<void(InputQueue&, double)>& poll = [](InputQueue&, double) {}) {
     AnyGameOf<Game> game({.stepping = {.method = &find_method("velocity_verlet"), .rate = {60}}});
-    Recorder recorder({}, {}, game.world());
+    TraceWriter recorder({}, {}, game.world());
     Playback playback(game, recorder, Keep::nothing);
     LiveQueue live;
     StepClock clock(60);

@@ -58,7 +58,7 @@ struct Live final : InputSource {
 
 struct Shown {
     AnyGameOf<Walker> game{Settings{.stepping = {.rate = {1}}}};
-    Recorder recorder{{}, {}, game.world()};
+    TraceWriter recorder{{}, {}, game.world()};
     Playback playback{game, recorder, Keep::hashes};
     InputQueue queue;
     Live input{queue};
@@ -120,7 +120,7 @@ struct Jumper : Walker {
 
 TEST(Playback, DoesNotInterpolateATeleport) {
     AnyGameOf<Jumper> game{Settings{.stepping = {.rate = {1}}}};
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     Playback playback{game, none, Keep::nothing};
     LiveInput input;
     for (int i = 0; i < 40; ++i) {
@@ -152,7 +152,7 @@ struct Rewinder : Walker {
 
 struct Rewound {
     AnyGameOf<Rewinder> game{Settings{.stepping = {.rate = {1}}}};
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     Playback playback{game, none, Keep::nothing};
     InputQueue queue;
     Live input{queue};
@@ -225,7 +225,7 @@ struct Thrower : Walker {
 
 TEST(Playback, AnExceptionOfAGameNamesTheTick) {
     AnyGameOf<Thrower> game{Settings{.stepping = {.rate = {1}}}};
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     LiveInput input;
     EXPECT_EQ(line_of_error(Exit::diverged,
                             [&] { Playback(game, none, Keep::nothing).step_to(10, input); }),
@@ -317,7 +317,7 @@ TEST(Playback, AWrongNumberOfAGameNamesCallAndTick) {
 TEST(Playback, ManyStepsPerCallGiveTheBitsOfSingleSteps) {
     AnyGameOf<Drifter> together{Settings{.stepping = {.rate = {10}}}};
     AnyGameOf<Drifter> single{Settings{.stepping = {.rate = {10}}}};
-    Recorder none{{}, {}, together.world()};
+    TraceWriter none{{}, {}, together.world()};
     LiveInput input;
     Playback(together, none, Keep::nothing).step_to(10'000, input);
     for (int i = 0; i < 10'000; ++i) single.step(i, 1, input);
@@ -354,7 +354,7 @@ private:
 // A call of 8 steps takes 8 ms, longer than the shortest call of 5 ms.
 TEST(Playback, SlowStepsShareNoLongCall) {
     Sluggish game;
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     LiveInput input;
     game.time_of_step = std::chrono::milliseconds(1);
     Playback(game, none, Keep::nothing).step_to(40, input);
@@ -364,7 +364,7 @@ TEST(Playback, SlowStepsShareNoLongCall) {
 // 256 slower steps take 25.6 ms, longer than the longest call of 20 ms.
 TEST(Playback, FastStepsShareACallUntilTheyBecomeSlow) {
     Sluggish game;
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     Playback playback(game, none, Keep::nothing);
     LiveInput input;
     playback.step_to(100'000, input);

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/app/sheet.hpp"
+#include "oiler/app/film.hpp"
 
 #include "oiler/capture/png.hpp"
 #include "oiler/picture/palette.hpp"

@@ -30,16 +30,16 @@ Inspected run_at_60_hz() {
 }
 
 /// All that happens on clicks on places of a grid, each in an inspector that is at rest.
-std::vector<Wishes> clicks_everywhere(const Inspected& run) {
-    std::vector<Wishes> all;
+std::vector<Requests> clicks_everywhere(const Inspected& run) {
+    std::vector<Requests> all;
     Inspector inspector(Renderer::font());
     for (float y = 22; y < 720; y += 6)
         for (float x = panel_left; x < 1280; x += 12) {
             const Point at{x, y};
             for (const bool down : {false, false, true, false, false}) {
-                const Wishes wishes = inspector.show(run, {at, down}, frame, 1.0 / 60);
+                const Requests requests = inspector.show(run, {at, down}, frame, 1.0 / 60);
                 EXPECT_TRUE(inspector.has_mouse() || x < 940) << x << ' ' << y;
-                all.push_back(wishes);
+                all.push_back(requests);
             }
             // A menu that the click opened closes by a click beside it.
             for (const bool down : {false, true, false, false})
@@ -48,7 +48,7 @@ std::vector<Wishes> clicks_everywhere(const Inspected& run) {
     return all;
 }
 
-bool any(const std::vector<Wishes>& all, const std::function<bool(const Wishes&)>& is) {
+bool any(const std::vector<Requests>& all, const std::function<bool(const Requests&)>& is) {
     return std::ranges::any_of(all, is);
 }
 
@@ -62,22 +62,22 @@ TEST(Inspector, WritesEnergiesWithUnits) {
 }
 
 TEST(Inspector, AsksForWhatIsClicked) {
-    const std::vector<Wishes> all = clicks_everywhere(run_at_60_hz());
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pauses; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.restarts; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pace == -1; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.pace == 1; }));
-    EXPECT_FALSE(any(all, [](const Wishes& one) { return one.steps || one.goes_back; }))
+    const std::vector<Requests> all = clicks_everywhere(run_at_60_hz());
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.pauses; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.restarts; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.slower == 1; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.faster == 1; }));
+    EXPECT_FALSE(any(all, [](const Requests& one) { return one.steps || one.goes_back; }))
         << "not paused";
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.trails; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.springs; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.velocities; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.shown.accelerations; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.shown.trails; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.shown.springs; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.shown.velocities; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.shown.accelerations; }));
     EXPECT_EQ(all.front().shown, Shown{});
     std::set<std::int64_t> rates;
     std::set<std::string_view> methods;
     std::set<Precision> precisions;
-    for (const Wishes& one : all) {
+    for (const Requests& one : all) {
         if (!one.stepping) continue;
         rates.insert(one.stepping->rate.steps);
         methods.insert(one.stepping->method->name);
@@ -98,7 +98,7 @@ TEST(Inspector, OffersTheDampingOfASplitting) {
         Inspected run = run_at_60_hz();
         run.stepping = now;
         std::set<std::optional<Damping>> dampings;
-        for (const Wishes& one : clicks_everywhere(run))
+        for (const Requests& one : clicks_everywhere(run))
             if (one.stepping && one.stepping->damping != now.damping)
                 dampings.insert(one.stepping->damping);
         return dampings;
@@ -118,8 +118,8 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
     const auto click = [&](Inspector& inspector, Point at) {
         bool restarts = false;
         for (const bool down : {false, false, true, false, false}) {
-            const Wishes wishes = inspector.show(run, {at, down}, frame, 1.0 / 60);
-            restarts = restarts || (wishes.stepping && wishes.changes_from_start);
+            const Requests requests = inspector.show(run, {at, down}, frame, 1.0 / 60);
+            restarts = restarts || (requests.stepping && requests.changes_from_start);
         }
         return restarts;
     };
@@ -142,11 +142,11 @@ TEST(Inspector, AChangeGoesOnUnlessItShallRestart) {
 TEST(Inspector, OffersThreadsWhereMoreThanOneChangeSomething) {
     Inspected run = run_at_60_hz();
     EXPECT_FALSE(
-        any(clicks_everywhere(run), [](const Wishes& one) { return one.threads.has_value(); }));
+        any(clicks_everywhere(run), [](const Requests& one) { return one.threads.has_value(); }));
     run.most_threads = 4;
     run.threads = 2;
     std::set<int> offered;
-    for (const Wishes& one : clicks_everywhere(run))
+    for (const Requests& one : clicks_everywhere(run))
         if (one.threads) offered.insert(*one.threads);
     EXPECT_EQ(offered, (std::set<int>{1, 3, 4}));
 }
@@ -166,7 +166,7 @@ TEST(Inspector, EscapeClosesAnOpenMenu) {
 }
 
 TEST(Inspector, ChangesOneThingOfASetting) {
-    for (const Wishes& one : clicks_everywhere(run_at_60_hz())) {
+    for (const Requests& one : clicks_everywhere(run_at_60_hz())) {
         if (!one.stepping) continue;
         const Stepping now = run_at_60_hz().stepping;
         EXPECT_EQ(int{one.stepping->rate != now.rate} + int{one.stepping->method != now.method} +
@@ -181,10 +181,10 @@ TEST(Inspector, StepsInAPauseAndKeepsAFixedSetting) {
     run.is_paused = true;
     run.past = {{0, 600, 600}};
     run.fixed = "--record keeps this setting.";
-    const std::vector<Wishes> all = clicks_everywhere(run);
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.steps; }));
-    EXPECT_TRUE(any(all, [](const Wishes& one) { return one.goes_back; }));
-    EXPECT_FALSE(any(all, [](const Wishes& one) { return one.stepping.has_value(); }));
+    const std::vector<Requests> all = clicks_everywhere(run);
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.steps; }));
+    EXPECT_TRUE(any(all, [](const Requests& one) { return one.goes_back; }));
+    EXPECT_FALSE(any(all, [](const Requests& one) { return one.stepping.has_value(); }));
 }
 
 // A drag along the time line asks for each step in turn, as long as it is held.
@@ -208,7 +208,7 @@ TEST(Inspector, GoesToStepsOfThePast) {
     EXPECT_EQ(*seeked.rbegin(), 600);
     run.past = {{5, 5, 5}};
     EXPECT_FALSE(
-        any(clicks_everywhere(run), [](const Wishes& one) { return one.step.has_value(); }));
+        any(clicks_everywhere(run), [](const Requests& one) { return one.step.has_value(); }));
 }
 
 TEST(Inspector, LeavesTheMouseBesideItToTheGame) {

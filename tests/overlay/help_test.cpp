@@ -14,6 +14,13 @@ constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};
 constexpr Action nothing{"nothing"};
 constexpr Control controls[] = {fire, aim, nothing};
 
+std::vector<HelpRow> loop_keys() {
+    return {{"F1", "inspector"},    {"F2", "close this help"}, {"F3", "pause, resume"},
+            {"F4", "go back"},      {"F5", "step in a pause"}, {"F6", "errors ×10"},
+            {"F7", "slower"},       {"F8", "faster"},          {"F9", "restart"},
+            {"F11", "full screen"}, {"Escape", "quit"}};
+}
+
 std::string on_azerty(Button button) { return button == Button(Key::q) ? "A" : name_of(button); }
 
 bool shows(const Picture& picture, std::string_view text) {
@@ -23,7 +30,7 @@ bool shows(const Picture& picture, std::string_view text) {
 
 TEST(Help, ListsControlsAndKeysOverThePicture) {
     Picture picture{.background = palette::black, .labels = {{.text = "score 7", .layer = 1000}}};
-    add_help(picture, OverlayArea({1280, 720}), "Cannon", controls, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Cannon", controls, on_azerty, loop_keys());
     ASSERT_EQ(picture.polygons.size(), 1U);
     EXPECT_GT(picture.polygons[0].colour.g, 200) << "the text is dark";
     EXPECT_GT(picture.polygons[0].colour.a, 192);
@@ -34,16 +41,13 @@ TEST(Help, ListsControlsAndKeysOverThePicture) {
          {"Cannon", "fire", "A, Mouse left", "aim", "Left and Right, stick left_x", "nothing",
           "no button", "F4", "go back", "Escape"})
         EXPECT_TRUE(shows(picture, text)) << text;
-    Picture other;
-    add_help(other, OverlayArea({1280, 720}), "Cannon", {}, on_azerty, false);
-    EXPECT_FALSE(shows(other, "Escape"));
 }
 
 TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
     const Control list[] = {Action{"menu", Pad::left_shoulder, Pad::right_shoulder,
                                    Pad::left_trigger, Pad::right_trigger, Pad::left_stick}};
     Picture picture;
-    add_help(picture, OverlayArea({1280, 720}), "Menu", list, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Menu", list, on_azerty, loop_keys());
     const auto loop = std::find_if(picture.labels.begin(), picture.labels.end(),
                                    [](const Label& label) { return label.text == "F1"; });
     for (auto label = picture.labels.begin(); label != loop; ++label)
@@ -55,7 +59,7 @@ TEST(Help, ALongListOfButtonsKeepsFromTheKeysOfTheLoop) {
 // 400x300: 0.625 pixels a unit, so that the canvas is 640 by 480 units, from -60 to 420.
 TEST(Help, FitsASmallWindow) {
     Picture picture;
-    add_help(picture, OverlayArea({400, 300}), "Cannon", controls, on_azerty, true);
+    add_help(picture, OverlayArea({400, 300}), "Cannon", controls, on_azerty, loop_keys());
     EXPECT_TRUE(shows(picture, "fire"));
     EXPECT_TRUE(std::ranges::any_of(picture.labels, [](const Label& label) {
         return label.text.find("F11 ") != std::string::npos;
@@ -80,7 +84,7 @@ TEST(Help, ALongListFitsTheCanvas) {
         many.push_back(Action{"a very long name of an action", Pad::left_shoulder,
                               Pad::right_shoulder, Pad::left_trigger, Pad::right_trigger});
     Picture picture;
-    add_help(picture, OverlayArea({1280, 720}), "Many", many, on_azerty, true);
+    add_help(picture, OverlayArea({1280, 720}), "Many", many, on_azerty, loop_keys());
     for (const Label& label : picture.labels) {
         EXPECT_GT(label.at.y, 20);
         EXPECT_LT(label.at.y, canvas_height);

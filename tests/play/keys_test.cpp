@@ -2,7 +2,7 @@
 // The buttons that a player chooses for the actions of a game.
 #include "oiler/play/keys.hpp"
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
 #include "support/test.hpp"

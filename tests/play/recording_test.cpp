@@ -81,7 +81,7 @@ private:
 /// Records ten seconds and returns the hash of their end.
 std::uint64_t record(const std::filesystem::path& path, unsigned seed, bool finish = true) {
     AnyGameOf<Game> game(settings_of());
-    Recorder none({}, {}, game.world());
+    TraceWriter none({}, {}, game.world());
     Playback playback(game, none, Keep::nothing);
     RandomPlayer player(seed);
     InputRecorder tape(player, path, header_of("game", settings_of(), Game::controls));
@@ -93,7 +93,7 @@ std::uint64_t record(const std::filesystem::path& path, unsigned seed, bool fini
 /// Replays a recording in frames and returns the hash of its end.
 std::uint64_t replay(const Recording& recording, int threads = 1, int fps = 60) {
     AnyGameOf<Game> game(settings_of(threads));
-    Recorder none({}, {}, game.world());
+    TraceWriter none({}, {}, game.world());
     Playback playback(game, none, Keep::nothing);
     Replay inputs(recording, "file");
     playback.watch(inputs);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A replay that ends as its recording does, or says what differs.
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/app/options.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/play/recording.hpp"
 #include "support/folder.hpp"

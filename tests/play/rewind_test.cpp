@@ -95,7 +95,7 @@ std::vector<std::uint64_t> hashes_of(List& list) {
 struct Played {
     List list;
     AnyGameOf<Game> game{settings};
-    Recorder none{{}, {}, game.world()};
+    TraceWriter none{{}, {}, game.world()};
     Playback playback{game, none, Keep::nothing};
     Rewind rewind;
 

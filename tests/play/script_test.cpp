@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/play/script.hpp"
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "support/oscillator.hpp"
 #include "support/program.hpp"
 #include "support/test.hpp"

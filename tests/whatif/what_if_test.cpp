@@ -102,7 +102,7 @@ RecordedPlay record(const char* method = "semi_implicit_euler") {
     const Folder folder;
     const Settings settings{.stepping = {.method = &find_method(method), .rate = {rate}}};
     AnyGameOf<Game> game(settings);
-    Recorder none({}, {}, game.world());
+    TraceWriter none({}, {}, game.world());
     Playback playback(game, none, Keep::nothing);
     OnePress player;
     InputRecorder tape(player, folder / "a", header_of(Game::about.name, settings, {}));

@@ -2,17 +2,37 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "oiler/app/options.hpp"
 #include "oiler/app/playback.hpp"
-#include "oiler/app/sheet.hpp"
 #include "oiler/capture/capture.hpp"
 #include "oiler/capture/video.hpp"
 #include "oiler/core/step_clock.hpp"
 #include "oiler/render/renderer.hpp"
 
 namespace oiler {
+
+/// One picture of a whole run: up to twelve frames, evenly spaced in time, each with its time.
+class Sheet {
+public:
+    /// `size` is that of the run's frames; the tiles have the same shape.
+    Sheet(std::int64_t frames, Size size);
+
+    /// Returns whether the sheet shows the frame.
+    [[nodiscard]] bool wants(std::int64_t frame) const;
+    /// Draws the picture at `time` in s as the next tile.
+    void add(Picture picture, double time, Renderer& renderer);
+    /// Writes the PNG with the tiles so far. Throws Error{io}.
+    void write(const std::filesystem::path& path) const;
+
+private:
+    std::vector<std::int64_t> frames_;
+    Size tile_;
+    std::vector<Pixels> tiles_;
+};
 
 /// The outputs of a headless run: a capture and, on request, a video and a sheet. They are made
 /// with the first frame, so that a failure to draw leaves no folder.

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "oiler/app/film.hpp"
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/step_clock.hpp"
@@ -55,44 +56,50 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .planned_frames = options.frames ? *options.frames : frames_in(duration, fps)};
 }
 
-/// The inspector of a run without a window: nobody clicks, and what plays along is never late.
+/// The inspector of a run without a window: nobody clicks, and the runs that play along are never
+/// late.
 class FilmedInspector {
 public:
-    FilmedInspector(AnyGame& game, InputSource& inputs, const Options& options,
-                    const MakeGame& make, Profile* profile)
-        : along(inputs, {options.settings, options.controls}, make, PlayAlong::Pace::own),
-          profile_(profile),
-          inspector_(game, "F1 in a window changes them.", Renderer::font()) {}
+    explicit FilmedInspector(const GameRun& run)
+        : what_if_({run.options.settings, run.options.controls}, run.make, LiveWhatIf::Pace::own),
+          inputs_(run.inputs, what_if_),
+          profile_(run.profile),
+          inspector_(run.playback.game(), "F1 in a window changes them.", Renderer::font()) {}
+
+    /// The input of the game's steps.
+    [[nodiscard]] InputSource& inputs() { return inputs_; }
 
     /// Adds what it draws over the picture, and lays out the panel.
     void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
               const Manifest& header) {
         {
             const Span span(profile_, "play along");
-            along.play_until(steps);
+            what_if_.play_until(steps);
         }
         const Span span(profile_, "inspector");
         const double alpha = steps == at.step ? 1 : at.alpha;
-        inspector_.add_overlays(picture, along.ghosts(steps, alpha), alpha, 1);
-        (void)inspector_.show(along, {}, header.size, Inspector::view(header.size),
+        inspector_.add_overlays(picture, what_if_.ghosts(steps, alpha), alpha, 1);
+        (void)inspector_.show(&what_if_, {}, header.size, Inspector::view(header.size),
                               {.seconds = 1.0 / header.fps, .waits = true});
     }
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
 
-    PlayAlong along;
-
 private:
+    LiveWhatIf what_if_;
+    InputTap inputs_;
     Profile* profile_;
     GameInspector inspector_;
 };
 
 /// Draws the frames in their order until the last one or an interrupt.
-void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Manifest& header,
-                 bool quiet, FilmedInspector* inspector, Profile* profile) {
-    Progress progress(quiet, "frames", header.planned_frames);
+void draw_frames(Film& film, const GameRun& run, const Manifest& header,
+                 FilmedInspector* inspector) {
+    Playback& playback = run.playback;
+    InputSource& inputs = inspector ? inspector->inputs() : run.inputs;
+    Progress progress(run.options.quiet, "frames", header.planned_frames);
     for (std::int64_t frame = 0; frame < header.planned_frames; ++frame) {
         const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-        const Span span(profile, "frame");
+        const Span span(run.profile, "frame");
         Picture& picture = playback.show(at.step, at.alpha, inputs);
         const bool ended = playback.loop().quits() && at.step > playback.steps();
         if (ended || Interrupt::requested()) return;
@@ -103,12 +110,13 @@ void draw_frames(Film& film, Playback& playback, InputSource& inputs, const Mani
     }
 }
 
-void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
-          const Options& options, Profile* profile, FilmedInspector* inspector) {
-    Film film(renderer, header, options, profile);
+void film(const GameRun& run, Renderer& renderer, const Manifest& header) {
+    const Options& options = run.options;
+    std::optional<FilmedInspector> inspector;
+    if (options.inspector) inspector.emplace(run);
+    Film film(renderer, header, options, run.profile);
     try {
-        draw_frames(film, playback, inspector ? inspector->along : inputs, header, options.quiet,
-                    inspector, profile);
+        draw_frames(film, run, header, inspector ? &*inspector : nullptr);
     } catch (const Error& error) {
         if (error.exit() == Exit::diverged)
             film.finish();
@@ -116,7 +124,7 @@ void film(Playback& playback, InputSource& inputs, Renderer& renderer, const Man
             film.finish_capture_ignoring_errors();
         throw;
     }
-    if (playback.loop().quits() && !Interrupt::requested()) film.end_here();
+    if (run.playback.loop().quits() && !Interrupt::requested()) film.end_here();
     film.finish();
     if (film.frames() == header.planned_frames)
         remark(options.quiet, "frames and manifest.json are in {}",
@@ -141,25 +149,25 @@ std::string changes_of(const Manifest::Frame& expected, std::uint64_t state, std
 }
 
 /// Draws one frame, and compares it with that of the manifest, if there is one.
-Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, const Manifest& header,
-                const Options& options, Profile* profile) {
-    const Span whole(profile, "frame");
+Exit draw_still(const GameRun& run, Renderer& renderer, const Manifest& header) {
+    const Span whole(run.profile, "frame");
+    const Options& options = run.options;
     const std::int64_t frame = *options.frame;
     const HeadlessFrame at = headless_frame(frame, header.rate, header.fps);
-    const Picture& picture = playback.show(at.step, at.alpha, inputs);
+    const Picture& picture = run.playback.show(at.step, at.alpha, run.inputs);
     if (Interrupt::requested()) return Exit::interrupted;
     Pixels pixels;
     {
-        const Span span(profile, "draw");
+        const Span span(run.profile, "draw");
         renderer.draw(picture, header.size);
     }
     {
-        const Span span(profile, "read");
+        const Span span(run.profile, "read");
         renderer.read(pixels);
     }
     const auto path = options.out / fmt::format("still_{:06}.png", frame);
     make_folder(options.out);
-    const Span span(profile, "encode");
+    const Span span(run.profile, "encode");
     write_file(path, encode_png(pixels.size, pixels.rgb), Links::replaced);
     remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
            static_cast<double>(frame) / header.fps, path.string());
@@ -170,7 +178,7 @@ Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, con
         return Exit::done;
     }
     const std::string changes =
-        changes_of(options.from->frames[static_cast<std::size_t>(frame)], playback.state_hash(),
+        changes_of(options.from->frames[static_cast<std::size_t>(frame)], run.playback.state_hash(),
                    hash_of(picture), hash_top_down(pixels.size, pixels.rgb));
     remark(options.quiet && changes.empty(), "{}",
            changes.empty() ? "state, picture and pixels are those of the manifest"
@@ -180,16 +188,14 @@ Exit draw_still(Playback& playback, InputSource& inputs, Renderer& renderer, con
 
 }  // namespace
 
-Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make, Profile* profile) {
+Exit run_headless(GameRun& run) {
+    const Options& options = run.options;
     const auto surface = open_offscreen(options.offscreen);
     Renderer renderer([&](const char* name) { return surface->procedure(name); });
     remark(options.quiet, "drawing with {} ({})", surface->provider(), renderer.gl_renderer());
-    const Manifest header = describe(options, about, *surface, renderer);
-    if (options.frame) return draw_still(playback, inputs, renderer, header, options, profile);
-    std::optional<FilmedInspector> inspector;
-    if (options.inspector) inspector.emplace(playback.game(), inputs, options, make, profile);
-    film(playback, inputs, renderer, header, options, profile, inspector ? &*inspector : nullptr);
+    const Manifest header = describe(options, run.about, *surface, renderer);
+    if (options.frame) return draw_still(run, renderer, header);
+    film(run, renderer, header);
     return Interrupt::requested() ? Exit::interrupted : Exit::done;
 }
 

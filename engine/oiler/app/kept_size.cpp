@@ -6,11 +6,41 @@
 #include <string>
 
 #include "oiler/core/error.hpp"
+#include "oiler/process/console.hpp"
 #include "oiler/process/parse_size.hpp"
 
 namespace oiler {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The file with the size of the window. All scenes share one.
+fs::path size_file(const About& about) {
+    return file_of_size(about.scene_text.empty() ? about.name : "oiler");
+}
+
+}  // namespace
+
+Size first_size(const Options& options, const About& about) {
+    if (options.has_size) return options.size;
+    try {
+        return read_size(size_file(about)).value_or(options.size);
+    } catch (const Error& error) {
+        remark(options.quiet, "{}", error.what());
+        return options.size;
+    }
+}
+
+void keep_size(const Options& options, const About& about, Size size) {
+    const fs::path file = size_file(about);
+    if (file.empty()) return;
+    try {
+        write_size(file, size);
+    } catch (const Error& error) {
+        remark(options.quiet, "{}", error.what());
+    }
+}
 
 fs::path file_of_size(std::string_view program) {
     const auto folder = [](const char* variable) {

@@ -5,9 +5,14 @@
 #include <optional>
 #include <string_view>
 
-#include "oiler/core/size.hpp"
+#include "oiler/app/options.hpp"
 
 namespace oiler {
+
+/// The size of a new window: the one that is given, else that of the last time.
+[[nodiscard]] Size first_size(const Options& options, const About& about);
+/// Keeps a size that the user gave to a window for the next time. Tells if that is not possible.
+void keep_size(const Options& options, const About& about, Size size);
 
 /// The file with the size that a user gave to the window of a program, in the folder for states of
 /// the XDG Base Directory Specification; empty without XDG_STATE_HOME and HOME.

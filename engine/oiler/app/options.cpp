@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oiler/app/golden.hpp"
+#include "oiler/app/loop_keys.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/capture/paths.hpp"
@@ -380,10 +381,8 @@ std::string footer(const std::string& program, std::span<const Control> controls
         actions += fmt::format("{}{}: {}", actions.empty() ? "Actions: " : "; ", control.name,
                                buttons_of(control, name_of_button));
     return actions + (actions.empty() ? "" : ".\n") +
-           "Keys in a window: F2 help, F3 pause, F4 back, F5 step, F7 and F8 slower and faster, F9 "
-           "restart, Escape quit.\n"
-           "Example: " +
-           program + " --headless --frames 120 --size 640x360 --out frames";
+           "Keys in a window: " + list_of_loop_keys(loop_keys().size()) + ".\nExample: " + program +
+           " --headless --frames 120 --size 640x360 --out frames";
 }
 
 /// The first option with a trait that names a file; empty: none does.

@@ -39,8 +39,8 @@ std::vector<BodyState> states_of(const AnyGame& game) {
 
 }  // namespace
 
-Playback::Playback(AnyGame& game, Recorder& recorder, Keep keep, Profile* profile)
-    : game_(game), recorder_(recorder), keep_(keep), profile_(profile) {}
+Playback::Playback(AnyGame& game, TraceWriter& trace, Keep keep, Profile* profile)
+    : game_(game), trace_(trace), keep_(keep), profile_(profile) {}
 
 bool Playback::hashes_ticks() const {
     return keep_ == Keep::hashes && game_.world().bodies().size() <= most_bodies_kept;
@@ -50,12 +50,12 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
     const Span span(profile_, "step");
     const World& world = game_.world();
     while (steps_ < step && !game_.loop().quits() && !Interrupt::requested()) {
-        const bool single = recorder_.active() || hashes_ticks() || watcher_ != nullptr;
+        const bool single = trace_.active() || hashes_ticks() || watcher_ != nullptr;
         const std::int64_t most = single ? 1 : steps_per_call_;
         const std::int64_t before = steps_;
         take(std::min(step - steps_, most), inputs);
         if (steps_ == before) continue;  // the game has quit
-        recorder_.record(steps_, world);
+        trace_.write(steps_, world);
         if (watcher_ != nullptr) watcher_->after(steps_ - 1, game_);
         if (keep_ != Keep::hashes) continue;
         if (hashes_ticks()) tick_hashes_ += hash_text(game_.state_hash()).substr(16 - tick_digits);
@@ -104,12 +104,12 @@ void Playback::go_to(std::int64_t step) {
     after_ = {};
 }
 
-Playback::Moment Playback::sample() const {
+Playback::Sample Playback::sample() const {
     const Span span(profile_, "picture");
-    Moment moment{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};
-    if (keep_ == Keep::hashes) moment.state_hash = game_.state_hash();
-    if (hashes_ticks()) moment.bodies = states_of(game_);
-    return moment;
+    Sample now{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};
+    if (keep_ == Keep::hashes) now.state_hash = game_.state_hash();
+    if (hashes_ticks()) now.bodies = states_of(game_);
+    return now;
 }
 
 std::string Playback::tick_hashes(std::int64_t first, std::int64_t last) const {

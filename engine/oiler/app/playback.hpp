@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/app/recorder.hpp"
+#include "oiler/app/trace_writer.hpp"
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/core/profile.hpp"
 #include "oiler/game/game.hpp"
@@ -23,10 +23,10 @@ enum class Keep {
 /// game is stepped to the later one.
 class Playback {
 public:
-    Playback(AnyGame& game, Recorder& recorder, Keep keep, Profile* profile = nullptr);
+    Playback(AnyGame& game, TraceWriter& trace, Keep keep, Profile* profile = nullptr);
 
     /// Steps until the loop has taken `step` steps. Takes many steps per call unless they
-    /// are recorded or hashed, but no more than a short time's, because it stops early if
+    /// are written or hashed, but no more than a short time's, because it stops early if
     /// interrupted.
     void step_to(std::int64_t step, InputSource& inputs);
 
@@ -60,7 +60,7 @@ public:
     [[nodiscard]] std::string tick_hashes(std::int64_t first, std::int64_t last) const;
 
 private:
-    struct Moment {
+    struct Sample {
         std::int64_t step = -1;
         std::int64_t cuts = 0;
         std::uint64_t state_hash = 0;
@@ -68,20 +68,20 @@ private:
         Picture picture{};
     };
 
-    [[nodiscard]] Moment sample() const;
+    [[nodiscard]] Sample sample() const;
     void take(std::int64_t count, InputSource& inputs);
     [[nodiscard]] bool hashes_ticks() const;
 
     AnyGame& game_;
-    Recorder& recorder_;
+    TraceWriter& trace_;
     Keep keep_;
     Profile* profile_;
     StepWatcher* watcher_ = nullptr;
     std::int64_t steps_ = 0;
     std::int64_t steps_per_call_ = 1;
     std::string tick_hashes_;  ///< four digits for each step, or dots
-    Moment before_;
-    Moment after_;
+    Sample before_;
+    Sample after_;
     Picture shown_;  ///< kept for its memory: a million discs are 40 MB
 };
 

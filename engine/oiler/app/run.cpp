@@ -11,9 +11,10 @@
 #include <span>
 
 #include "oiler/app/golden.hpp"
-#include "oiler/app/loops.hpp"
 #include "oiler/app/options.hpp"
 #include "oiler/app/report.hpp"
+#include "oiler/app/run_game.hpp"
+#include "oiler/app/window.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/play/replay.hpp"
@@ -37,10 +38,11 @@ std::vector<ScriptLine> read_script(const Options& options, std::span<const Cont
                         options.settings.stepping.rate, controls);
 }
 
-/// Who plays: the user in a window, a script, a recording or nobody; and the recording of it.
-class Player {
+/// The sources of a run's input: the player in a window, a script or a recording; and the recording
+/// of that input.
+class RunInputs {
 public:
-    Player(const Options& options, const About& about, const AnyGame& game)
+    RunInputs(const Options& options, const About& about, const AnyGame& game)
         : live(options.controls) {
         if (options.replay)
             replay_.emplace(*options.replay, options.replay_file.string(), options.controls,
@@ -49,7 +51,7 @@ public:
             script_.emplace(read_script(options, controls_of(options, about)), game,
                             options.controls);
         if (!options.record.empty())
-            tape_.emplace(source(), options.record,
+            tape_.emplace(played(), options.record,
                           header_of(about.name, options.settings, controls_of(options, about)));
         for (const auto& [option, path] :
              {std::pair("--script", options.script), std::pair("--record", options.record)})
@@ -58,7 +60,7 @@ public:
                        option, about.name);
     }
 
-    [[nodiscard]] InputSource& inputs() { return tape_ ? *tape_ : source(); }
+    [[nodiscard]] InputSource& source() { return tape_ ? *tape_ : played(); }
     void watch(Playback& playback) {
         if (tape_) playback.watch(*tape_);
         if (replay_) playback.watch(*replay_);
@@ -83,7 +85,7 @@ public:
     LiveInput live;
 
 private:
-    [[nodiscard]] InputSource& source() {
+    [[nodiscard]] InputSource& played() {
         if (replay_) return *replay_;
         if (script_) return *script_;
         return live;
@@ -122,29 +124,29 @@ private:
     std::optional<InputRecorder> tape_;
 };
 
-void run_steps(Playback& playback, InputSource& inputs, const Options& options) {
-    Progress progress(options.quiet, "steps", *options.steps);
-    const std::int64_t stride = std::max<std::int64_t>(1, *options.steps / 100);
-    while (playback.steps() < *options.steps && !playback.loop().quits() &&
-           !Interrupt::requested()) {
-        playback.step_to(std::min(playback.steps() + stride, *options.steps), inputs);
+void run_steps(const GameRun& run) {
+    Playback& playback = run.playback;
+    const std::int64_t steps = *run.options.steps;
+    Progress progress(run.options.quiet, "steps", steps);
+    const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
+    while (playback.steps() < steps && !playback.loop().quits() && !Interrupt::requested()) {
+        playback.step_to(std::min(playback.steps() + stride, steps), run.inputs);
         progress.show(playback.steps());
     }
 }
 
-Played loop(Playback& playback, Player& player, const Options& options, const About& about,
-            const MakeGame& make, Shelf* shelf, Profile* profile) {
-    InputSource& inputs = player.inputs();
-    if (!options.headless && !options.steps)
-        return run_window(playback, player.live, inputs, options, about, make, shelf, profile);
+/// Plays in a window, as frames or as steps alone.
+RunEnd play_to_end(GameRun& run) {
+    const Options& options = run.options;
+    if (!options.headless && !options.steps) return run_window(run);
     if (!options.steps) {
-        const Exit exit = run_headless(playback, inputs, options, about, make, profile);
+        const Exit exit = run_headless(run);
         // The last frame of a replay comes before its end.
         if (options.replay && !options.frames && !options.frame)
-            playback.step_to(options.replay->steps, inputs);
+            run.playback.step_to(options.replay->steps, run.inputs);
         return {exit};
     }
-    run_steps(playback, inputs, options);
+    run_steps(run);
     return {Interrupt::requested() ? Exit::interrupted : Exit::done};
 }
 
@@ -190,27 +192,27 @@ Exit run_what_if(const Options& options, const About& about, const MakeGame& mak
 }
 
 /// Plays the game. Completes the report, also after a divergence.
-Exit play(Playback& playback, Player& player, const Options& options, const About& about,
-          const MakeGame& make, Shelf* shelf, RunReport& report, Profile* profile) {
+Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
+    const Playback& playback = run.playback;
     const Clock::time_point start = Clock::now();
-    Played played;
+    RunEnd end;
     try {
-        played = loop(playback, player, options, about, make, shelf, profile);
+        end = play_to_end(run);
         report.last = playback.world().bodies().energy();
         report.state_hash = playback.game().state_hash();
         report.readings = playback.game().readings();
         require_finite(*report.last, playback.world());
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) {
-            player.finish_recording(playback, true);
+            inputs.finish_recording(playback, true);
             throw;
         }
         report.divergence = error.what();
     }
     report.steps = playback.steps();
-    report.dropped = played.dropped;
+    report.dropped = end.dropped;
     report.wall = Clock::now() - start;
-    return played.exit;
+    return end.exit;
 }
 
 }  // namespace
@@ -219,13 +221,13 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget, Shelf* shelf) {
     if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
-    Player player(options, about, *game);
+    RunInputs inputs(options, about, *game);
     const World& world = game->world();
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
     for (const std::string& line : world.preflight()) remark(options.quiet, "{}", line);
     RunReport report{.scene = about.name, .first = world.bodies().energy()};
-    Recorder recorder(options.trace, options.energy, world);
+    TraceWriter trace(options.trace, options.energy, world);
     std::optional<File> json;  // opened before the run, so that a wrong path costs no time
     if (!options.json.empty()) json.emplace(options.json);
     std::optional<File> profile_file;
@@ -235,13 +237,21 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
         profile.emplace();
     }
     Profile* const stages = profile ? &*profile : nullptr;
-    Playback playback(*game, recorder, options.headless ? Keep::hashes : Keep::nothing, stages);
+    Playback playback(*game, trace, options.headless ? Keep::hashes : Keep::nothing, stages);
     std::optional<GoldenUpdate> golden;
     if (options.update_golden) golden.emplace(options.golden, std::string(about.name));
-    player.watch(playback);
-    Exit exit = play(playback, player, options, about, make, shelf, report, stages);
-    exit = std::max(exit, player.finish(playback, options, !report.divergence.empty()));
-    recorder.commit();
+    inputs.watch(playback);
+    GameRun run{.options = options,
+                .about = about,
+                .make = make,
+                .playback = playback,
+                .live = inputs.live,
+                .inputs = inputs.source(),
+                .shelf = shelf,
+                .profile = stages};
+    Exit exit = play(run, inputs, report);
+    exit = std::max(exit, inputs.finish(playback, options, !report.divergence.empty()));
+    trace.commit();
     if (profile) {
         profile_file->write(profile->to_json());
         profile_file->commit();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/startable.hpp"

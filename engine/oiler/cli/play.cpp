@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "oiler/app/loops.hpp"
+#include "oiler/app/run_game.hpp"
 #include "oiler/cli/arguments.hpp"
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/scene_game.hpp"

@@ -79,7 +79,7 @@ struct Inspector::Impl {
         ImGui::Separator();
     }
 
-    void show_setting(const Inspected& run, bool escapes, Wishes& wishes) {
+    void show_setting(const Inspected& run, bool escapes, Requests& requests) {
         Stepping chosen = run.stepping;
         ImGui::BeginDisabled(!run.fixed.empty());
         ImGui::SetNextItemWidth(-ImGui::CalcTextSize("precision  ").x);
@@ -126,9 +126,9 @@ struct Inspector::Impl {
                              ImGuiSliderFlags_NoInput);
             ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
             text(fmt::format("{} thread{}", run.threads, run.threads == 1 ? "" : "s"));
-            if (threads != run.threads) wishes.threads = threads;
+            if (threads != run.threads) requests.threads = threads;
         }
-        if (chosen != run.stepping) wishes.stepping = chosen;
+        if (chosen != run.stepping) requests.stepping = chosen;
     }
 
     /// Where a splitting puts damping; other methods have no choice.
@@ -150,29 +150,29 @@ struct Inspector::Impl {
         if (wanted != method.damping) chosen.damping = wanted;
     }
 
-    void show_controls(const Inspected& run, Wishes& wishes) {
-        wishes.pauses = button(run.is_paused ? "Resume" : "Pause");
+    void show_controls(const Inspected& run, Requests& requests) {
+        requests.pauses = button(run.is_paused ? "Resume" : "Pause");
         ImGui::SameLine();
-        wishes.goes_back = button("Back", run.is_paused && run.past);
+        requests.goes_back = button("Back", run.is_paused && run.past);
         ImGui::SameLine();
-        wishes.steps = button("Step", run.is_paused);
+        requests.steps = button("Step", run.is_paused);
         ImGui::SameLine();
-        wishes.restarts = button("Restart");
+        requests.restarts = button("Restart");
         ImGui::SameLine();
-        if (button("Slower")) --wishes.pace;
+        if (button("Slower")) ++requests.slower;
         ImGui::SameLine();
-        if (button("Faster")) ++wishes.pace;
+        if (button("Faster")) ++requests.faster;
         const std::string bodies = run.bodies > 0 ? fmt::format(", bodies: {}", run.bodies) : "";
         text(fmt::format("{:.2f} s{}{}{}", run.time, bodies, run.pace.empty() ? "" : ", ",
                          run.pace));
-        if (run.past) show_time_line(*run.past, run.stepping.rate, wishes);
+        if (run.past) show_time_line(*run.past, run.stepping.rate, requests);
         if (!run.followed.empty())
             wrapped(run.followed);
         else if (run.bodies > 0)
             text("A double click on a body follows it.");
     }
 
-    void show_time_line(const Inspected::Past& past, const Rate& rate, Wishes& wishes) {
+    void show_time_line(const Inspected::Past& past, const Rate& rate, Requests& requests) {
         if (!is_seeking) seeked = past.now;
         const double ago = rate.time(past.last - seeked);
         const std::string when = ago == 0 ? "now" : fmt::format("{:.2f} s ago", ago);
@@ -182,10 +182,10 @@ struct Inspector::Impl {
                             when.c_str(), ImGuiSliderFlags_NoInput);
         ImGui::EndDisabled();
         is_seeking = ImGui::IsItemActive();
-        if (is_seeking) wishes.step = seeked;
+        if (is_seeking) requests.step = seeked;
     }
 
-    static void show_settings(const Inspected& run, Wishes& wishes) {
+    static void show_settings(const Inspected& run, Requests& requests) {
         if (run.settings.empty()) return;
         ImGui::Separator();
         text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
@@ -205,7 +205,7 @@ struct Inspector::Impl {
             text(one.forces);
             ImGui::TableNextColumn();
             ImGui::PushID(static_cast<int>(i));
-            if (i > 0 && button("Apply", run.fixed.empty())) wishes.stepping = one.stepping;
+            if (i > 0 && button("Apply", run.fixed.empty())) requests.stepping = one.stepping;
             ImGui::PopID();
         }
         ImGui::EndTable();
@@ -361,8 +361,8 @@ Size Inspector::view(Size frame) {
 Inspector::Inspector(std::span<const char> font) : impl_(std::make_unique<Impl>(font)) {}
 Inspector::~Inspector() = default;
 
-Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, double seconds) {
-    Wishes wishes;
+Requests Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, double seconds) {
+    Requests requests;
     impl_->gui.begin(mouse, frame, seconds);
     const auto panel = static_cast<float>(frame.width - view(frame).width);
     ImGui::SetNextWindowPos({static_cast<float>(frame.width) - panel, 0});
@@ -370,18 +370,18 @@ Wishes Inspector::show(const Inspected& run, const Mouse& mouse, Size frame, dou
     ImGui::Begin("Inspector", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
     Impl::show_verdict(run);
-    impl_->show_setting(run, mouse.escapes, wishes);
-    impl_->show_controls(run, wishes);
-    Impl::show_settings(run, wishes);
+    impl_->show_setting(run, mouse.escapes, requests);
+    impl_->show_controls(run, requests);
+    Impl::show_settings(run, requests);
     Impl::show_gauge(run);
     impl_->show_overlays(run);
     Impl::show_costs(run);
     Impl::show_energy(run);
     ImGui::End();
     impl_->gui.end();
-    wishes.changes_from_start = impl_->changes_from_start;
-    wishes.shown = impl_->shown;
-    return wishes;
+    requests.changes_from_start = impl_->changes_from_start;
+    requests.shown = impl_->shown;
+    return requests;
 }
 
 const Overlay& Inspector::overlay() const { return impl_->gui.overlay(); }

@@ -98,17 +98,20 @@ struct Inspected {
     Scales scales{};
 };
 
-/// What the user asks of the loop through the inspector.
-struct Wishes {
+/// What the user asks of the loop in a frame, through the inspector or with keys.
+struct Requests {
     std::optional<Stepping> stepping{};  ///< the setting to have
     std::optional<int> threads{};
-    bool changes_from_start = false;  ///< restart with it; else go on with it
-    bool pauses = false;              ///< or resumes
-    bool steps = false;
-    bool goes_back = false;
+    bool changes_from_start = false;     ///< restart with it; else go on with it
+    bool pauses = false;                 ///< or resumes
+    bool steps = false;                  ///< one step in a pause
+    bool goes_back = false;              ///< one step back in a pause
+    bool rewinds = false;                ///< goes back in every frame, unless paused
     std::optional<std::int64_t> step{};  ///< to show as long as the time line is held
     bool restarts = false;
-    int pace = 0;  ///< faster, or slower
+    int slower = 0;  ///< how often the pace is halved
+    int faster = 0;  ///< how often it is doubled, after that
+    bool quits = false;
     Shown shown{};
 };
 
@@ -134,7 +137,8 @@ public:
     Inspector& operator=(const Inspector&) = delete;
 
     /// Lays out a frame, and returns what the user did in it. `seconds` have passed since the last.
-    [[nodiscard]] Wishes show(const Inspected& run, const Mouse& mouse, Size frame, double seconds);
+    [[nodiscard]] Requests show(const Inspected& run, const Mouse& mouse, Size frame,
+                                double seconds);
     /// The triangles of the last frame.
     [[nodiscard]] const Overlay& overlay() const;
     /// Whether the mouse belongs to the panel and not to the game.

@@ -74,12 +74,12 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
 }  // namespace
 
 GameInspector::GameInspector(AnyGame& game, std::string fixed, std::span<const char> font)
-    : game_(game), fixed_(std::move(fixed)), inspector_(font) {
-    game_.measure(times_);
-    list_methods();
-}
+    : game_(game), fixed_(std::move(fixed)), inspector_(font) {}
 
-void GameInspector::list_methods() { methods_ = applicable_methods(game_.world()); }
+void GameInspector::begin_game() {
+    methods_.clear();
+    follower_.end();
+}
 
 /// Limits take too long for a frame, so they are found aside.
 void GameInspector::find_stiffest(bool waits) {
@@ -112,15 +112,16 @@ void GameInspector::find_stiffest(bool waits) {
     stiffest_ = Inspected::Gauge{std::move(name), found->is_damper, found->measure, found->limit};
 }
 
-void GameInspector::add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw) {
+void GameInspector::add_times(const StepTimes& steps, std::chrono::nanoseconds show,
+                              std::chrono::nanoseconds draw) {
     constexpr double weight = 1.0 / 32;
-    const auto mix = [](double& mean, std::chrono::nanoseconds time) {
-        mean += weight * (static_cast<double>(time.count()) - mean);
+    const auto mix = [](double& mean, std::int64_t nanoseconds) {
+        mean += weight * (static_cast<double>(nanoseconds) - mean);
     };
-    mix(costs_.update, std::chrono::nanoseconds(times_.update));
-    mix(costs_.step, std::chrono::nanoseconds(times_.step));
-    mix(costs_.picture, show - time_of_steps());
-    mix(costs_.draw, draw);
+    mix(costs_.update, steps.update);
+    mix(costs_.step, steps.step);
+    mix(costs_.picture, show.count() - steps.update - steps.step);
+    mix(costs_.draw, draw.count());
 }
 
 void GameInspector::follow(Picture& picture, const Input& mouse, const Camera& shown, double time) {
@@ -152,15 +153,15 @@ std::string GameInspector::figures_of(Entity body) const {
                        std::hypot(v[0], v[1], v[2]), place);
 }
 
-Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size view,
-                           const Frame& frame) {
+Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
+                             const Frame& frame) {
     const World& world = game_.world();
+    if (methods_.empty()) methods_ = applicable_methods(world);
     find_stiffest(frame.waits);
     const double energy = world.bodies().energy().total();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
-                  .errors = along.errors(),
                   .stiffest = stiffest_,
                   .costs = costs_,
                   .energy = energy,
@@ -173,32 +174,33 @@ Wishes GameInspector::show(PlayAlong& along, const Input& mouse, Size size, Size
                   .past = frame.past,
                   .pace = frame.pace,
                   .scales = motion_.scales()};
-    if (const auto& begin = along.begin()) {
-        run.begin = begin->time;
-        run.first_energy = begin->energy;
-        run.energy_scale = along.energy_scale();
+    if (what_if && what_if->begin()) {
+        run.begin = what_if->begin()->time;
+        run.first_energy = what_if->begin()->energy;
+        run.energy_scale = what_if->energy_scale();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
-    const Verdict verdict =
-        frame.other_moment.empty() ? along.verdict() : Verdict{.text = frame.other_moment};
+    const bool is_measured = what_if && frame.no_verdict.empty();
+    const Verdict verdict = is_measured ? what_if->verdict() : Verdict{.text = frame.no_verdict};
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
-    if (!frame.other_moment.empty()) {
-        run.errors.clear();
-    } else if (const auto& measured = along.measured(); measured && has_figures(*measured)) {
+    if (is_measured) run.errors = what_if->errors();
+    if (is_measured && what_if->measured() && has_figures(*what_if->measured())) {
+        const WhatIf& measured = *what_if->measured();
         // The errors are newer.
-        WhatIfRun played = measured->runs.front();
+        WhatIfRun played = measured.runs.front();
         if (!run.errors.empty())
             played.distance = std::max(played.distance, double{run.errors.back()});
-        run.settings.push_back(inspected(played, *measured));
-        for (const WhatIfRun& other : std::span(measured->runs).subspan(1))
-            run.settings.push_back(inspected(other, *measured));
-        run.is_of_round = along.repeats();
-        run.rate_advice = rate_advice_text(*measured);
+        run.settings.push_back(inspected(played, measured));
+        for (const WhatIfRun& other : std::span(measured.runs).subspan(1))
+            run.settings.push_back(inspected(other, measured));
+        run.is_of_round = what_if->repeats();
+        run.rate_advice = rate_advice_text(measured);
     }
-    const Wishes wishes = inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
-    shown_ = wishes.shown;
-    return wishes;
+    const Requests requests =
+        inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
+    shown_ = requests.shown;
+    return requests;
 }
 
 }  // namespace oiler

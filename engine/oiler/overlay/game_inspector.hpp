@@ -12,7 +12,7 @@
 #include "oiler/overlay/follower.hpp"
 #include "oiler/overlay/motion_overlay.hpp"
 #include "oiler/stability/stiffest.hpp"
-#include "oiler/whatif/play_along.hpp"
+#include "oiler/whatif/live_what_if.hpp"
 
 namespace oiler {
 
@@ -25,8 +25,8 @@ public:
         double dropped = 0;  ///< s, since the start
         bool is_paused = false;
         std::optional<Inspected::Past> past{};
-        /// Why that which plays along does not show this moment; empty: it does.
-        std::string other_moment{};
+        /// Why the verdict does not tell of the step that is shown; empty: it does.
+        std::string no_verdict{};
         std::string pace{};
         bool waits = false;  ///< until all that it shows is known
     };
@@ -34,25 +34,21 @@ public:
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
-    /// Lists the methods anew: the game has other bodies.
-    void list_methods();
-    void begin_frame() { times_ = {}; }
-    /// Of the updates and steps since begin_frame().
-    [[nodiscard]] std::chrono::nanoseconds time_of_steps() const {
-        return std::chrono::nanoseconds(times_.update + times_.step);
-    }
+    /// The game was replaced: it has other bodies.
+    void begin_game();
     /// Counts the times of a frame. `show` is the time of steps and picture.
-    void add_times(std::chrono::nanoseconds show, std::chrono::nanoseconds draw);
+    void add_times(const StepTimes& steps, std::chrono::nanoseconds show,
+                   std::chrono::nanoseconds draw);
     /// Follows the body that the user double-clicks, see Follower.
     void follow(Picture& picture, const Input& mouse, const Camera& shown, double time);
-    /// Follows no body any more.
-    void stop_following() { follower_.end(); }
     /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
     /// game `alpha` of the way to its last step. Distances are drawn `factor` times as long.
     void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                       double factor);
-    [[nodiscard]] Wishes show(PlayAlong& along, const Input& mouse, Size size, Size view,
-                              const Frame& frame);
+    /// Lays out the panel, and returns what the user asks for. `what_if` is null if the costs of
+    /// the timestep are not measured.
+    [[nodiscard]] Requests show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
+                                const Frame& frame);
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
     [[nodiscard]] bool has_mouse() const { return inspector_.has_mouse(); }
     [[nodiscard]] bool has_menu() const { return inspector_.has_menu(); }
@@ -73,9 +69,8 @@ private:
     Follower follower_;
     Shown shown_;
     MotionOverlay motion_;
-    StepTimes times_;
     FrameCosts costs_;
-    std::vector<const Method*> methods_;
+    std::vector<const Method*> methods_;  ///< that the bodies can have; empty: not yet listed
 };
 
 }  // namespace oiler

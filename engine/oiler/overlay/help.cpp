@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
-#include <vector>
 
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/shapes.hpp"
@@ -19,11 +17,6 @@ constexpr float letter_width = 0.6F;  ///< of the size, of the font's usual lett
 constexpr std::size_t longest_name = 20;
 constexpr float letters_of_loop_keys = 27;
 constexpr float least_letters_beside = 80;  ///< in an area with two columns
-
-struct Row {
-    std::string name;
-    std::string text;
-};
 
 /// A sheet of paper over the whole area; little shines through.
 Polygon sheet(const OverlayArea& area) {
@@ -58,9 +51,9 @@ std::vector<std::string> broken(std::string text, std::size_t most) {
 }
 
 /// Rows for the controls; a long list of buttons takes several rows, the first one with the name.
-std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& name,
-                         std::size_t letters) {
-    std::vector<Row> rows;
+std::vector<HelpRow> rows_of(std::span<const Control> controls, const NameButton& name,
+                             std::size_t letters) {
+    std::vector<HelpRow> rows;
     for (const Control& control : controls) {
         std::string shown(control.name.substr(0, longest_name));
         if (shown.size() < control.name.size()) shown += "…";
@@ -71,18 +64,9 @@ std::vector<Row> rows_of(std::span<const Control> controls, const NameButton& na
     return rows;
 }
 
-std::vector<Row> loop_keys(bool escape_quits) {
-    std::vector<Row> rows{{"F1", "inspector"},   {"F2", "close this help"}, {"F3", "pause, resume"},
-                          {"F4", "go back"},     {"F5", "step in a pause"}, {"F6", "errors ×10"},
-                          {"F7", "slower"},      {"F8", "faster"},          {"F9", "restart"},
-                          {"F11", "full screen"}};
-    if (escape_quits) rows.push_back({"Escape", "quit"});
-    return rows;
-}
-
 /// Rows side by side in so many columns.
-std::vector<Row> in_columns(const std::vector<Row>& rows, std::size_t columns) {
-    std::vector<Row> wide((rows.size() + columns - 1) / columns);
+std::vector<HelpRow> in_columns(const std::vector<HelpRow>& rows, std::size_t columns) {
+    std::vector<HelpRow> wide((rows.size() + columns - 1) / columns);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         std::string& text = wide[i % wide.size()].text;
         const std::string words = rows[i].name + " " + rows[i].text;
@@ -97,7 +81,7 @@ struct List {
     float text_x;
     float size;
 
-    void add(Picture& overlay, std::span<const Row> rows) const {
+    void add(Picture& overlay, std::span<const HelpRow> rows) const {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const float y = at.y - static_cast<float>(i) * line_height * size;
             overlay.labels.push_back(label({at.x, y}, rows[i].name, size, palette::blue));
@@ -125,7 +109,8 @@ std::string buttons_of(const Control& control, const NameButton& name) {
 }
 
 void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
-              std::span<const Control> controls, const NameButton& name, bool escape_quits) {
+              std::span<const Control> controls, const NameButton& name,
+              std::vector<HelpRow> loop_keys) {
     overlay.polygons.push_back(sheet(area));
     const float largest = area.legible(11);
     const float letter = letter_width * largest;
@@ -139,22 +124,21 @@ void add_help(Picture& overlay, const OverlayArea& area, std::string_view title,
     const float loop_x = area.high.x - letters_of_loop_keys * letter;
     const float end = is_wide ? loop_x : area.high.x - margin;
     const auto letters = static_cast<std::size_t>(std::max(8.0F, (end - text_x) / letter)) - 1;
-    std::vector<Row> rows = rows_of(controls, name, letters);
-    std::vector<Row> keys = loop_keys(escape_quits);
+    std::vector<HelpRow> rows = rows_of(controls, name, letters);
     if (!is_wide) {
-        keys = in_columns(keys, 2);
+        loop_keys = in_columns(loop_keys, 2);
         rows.push_back({});
     }
-    const std::size_t count = rows.size() + (is_wide ? 0 : keys.size());
+    const std::size_t count = rows.size() + (is_wide ? 0 : loop_keys.size());
     const float size = std::min(largest, (first_row - area.low.y - 2 * largest) / line_height /
                                              static_cast<float>(std::max<std::size_t>(count, 1)));
     overlay.labels.push_back(label({left, top}, std::string(title), 1.35F * largest, palette::ink));
     List{{left, first_row}, text_x, size}.add(overlay, rows);
     if (is_wide) {
-        List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, keys);
+        List{{loop_x, first_row}, loop_x + 8 * letter, largest}.add(overlay, loop_keys);
     } else {
         const float y = first_row - static_cast<float>(rows.size()) * line_height * size;
-        List{{left, y}, left, size}.add(overlay, keys);
+        List{{left, y}, left, size}.add(overlay, loop_keys);
     }
 }
 

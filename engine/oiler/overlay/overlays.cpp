@@ -13,6 +13,8 @@
 namespace oiler {
 namespace {
 
+constexpr float least_font_pixels = 11;
+
 constexpr float overlay_letter_width = 0.55F;  // of the size, of the font's usual letters
 
 void add_sheet(Picture& picture, Point centre, Point size, Colour colour) {
@@ -83,6 +85,17 @@ struct Band {
 };
 
 }  // namespace
+
+OverlayArea::OverlayArea(Size size)
+    : pixels(std::max(0.01F, std::min(static_cast<float>(size.width) / canvas_width,
+                                      static_cast<float>(size.height) / canvas_height))) {
+    const Point half{static_cast<float>(size.width) / pixels / 2,
+                     static_cast<float>(size.height) / pixels / 2};
+    low = {canvas_width / 2 - half.x, canvas_height / 2 - half.y};
+    high = {canvas_width / 2 + half.x, canvas_height / 2 + half.y};
+}
+
+float OverlayArea::legible(float size) const { return std::max(size, least_font_pixels / pixels); }
 
 void add_status(Picture& overlay, const OverlayArea& area, std::string status) {
     if (status.empty()) return;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "oiler/overlay/drawn_bodies.hpp"
-#include "oiler/overlay/ghosts.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/world/world.hpp"
 

@@ -8,29 +8,35 @@
 #include "oiler/app/options.hpp"
 #include "oiler/app/playback.hpp"
 #include "oiler/app/report.hpp"
-#include "oiler/app/run.hpp"
 #include "oiler/app/shelf.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {
 
-/// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
-/// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
-/// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
-Exit run_headless(Playback& playback, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make, Profile* profile);
+/// A run: which game is played with which options, how it is stepped, and where its steps get their
+/// input from.
+struct GameRun {
+    const Options& options;
+    const About& about;
+    const MakeGame& make;  ///< makes the game anew, and those that play along
+    Playback& playback;
+    LiveInput& live;      ///< the player in a window
+    InputSource& inputs;  ///< of the steps; it may be `live`
+    Shelf* shelf = nullptr;
+    Profile* profile = nullptr;
+    StepTimes times{};  ///< of the steps since the last frame, in a window
+};
 
-/// The end of a run in a loop.
-struct Played {
+/// The end of a run.
+struct RunEnd {
     Exit exit = Exit::done;               ///< Exit::no_display if the display ended
     std::chrono::nanoseconds dropped{0};  ///< simulated time that late frames dropped
 };
 
-/// Shows the game in a window in real time until the user quits, the display or a replay ends.
-/// Steps take their input from `inputs`, which may be `live`. `make` makes the games that play
-/// along for the verdict. `shelf` may be null.
-Played run_window(Playback& playback, LiveInput& live, InputSource& inputs, const Options& options,
-                  const About& about, const MakeGame& make, Shelf* shelf, Profile* profile);
+/// Draws frames into a folder. Frame i shows t = i/fps, independent of the machine's clock. If the
+/// run is interrupted or throws Error, frames and manifest are complete up to there. With a single
+/// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
+Exit run_headless(GameRun& run);
 
 /// Measures the budget of a run of so many seconds without a window; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;

@@ -13,28 +13,27 @@ namespace oiler {
 
 /// Measures what the timestep costs while a game is played: the reference and the usual other
 /// settings play along with the player's input, in the time that is left. The game never sees them.
-class PlayAlong final : public InputSource {
+class LiveWhatIf {
 public:
-    /// Whether it plays in the time that a frame leaves, takes the time that it needs, or never
-    /// plays.
-    enum class Pace { of_frames, own, never };
+    /// Whether it plays in the time that a frame leaves, or takes the time that it needs.
+    enum class Pace { of_frames, own };
 
     /// The game is played with `play`, whose recording is that of the inputs.
-    PlayAlong(InputSource& inputs, RecordedPlay play, const MakeGame& make,
-              Pace pace = Pace::of_frames);
-    PlayAlong(const PlayAlong&) = delete;
-    PlayAlong& operator=(const PlayAlong&) = delete;
+    LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace = Pace::of_frames);
+    LiveWhatIf(const LiveWhatIf&) = delete;
+    LiveWhatIf& operator=(const LiveWhatIf&) = delete;
 
     /// Begins with the game as it is made, before its step `first`.
     void start(std::int64_t first);
-    /// The same with another setting of the game.
+    /// Begins in the same way with another setting of the game.
     void start(std::int64_t first, const Stepping& stepping);
-    /// Begins again with the game as it is made: what was measured stands until as much is measured
+    /// Begins again with the game as it is made. The last result stays until as much is measured
     /// anew, unless there is input. The rate that it advises plays along, too.
     void repeat(std::int64_t first);
     /// Begins with the game as it is now, before its step `first`.
     void start_from(const AnyGame& game, std::int64_t first);
-    [[nodiscard]] Input next(std::int64_t step) override;
+    /// Records the input of a step of the game, before that step is played along.
+    void add(std::int64_t step, const Input& input);
     /// Plays along until that step of the game begins, or for a short time at the pace of frames.
     void play_until(std::int64_t step);
     /// Ends it: the game is no longer what the input made of it.
@@ -48,23 +47,22 @@ public:
         double time = 0;    ///< s
         double energy = 0;  ///< J
     };
-    /// Empty if nothing was ever measured.
+    /// Empty if no game could be made.
     [[nodiscard]] const std::optional<Begin>& begin() const { return begin_; }
     /// The scale of the energy's changes since then, J; in a repeated round, also of the last one.
     [[nodiscard]] double energy_scale() const { return energy_scale_.joules(); }
-    /// What is measured so far; nothing may have stopped it.
+    /// The result so far. The measuring must not have stopped.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
-    /// What is known so far, as a sentence; at the pace of frames, it is renewed ten times a
-    /// second.
+    /// The result so far as a sentence, which is renewed ten times a second at the pace of frames.
     [[nodiscard]] const Verdict& verdict();
-    /// Whether what is measured is of the round that this one repeats.
+    /// Whether the result is that of the round that this one repeats.
     [[nodiscard]] bool repeats() const { return repeats_; }
-    /// What the last verdict is made of; empty if nothing is measured.
+    /// The result that the last verdict judges; empty if there is none.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
-    /// The bodies and where they truly are, `alpha` between the last step and that before; empty if
-    /// that is not known, or not yet of the game's step `step`.
+    /// The bodies and their true places, `alpha` between the last step and that before; empty if
+    /// these are not known, or not yet those of the game's step `step`.
     [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;
-    /// The distance of the body that is furthest off as drawn, in each of the last steps, m.
+    /// The largest error of a body as it is drawn, in each of the last steps, m.
     [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
 
 private:
@@ -74,7 +72,6 @@ private:
     void judge(WhatIf measured);
     [[nodiscard]] std::vector<Stepping> other_settings() const;
 
-    InputSource& inputs_;
     const MakeGame& make_;
     Pace pace_;
     RecordedPlay play_;  ///< its recording grows
@@ -82,19 +79,35 @@ private:
     std::optional<Begin> begin_;
     std::int64_t first_ = 0;
     Input before_{};
-    std::optional<WhatIfRuns> runs_;  ///< empty: nothing plays along
+    std::optional<WhatIfRuns> runs_;  ///< empty: no run plays along
     std::int64_t played_ = 0;
-    int slow_ = 0;              ///< the last steps that each took too long
+    int slow_ = 0;              ///< the number of last steps that each took too long
     Clock::time_point last_{};  ///< when it last played along
     bool repeats_ = false;
     bool began_at_start_ = false;
-    std::int64_t judged_ = 0;  ///< played then
+    std::int64_t judged_ = 0;  ///< the steps that the last verdict judges
     Clock::time_point next_verdict_{};
     std::vector<Reading> readings_;  ///< at the last verdict
     Verdict verdict_;
     std::optional<WhatIf> measured_;
     std::vector<float> errors_;
     EnergyScale energy_scale_;
+};
+
+/// Hands on the input of each step, and records it for the runs that play along.
+class InputTap final : public InputSource {
+public:
+    InputTap(InputSource& inputs, LiveWhatIf& what_if) : inputs_(inputs), what_if_(what_if) {}
+
+    [[nodiscard]] Input next(std::int64_t step) override {
+        Input input = inputs_.next(step);
+        what_if_.add(step, input);
+        return input;
+    }
+
+private:
+    InputSource& inputs_;
+    LiveWhatIf& what_if_;
 };
 
 }  // namespace oiler

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/whatif/play_along.hpp"
+#include "oiler/whatif/live_what_if.hpp"
 
 #include <fmt/core.h>
 
@@ -15,12 +15,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto time_of_frame = 1ms;
-constexpr int part_of_slow_frame = 16;  // where a picture takes long, so may this
+constexpr int part_of_slow_frame = 16;  // playing along may take that part of a slow frame
 constexpr auto time_of_verdict = 100ms;
 constexpr std::int64_t longest_delay = 2;  // s
 constexpr std::int64_t longest_delay_in_steps = 60;
 constexpr std::size_t most_bodies = 2000;
-constexpr int most_slow_steps = 8;  // one after the other that take longer than that
+constexpr int most_slow_steps = 8;  // in a row, each longer than the time of a frame
 constexpr const char* too_slow =
     "what the timestep costs is not measured: playing along takes longer than 1 ms per frame";
 constexpr std::size_t most_errors = 600;
@@ -37,26 +37,23 @@ bool has_input(const Recording& recording) {
 
 }  // namespace
 
-PlayAlong::PlayAlong(InputSource& inputs, RecordedPlay play, const MakeGame& make, Pace pace)
-    : inputs_(inputs), make_(make), pace_(pace), play_(std::move(play)) {
-    if (pace_ == Pace::never)
-        stop("what the timestep costs is not measured with --quiet");
-    else
-        start(0);
+LiveWhatIf::LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace)
+    : make_(make), pace_(pace), play_(std::move(play)) {
+    start(0);
 }
 
-void PlayAlong::start(std::int64_t first, const Stepping& stepping) {
+void LiveWhatIf::start(std::int64_t first, const Stepping& stepping) {
     play_.settings.stepping = stepping;
     start(first);
 }
 
-void PlayAlong::start(std::int64_t first) {
+void LiveWhatIf::start(std::int64_t first) {
     repeats_ = false;
     began_at_start_ = true;
     measure(first, make_);
 }
 
-void PlayAlong::repeat(std::int64_t first) {
+void LiveWhatIf::repeat(std::int64_t first) {
     const bool is_same = runs_ && began_at_start_ && !has_input(play_.recording);
     if (is_same && played_ != judged_) judge(runs_->result());
     repeats_ = is_same && measured_;
@@ -64,7 +61,7 @@ void PlayAlong::repeat(std::int64_t first) {
     measure(first, make_);
 }
 
-void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
+void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
     play_.settings.stepping = game.world().settings().stepping;
     repeats_ = began_at_start_ = false;
     measure(first, [now = std::shared_ptr<const AnyGame>(game.clone())](const Settings& settings) {
@@ -74,7 +71,7 @@ void PlayAlong::start_from(const AnyGame& game, std::int64_t first) {
     });
 }
 
-void PlayAlong::measure(std::int64_t first, MakeGame make) {
+void LiveWhatIf::measure(std::int64_t first, MakeGame make) {
     make_run_ = std::move(make);
     if (!repeats_) {
         measured_.reset();
@@ -102,7 +99,7 @@ void PlayAlong::measure(std::int64_t first, MakeGame make) {
     }
 }
 
-std::vector<Stepping> PlayAlong::other_settings() const {
+std::vector<Stepping> LiveWhatIf::other_settings() const {
     std::vector<Stepping> others = usual_what_if(play_.settings, make_run_);
     if (!repeats_) return others;
     for (const std::int64_t rate : rates_to_try(*measured_)) {
@@ -114,16 +111,14 @@ std::vector<Stepping> PlayAlong::other_settings() const {
     return others;
 }
 
-Input PlayAlong::next(std::int64_t step) {
-    Input input = inputs_.next(step);
+void LiveWhatIf::add(std::int64_t step, const Input& input) {
     if (runs_)
         for (const InputEvent& event : events_between(before_, input))
             play_.recording.events.push_back({step - first_, event});
     before_ = input;
-    return input;
 }
 
-void PlayAlong::play_until(std::int64_t step) {
+void LiveWhatIf::play_until(std::int64_t step) {
     if (!runs_) return;
     const std::int64_t delay = longest_delay * play_.settings.stepping.rate.steps;
     const bool hurries = pace_ == Pace::of_frames;
@@ -149,20 +144,20 @@ void PlayAlong::play_until(std::int64_t step) {
     if (hurries && slow_ >= most_slow_steps) stop(too_slow);
 }
 
-std::vector<Ghost> PlayAlong::ghosts(std::int64_t step, double alpha) const {
+std::vector<Ghost> LiveWhatIf::ghosts(std::int64_t step, double alpha) const {
     if (!runs_ || behind(step) > 0) return {};
     const auto drawn = runs_->drawn(alpha);
     return drawn ? ghosts_of(drawn->run, drawn->truth) : std::vector<Ghost>{};
 }
 
-void PlayAlong::stop(std::string reason) {
+void LiveWhatIf::stop(std::string reason) {
     runs_.reset();
     measured_.reset();
     repeats_ = false;
     verdict_ = {.text = std::move(reason)};
 }
 
-void PlayAlong::judge(WhatIf measured) {
+void LiveWhatIf::judge(WhatIf measured) {
     judged_ = played_;
     if (has_input(play_.recording)) repeats_ = false;
     if (repeats_ && measured.certain_until < measured_->certain_until) return;
@@ -176,7 +171,7 @@ void PlayAlong::judge(WhatIf measured) {
     readings_ = measured_->runs.front().readings;
 }
 
-const Verdict& PlayAlong::verdict() {
+const Verdict& LiveWhatIf::verdict() {
     const bool is_due = pace_ == Pace::own || Clock::now() >= next_verdict_;
     if (runs_ && played_ != judged_ && is_due) {
         judge(runs_->result());

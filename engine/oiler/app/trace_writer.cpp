@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/app/recorder.hpp"
+#include "oiler/app/trace_writer.hpp"
 
 #include <fmt/core.h>
 
@@ -49,19 +49,19 @@ void require_finite(const Energy& energy, const World& world) {
          world.tick(), world.entity_of_row(fastest).index, most);
 }
 
-Recorder::Recorder(const std::filesystem::path& trace, const std::filesystem::path& energy,
-                   const World& world) {
+TraceWriter::TraceWriter(const std::filesystem::path& trace, const std::filesystem::path& energy,
+                         const World& world) {
     if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.bodies().axes()));
     if (!energy.empty()) energy_.emplace(energy).write("tick,time,kinetic,potential,total\n");
-    record(0, world);
+    write(0, world);
 }
 
-void Recorder::record(std::int64_t step, const World& world) {
-    if (trace_) record_bodies(step, world);
-    if (energy_) record_energy(step, world);
+void TraceWriter::write(std::int64_t step, const World& world) {
+    if (trace_) write_bodies(step, world);
+    if (energy_) write_energy(step, world);
 }
 
-void Recorder::record_bodies(std::int64_t step, const World& world) {
+void TraceWriter::write_bodies(std::int64_t step, const World& world) {
     const double time = world.settings().stepping.rate.time(step);
     const Bodies& bodies = world.bodies();
     for (std::size_t row = 0; row < bodies.size(); ++row) {
@@ -76,14 +76,14 @@ void Recorder::record_bodies(std::int64_t step, const World& world) {
     }
 }
 
-void Recorder::record_energy(std::int64_t step, const World& world) {
+void TraceWriter::write_energy(std::int64_t step, const World& world) {
     const Energy energy = world.bodies().energy();
     require_finite(energy, world);
     energy_->write(fmt::format("{},{},{},{},{}\n", step, world.settings().stepping.rate.time(step),
                                energy.kinetic, energy.potential, energy.total()));
 }
 
-void Recorder::commit() {
+void TraceWriter::commit() {
     if (trace_) trace_->commit();
     if (energy_) energy_->commit();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/app/recorder.hpp"
+#include "oiler/app/trace_writer.hpp"
 
 #include <charconv>
 
@@ -9,16 +9,16 @@
 namespace oiler::test {
 namespace {
 
-/// The files of a recorder after tick 0 and `steps` steps.
+/// The files of a trace writer after tick 0 and `steps` steps.
 struct Recorded {
     Recorded(World& world, int steps) {
         const Folder folder;
-        Recorder recorder(folder / "trace", folder / "energy", world);
+        TraceWriter writer(folder / "trace", folder / "energy", world);
         for (int i = 0; i < steps; ++i) {
             world.step();
-            recorder.record(i + 1, world);
+            writer.write(i + 1, world);
         }
-        recorder.commit();
+        writer.commit();
         trace = text_of(folder / "trace");
         energy = text_of(folder / "energy");
     }
@@ -41,7 +41,7 @@ T last_number(const std::string& csv, std::size_t column) {
 }
 
 // With the digits of a double, 0.1F would be 0.10000000149011612.
-TEST(Recorder, TracesFloatsInTheirShortestForm) {
+TEST(TraceWriter, TracesFloatsInTheirShortestForm) {
     World world(3, {.precision = Precision::single});
     world.spawn(Body{.position = {0.1, -0.2, 0.3}, .velocity = {1e-7, 2.5, 0.7}});
     EXPECT_EQ(Recorded(world, 0).trace,
@@ -50,7 +50,7 @@ TEST(Recorder, TracesFloatsInTheirShortestForm) {
 }
 
 // 0.1 + 0.2 needs 17 digits.
-TEST(Recorder, TracesDoublesInTheirShortestForm) {
+TEST(TraceWriter, TracesDoublesInTheirShortestForm) {
     World world(1);
     world.spawn(Body{.position = {0.1 + 0.2}, .velocity = {0.1}});
     EXPECT_EQ(Recorded(world, 0).trace, "tick,time,body,x,vx\n0,0,0,0.30000000000000004,0.1\n");
@@ -68,14 +68,14 @@ void expect_same_bits(Precision precision) {
     }
 }
 
-TEST(Recorder, TracesNumbersThatReadBackToTheSameBits) {
+TEST(TraceWriter, TracesNumbersThatReadBackToTheSameBits) {
     expect_same_bits<float>(Precision::single);
     expect_same_bits<double>(Precision::double_);
 }
 
 // At 4 steps per second a free body at 2 m/s moves 0.5 m per step. The body of entity 2 is in row
 // 0.
-TEST(Recorder, TracesEachBodyByItsEntityAfterEachStep) {
+TEST(TraceWriter, TracesEachBodyByItsEntityAfterEachStep) {
     World world(1, {.rate = {4}});
     const Entity gone = world.spawn(Body{});
     world.spawn(Body{.position = {1}, .velocity = {2}});
@@ -90,7 +90,7 @@ TEST(Recorder, TracesEachBodyByItsEntityAfterEachStep) {
 
 // At the start ½·2·3² = 9 J and 2·10·5 = 100 J. A step of 0.5 s of semi-implicit Euler changes the
 // velocity by −10·0.5 m/s to −2 m/s and the height by −1 m: 4 J and 80 J.
-TEST(Recorder, WritesEachEnergyInItsColumn) {
+TEST(TraceWriter, WritesEachEnergyInItsColumn) {
     World world(2, {.rate = {2}});
     world.set_gravity({0, -10});
     world.spawn(Body{.mass = 2, .position = {0, 5}, .velocity = {0, 3}});
@@ -98,12 +98,12 @@ TEST(Recorder, WritesEachEnergyInItsColumn) {
               "tick,time,kinetic,potential,total\n0,0,9,100,109\n1,0.5,4,80,84\n");
 }
 
-TEST(Recorder, IsActiveForEitherFile) {
+TEST(TraceWriter, IsActiveForEitherFile) {
     const Folder folder;
     const World world(1);
-    EXPECT_FALSE(Recorder({}, {}, world).active());
-    EXPECT_TRUE(Recorder(folder / "trace", {}, world).active());
-    EXPECT_TRUE(Recorder({}, folder / "energy", world).active());
+    EXPECT_FALSE(TraceWriter({}, {}, world).active());
+    EXPECT_TRUE(TraceWriter(folder / "trace", {}, world).active());
+    EXPECT_TRUE(TraceWriter({}, folder / "energy", world).active());
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>())
         << "without commit() there are no files";
 }

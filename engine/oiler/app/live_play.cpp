@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/app/live_play.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace oiler {
+namespace {
+
+std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+
+/// Whether a world can go on at another rate now, and half of that rate, which plays along, too.
+bool has_common_tick(const World& world, const Rate& rate) {
+    const std::optional<std::int64_t> tick = world.tick_at(rate);
+    return tick && (*tick % 2 == 0 || rate.steps % 2 != 0);
+}
+
+}  // namespace
+
+bool PendingSetting::make(Playback& playback, std::int64_t step, InputSource& inputs) {
+    while (wanted_ && !has_common_tick(playback.world(), wanted_->rate)) {
+        const std::int64_t before = playback.steps();
+        if (before >= step) return false;
+        playback.step_to(before + 1, inputs);
+        if (playback.steps() == before) return false;  // the game has quit
+    }
+    if (!wanted_) return false;
+    playback.game().set_stepping(*std::exchange(wanted_, std::nullopt));
+    return true;
+}
+
+WayBack::WayBack(AnyGame& game, InputSource& inputs, bool has_way)
+    : rewind_(has_way ? std::optional<Rewind>(std::in_place, game, inputs) : std::nullopt),
+      inputs_(rewind_ ? static_cast<InputSource&>(*rewind_) : inputs) {}
+
+void WayBack::keep(std::int64_t step) {
+    if (rewind_) rewind_->keep(step);
+}
+
+void WayBack::begin_frame(bool goes_back, bool is_paused) {
+    goes_back_ = goes_back;
+    shows_whole_step_ = goes_back || (shows_whole_step_ && is_paused);
+}
+
+std::optional<Input> WayBack::go_to(std::int64_t target, std::int64_t step, bool diverged) {
+    if (diverged)
+        place_ = Place::before_divergence;
+    else if (place_ != Place::before_divergence)
+        place_ = target < last() ? Place::past : Place::present;
+    if (target == step && !diverged) return std::nullopt;
+    return rewind_->go_to(target);
+}
+
+void WayBack::forget(std::int64_t step) {
+    leave();
+    if (rewind_) rewind_->forget(step);
+}
+
+LivePlay::LivePlay(GameRun& run)
+    : run_(run),
+      playback_(run.playback),
+      clock_(run.options.settings.stepping.rate),
+      past_(
+          playback_.game(),
+          [&]() -> InputSource& {
+              if (run.options.quiet && !run.options.inspector) return run.inputs;
+              what_if_.emplace(RecordedPlay{run.options.settings, run.options.controls}, run.make);
+              return tap_.emplace(run.inputs, *what_if_);
+          }(),
+          no_way_back(run.options).empty()) {
+    playback_.game().measure(run_.times);
+}
+
+void LivePlay::set_pace(const Requests& requests) {
+    if (requests.pauses && !divergence_) clock_.toggle_pause();
+    Pace pace = clock_.pace();
+    for (int i = 0; i < requests.slower; ++i) pace.slower();
+    for (int i = 0; i < requests.faster; ++i) pace.faster();
+    clock_.set_pace(pace);
+}
+
+void LivePlay::control(const Requests& requests, bool restarts) {
+    if (requests.stepping) change_to(*requests.stepping, requests.changes_from_start);
+    if (requests.threads) is_possible([&] { playback_.game().set_threads(*requests.threads); });
+    // A game that takes no steps sees no keys.
+    const bool takes_no_steps = divergence_ || clock_.is_paused();
+    if (requests.restarts || (takes_no_steps && restarts)) {
+        clock_.resume();
+        complaint_.clear();
+        restart();
+    } else if (playback_.game().is_over() && playback_.steps() != restarted_at_ &&
+               !past_.is_in_past()) {
+        restart();
+    }
+    seeked_ = has_past() ? requests.step : std::nullopt;
+    const bool goes_back =
+        has_past() && (clock_.is_paused() ? requests.goes_back : requests.rewinds);
+    const bool steps = !divergence_ && requests.steps;
+    if (clock_.is_paused() && (steps || goes_back)) clock_.single_step();
+    past_.begin_frame(goes_back || seeked_, clock_.is_paused());
+}
+
+void LivePlay::change_to(const Stepping& stepping, bool from_start) {
+    // Bodies have the precision that they were made with.
+    const bool needs_start = divergence_ || !run_.about.changes_in_play ||
+                             stepping.precision != playback_.world().settings().stepping.precision;
+    change_.forget();
+    complaint_.clear();
+    if (from_start || needs_start)
+        restart_with(stepping);
+    else
+        change_.want(stepping);
+}
+
+/// Whether the game can have a setting, which f() gives it. Else the player is told why.
+template <class F>
+bool LivePlay::is_possible(F f) {
+    try {
+        f();
+        return true;
+    } catch (const Error& error) {
+        if (error.exit() != Exit::usage) throw;
+        complain(error.what());
+        return false;
+    }
+}
+
+/// Makes the game anew with another setting. The game's own state is gone.
+void LivePlay::restart_with(const Stepping& stepping) {
+    Settings settings = playback_.world().settings();
+    settings.stepping = stepping;
+    if (!is_possible([&] {
+            const std::unique_ptr<AnyGame> fresh = run_.make(settings);
+            fresh->world().require_applicable();
+            playback_.game().assign(*fresh);
+        }))
+        return;
+    begin_setting();
+    if (what_if_) what_if_->start(playback_.steps(), stepping);
+}
+
+/// Goes on with the wanted setting, if that has a tick until `step`.
+void LivePlay::change_until(std::int64_t step) {
+    bool has_changed = false;
+    if (!is_possible([&] { has_changed = change_.make(playback_, step, past_.inputs()); })) return;
+    if (!has_changed) return;
+    begin_setting();
+    if (what_if_) what_if_->start_from(playback_.game(), playback_.steps());
+}
+
+/// The clock begins anew at the game's rate; no earlier step can be gone to.
+void LivePlay::begin_setting() {
+    const std::int64_t step = playback_.steps();
+    clock_.begin(playback_.world().settings().stepping.rate, step, !divergence_);
+    playback_.go_to(step);
+    divergence_.reset();
+    past_.forget(step);
+}
+
+void LivePlay::restart() {
+    restarted_at_ = playback_.steps();
+    if (what_if_) what_if_->repeat(restarted_at_);
+    divergence_.reset();
+    past_.leave();
+    if (playback_.game().takes_input()) return run_.live.queue.restart();
+    playback_.game().restart();
+    past_.forget(restarted_at_);
+}
+
+Picture& LivePlay::play(std::chrono::nanoseconds time) {
+    const bool goes_back = past_.goes_back();
+    run_.live.queue.set_paused(clock_.is_paused() || goes_back);
+    const std::int64_t due = clock_.advance(time);
+    if (!divergence_) past_.keep(playback_.steps());
+    if (seeked_)
+        go_back_to(*seeked_);
+    else if (goes_back && due > 0)
+        go_back_to(playback_.steps() - due);
+    if (!goes_back && due > 0 && past_.is_in_past()) play_on_from_past();
+    run_.times = {};
+    const std::chrono::nanoseconds before = now();
+    Picture& picture = next_picture();
+    show_time_ = now() - before;
+    if (due > 0)
+        clock_.limit_steps(due, std::chrono::nanoseconds(run_.times.update + run_.times.step));
+    const Span span(run_.profile, "play along");
+    if (what_if_) what_if_->play_until(past_.is_in_past() ? past_.last() : playback_.steps());
+    return picture;
+}
+
+Picture& LivePlay::next_picture() {
+    try {
+        if (!past_.goes_back() && !divergence_) change_until(clock_.step());
+        if (!divergence_)
+            return playback_.show(clock_.step(), past_.shows_whole_step() ? 0 : clock_.alpha(),
+                                  past_.inputs());
+    } catch (const Error& error) {
+        if (error.exit() != Exit::diverged) throw;
+        divergence_ = error;
+        clock_.pause();
+    }
+    return playback_.show_last();
+}
+
+/// Shows a step of the past, or the last one again. The runs that play along stay where they are
+/// until the game takes another step.
+void LivePlay::go_back_to(std::int64_t step) {
+    step = std::clamp(step, past_.first(), past_.last());
+    const std::optional<Input> last = past_.go_to(step, playback_.steps(), divergence_.has_value());
+    if (last) {
+        run_.live.queue.continue_after(*last);
+        playback_.go_to(step);
+    }
+    divergence_.reset();
+    clock_.set_step(step);
+}
+
+void LivePlay::play_on_from_past() {
+    past_.leave();
+    if (!what_if_) return;
+    if (run_.about.changes_in_play)
+        what_if_->start_from(playback_.game(), playback_.steps());
+    else
+        what_if_->stop("what the timestep costs is no longer measured: you went back");
+}
+
+LivePlay::State LivePlay::state() const {
+    if (divergence_) return State::stopped;
+    if (change_.wanted()) return State::waiting_for_change;
+    if (clock_.is_paused()) return State::paused;
+    return past_.goes_back() ? State::going_back : State::playing;
+}
+
+std::string LivePlay::status() const {
+    switch (state()) {
+        case State::stopped:
+            return "stopped";
+        case State::waiting_for_change:
+            return fmt::format("{} Hz begins when both rates have a step",
+                               change_.wanted()->rate.steps);
+        case State::paused:
+            return fmt::format("paused: F3 resumes, {}F5 steps",
+                               has_past() ? "F4 steps back, " : "");
+        case State::going_back:
+            return fmt::format("back at {:.2f} s{}", playback_.world().time(),
+                               playback_.steps() == past_.first() ? ", no further" : "");
+        case State::playing:
+            break;
+    }
+    return clock_.kept_pace().text();
+}
+
+std::optional<Inspected::Past> LivePlay::past() const {
+    if (!has_past()) return std::nullopt;
+    return Inspected::Past{past_.first(), playback_.steps(),
+                           std::max(past_.last(), playback_.steps())};
+}
+
+double LivePlay::alpha() const {
+    // A frame at the time of a step shows that step, others the way to it.
+    return playback_.steps() == clock_.step() ? 1 : clock_.alpha();
+}
+
+std::string LivePlay::no_verdict() const {
+    if (!what_if_) return "what the timestep costs is not measured with --quiet";
+    if (!past_.is_in_past()) return {};
+    return run_.about.changes_in_play
+               ? "what the timestep costs is measured again when you play on"
+               : "what the timestep costs is not measured when you play on from here";
+}
+
+Verdict LivePlay::verdict() {
+    const std::string reason = no_verdict();
+    return reason.empty() ? what_if_->verdict() : Verdict{.text = reason};
+}
+
+std::vector<Ghost> LivePlay::ghosts() const {
+    if (!what_if_ || past_.is_in_past()) return {};
+    return what_if_->ghosts(playback_.steps(), alpha());
+}
+
+}  // namespace oiler

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "oiler/app/live_play.hpp"
+#include "oiler/app/loop_keys.hpp"
+#include "oiler/overlay/game_inspector.hpp"
+#include "oiler/platform/surface.hpp"
+#include "oiler/render/renderer.hpp"
+
+namespace oiler {
+
+/// A game in a window with the keys of the loop. Each call of frame() is a frame; whoever calls it
+/// waits between the frames.
+class GameWindow {
+public:
+    /// Opens the window. The run must outlive it.
+    explicit GameWindow(GameRun& run);
+
+    /// Polls, controls, steps and draws, at `now` of a monotonic clock. Returns whether the next
+    /// frame follows.
+    [[nodiscard]] bool frame(std::chrono::nanoseconds now);
+    /// Ends the run after its last frame. Throws the divergence that stopped the game.
+    [[nodiscard]] RunEnd finish();
+    /// The rate of frames, Hz.
+    [[nodiscard]] int fps() const;
+
+private:
+    /// The parts of the window, in pixels.
+    struct Layout {
+        Size window;
+        bool has_inspector;
+        bool has_verdict;
+
+        [[nodiscard]] bool is_minimised() const { return window.width == 0 || window.height == 0; }
+        [[nodiscard]] Size beside_inspector() const;
+        /// The part that the inspector and the verdict leave to the game's picture.
+        [[nodiscard]] Size view() const;
+        /// The share of the window's width or height that the view has.
+        [[nodiscard]] float share(int Size::*side) const;
+    };
+
+    [[nodiscard]] Layout layout() const;
+    void control(const Requests& requests, const Input& keys);
+    void take_from_shelf();
+    void draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now);
+    void add_game_overlays(Picture& picture, const Input& keys, std::chrono::nanoseconds now);
+    [[nodiscard]] Picture overlay(const Requests& requests);
+    void present(Picture& picture, const Picture& overlay, const Input& keys,
+                 std::chrono::nanoseconds now);
+    [[nodiscard]] bool is_last_frame(const Requests& requests, bool closes_menu) const;
+    [[nodiscard]] std::string status(const Requests& requests);
+    [[nodiscard]] NameButton key_names() const;
+
+    GameRun& run_;
+    std::string title_;
+    std::span<const Control> controls_;  ///< of the game
+    std::unique_ptr<Window> window_;
+    Size opened_size_;
+    Renderer renderer_;
+    LivePlay play_;
+    GameInspector inspector_;
+    Panels panels_;
+    Requests requests_;  ///< through the inspector, for the next frame
+    InputQueue keys_;    ///< of the loop
+    std::int64_t frames_ = 0;
+    std::chrono::nanoseconds last_frame_;
+    bool is_lost_ = false;  ///< the display has ended
+};
+
+/// Shows the game in a window in real time until the user quits, or the display or a replay ends.
+[[nodiscard]] RunEnd run_window(GameRun& run);
+
+}  // namespace oiler

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// A game that a player controls: pause, way back, changes of the setting, restarts, divergence. The
+// test has its own clock.
+#include "oiler/app/live_play.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+struct Fall {
+    static constexpr About about{.name = "fall", .title = "Fall"};
+    World world;
+    explicit Fall(const Settings& settings) : world(1, settings) { (void)world.spawn(Body{}); }
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+class PendingSettingTest : public testing::Test {
+protected:
+    AnyGameOf<Fall> game{Settings{.stepping = {.rate = {12}}}};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput input;
+    PendingSetting change;
+};
+
+TEST_F(PendingSettingTest, WithoutARequestNothingIsStepped) {
+    EXPECT_FALSE(change.make(playback, 100, input));
+    EXPECT_EQ(playback.steps(), 0);
+}
+
+// 12 Hz and 8 Hz meet every 0.25 s. Of these, 0.25 s is tick 2 of 8 Hz, which 4 Hz has, too.
+TEST_F(PendingSettingTest, WaitsForATickOfBothRates) {
+    playback.step_to(1, input);
+    change.want({.rate = {8}});
+    EXPECT_FALSE(change.make(playback, 2, input)) << "the player has not come so far";
+    EXPECT_EQ(playback.steps(), 2);
+    EXPECT_TRUE(change.wanted());
+    EXPECT_TRUE(change.make(playback, 90, input));
+    EXPECT_EQ(playback.steps(), 3);
+    EXPECT_EQ(game.world().tick(), 2);
+    EXPECT_EQ(game.world().time(), 0.25);
+    EXPECT_FALSE(change.wanted());
+}
+
+// 12 Hz and 20 Hz meet every 0.25 s, too, but at tick 5 of 20 Hz 10 Hz has none.
+TEST_F(PendingSettingTest, WaitsUntilHalfOfTheRateHasATick) {
+    playback.step_to(1, input);
+    change.want({.rate = {20}});
+    EXPECT_TRUE(change.make(playback, 90, input));
+    EXPECT_EQ(game.world().time(), 0.5);
+}
+
+// Half of 15 Hz is no whole rate and plays never along: 12 Hz and 15 Hz meet at 1/3 s.
+TEST_F(PendingSettingTest, AnOddRateHasNoHalf) {
+    playback.step_to(1, input);
+    change.want({.rate = {15}});
+    EXPECT_TRUE(change.make(playback, 90, input));
+    EXPECT_EQ(game.world().tick(), 5);
+}
+
+struct Brake {
+    static constexpr About about{.name = "brake", .title = "Brake"};
+    World world;
+    explicit Brake(const Settings& settings) : world(1, settings) {
+        (void)world.spawn({.mass = 1, .velocity = {1}}, LinearDrag{2});
+    }
+    [[nodiscard]] Picture picture() const { return {}; }
+};
+
+// c = 2/s at 4 Hz: a kick multiplies the speed by 1 - c·dt = 1/2, a drift by e^(-c·dt) = e^(-1/2).
+TEST(PendingSettings, DampsInTheDriftFromTheNextStepOn) {
+    AnyGameOf<Brake> game{
+        {.stepping = {.method = &find_method("semi_implicit_euler"), .rate = {4}}}};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput input;
+    PendingSetting change;
+    const auto speed = [&] { return game.world().bodies().velocity(0)[0]; };
+    playback.step_to(2, input);
+    EXPECT_EQ(speed(), 0.25);
+    Stepping stepping = game.world().settings().stepping;
+    stepping.damping = Damping::in_drift;
+    change.want(stepping);
+    EXPECT_TRUE(change.make(playback, 2, input));
+    playback.step_to(3, input);
+    EXPECT_NEAR(speed(), 0.25 * std::exp(-0.5), 1e-15) << "some roundings of 1.1e-16";
+}
+
+TEST_F(PendingSettingTest, ForgetsWhatIsImpossible) {
+    change.want({.rate = {12}, .precision = Precision::single});
+    EXPECT_THROW((void)change.make(playback, 90, input), Error);
+    EXPECT_FALSE(change.wanted());
+    EXPECT_FALSE(change.make(playback, 90, input));
+    EXPECT_EQ(game.world().settings().stepping.precision, Precision::double_);
+}
+
+/// A body at 1 m/s. The game ends with an error in its step `last`.
+struct Walk {
+    static constexpr About about{.name = "walk", .title = "Walk", .rate = 10};
+    static constexpr std::int64_t last = 30;
+    World world;
+    Entity body;
+    explicit Walk(const Settings& settings)
+        : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
+    void update(const Input&) {
+        if (world.tick() == last) fail(Exit::diverged, "too far");
+    }
+    [[nodiscard]] Picture picture() const {
+        return {.discs = {{.key = key_of(world, body), .centre = to_point(world.position(body))}}};
+    }
+};
+
+/// A walk at 10 Hz, a step a frame.
+class LivePlayTest : public testing::Test {
+protected:
+    LivePlayTest() { frame(); }  // it starts the clock
+
+    static Options quiet() {
+        Options options;
+        options.settings.stepping.rate = {10};
+        options.quiet = true;
+        return options;
+    }
+    /// Shows a frame 0.1 s after the last one. Returns where the body is drawn, m.
+    float frame(const Requests& requests = {}) {
+        play.set_pace(requests);
+        play.control(requests, false);
+        time += std::chrono::milliseconds(100);
+        return play.play(time).discs.at(0).centre.x;
+    }
+    void play_steps(int count) {
+        for (int i = 0; i < count; ++i) frame();
+    }
+
+    Options options = quiet();
+    MakeGame make = [](const Settings& settings) {
+        return std::make_unique<AnyGameOf<Walk>>(settings);
+    };
+    AnyGameOf<Walk> game{options.settings};
+    TraceWriter none{{}, {}, game.world()};
+    Playback playback{game, none, Keep::nothing};
+    LiveInput live;
+    GameRun run{.options = options,
+                .about = Walk::about,
+                .make = make,
+                .playback = playback,
+                .live = live,
+                .inputs = live};
+    LivePlay play{run};
+    std::chrono::nanoseconds time{0};
+};
+using State = LivePlay::State;
+
+TEST_F(LivePlayTest, APauseHoldsTheGameAndSingleStepsGoBothWays) {
+    play_steps(5);
+    EXPECT_EQ(play.state(), State::playing);
+    EXPECT_EQ(play.status(), "");
+    frame({.pauses = true});
+    EXPECT_EQ(play.state(), State::paused);
+    EXPECT_EQ(play.status(), "paused: F3 resumes, F4 steps back, F5 steps");
+    const float held = frame();
+    EXPECT_NEAR(held, 0.5F, 1e-6F);
+    EXPECT_EQ(frame(), held);
+    EXPECT_NEAR(frame({.goes_back = true}), 0.4F, 1e-6F);
+    EXPECT_NEAR(frame({.goes_back = true}), 0.3F, 1e-6F);
+    EXPECT_EQ(play.past()->now, 3);
+    EXPECT_EQ(play.past()->last, 5);
+    EXPECT_NEAR(frame({.steps = true}), 0.4F, 1e-6F);
+    EXPECT_EQ(play.past()->last, 4) << "later steps are forgotten";
+    frame({.pauses = true});
+    EXPECT_NEAR(frame(), 0.5F, 1e-6F);
+}
+
+TEST_F(LivePlayTest, GoesBackAsLongAsTheKeyIsHeldAndPlaysOnFromThere) {
+    play_steps(5);
+    EXPECT_NEAR(frame({.rewinds = true}), 0.4F, 1e-6F);
+    EXPECT_EQ(play.state(), State::going_back);
+    EXPECT_EQ(play.status(), "back at 0.40 s");
+    for (int i = 0; i < 10; ++i) frame({.rewinds = true});
+    EXPECT_EQ(play.status(), "back at 0.00 s, no further");
+    EXPECT_NEAR(frame(), 0.1F, 1e-6F);
+    EXPECT_EQ(play.state(), State::playing);
+}
+
+TEST_F(LivePlayTest, ShowsTheStepOfTheTimeLine) {
+    play_steps(8);
+    EXPECT_NEAR(frame({.step = 2}), 0.2F, 1e-6F);
+    EXPECT_NEAR(frame({.step = 100}), 0.8F, 1e-6F) << "the last step that was taken";
+    EXPECT_NEAR(frame({.step = 5}), 0.5F, 1e-6F);
+    EXPECT_NEAR(frame(), 0.6F, 1e-6F);
+}
+
+TEST_F(LivePlayTest, ADivergenceStopsTheGameUntilItGoesBackOrRestarts) {
+    play_steps(40);
+    EXPECT_EQ(play.state(), State::stopped);
+    EXPECT_EQ(playback.steps(), Walk::last);
+    EXPECT_NE(std::string(play.divergence()->what()).find("too far"), std::string::npos);
+    frame({.pauses = true});
+    EXPECT_EQ(play.state(), State::stopped) << "there is no step to resume with";
+    EXPECT_NEAR(frame({.goes_back = true}), 2.9F, 1e-5F);
+    EXPECT_EQ(play.state(), State::paused);
+    EXPECT_FALSE(play.divergence());
+    frame({.pauses = true});
+    play_steps(3);
+    EXPECT_EQ(play.state(), State::stopped);
+    EXPECT_NEAR(frame({.restarts = true}), 0.05F, 0.051F) << "from the beginning";
+    EXPECT_EQ(play.state(), State::playing);
+}
+
+// 10 Hz and 15 Hz meet each 0.2 s.
+TEST_F(LivePlayTest, WaitsForTheSettingAndGoesOnWithIt) {
+    play_steps(1);
+    frame({.pauses = true});
+    frame({.stepping = Stepping{.rate = {15}}});
+    EXPECT_EQ(play.state(), State::waiting_for_change);
+    EXPECT_EQ(play.status(), "15 Hz begins when both rates have a step");
+    frame({.pauses = true});
+    play_steps(2);
+    EXPECT_EQ(play.state(), State::playing);
+    EXPECT_EQ(game.world().settings().stepping.rate, Rate{15});
+    EXPECT_EQ(play.past()->first, 2) << "no step at the old rate can be gone to";
+    EXPECT_TRUE(play.complaint().empty());
+}
+
+TEST_F(LivePlayTest, TellsWhyASettingIsImpossible) {
+    play_steps(3);
+    frame({.stepping = Stepping{.method = &find_method("exact")}});
+    play_steps(3);
+    EXPECT_FALSE(play.complaint().empty() &&
+                 game.world().settings().stepping.method->name != "exact");
+    frame({.stepping = Stepping{.rate = {20}}, .changes_from_start = true});
+    EXPECT_EQ(game.world().time(), 0);
+    EXPECT_EQ(game.world().settings().stepping.rate, Rate{20});
+}
+
+TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {
+    EXPECT_EQ(play.what_if(), nullptr);
+    EXPECT_EQ(play.no_verdict(), "what the timestep costs is not measured with --quiet");
+    EXPECT_TRUE(play.ghosts().empty());
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+// The costs of the timestep that are measured while a game is played.
+#include "oiler/whatif/live_what_if.hpp"
+
+#include "support/test.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace oiler::test {
+namespace {
+
+using Grade = Verdict::Grade;
+
+/// A fall from a height of 0 that Space pushes up.
+struct Fall {
+    static constexpr About about{.name = "fall", .title = "Fall", .rate = 60};
+    World world;
+    Entity body;
+    explicit Fall(const Settings& settings) : world(1, settings), body(world.spawn(Body{})) {
+        world.set_gravity({-20});
+    }
+    void update(const Input& input) {
+        if (input.pressed(Key::space)) world.set_velocity(body, {9});
+    }
+    [[nodiscard]] Picture picture() const { return {.camera = {.height = 7.2F}}; }
+};
+
+std::unique_ptr<AnyGame> make_fall(const Settings& settings) {
+    return std::make_unique<AnyGameOf<Fall>>(settings);
+}
+
+/// Presses Space in step 30.
+struct OnePress final : InputSource {
+    InputQueue queue;
+    Input next(std::int64_t step) override {
+        queue.set(Key::space, step == 30);
+        return queue.take({});
+    }
+};
+
+// Semi-implicit Euler falls g·dt·t/2 too deep: 20/60·2/2 = 33 cm in 2 s, of which the push at 0.5 s
+// takes nothing back.
+TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    AnyGameOf<Fall> alone(settings);
+    OnePress player;
+    OnePress other;
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make);
+    InputTap tap(player, along);
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
+    for (const std::int64_t second : {0, 1}) {
+        game.step(60 * second, 60, tap);
+        alone.step(60 * second, 60, other);
+        const std::int64_t now = 60 * (second + 1);
+        for (int i = 0; i < 10'000 && along.behind(now) > 0; ++i) along.play_until(now);
+        ASSERT_EQ(along.behind(now), 0);
+    }
+    EXPECT_EQ(game.state_hash(), alone.state_hash());
+    const WhatIf result = along.result();
+    EXPECT_NEAR(result.runs[0].distance, 20 * 2 / 60.0 / 2, 1e-12);
+    EXPECT_EQ(result.runs[0].readings.size(), 0U);
+    const auto off = [&](double alpha) {
+        const std::vector<Ghost> ghosts = along.ghosts(120, alpha);
+        EXPECT_EQ(ghosts.size(), 1U);
+        return ghosts.at(0).truth[0] - ghosts.at(0).at[0];
+    };
+    const double before = 20 * (119 / 60.0) / 60 / 2;
+    EXPECT_NEAR(off(1), 20 * 2 / 60.0 / 2, 1e-12);
+    EXPECT_NEAR(off(0), before, 1e-12);
+    // The game is drawn on a straight line, from which a fall is g·dt²/8 away in the middle.
+    const double sagitta = 20 / 60.0 / 60 / 8;
+    EXPECT_NEAR(off(0.5), (20 * 2 / 60.0 / 2 + before) / 2 + sagitta, 1e-12);
+    EXPECT_NEAR(off(0.75), (3 * 20 * 2 / 60.0 / 2 + before) / 4 + 0.75 * sagitta, 1e-12);
+    // Between the sixteenths of a step, here 4 and 5, the true motion is a straight line, too:
+    // 4a(1 − a) is 0.75 and 0.859375 there.
+    EXPECT_NEAR(off(4.5 / 16),
+                before + 4.5 / 16 * (20 * 2 / 60.0 / 2 - before) + (0.75 + 0.859375) / 2 * sagitta,
+                1e-12);
+    EXPECT_EQ(along.ghosts(120, 1)[0].at[0], game.world().bodies().position(0)[0]);
+    EXPECT_TRUE(along.ghosts(121, 1).empty()) << "not played yet";
+    EXPECT_EQ(along.errors().size(), 121U) << "the beginning, and each step";
+    EXPECT_NEAR(along.errors().back(), 1 / 3.0, 1e-6);
+    along.stop("went back");
+    EXPECT_TRUE(along.ghosts(120, 1).empty());
+    EXPECT_EQ(along.verdict().text, "went back");
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
+}
+
+// Semi-implicit Euler falls g·dt/2·t too deep in the time t since its start. A run that begins at 1
+// s with velocity Verlet's state is off by the second after it only. The reference rounds positions
+// below 64 m, to 2⁻⁴⁷ m at most, 1920 times: 14 pm.
+TEST(LiveWhatIf, BeginsAgainWithTheGameAsItIs) {
+    const Settings settings{.stepping = {.method = &find_method("velocity_verlet"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    OnePress player;
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    EXPECT_EQ(along.begin()->time, 0);
+    game.step(0, 60, tap);
+    game.set_stepping({.method = &find_method("semi_implicit_euler"), .rate = {120}});
+    const double energy = game.world().bodies().energy().total();
+    along.start_from(game, 60);
+    EXPECT_EQ(along.begin()->time, 1);
+    EXPECT_EQ(along.begin()->energy, energy);
+    game.step(60, 120, tap);
+    along.play_until(180);
+    const WhatIf result = along.result();
+    EXPECT_NEAR(result.runs[0].distance, 20 * 1 / 120.0 / 2, 14e-12);
+    ASSERT_EQ(result.runs[1].stepping.rate, Rate{60});
+    EXPECT_NEAR(result.runs[1].distance, 20 * 1 / 60.0 / 2, 14e-12);
+    ASSERT_EQ(result.runs[2].stepping.rate, Rate{240});
+    EXPECT_EQ(along.ghosts(180, 1).at(0).at[0], game.world().bodies().position(0)[0]);
+}
+
+// Euler at 60 Hz falls 20/60·0.2/2 = 3.3 cm too deep in 0.2 s, and half of it at 120 Hz. Half of a
+// pixel of 1 cm needs 120·1.67/0.5 = 400 Hz, and the next multiple of 60 that is offered is 480.
+TEST(LiveWhatIf, ProvesTheAdvisedRateInTheNextRun) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    OnePress player;
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    const std::size_t usual = along.result().runs.size();
+    game.step(0, 12, tap);
+    along.play_until(12);
+    along.repeat(12);
+    const std::vector<WhatIfRun> runs = along.result().runs;
+    ASSERT_EQ(runs.size(), usual + 1);
+    EXPECT_EQ(runs.back().stepping.rate, Rate{480});
+    EXPECT_EQ(runs.back().stepping.method, settings.stepping.method);
+    EXPECT_EQ(rate_advice_text(*along.measured()),
+              "About 480 Hz of this method would be within a pixel so far.");
+    game.step(12, 12, tap);
+    along.play_until(24);
+    (void)along.verdict();
+    EXPECT_EQ(rate_advice_text(*along.measured()),
+              "480 Hz of this method is within a pixel so far.");
+    along.start(24, {.method = settings.stepping.method, .rate = {120}});
+    EXPECT_EQ(along.result().runs.size(), usual) << "of another setting, nothing is known";
+}
+
+struct MovesTheMouse final : InputSource {
+    InputQueue queue;
+    Input next(std::int64_t step) override {
+        queue.point_at(Point{static_cast<float>(step), 100});
+        return queue.take({});
+    }
+};
+
+TEST(LiveWhatIf, AMouseThatMovesAndTheRestartMakeNoOtherRound) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    MovesTheMouse player;
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    for (const std::int64_t from : {0, 12}) {
+        game.step(from, 12 - from / 2, tap);
+        along.play_until(12 + from / 2);
+        (void)along.verdict();
+        EXPECT_NEAR(along.measured()->runs.front().distance, 20 * 0.2 / 60 / 2, 1e-12);
+        if (from > 0) continue;
+        along.repeat(12);
+        player.queue.restart();
+    }
+    EXPECT_TRUE(along.repeats());
+    EXPECT_NEAR(along.energy_scale(), 20 * 20 / 3600.0 * 78, 1e-12) << "g·h of the whole round";
+    player.queue.restart();
+    game.step(18, 1, tap);
+    along.play_until(19);
+    (void)along.verdict();
+    EXPECT_FALSE(along.repeats()) << "a restart in a round";
+}
+
+// What a round of 12 steps found stands in the next one until that has found as much.
+TEST(LiveWhatIf, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    OnePress player;  // in step 30
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    const auto play = [&](std::int64_t from, std::int64_t count) {
+        game.step(from, count, tap);
+        along.play_until(from + count);
+        (void)along.verdict();
+        return along.measured() ? along.measured()->runs.front().distance : -1;
+    };
+    const double off = play(0, 12);
+    EXPECT_NEAR(off, 20 * 0.2 / 60 / 2, 1e-12);
+    along.repeat(12);
+    EXPECT_EQ(play(12, 6), off);
+    EXPECT_TRUE(along.repeats());
+    EXPECT_EQ(play(18, 6), off);
+    EXPECT_FALSE(along.repeats()) << "it has found as much";
+    along.repeat(24);
+    EXPECT_EQ(play(24, 6), off);
+    EXPECT_NEAR(play(30, 1), 20 * (7 / 60.0) / 60 / 2, 1e-12) << "a press: another round";
+    EXPECT_FALSE(along.repeats());
+    along.repeat(31);
+    EXPECT_NEAR(play(31, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12) << "the last round had input";
+    along.repeat(34);
+    EXPECT_NEAR(play(34, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "a release is input, too";
+    along.start(36);
+    EXPECT_NEAR(play(36, 1), 20 * (1 / 60.0) / 60 / 2, 1e-12);
+    along.start_from(game, 37);
+    EXPECT_NEAR(play(37, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
+    along.repeat(40);
+    EXPECT_NEAR(play(40, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "another beginning";
+}
+
+/// A fall that Space begins anew.
+struct FallAgain : Fall {
+    using Fall::Fall;
+    void update(const Input& input) {
+        if (input.pressed(Key::space)) *this = FallAgain(world.settings());
+    }
+};
+
+// Semi-implicit Euler falls g·dt·t/2 too deep in the time t since the body was put back.
+TEST(LiveWhatIf, ForgetsTheErrorAndTheWayOfABodyThatIsPutBack) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<FallAgain> game(settings);
+    OnePress player;  // in step 30
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<FallAgain>>(own);
+    };
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    game.step(0, 31, tap);
+    along.play_until(31);
+    EXPECT_NEAR(along.errors().at(30), 20 * 0.5 / 60 / 2, 1e-6);
+    EXPECT_NEAR(along.errors().at(31), 20 / 60.0 / 60 / 2, 1e-6);
+    EXPECT_TRUE(along.ghosts(31, 0.5).empty()) << "there is no way over a cut";
+    game.step(31, 1, tap);
+    along.play_until(32);
+    EXPECT_EQ(along.ghosts(32, 0.5).size(), 1U);
+}
+
+// Euler evaluates the forces once a step, rk4 four times.
+TEST(LiveWhatIf, CountsTheForcesOfEachSetting) {
+    const Settings settings{
+        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
+    AnyGameOf<Fall> game(settings);
+    OnePress player;
+    const MakeGame make = make_fall;
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    game.step(0, 60, tap);
+    along.play_until(60);
+    for (const WhatIfRun& run : along.result().runs) {
+        const double per_step = run.stepping.method->name == "rk4"               ? 4
+                                : run.stepping.method->name == "velocity_verlet" ? 2
+                                                                                 : 1;
+        EXPECT_NEAR(run.evaluations, per_step * static_cast<double>(run.stepping.rate.steps), 1e-9)
+            << run.stepping.method->name;
+    }
+}
+
+/// A game whose update takes longer than the time that is left in a frame.
+struct Slow : Fall {
+    using Fall::Fall;
+    void update(const Input&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
+};
+
+TEST(LiveWhatIf, EndsAfterAFewStepsIfTheyTakeTooLong) {
+    const Settings settings{.stepping = {.rate = {60}}};
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<Slow>>(own);
+    };
+    LiveWhatIf along({settings}, make);
+    int frames = 0;
+    while (frames < 60 &&
+           along.verdict().text.find("playing along takes longer") == std::string::npos)
+        along.play_until(++frames);
+    EXPECT_LE(frames, 9) << "the first comparison takes no step, and may be late";
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
+}
+
+/// A game without bodies.
+struct Empty {
+    static constexpr About about{.name = "empty", .title = "Empty", .rate = 60};
+    World world;
+    explicit Empty(const Settings& settings) : world(1, settings) {}
+    void update(const Input&) {}
+};
+
+TEST(LiveWhatIf, ClaimsNoErrorOfAGameWithoutBodies) {
+    const Settings settings{.stepping = {.rate = {60}}};
+    AnyGameOf<Empty> game(settings);
+    OnePress player;
+    const MakeGame make = [](const Settings& own) {
+        return std::make_unique<AnyGameOf<Empty>>(own);
+    };
+    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
+    InputTap tap(player, along);
+    game.step(0, 60, tap);
+    along.play_until(60);
+    EXPECT_EQ(along.verdict().text, "what the timestep costs is not measured: there are no bodies");
+    EXPECT_EQ(along.verdict().grade, Grade::unknown);
+}
+
+}  // namespace
+}  // namespace oiler::test
