@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"

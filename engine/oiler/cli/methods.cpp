@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <cmath>
 #include <iterator>
 
 #include "oiler/cli/files.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <system_error>
-#include <utility>
 
 #include "oiler/capture/file.hpp"
 #include "oiler/cli/arguments.hpp"

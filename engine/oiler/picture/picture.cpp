@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/plot/plot.hpp"
 
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

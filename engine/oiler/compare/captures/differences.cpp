@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace oiler::lab {
 namespace {
@@ -179,8 +178,6 @@ std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies, doub
     }
     return motions;
 }
-
-namespace {}  // namespace
 
 ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::move(motions)) {
     std::map<std::pair<Real, Real>, std::size_t> groups;
