@@ -15,31 +15,21 @@ constexpr const char* egl_remedy = "install the Debian packages libegl1 and libg
 
 /// The functions of libEGL that a context without a surface needs.
 struct EglFunctions {
-    explicit EglFunctions(const Library& library) {
-        library.resolve(procedure, "eglGetProcAddress");
-        library.resolve(initialise, "eglInitialize");
-        library.resolve(terminate, "eglTerminate");
-        library.resolve(bind_api, "eglBindAPI");
-        library.resolve(choose_config, "eglChooseConfig");
-        library.resolve(create_context, "eglCreateContext");
-        library.resolve(destroy_context, "eglDestroyContext");
-        library.resolve(make_current, "eglMakeCurrent");
-    }
-
-    decltype(&eglGetProcAddress) procedure = nullptr;
-    decltype(&eglInitialize) initialise = nullptr;
-    decltype(&eglTerminate) terminate = nullptr;
-    decltype(&eglBindAPI) bind_api = nullptr;
-    decltype(&eglChooseConfig) choose_config = nullptr;
-    decltype(&eglCreateContext) create_context = nullptr;
-    decltype(&eglDestroyContext) destroy_context = nullptr;
-    decltype(&eglMakeCurrent) make_current = nullptr;
+    const Library& library;
+    decltype(&eglGetProcAddress) procedure = library["eglGetProcAddress"];
+    decltype(&eglInitialize) initialise = library["eglInitialize"];
+    decltype(&eglTerminate) terminate = library["eglTerminate"];
+    decltype(&eglBindAPI) bind_api = library["eglBindAPI"];
+    decltype(&eglChooseConfig) choose_config = library["eglChooseConfig"];
+    decltype(&eglCreateContext) create_context = library["eglCreateContext"];
+    decltype(&eglDestroyContext) destroy_context = library["eglDestroyContext"];
+    decltype(&eglMakeCurrent) make_current = library["eglMakeCurrent"];
 };
 
 /// EGL on Mesa's surfaceless platform: no display server, no default framebuffer.
 class Egl final : public Surface {
 public:
-    Egl() : library_("libEGL.so.1", egl_remedy), egl_(library_), display_(open_display()) {
+    Egl() : library_("libEGL.so.1", egl_remedy), egl_{library_}, display_(open_display()) {
         context_ = create_context();
         if (context_ == EGL_NO_CONTEXT ||
             egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {

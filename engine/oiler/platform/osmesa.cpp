@@ -14,13 +14,7 @@ constexpr const char* osmesa_remedy = "install the Debian package libosmesa6, or
 /// Mesa's off-screen rendering into memory. Mesa 25.1 removed it; EGL replaces it.
 class OsMesa final : public Surface {
 public:
-    OsMesa() : library_("libOSMesa.so.8", osmesa_remedy) {
-        library_.resolve(create_, "OSMesaCreateContextAttribs");
-        library_.resolve(destroy_, "OSMesaDestroyContext");
-        library_.resolve(make_current_, "OSMesaMakeCurrent");
-        library_.resolve(procedure_, "OSMesaGetProcAddress");
-        open();
-    }
+    OsMesa() : library_("libOSMesa.so.8", osmesa_remedy) { open(); }
 
     ~OsMesa() override {
         make_current_(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
@@ -52,10 +46,10 @@ private:
     }
 
     Library library_;
-    decltype(&OSMesaCreateContextAttribs) create_ = nullptr;
-    decltype(&OSMesaDestroyContext) destroy_ = nullptr;
-    decltype(&OSMesaMakeCurrent) make_current_ = nullptr;
-    decltype(&OSMesaGetProcAddress) procedure_ = nullptr;
+    decltype(&OSMesaCreateContextAttribs) create_ = library_["OSMesaCreateContextAttribs"];
+    decltype(&OSMesaDestroyContext) destroy_ = library_["OSMesaDestroyContext"];
+    decltype(&OSMesaMakeCurrent) make_current_ = library_["OSMesaMakeCurrent"];
+    decltype(&OSMesaGetProcAddress) procedure_ = library_["OSMesaGetProcAddress"];
     /// The default framebuffer that OSMesa requires. It stays unused.
     std::array<unsigned char, 4> pixel_{};
     OSMesaContext context_ = nullptr;

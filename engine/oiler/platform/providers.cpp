@@ -18,13 +18,13 @@ Library::Library(const char* soname, const char* remedy)
 
 Library::~Library() { dlclose(handle_); }
 
-void* Library::address(const char* name) const {
+Library::Symbol Library::operator[](const char* name) const {
     void* found = dlsym(handle_, name);
     if (found == nullptr) {
         fail(Exit::no_display, "{} has no function {}; is it a damaged or very old version?",
              soname_, name);
     }
-    return found;
+    return {found};
 }
 
 void limit_llvmpipe_vectors() { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); }

@@ -59,19 +59,8 @@ void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool t
 
 }  // namespace
 
-SdlInputFunctions::SdlInputFunctions(const Library& library) {
-    library.resolve(open_controller, "SDL_GameControllerOpen");
-    library.resolve(close_controller, "SDL_GameControllerClose");
-    library.resolve(joystick_of, "SDL_GameControllerGetJoystick");
-    library.resolve(instance_of, "SDL_JoystickInstanceID");
-    library.resolve(start_text, "SDL_StartTextInput");
-    library.resolve(stop_text, "SDL_StopTextInput");
-    library.resolve(key_of_scancode, "SDL_GetKeyFromScancode");
-    library.resolve(name_of_key, "SDL_GetKeyName");
-}
-
 // SDL takes text from the start on.
-SdlEvents::SdlEvents(const Library& library) : sdl_(library) { sdl_.stop_text(); }
+SdlEvents::SdlEvents(const Library& library) : sdl_{library} { sdl_.stop_text(); }
 
 SdlEvents::~SdlEvents() {
     for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);
