@@ -53,12 +53,10 @@ private:
         const auto get_platform_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
             egl_.procedure("eglGetPlatformDisplayEXT"));
         EGLDisplay display = EGL_NO_DISPLAY;
-        if (get_platform_display != nullptr) {
+        if (get_platform_display != nullptr)
             display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-        }
-        if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE) {
+        if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE)
             fail(Exit::no_display, "EGL has no surfaceless platform; {}", egl_remedy);
-        }
         return display;
     }
 
@@ -76,9 +74,8 @@ private:
         EGLint count = 0;
         if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE ||
             egl_.choose_config(display_, wanted.data(), &config, 1, &count) == EGL_FALSE ||
-            count == 0) {
+            count == 0)
             return EGL_NO_CONTEXT;
-        }
         return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes.data());
     }
 

@@ -36,9 +36,8 @@ private:
                                     3,
                                     0};
         context_ = create_(attributes.data(), nullptr);
-        if (context_ == nullptr) {
+        if (context_ == nullptr)
             fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", osmesa_remedy);
-        }
         if (make_current_(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
             destroy_(context_);
             fail(Exit::no_display, "OSMesa cannot make its context current; {}", osmesa_remedy);

@@ -102,9 +102,8 @@ public:
         sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
         sdl_.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
         // Without this folder there is no Wayland, and libwayland would print that on stderr.
-        if (std::getenv("XDG_RUNTIME_DIR") == nullptr) {
+        if (std::getenv("XDG_RUNTIME_DIR") == nullptr)
             sdl_.set_hint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
-        }
         if (sdl_.init(SDL_INIT_VIDEO) != 0 || invisible()) {
             const std::string reason = sdl_.error();
             sdl_.quit();
@@ -245,9 +244,7 @@ private:
             sdl_->make_current(window_, nullptr);
             sdl_->delete_context(context_);
         }
-        if (window_ != nullptr) {
-            sdl_->destroy_window(window_);
-        }
+        if (window_ != nullptr) sdl_->destroy_window(window_);
     }
 
     Sdl sdl_;
