@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 
 #include "support/test.hpp"
 

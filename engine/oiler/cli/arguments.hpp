@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/capture/paths.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/cli/command.hpp"
 
 namespace CLI {

@@ -2,11 +2,10 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"

@@ -12,10 +12,10 @@
 #include "oiler/cli/files.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tables.hpp"
-#include "oiler/compare/runs/captured_states.hpp"
 #include "oiler/compare/runs/divergence.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 #include "oiler/compare/runs/trace_file.hpp"
-#include "oiler/core/ulps.hpp"
+#include "oiler/core/floating_point.hpp"
 
 namespace oiler::cli {
 namespace {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/markup.hpp"
 
+#include <fmt/core.h>
 #include <cstdint>
+
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
@@ -19,6 +22,21 @@ std::string base64(const std::vector<std::byte>& bytes) {
             text += i + k <= bytes.size() ? letters[three >> (18 - 6 * k) & 63] : '=';
     }
     return text;
+}
+
+/// ASCII with character references.
+std::string for_xml(std::string_view text) {
+    std::string safe;
+    for (const char32_t code : decode_utf8(text)) {
+        const bool is_control = code < ' ' || (code > '~' && code < 0xA0);
+        if (is_control || code == 0xFFFD)
+            safe += '?';
+        else if (code > '~')
+            safe += fmt::format("&#{};", static_cast<unsigned>(code));
+        else
+            safe += escaped(std::string(1, static_cast<char>(code)));
+    }
+    return safe;
 }
 
 }  // namespace
@@ -71,6 +89,46 @@ std::string fill_in(std::string_view page, const std::map<std::string, std::stri
         page.remove_prefix(at + found->first.size());
     }
     return text;
+}
+
+void JunitSuite::add(std::string_view group, std::string_view name, std::string_view outcome,
+                     std::string_view message) {
+    ++tests_;
+    cases_ +=
+        fmt::format("  <testcase classname=\"{}\" name=\"{}\"><{} message=\"{}\"/></testcase>\n",
+                    for_xml(group), for_xml(name), outcome, for_xml(message));
+}
+
+void JunitSuite::add_passed(std::string_view group, std::string_view name, std::string_view text) {
+    ++tests_;
+    cases_ += fmt::format(
+        "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
+        for_xml(group), for_xml(name), for_xml(text));
+}
+
+void JunitSuite::add_failed(std::string_view group, std::string_view name,
+                            std::string_view message) {
+    ++failures_;
+    add(group, name, "failure", message);
+}
+
+void JunitSuite::add_error(std::string_view group, std::string_view name,
+                           std::string_view message) {
+    ++errors_;
+    add(group, name, "error", message);
+}
+
+void JunitSuite::add_skipped(std::string_view group, std::string_view name,
+                             std::string_view message) {
+    ++skipped_;
+    add(group, name, "skipped", message);
+}
+
+std::string JunitSuite::xml() const {
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
+        "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
+        for_xml(name_), tests_, failures_, errors_, skipped_, cases_);
 }
 
 }  // namespace oiler

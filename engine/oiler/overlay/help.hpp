@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "oiler/input/control.hpp"
+#include "oiler/input/button.hpp"
 #include "oiler/overlay/overlay_area.hpp"
 #include "oiler/picture/picture.hpp"
 

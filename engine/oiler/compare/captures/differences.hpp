@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "oiler/compare/captures/comparison.hpp"
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 
 namespace oiler {
 

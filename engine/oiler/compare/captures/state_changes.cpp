@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <map>
 
-#include "oiler/core/ulps.hpp"
+#include "oiler/core/floating_point.hpp"
 
 namespace oiler {
 namespace {

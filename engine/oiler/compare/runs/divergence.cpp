@@ -12,7 +12,7 @@
 
 #include "oiler/compare/runs/state_log.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/ulps.hpp"
+#include "oiler/core/floating_point.hpp"
 
 namespace oiler {
 namespace {

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/fastest_motion.hpp"
 #include "oiler/lab/reference/fine_steps.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/scales.hpp"

@@ -7,7 +7,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/random.hpp"
-#include "oiler/lab/reference/fastest_motion.hpp"
+#include "oiler/lab/reference/scales.hpp"
 
 namespace oiler::lab {
 namespace {
