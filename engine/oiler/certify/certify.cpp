@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "oiler/certify/measures.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {

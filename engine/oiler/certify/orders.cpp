@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "oiler/certify/measures.hpp"
+#include "oiler/certify/certify.hpp"
 #include "oiler/physics/closed_forms.hpp"
 
 namespace oiler::certify {

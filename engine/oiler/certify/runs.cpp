@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "oiler/certify/measures.hpp"
+#include "oiler/certify/certify.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {

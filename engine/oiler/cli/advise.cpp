@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/advise.hpp"
 
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse_size.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/process/parse.hpp"
 

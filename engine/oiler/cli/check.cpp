@@ -2,9 +2,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/core/markup.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
@@ -167,7 +166,7 @@ struct CheckCommand {
             all.push_back(check(path));
             if (Interrupt::requested()) return Exit::interrupted;
         }
-        if (!junit.empty()) write_text(junit, to_junit(all));
+        if (!junit.empty()) write_file(junit, to_junit(all));
         if (!json.empty()) write_json(json, to_json(all));
         if (json != "-" && junit != "-") print(text_of(all, quiet));
         for (const CheckResult& result : all)

@@ -5,7 +5,7 @@
 
 #include "oiler/app/loops.hpp"
 #include "oiler/cli/arguments.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/scene_game.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"

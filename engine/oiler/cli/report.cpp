@@ -6,11 +6,9 @@
 #include <map>
 #include <utility>
 #include "oiler/app/stills.hpp"
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/core/markup.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/lab/ledger/ledger.hpp"
@@ -88,10 +86,10 @@ Json stability_json(const Scene& scene, const std::vector<const Method*>& method
     const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     Json springs = springs_json(scene, bodies);
     if (springs.empty()) return nullptr;
-    Json curves = Json::array();
-    for (const Method* method : methods)
-        curves.push_back({{"method", method->name}, {"points", limit_curve(*method)}});
-    return {{"methods", std::move(curves)},
+    const auto curve_of = [](const Method* method) {
+        return Json{{"method", method->name}, {"points", limit_curve(*method)}};
+    };
+    return {{"methods", Json::list(methods, curve_of)},
             {"springs", std::move(springs)},
             {"rate", scene.stepping.rate.steps}};
 }
@@ -114,12 +112,6 @@ Json ledger_json(const Scene& scene) {
             {"flags", measured.flags}};
 }
 
-Json obvious_names() {
-    Json names = Json::array();
-    for (const Method* method : obvious_methods()) names.push_back(method->name);
-    return names;
-}
-
 /// Returns the data that report.html shows. Computes the stability limits and measures the ledger.
 Json report_json(const Scene& scene, const Reference& reference, const Requirements& requirements,
                  const ReportResults& results) {
@@ -129,7 +121,8 @@ Json report_json(const Scene& scene, const Reference& reference, const Requireme
             {"stability", stability_json(scene, notable_methods(tradeoff))},
             {"rates", rates.quantities.empty() ? Json(nullptr) : to_json(rates)},
             {"ledger", ledger_json(scene)},
-            {"obvious_methods", obvious_names()}};
+            {"obvious_methods",
+             Json::list(obvious_methods(), [](const Method* method) { return method->name; })}};
 }
 
 std::string frame_of(const Scene& scene) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/startable.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/follower.hpp"
 #include "oiler/picture/palette.hpp"

@@ -24,6 +24,10 @@ struct Home {
 [[nodiscard]] Home home_of(const std::filesystem::path& program);
 /// The home of the running program.
 [[nodiscard]] Home own_home();
+
+/// The scene files of a folder, sorted; none if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> scene_files(const std::filesystem::path& folder);
+
 /// A demo or a scene that this Oiler brings along.
 struct Startable {
     std::string name;      ///< "cannon" of a demo, "orbit.toml" of a scene

@@ -91,7 +91,7 @@ void Json::push_back(Json item) {
 Json& Json::operator[](std::string_view name) {
     if (kind_ == Kind::literal) kind_ = Kind::object;
     require(kind_ == Kind::object, "only a JSON object has members");
-    const auto found = std::find(names_.begin(), names_.end(), name);
+    const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return items_[static_cast<std::size_t>(found - names_.begin())];
     names_.emplace_back(name);
     return items_.emplace_back();

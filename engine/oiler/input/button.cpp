@@ -63,10 +63,8 @@ constexpr std::array<std::string_view, stick_count> names_of_sticks{
     "left_x", "left_y", "right_x", "right_y", "left_trigger", "right_trigger"};
 
 bool equal_but_for_case(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char one, unsigned char other) {
-                          return std::tolower(one) == std::tolower(other);
-                      });
+    const auto lower = [](unsigned char letter) { return std::tolower(letter); };
+    return std::ranges::equal(a, b, {}, lower, lower);
 }
 
 constexpr double full = 32767;  // of a stick or a trigger
@@ -101,7 +99,7 @@ std::string_view name_of(Stick stick) { return names_of_sticks[static_cast<std::
 
 std::optional<Stick> find_stick(std::string_view name) {
     std::string spelt(name);
-    std::replace(spelt.begin(), spelt.end(), ' ', '_');
+    std::ranges::replace(spelt, ' ', '_');
     for (std::size_t i = 0; i < stick_count; ++i)
         if (equal_but_for_case(names_of_sticks[i], spelt)) return static_cast<Stick>(i);
     return std::nullopt;

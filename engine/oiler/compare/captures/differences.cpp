@@ -42,8 +42,7 @@ fs::path image_path(const fs::path& folder, std::string_view name, std::int64_t 
 }
 
 bool is_our_image(std::string_view name) {
-    return name.ends_with(".png") &&
-           std::any_of(image_names.begin(), image_names.end(), [&](std::string_view image) {
+    return name.ends_with(".png") && std::ranges::any_of(image_names, [&](std::string_view image) {
                return name.starts_with(fmt::format("{}_", image));
            });
 }
@@ -169,9 +168,8 @@ JunitSuite suite_of(const Comparison& comparison) {
         const auto failed = [&](const FrameComparison& frame) {
             return frame.cause == cause && !frame.passed();
         };
-        const auto first = std::find_if(comparison.frames.begin(), comparison.frames.end(), failed);
-        const auto count =
-            std::count_if(comparison.frames.begin(), comparison.frames.end(), failed);
+        const auto first = std::ranges::find_if(comparison.frames, failed);
+        const auto count = std::ranges::count_if(comparison.frames, failed);
         if (first == comparison.frames.end())
             suite.add_passed(group, name_of(cause), "no frame differs");
         else

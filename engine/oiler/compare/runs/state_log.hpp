@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,5 +92,9 @@ void keep_common_ticks(StateLog& a, StateLog& b);
 /// a capture of more than 1000 bodies, only frames have hashes.
 [[nodiscard]] std::optional<std::int64_t> first_different_tick(const Captured& a,
                                                                const Captured& b);
+
+/// Reads a trace, the CSV file of `--trace`. Throws Error(Exit::usage) with file and line if it is
+/// malformed or has no rows, and Error(Exit::io) if it cannot be read.
+[[nodiscard]] StateLog read_trace(const std::filesystem::path& path);
 
 }  // namespace oiler

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "oiler/core/require.hpp"
-#include "oiler/core/seconds_since.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/lab/ledger/ablations.hpp"
 #include "oiler/scene/make_world.hpp"
 
@@ -22,8 +22,7 @@ std::vector<std::string> number_names(const Stored& stored) {
     static const std::vector<std::string_view> mass{"mass"};
     static const std::vector<std::string_view> contact{"radius"};
     const auto& forces = force_descriptions();
-    const auto force = std::find_if(forces.begin(), forces.end(),
-                                    [&](const auto& words) { return words.name == stored.of; });
+    const auto force = std::ranges::find(forces, stored.of, &ForceDescription::name);
     const auto& fields = force != forces.end()    ? force->numbers
                          : stored.of == "mass"    ? mass
                          : stored.of == "contact" ? contact
@@ -41,7 +40,7 @@ std::vector<std::string> number_names(const Stored& stored) {
 }
 
 void add_columns(Ledger& ledger, const Stored& stored) {
-    const auto own = std::count(stored.shared.begin(), stored.shared.end(), false);
+    const auto own = std::ranges::count(stored.shared, false);
     const std::vector<std::string> names = number_names(stored);
     for (std::size_t i = 0; i < names.size(); ++i)
         ledger.columns.push_back(
@@ -77,7 +76,7 @@ std::vector<std::string_view> enter_columns(Ledger& ledger, const Bodies& bodies
     add_handle(ledger);
     std::vector<std::string_view> forces;
     for (const ForceDescription& words : force_descriptions())
-        if (std::find(names.begin(), names.end(), words.name) != names.end())
+        if (std::ranges::find(names, words.name) != names.end())
             forces.push_back(words.name);
         else
             ledger.absent.emplace_back(words.plural);
@@ -96,12 +95,10 @@ public:
     }
     void raise_for_axes(const Scene& scene, std::size_t bytes_per_number) {
         const Vec3& moved = comparison_.moved;
-        if (std::all_of(moved.axis.begin(), moved.axis.end(), [](double by) { return by == 0; })) {
-            ledger_.flags.push_back(fmt::format(
+        if (std::ranges::all_of(moved.axis, [](double by) { return by == 0; }))
+            return ledger_.flags.push_back(fmt::format(
                 "no body moves in {} steps: give a body a `velocity` or a force that acts",
                 comparison_.steps));
-            return;
-        }
         for (int axis = 0; axis < scene.axes; ++axis)
             if (moved[axis] == 0)
                 ledger_.flags.push_back(

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oiler/core/median.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/scene/scene.hpp"
 #include "oiler/sim/bodies.hpp"
 

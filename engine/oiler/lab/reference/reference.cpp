@@ -65,10 +65,9 @@ double largest_difference(const Motion& motion, const Trajectory& trajectory,
 
 /// The number of samples before 100 × the uncertainty exceeds `tolerable`.
 std::int64_t count_usable(const std::vector<Uncertainty>& uncertainties, double tolerable) {
-    const auto bad = std::find_if(uncertainties.begin(), uncertainties.end(),
-                                  [&](const Uncertainty& uncertainty) {
-                                      return !(margin * uncertainty.position <= tolerable);
-                                  });
+    const auto bad = std::ranges::find_if(uncertainties, [&](const Uncertainty& uncertainty) {
+        return !(margin * uncertainty.position <= tolerable);
+    });
     return std::max<std::int64_t>(1, bad - uncertainties.begin());
 }
 
@@ -235,8 +234,7 @@ private:
     }
     [[nodiscard]] std::int64_t count_followed(double most) const {
         if (reference_.closed_form) return reference_.samples.count;
-        return std::count_if(round_off_.begin(), round_off_.end(),
-                             [&](double error) { return error <= most; });
+        return std::ranges::count_if(round_off_, [&](double error) { return error <= most; });
     }
 
     /// Shortens the meaningful time until the scales of what remains do not shorten it further.

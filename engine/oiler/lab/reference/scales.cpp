@@ -88,7 +88,7 @@ std::vector<double> probe_times(double until, double fastest, std::size_t bodies
         times.push_back(first * std::pow(until / first, share));
         times.push_back(until * (share + offset / static_cast<double>(count / 2)));
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times;
 }
 

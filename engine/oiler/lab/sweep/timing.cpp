@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/core/median.hpp"
-#include "oiler/core/seconds_since.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {

@@ -135,14 +135,10 @@ Machine this_machine() {
     return machine;
 }
 
-bool Tradeoff::complete() const {
-    return std::all_of(all_series.begin(), all_series.end(),
-                       [](const RateSeries& series) { return series.done; });
-}
+bool Tradeoff::complete() const { return std::ranges::all_of(all_series, &RateSeries::done); }
 
 bool Tradeoff::timed() const {
-    const auto all = rows();
-    return std::all_of(all.begin(), all.end(), [](const TradeoffRow* row) {
+    return std::ranges::all_of(rows(), [](const TradeoffRow* row) {
         return !row->judgement.stable || !std::isnan(row->ns_per_second);
     });
 }
@@ -180,9 +176,8 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
     const auto error = [](const TradeoffRow* row) {
         return row->judgement.below_floor() ? 0 : row->judgement.position_error;
     };
-    std::stable_sort(rows.begin(), rows.end(), [&](const TradeoffRow* a, const TradeoffRow* b) {
-        return std::pair(cost(*a), error(a)) < std::pair(cost(*b), error(b));
-    });
+    std::ranges::stable_sort(
+        rows, {}, [&](const TradeoffRow* row) { return std::pair(cost(*row), error(row)); });
     std::vector<const TradeoffRow*> front;
     for (const TradeoffRow* row : rows)
         if (front.empty() || error(row) < error(front.back())) front.push_back(row);

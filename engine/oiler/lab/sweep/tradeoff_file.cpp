@@ -114,7 +114,7 @@ Json to_json(const Tradeoff& tradeoff) {
     const auto front = pareto(tradeoff, time_of);
     for (const TradeoffRow* row : tradeoff.rows()) {
         Json one = to_json(*row);
-        one["pareto"] = std::find(front.begin(), front.end(), row) != front.end();
+        one["pareto"] = std::ranges::find(front, row) != front.end();
         json["rows"].push_back(std::move(one));
     }
     return json;
@@ -129,7 +129,7 @@ std::string to_csv(const Tradeoff& tradeoff) {
     const auto front = pareto(tradeoff, time_of);
     for (const TradeoffRow* found : tradeoff.rows()) {
         TradeoffRow row = *found;
-        const bool best = std::find(front.begin(), front.end(), found) != front.end();
+        const bool best = std::ranges::find(front, found) != front.end();
         text += fmt::format("{},{},{},{:d},{:d},{:d}", row.stepping.method->name,
                             row.stepping.rate.steps, name_of(row.stepping.precision),
                             row.judgement.stable, row.judgement.below_floor(), best);
