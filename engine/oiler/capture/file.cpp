@@ -201,11 +201,8 @@ void File::fail_write(int error_number) const {
 /// Not all file systems have files without names.
 int File::open_temporary() {
     const int descriptor = open_without_name(folder_of(target_));
-    return descriptor >= 0 ? descriptor : open_with_name();
+    return descriptor >= 0 ? descriptor : oiler::open_temporary(folder_of(target_), temporary_);
 }
-
-/// Like mkstemp(), but with the permissions of a new file under the user's umask.
-int File::open_with_name() { return oiler::open_temporary(folder_of(target_), temporary_); }
 
 void File::write(std::span<const std::byte> bytes) {
     assert(descriptor_ >= 0);

@@ -45,7 +45,6 @@ public:
 
 private:
     [[nodiscard]] int open_temporary();
-    [[nodiscard]] int open_with_name();
     void keep_permissions() const;
     void give_name();
     void flush();

@@ -64,6 +64,9 @@ struct Certificate {
 /// Measures the order on each problem that the method can step, in double and in long double.
 [[nodiscard]] std::vector<MeasuredOrder> measure_orders(const Method& method, Damping damping);
 
+/// The slope of values over their index, by least squares.
+[[nodiscard]] double slope_over_index(std::span<const double> values);
+
 /// The largest entry of MᵀJM − J, where M is the derivative of a step of an orbit and J that of
 /// x ∧ v; 0 for a step that conserves it.
 [[nodiscard]] double symplectic_defect(const Method& method);

@@ -183,7 +183,7 @@ std::string flags_text(const Ledger& ledger) {
 
 Ledger measure(const Scene& scene, std::int64_t steps, bool quiet) {
     Percent percent(quiet, "measured");
-    return ledger(scene, steps, [&](double fraction) { percent(fraction); });
+    return ledger(scene, steps, std::ref(percent));
 }
 
 }  // namespace

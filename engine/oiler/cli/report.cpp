@@ -198,9 +198,7 @@ ReportResults ReportCommand::measure(const Scene& scene, const Reference& refere
     ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
     results.tradeoff.scene = scene_options.name();
     measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
-    SweepWatch watch;
-    watch.stopped = Interrupt::requested;
-    results.advice = advise(scene, reference, requirements, watch);
+    results.advice = advise(scene, reference, requirements, {.stopped = Interrupt::requested});
     results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
                                   usual_methods(scene), Interrupt::requested);
     return results;

@@ -99,7 +99,7 @@ void SceneOptions::declare(Arguments& arguments) {
 
 Scene SceneOptions::read() const {
     Scene scene = read_scene(file.string());
-    if (duration > 0) scene.duration = duration;
+    scene.duration = duration.value_or(scene.duration);
     return scene;
 }
 

@@ -43,17 +43,6 @@ Influence influence_on(const Bodies& bodies, std::size_t row) {
     return influence;
 }
 
-State3 state_at(const LinearMotion& motion, Real t) { return motion.at(t); }
-
-State3 state_at(const OrbitMotion& motion, Real t) {
-    const State3 state = motion.ellipse.at(t);
-    return {state.x + motion.centre, state.v};
-}
-
-State3 state_at(const LandingMotion& motion, Real t) { return motion.at(t); }
-
-State3 state_at(const GivenMotion& motion, Real t) { return motion(t); }
-
 double length(const Real3& a) { return static_cast<double>(std::sqrt(squared_length(a))); }
 
 /// A bound of the fourth derivative from a state on, m/s⁴. Each derivative z of the motion obeys
@@ -148,8 +137,13 @@ std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, Real
 
 }  // namespace
 
+State3 OrbitMotion::at(Real t) const {
+    const State3 state = ellipse.at(t);
+    return {state.x + centre, state.v};
+}
+
 State3 ExactMotion::operator()(Real t) const {
-    return std::visit([&](const auto& motion) { return state_at(motion, t); }, motion_);
+    return std::visit([&](const auto& motion) { return motion.at(t); }, motion_);
 }
 
 double ExactMotion::bend(const State3& first, const State3& last, Real from, Real to) const {

@@ -19,10 +19,15 @@ struct OrbitMotion {
     Real3 centre{};         ///< m
     Ellipse<Real> ellipse;  ///< around the centre
     Real nearest = 0;       ///< m, distance of the pericentre
+
+    /// The state t s after the start.
+    [[nodiscard]] State3 at(Real t) const;
 };
 
 /// A motion that is given as a function of time.
-using GivenMotion = std::function<State3(Real t)>;
+struct GivenMotion {
+    std::function<State3(Real t)> at;
+};
 
 /// The closed form of a body's motion.
 class ExactMotion {
@@ -32,7 +37,7 @@ public:
     ExactMotion(LandingMotion motion) : motion_(std::move(motion)) {}
     template <class F>
     requires std::invocable<const F&, Real> ExactMotion(F motion)
-        : motion_(GivenMotion(std::move(motion))) {}
+        : motion_(GivenMotion{std::move(motion)}) {}
 
     /// Position and velocity t seconds after the start.
     State3 operator()(Real t) const;
