@@ -149,85 +149,77 @@ struct ReportCommand {
         arguments.add_output("--out", out, "output file");
     }
 
-    [[nodiscard]] Exit run() const;
+    [[nodiscard]] Exit run() const {
+        Scene scene = scene_options.read();
+        const Reference reference = measure_meaningful(scene);
+        if (Interrupt::requested()) return Exit::interrupted;
+        const Requirements requirements = this->requirements(scene, reference);
+        require_judgeable(scene, reference, requirements);
+        File page(out);
+        const ReportResults results = measure(scene, reference, requirements);
+        if (Interrupt::requested()) return Exit::interrupted;
+        const Json data = report_json(scene, reference, requirements, results);
+        page.write(page_of(scene, scene_options.name(), data));
+        page.commit();
+        if (!scene_options.json.empty()) write_json(scene_options.json, data);
+        remark(scene_options.quiet, "{} is written; open it in a browser", out.string());
+        return Exit::done;
+    }
 
 private:
-    [[nodiscard]] Requirements requirements(const Scene& scene, const Reference& reference) const;
-    [[nodiscard]] Reference measure_meaningful(Scene& scene) const;
-    [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
-                                        const Requirements& requirements) const;
-    [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
-                                             const Json& data);
-};
-
-/// Takes the tolerance of the options, else of the budget, else the largest power of ten within
-/// `usual_tolerance`.
-Requirements ReportCommand::requirements(const Scene& scene, const Reference& reference) const {
-    Requirements requirements{.position_error = tolerances.position_error,
-                              .energy_drift = tolerances.energy_drift};
-    if (!requirements.has_tolerance()) {
-        requirements.position_error = scene.budget.position_error;
-        requirements.energy_drift = scene.budget.energy_drift;
+    /// Takes the tolerance of the options, else of the budget, else the largest power of ten within
+    /// `usual_tolerance`.
+    [[nodiscard]] Requirements requirements(const Scene& scene, const Reference& reference) const {
+        Requirements requirements{.position_error = tolerances.position_error,
+                                  .energy_drift = tolerances.energy_drift};
+        if (!requirements.has_tolerance()) {
+            requirements.position_error = scene.budget.position_error;
+            requirements.energy_drift = scene.budget.energy_drift;
+        }
+        if (!requirements.has_tolerance())
+            requirements.position_error =
+                std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
+        requirements.methods = parse_methods("all");
+        return requirements;
     }
-    if (!requirements.has_tolerance())
-        requirements.position_error =
-            std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
-    requirements.methods = parse_methods("all");
-    return requirements;
-}
 
-/// Shortens the scene to the time for which its reference is meaningful.
-Reference ReportCommand::measure_meaningful(Scene& scene) const {
-    const bool quiet = scene_options.quiet;
-    Reference reference = measure_reference(scene, 0, quiet);
-    if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
-    remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until,
-           reference.why_no_longer);
-    scene.duration = reference.meaningful_until;
-    return measure_reference(scene, 0, quiet);
-}
+    /// Shortens the scene to the time for which its reference is meaningful.
+    [[nodiscard]] Reference measure_meaningful(Scene& scene) const {
+        const bool quiet = scene_options.quiet;
+        Reference reference = measure_reference(scene, 0, quiet);
+        if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
+        remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until,
+               reference.why_no_longer);
+        scene.duration = reference.meaningful_until;
+        return measure_reference(scene, 0, quiet);
+    }
 
-ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
-                                     const Requirements& requirements) const {
-    const SweepPlan plan{
-        .methods = parse_methods("all"),
-        .max_rate = std::min<std::int64_t>(
-            1'000'000, std::max({scene.stepping.rate.steps, highest_rate,
-                                 highest_multiple * reference.samples.per_second})),
-        .most_work = most_work};
-    ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
-    results.tradeoff.scene = scene_options.name();
-    measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
-    results.advice = advise(scene, reference, requirements, {.stopped = Interrupt::requested});
-    results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
-                                  usual_methods(scene), Interrupt::requested);
-    return results;
-}
+    [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
+                                        const Requirements& requirements) const {
+        const SweepPlan plan{
+            .methods = parse_methods("all"),
+            .max_rate = std::min<std::int64_t>(
+                1'000'000, std::max({scene.stepping.rate.steps, highest_rate,
+                                     highest_multiple * reference.samples.per_second})),
+            .most_work = most_work};
+        ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
+        results.tradeoff.scene = scene_options.name();
+        measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
+        results.advice = advise(scene, reference, requirements, {.stopped = Interrupt::requested});
+        results.rates = measure_rates(scene, reference, most_oscillating_row(reference),
+                                      usual_rates(), usual_methods(scene), Interrupt::requested);
+        return results;
+    }
 
-std::string ReportCommand::page_of(const Scene& scene, const std::string& name, const Json& data) {
-    return fill_in({oiler_page, oiler_page_end},
-                   {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
-                    {"@FRAME@", frame_of(scene)},
-                    {"@TITLE@", escaped(scene.title.empty() ? name : scene.title)},
-                    {"@DATA@", for_script(data)}});
-}
-
-Exit ReportCommand::run() const {
-    Scene scene = scene_options.read();
-    const Reference reference = measure_meaningful(scene);
-    if (Interrupt::requested()) return Exit::interrupted;
-    const Requirements requirements = this->requirements(scene, reference);
-    require_judgeable(scene, reference, requirements);
-    File page(out);
-    const ReportResults results = measure(scene, reference, requirements);
-    if (Interrupt::requested()) return Exit::interrupted;
-    const Json data = report_json(scene, reference, requirements, results);
-    page.write(page_of(scene, scene_options.name(), data));
-    page.commit();
-    if (!scene_options.json.empty()) write_json(scene_options.json, data);
-    remark(scene_options.quiet, "{} is written; open it in a browser", out.string());
-    return Exit::done;
-}
+    [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
+                                             const Json& data) {
+        return fill_in({oiler_page, oiler_page_end},
+                       {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
+                        {"@FRAME@", frame_of(scene)},
+                        {"@TITLE@", escaped(scene.title.empty() ? name : scene.title)},
+                        {"@DATA@", for_script(data)}});
+    }
+};
 
 template Command make_command<ReportCommand>();
 
