@@ -61,22 +61,21 @@ private:
     }
 
     [[nodiscard]] EGLContext create_context() const {
-        constexpr std::array wanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                    EGL_NONE};
-        constexpr std::array attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_MINOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                        EGL_NONE};
+        constexpr EGLint wanted[]{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                  EGL_NONE};
+        constexpr EGLint attributes[]{EGL_CONTEXT_MAJOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_MINOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                      EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
         if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE ||
-            egl_.choose_config(display_, wanted.data(), &config, 1, &count) == EGL_FALSE ||
-            count == 0)
+            egl_.choose_config(display_, wanted, &config, 1, &count) == EGL_FALSE || count == 0)
             return EGL_NO_CONTEXT;
-        return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes.data());
+        return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes);
     }
 
     Library library_;

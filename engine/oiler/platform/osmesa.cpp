@@ -26,16 +26,16 @@ public:
 
 private:
     void open() {
-        const std::array attributes{OSMESA_FORMAT,
-                                    OSMESA_RGBA,
-                                    OSMESA_PROFILE,
-                                    OSMESA_CORE_PROFILE,
-                                    OSMESA_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    OSMESA_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    0};
-        context_ = create_(attributes.data(), nullptr);
+        constexpr int attributes[]{OSMESA_FORMAT,
+                                   OSMESA_RGBA,
+                                   OSMESA_PROFILE,
+                                   OSMESA_CORE_PROFILE,
+                                   OSMESA_CONTEXT_MAJOR_VERSION,
+                                   3,
+                                   OSMESA_CONTEXT_MINOR_VERSION,
+                                   3,
+                                   0};
+        context_ = create_(attributes, nullptr);
         if (context_ == nullptr)
             fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", osmesa_remedy);
         if (make_current_(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {

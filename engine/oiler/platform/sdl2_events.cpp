@@ -8,11 +8,11 @@ namespace oiler {
 namespace {
 
 std::optional<Button> mouse_button(std::uint8_t button) {
-    constexpr std::array buttons{Mouse::left, Mouse::middle, Mouse::right, Mouse::back,
-                                 Mouse::forward};
-    static_assert(SDL_BUTTON_LEFT == 1 && SDL_BUTTON_MIDDLE == 2 && SDL_BUTTON_X2 == 5);
-    if (button < 1 || button > buttons.size()) return std::nullopt;
-    return buttons[button - 1U];
+    static_assert(SDL_BUTTON_LEFT == 1 + static_cast<int>(Mouse::left) &&
+                  SDL_BUTTON_MIDDLE == 1 + static_cast<int>(Mouse::middle) &&
+                  SDL_BUTTON_X2 == 1 + static_cast<int>(Mouse::forward));
+    if (button < SDL_BUTTON_LEFT || button > SDL_BUTTON_X2) return std::nullopt;
+    return static_cast<Mouse>(button - SDL_BUTTON_LEFT);
 }
 
 std::optional<Button> pad_button(std::uint8_t button) {
@@ -25,9 +25,9 @@ std::optional<Button> pad_button(std::uint8_t button) {
 
 /// What a key does while text is entered.
 bool edits_text(Button key) {
-    constexpr std::array keys{Key::enter, Key::escape, Key::backspace, Key::tab,
-                              Key::left,  Key::right,  Key::up,        Key::down};
-    return std::any_of(keys.begin(), keys.end(), [&](Key one) { return key == Button(one); });
+    constexpr Button keys[]{Key::enter, Key::escape, Key::backspace, Key::tab,
+                            Key::left,  Key::right,  Key::up,        Key::down};
+    return std::ranges::find(keys, key) != std::end(keys);
 }
 
 Point canvas_point(int x, int y, Size window) {
