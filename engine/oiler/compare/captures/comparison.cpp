@@ -70,19 +70,8 @@ std::string frames_are(std::int64_t count) {
 }  // namespace
 
 std::string_view name_of(Cause cause) {
-    switch (cause) {
-        case Cause::missing:
-            return "missing";
-        case Cause::simulation:
-            return "simulation";
-        case Cause::picture:
-            return "picture";
-        case Cause::pixels:
-            return "pixels";
-        case Cause::none:
-            break;
-    }
-    return "none";
+    constexpr std::string_view names[]{"none", "missing", "simulation", "picture", "pixels"};
+    return names[static_cast<std::size_t>(cause)];
 }
 
 bool Comparison::passed() const { return std::ranges::all_of(frames, &FrameComparison::passed); }

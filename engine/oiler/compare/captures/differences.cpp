@@ -110,14 +110,10 @@ Json frame_json(const FrameComparison& frame, const Captured& golden, const Capt
 }
 
 std::string timeline_of(const Comparison& comparison) {
+    constexpr std::string_view marks = "=mspx";  // in the order of Cause
     std::string timeline;
     for (const FrameComparison& frame : comparison.frames)
-        timeline += frame.tolerated                    ? '~'
-                    : frame.cause == Cause::none       ? '='
-                    : frame.cause == Cause::simulation ? 's'
-                    : frame.cause == Cause::picture    ? 'p'
-                    : frame.cause == Cause::pixels     ? 'x'
-                                                       : 'm';
+        timeline += frame.tolerated ? '~' : marks[static_cast<std::size_t>(frame.cause)];
     return timeline;
 }
 

@@ -102,7 +102,7 @@ StateLog without_ticks_between(const StateLog& log, const StateLog& other) {
 
 }  // namespace
 
-std::optional<TickPair> TickWalk::next() {
+std::optional<TickPair> TickPairs::next() {
     const std::int64_t tick_a = tick_at(a_, index_a_);
     const std::int64_t tick_b = tick_at(b_, index_b_);
     const std::int64_t tick = std::min(tick_a, tick_b);

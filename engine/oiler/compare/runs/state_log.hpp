@@ -61,9 +61,10 @@ struct TickPair {
 };
 
 /// Visits the ticks of either log in their order, up to the tick `last`.
-class TickWalk {
+class TickPairs {
 public:
-    TickWalk(const StateLog& a, const StateLog& b, std::int64_t last) : a_(a), b_(b), last_(last) {}
+    TickPairs(const StateLog& a, const StateLog& b, std::int64_t last)
+        : a_(a), b_(b), last_(last) {}
 
     /// Returns empty after the last tick.
     [[nodiscard]] std::optional<TickPair> next();

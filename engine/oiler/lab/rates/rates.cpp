@@ -197,8 +197,8 @@ double rest_of(const Path& path, double band) {
     if (extremes.size() < 3) return path.x.back();
     const double* const last = extremes.data() + extremes.size() - 3;
     const double rise = last[2] - last[1];
-    const double bend = rise - (last[1] - last[0]);
-    return bend == 0 ? last[1] : last[2] - rise * rise / bend;
+    const double change_of_rise = rise - (last[1] - last[0]);
+    return change_of_rise == 0 ? last[1] : last[2] - rise * rise / change_of_rise;
 }
 
 /// The limit of the oscillation, unless the level is crossed more evenly: the extremes of a motion

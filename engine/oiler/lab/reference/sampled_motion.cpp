@@ -233,8 +233,8 @@ void SampledMotion::all_at(Real t, std::span<State3> states) const {
         states[row] = state_in(window, smooth, trajectory_, row);
 }
 
-double SampledMotion::bend(std::size_t row, const State3&, const State3&, Real from,
-                           Real to) const {
+double SampledMotion::cubic_error(std::size_t row, const State3&, const State3&, Real from,
+                                  Real to) const {
     // The body and the cubic each stay within that distance of the first state.
     if (!trajectory_.kinks_between(row, from, to).empty())
         return 3 * fastest_ * static_cast<double>(to - from);
