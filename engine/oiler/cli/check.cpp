@@ -35,20 +35,20 @@ struct CheckResult {
 /// One test case for each number of a budget, one for the warnings of a scene and one for a run
 /// that diverged. A scene without a budget is a skipped case.
 void add(JunitSuite& suite, const CheckResult& result) {
+    using Outcome = JunitSuite::Outcome;
     if (!result.warnings.empty())
-        suite.add_passed(result.file, "preflight",
-                         fmt::format("{}", fmt::join(result.warnings, "; ")));
-    if (!result.divergence.empty()) suite.add_failed(result.file, "run", result.divergence);
+        suite.add(result.file, "preflight", Outcome::passed,
+                  fmt::format("{}", fmt::join(result.warnings, "; ")));
+    if (!result.divergence.empty())
+        suite.add(result.file, "run", Outcome::failed, result.divergence);
     for (const BudgetEntry& line : result.lines)
-        if (line.kept)
-            suite.add_passed(result.file, line.name, line.words);
-        else
-            suite.add_failed(result.file, line.name, line.words);
+        suite.add(result.file, line.name, line.kept ? Outcome::passed : Outcome::failed,
+                  line.words);
     if (!result.lines.empty()) return;
     if (!result.error.empty())
-        suite.add_error(result.file, "budget", result.error);
+        suite.add(result.file, "budget", Outcome::error, result.error);
     else
-        suite.add_skipped(result.file, "budget", "no [budget]");
+        suite.add(result.file, "budget", Outcome::skipped, "no [budget]");
 }
 
 std::string to_junit(const std::vector<CheckResult>& all) {

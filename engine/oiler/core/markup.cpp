@@ -91,44 +91,25 @@ std::string fill_in(std::string_view page, const std::map<std::string, std::stri
     return text;
 }
 
-void JunitSuite::add(std::string_view group, std::string_view name, std::string_view outcome,
-                     std::string_view message) {
-    ++tests_;
+void JunitSuite::add(std::string_view group, std::string_view name, Outcome outcome,
+                     std::string_view text) {
+    constexpr std::string_view elements[]{"system-out", "failure", "error", "skipped"};
+    const auto index = static_cast<std::size_t>(outcome);
+    ++counts_[index];
     cases_ +=
-        fmt::format("  <testcase classname=\"{}\" name=\"{}\"><{} message=\"{}\"/></testcase>\n",
-                    for_xml(group), for_xml(name), outcome, for_xml(message));
-}
-
-void JunitSuite::add_passed(std::string_view group, std::string_view name, std::string_view text) {
-    ++tests_;
-    cases_ += fmt::format(
-        "  <testcase classname=\"{}\" name=\"{}\"><system-out>{}</system-out></testcase>\n",
-        for_xml(group), for_xml(name), for_xml(text));
-}
-
-void JunitSuite::add_failed(std::string_view group, std::string_view name,
-                            std::string_view message) {
-    ++failures_;
-    add(group, name, "failure", message);
-}
-
-void JunitSuite::add_error(std::string_view group, std::string_view name,
-                           std::string_view message) {
-    ++errors_;
-    add(group, name, "error", message);
-}
-
-void JunitSuite::add_skipped(std::string_view group, std::string_view name,
-                             std::string_view message) {
-    ++skipped_;
-    add(group, name, "skipped", message);
+        fmt::format("  <testcase classname=\"{}\" name=\"{}\">", for_xml(group), for_xml(name));
+    cases_ += outcome == Outcome::passed
+                  ? fmt::format("<{0}>{1}</{0}>", elements[index], for_xml(text))
+                  : fmt::format("<{} message=\"{}\"/>", elements[index], for_xml(text));
+    cases_ += "</testcase>\n";
 }
 
 std::string JunitSuite::xml() const {
+    const auto [passed, failed, errors, skipped] = counts_;
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
         "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
-        for_xml(name_), tests_, failures_, errors_, skipped_, cases_);
+        for_xml(name_), passed + failed + errors + skipped, failed, errors, skipped, cases_);
 }
 
 }  // namespace oiler

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -32,24 +33,18 @@ class JunitSuite {
 public:
     explicit JunitSuite(std::string_view name) : name_(name) {}
 
-    /// `group` and `name` name the test case.
-    void add_passed(std::string_view group, std::string_view name, std::string_view text);
-    void add_failed(std::string_view group, std::string_view name, std::string_view message);
-    void add_error(std::string_view group, std::string_view name, std::string_view message);
-    void add_skipped(std::string_view group, std::string_view name, std::string_view message);
+    enum class Outcome { passed, failed, error, skipped };
+
+    /// `group` and `name` name the test case. `text` is its output or, unless it passed, the
+    /// reason.
+    void add(std::string_view group, std::string_view name, Outcome outcome, std::string_view text);
 
     [[nodiscard]] std::string xml() const;
 
 private:
-    void add(std::string_view group, std::string_view name, std::string_view outcome,
-             std::string_view message);
-
     std::string name_;
     std::string cases_;
-    int tests_ = 0;
-    int failures_ = 0;
-    int errors_ = 0;
-    int skipped_ = 0;
+    std::array<int, 4> counts_{};  ///< of each outcome
 };
 
 }  // namespace oiler

@@ -158,6 +158,7 @@ fs::path differences_folder(const fs::path& actual) {
 }
 
 JunitSuite suite_of(const Comparison& comparison) {
+    using Outcome = JunitSuite::Outcome;
     JunitSuite suite("oiler compare");
     const std::string group = comparison.golden.string();
     for (const Cause cause : {Cause::simulation, Cause::picture, Cause::pixels, Cause::missing}) {
@@ -167,12 +168,12 @@ JunitSuite suite_of(const Comparison& comparison) {
         const auto first = std::ranges::find_if(comparison.frames, failed);
         const auto count = std::ranges::count_if(comparison.frames, failed);
         if (first == comparison.frames.end())
-            suite.add_passed(group, name_of(cause), "no frame differs");
+            suite.add(group, name_of(cause), Outcome::passed, "no frame differs");
         else
-            suite.add_failed(group, name_of(cause),
-                             fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
-                                         comparison.frames.size(), first->index, first->words,
-                                         circumstances_of(comparison)));
+            suite.add(group, name_of(cause), Outcome::failed,
+                      fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
+                                  comparison.frames.size(), first->index, first->words,
+                                  circumstances_of(comparison)));
     }
     return suite;
 }

@@ -83,13 +83,7 @@ std::vector<double> times_of(const SampleTimes& samples, double until) {
 class ReferenceBuilder {
 public:
     ReferenceBuilder(const Scene& scene, const ReferenceEffort& effort, const Perturbation& start)
-        : scene_(scene),
-          effort_(effort),
-          start_(make_world(
-                     scene,
-                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
-                     start)
-                     .bodies()) {
+        : scene_(scene), effort_(effort), start_(make_exact_bodies(scene, start)) {
         require_measurable(scene);
         reference_.start = start;
         reference_.conservative = is_conservative(start_);
@@ -336,11 +330,7 @@ Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
 
 TrueEnergy::TrueEnergy(const Scene& scene, const Reference& reference)
     : reference_(reference),
-      bodies_(
-          make_world(scene,
-                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
-                     reference.start)
-              .bodies()),
+      bodies_(make_exact_bodies(scene, reference.start)),
       states_(bodies_.size()),
       at_start_(bodies_.energy().total()) {}
 

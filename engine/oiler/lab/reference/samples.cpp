@@ -38,6 +38,11 @@ World make_world(const Scene& scene, const Settings& settings, const Perturbatio
     return world;
 }
 
+Bodies make_exact_bodies(const Scene& scene, const Perturbation& perturbation) {
+    const Stepping exact{scene.stepping.method, scene.stepping.rate, Precision::extended};
+    return make_world(scene, Settings{exact}, perturbation).bodies();
+}
+
 void require_measurable(const Scene& scene) {
     const std::int64_t bodies = scene.body_count();
     if (bodies > most_followed_bodies)
