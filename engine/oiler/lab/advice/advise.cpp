@@ -162,10 +162,10 @@ private:
         TradeoffRow threaded = *advice_.best;
         SweepWatch on_threads = watch;
         on_threads.progress = [](double) {};
-        on_threads.ns_per_step = [&](const Scene& scene, const Stepping& choice,
+        on_threads.ns_per_step = [&](const Scene& scene, Settings settings,
                                      std::int64_t per_frame) {
-            return watch.ns_per_step_on_threads(
-                scene, Settings{.stepping = choice, .threads = cores}, per_frame);
+            settings.threads = cores;
+            return watch.ns_per_step(scene, settings, per_frame);
         };
         time_rows(scene_, {&threaded}, rounds, on_threads);
         if (is_tie(threaded, *advice_.best) ||

@@ -148,11 +148,12 @@ void Search::add_candidate(const Method& method, Precision precision,
                         .precision = precision,
                         .damping = damping,
                         .convergence = Convergence(largest_converging_error * reference_.extent)};
-    candidate.first = candidate.further = watch_.ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.first = candidate.further =
+        watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, 1);
     if (std::isnan(candidate.first)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until;
     if (candidate.first < expensive) {
-        const double in_many = watch_.ns_per_step(scene_, candidate.at(rate), many);
+        const double in_many = watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, many);
         candidate.further =
             std::clamp((many * in_many - candidate.first) / (many - 1), 0.0, candidate.first);
     }
