@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/core/markup.hpp"
@@ -25,10 +27,7 @@ struct CheckResult {
     std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
-        if (!divergence.empty()) return false;
-        for (const BudgetEntry& line : lines)
-            if (!line.kept) return false;
-        return true;
+        return divergence.empty() && std::ranges::all_of(lines, &BudgetEntry::kept);
     }
 };
 

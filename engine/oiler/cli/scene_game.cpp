@@ -11,6 +11,7 @@
 
 #include "oiler/cli/startable.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/judge.hpp"
 #include "oiler/overlay/follower.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/scene/draw.hpp"
@@ -31,16 +32,6 @@ namespace fs = std::filesystem;
 fs::file_time_type written(const fs::path& file) {
     std::error_code error;
     return file.empty() ? fs::file_time_type{} : fs::last_write_time(file, error);
-}
-
-bool is_possible(const Scene& scene, const Stepping& stepping) {
-    try {
-        make_world(scene, Settings{.stepping = stepping}).require_applicable();
-        return true;
-    } catch (const Error& error) {
-        if (error.exit() != Exit::usage) throw;
-        return false;
-    }
 }
 
 }  // namespace
@@ -165,7 +156,8 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
 /// A scene keeps the setting that the player chose, unless its file now says another one.
 Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping>& kept) {
     Scene scene = read_scene(file.string());
-    const bool keeps = kept && scene.stepping == scene_->stepping && is_possible(scene, *kept);
+    const bool keeps =
+        kept && scene.stepping == scene_->stepping && lab::why_not(scene, Settings{*kept}).empty();
     const Stepping stepping = keeps ? *kept : scene.stepping;
     make_world(scene, Settings{.stepping = stepping}).require_applicable();
     places_ = 0;

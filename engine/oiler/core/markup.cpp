@@ -42,31 +42,13 @@ std::string for_xml(std::string_view text) {
 }  // namespace
 
 std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
+    static const std::map<std::string, std::string> entities{
+        {"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}};
+    return fill_in(text, entities);
 }
 
 std::string for_script(const Json& json) {
-    std::string safe;
-    for (const char c : json.dump(-1, Json::Characters::ascii)) {
-        if (c == '<')
-            safe += "\\u003c";
-        else
-            safe += c;
-    }
-    return safe;
+    return fill_in(json.dump(-1, Json::Characters::ascii), {{"<", "\\u003c"}});
 }
 
 std::string data_url_of(const std::vector<std::byte>& png) {

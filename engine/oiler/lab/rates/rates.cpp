@@ -21,20 +21,19 @@ struct Observed {
     double apex_time = unknown;
     double landing_time = unknown;
     double landing_place = unknown;
-    std::array<double, 3> bounces{unknown, unknown, unknown};  ///< see `observed_bounces`
+    double bounce_1 = unknown;
+    double bounce_3 = unknown;
+    double bounce_10 = unknown;
     double rest_time = unknown;
     double period = unknown;
     double amplitude = unknown;
     double settle_time = unknown;
 };
 
-/// The bounces whose heights are observed, counted from 1.
-constexpr std::array<std::size_t, 3> observed_bounces{1, 3, 10};
-
 struct ObservedQuantity {
     const char* name;
     const char* unit;
-    double (*value)(const Observed& observed);
+    double Observed::*value;
 };
 
 /// The floor under a body: the plane that faces gravity most.
@@ -62,27 +61,18 @@ constexpr double finished = 0.01;
 /// Largest ratio of the longest to the shortest cycle of a motion that has a period.
 constexpr double most_uneven = 1.1;
 
-template <double Observed::*quantity>
-double get(const Observed& observed) {
-    return observed.*quantity;
-}
-template <std::size_t i>
-double bounce(const Observed& observed) {
-    return observed.bounces[i];
-}
-
 constexpr ObservedQuantity quantities[]{
-    {"apex above the start", "m", get<&Observed::apex>},
-    {"time of the apex", "s", get<&Observed::apex_time>},
-    {"time of landing at the height of the start", "s", get<&Observed::landing_time>},
-    {"place of landing, from the start", "m", get<&Observed::landing_place>},
-    {"height of bounce 1", "m", bounce<0>},
-    {"height of bounce 3", "m", bounce<1>},
-    {"height of bounce 10", "m", bounce<2>},
-    {"time at which bounces stay below 1 %", "s", get<&Observed::rest_time>},
-    {"period", "s", get<&Observed::period>},
-    {"amplitude over the last period", "m", get<&Observed::amplitude>},
-    {"time to settle to 5 %", "s", get<&Observed::settle_time>},
+    {"apex above the start", "m", &Observed::apex},
+    {"time of the apex", "s", &Observed::apex_time},
+    {"time of landing at the height of the start", "s", &Observed::landing_time},
+    {"place of landing, from the start", "m", &Observed::landing_place},
+    {"height of bounce 1", "m", &Observed::bounce_1},
+    {"height of bounce 3", "m", &Observed::bounce_3},
+    {"height of bounce 10", "m", &Observed::bounce_10},
+    {"time at which bounces stay below 1 %", "s", &Observed::rest_time},
+    {"period", "s", &Observed::period},
+    {"amplitude over the last period", "m", &Observed::amplitude},
+    {"time to settle to 5 %", "s", &Observed::settle_time},
 };
 
 void observe_jump(Observed& observed, const Observer& observer, const Paths& paths) {
@@ -149,9 +139,9 @@ void observe_bounces(Observed& observed, const Observer& observer, const Paths& 
     const Path height = height_of(*observer.floor, paths);
     const double most = highest(height, 0, height.size()).x;
     const std::vector<double> heights = heights_after_turns(height, dead_band * most);
-    for (std::size_t i = 0; i < observed_bounces.size(); ++i)
-        if (observed_bounces[i] <= heights.size())
-            observed.bounces[i] = heights[observed_bounces[i] - 1];
+    if (!heights.empty()) observed.bounce_1 = heights[0];
+    if (heights.size() >= 3) observed.bounce_3 = heights[2];
+    if (heights.size() >= 10) observed.bounce_10 = heights[9];
     std::size_t last = height.size() - 1;
     while (last > 0 && height.x[last] <= finished * most) --last;
     if (last + 1 < height.size())
@@ -318,11 +308,11 @@ Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t 
         }
     Rates result{.body = scene.name_of_body(row), .rates = rates};
     for (const ObservedQuantity& kind : quantities) {
-        if (std::isnan(kind.value(truth))) continue;
-        RatesQuantity quantity{kind.name, kind.unit, kind.value(truth)};
+        if (std::isnan(truth.*kind.value)) continue;
+        RatesQuantity quantity{kind.name, kind.unit, truth.*kind.value};
         for (std::size_t i = 0; i < methods.size(); ++i) {
             RatesLine line{.method = methods[i]};
-            for (const Observed& one : observed[i]) line.values.push_back(kind.value(one));
+            for (const Observed& one : observed[i]) line.values.push_back(one.*kind.value);
             line.spread_percent = spread_percent(line, quantity.truth);
             quantity.lines.push_back(std::move(line));
         }

@@ -9,24 +9,18 @@
 namespace oiler::lab {
 namespace {
 
-/// Whether a force takes energy from a body or, if it depends on time, gives it energy.
-struct Damped {
-    template <class Force>
-    bool operator()(const Force& force) const {
-        if constexpr (DependsOnTime<Force>)
-            return acts(force);
-        else if constexpr (requires { force.damping; })
-            return force.damping != 0;
-        else if constexpr (requires { force.coefficient; })
-            return force.coefficient != 0;
-        else
-            return false;
-    }
-};
-
+/// Whether a force takes energy from the body or, if it depends on time, gives it energy.
 bool is_damped(const GivenForces& forces) {
-    return std::apply([](const auto&... force) { return ((force && Damped()(*force)) || ...); },
-                      forces);
+    bool damped = false;
+    for_each_given(forces, [&]<class Force>(const Force& force) {
+        if constexpr (DependsOnTime<Force>)
+            damped = damped || acts(force);
+        else if constexpr (requires { force.damping; })
+            damped = damped || force.damping != 0;
+        else if constexpr (requires { force.coefficient; })
+            damped = damped || force.coefficient != 0;
+    });
+    return damped;
 }
 
 /// The rate of decay by drag, at the present speed through the air or at the terminal speed, 1/s.
