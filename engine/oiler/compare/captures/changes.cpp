@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -186,24 +187,19 @@ Matches match_all(const std::vector<Element>& golden, const std::vector<Element>
     for (const Element& element : golden) matches.missing.push_back(&element);
     for (const Element& element : actual) matches.added.push_back(&element);
     const auto keep = [&](const Pair& pair) { matches.changed.push_back(pair); };
-    match(
-        matches, [](const Element& a, const Element& b) { return a == b; }, [](const Pair&) {});
-    match(
-        matches,
-        [](const Element& a, const Element& b) { return a.key.object != 0 && a.key == b.key; },
-        keep);
-    match(
-        matches,
-        [](const Element& a, const Element& b) {
-            return a.key.object == 0 && b.key.object == 0 && a.text == b.text;
-        },
-        keep);
-    match(
-        matches,
-        [](const Element& a, const Element& b) {
-            return a.key.object == 0 && b.key.object == 0 && a.points == b.points;
-        },
-        keep);
+    const auto is_equal = [](const Element& a, const Element& b) { return a == b; };
+    const auto has_same_key = [](const Element& a, const Element& b) {
+        return a.key.object != 0 && a.key == b.key;
+    };
+    const auto has_same = [](auto Element::*member) {
+        return [member](const Element& a, const Element& b) {
+            return a.key.object == 0 && b.key.object == 0 && a.*member == b.*member;
+        };
+    };
+    match(matches, is_equal, [](const Pair&) {});
+    match(matches, has_same_key, keep);
+    match(matches, has_same(&Element::text), keep);
+    match(matches, has_same(&Element::points), keep);
     return matches;
 }
 
@@ -229,99 +225,117 @@ std::string count_of(std::size_t count, const char* name) {
     return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
-/// Sentences about one kind of elements, joined by semicolons.
-class Report {
+/// Sentences about the changes of a picture, kind by kind, joined by semicolons.
+class PictureChanges {
 public:
-    Report(const Kind& kind, std::string& words) : kind_(kind), words_(words) {}
+    PictureChanges(const Picture& golden, const Picture& actual, Size size)
+        : golden_(golden),
+          actual_(actual),
+          pixels_per_unit_(std::min(static_cast<float>(size.width) / canvas_width,
+                                    static_cast<float>(size.height) / canvas_height)) {}
 
-    template <class Differs, class Describe>
-    void add(const std::vector<Pair>& pairs, const Differs& differs, const Describe& describe) {
-        std::vector<Pair> chosen;
-        std::ranges::copy_if(pairs, std::back_inserter(chosen),
-                             [&](const Pair& pair) { return differs(*pair.golden, *pair.actual); });
-        if (!chosen.empty()) append(count_of(chosen.size(), kind_.name) + describe(chosen));
-    }
-    void add_unmatched(const std::vector<const Element*>& elements, const char* what) {
-        if (elements.empty()) return;
-        std::string names;
-        for (const Element* element : elements)
-            if (!element->text.empty() && names.size() < 60)
-                names += fmt::format("{} '{}'", names.empty() ? ":" : ",", element->text);
-        append(fmt::format("{} {}{}", count_of(elements.size(), kind_.name), what, names));
-    }
-
-    void append(const std::string& words) {
-        if (!words_.empty()) words_ += "; ";
-        words_ += words;
+    [[nodiscard]] std::string describe() {
+        compare_views();
+        compare(sprite_kind, &Picture::sprites);
+        compare(polygon_kind, &Picture::polygons);
+        compare(line_kind, &Picture::polylines);
+        compare(disc_kind, &Picture::discs);
+        compare(label_kind, &Picture::labels);
+        return std::move(words_);
     }
 
 private:
-    const Kind& kind_;
-    std::string& words_;
-};
+    void compare_views() {
+        const Camera& before = golden_.camera;
+        const Camera& after = actual_.camera;
+        if (golden_.background != actual_.background)
+            append(fmt::format("background of another colour, by at most {}/255",
+                               largest_channel(golden_.background, actual_.background)));
+        if (before.centre != after.centre)
+            append(fmt::format("camera: centre ({}, {}) → ({}, {})", before.centre.x,
+                               before.centre.y, after.centre.x, after.centre.y));
+        if (before.height != after.height)
+            append(fmt::format("camera: height {} → {} m", before.height, after.height));
+        if (golden_.has_bars != actual_.has_bars)
+            append(fmt::format("bars beside the canvas {}", actual_.has_bars ? "new" : "missing"));
+    }
 
-template <class Shape>
-void compare_kind(const Kind& kind, const std::vector<Shape>& golden_shapes,
-                  const std::vector<Shape>& actual_shapes, const Picture& golden,
-                  const Picture& actual, float pixels_per_unit, std::string& words) {
-    const std::vector<Element> before = elements_of(golden_shapes);
-    const std::vector<Element> after = elements_of(actual_shapes);
-    if (before == after) return;
-    const Matches matches = match_all(before, after);
-    Report report(kind, words);
-    report.add_unmatched(matches.missing, "missing");
-    report.add_unmatched(matches.added, "new");
-    const auto has_as_many_points = [](const Element& a, const Element& b) {
-        return a.points.size() == b.points.size();
-    };
-    report.add(
-        matches.changed,
-        [&](const Element& a, const Element& b) {
-            return has_as_many_points(a, b) && a.points != b.points;
-        },
-        [&](const std::vector<Pair>& pairs) {
+    template <class Shape>
+    void compare(const Kind& kind, std::vector<Shape> Picture::*shapes) {
+        const std::vector<Element> before = elements_of(golden_.*shapes);
+        const std::vector<Element> after = elements_of(actual_.*shapes);
+        if (before == after) return;
+        const Matches matches = match_all(before, after);
+        add_unmatched(kind, matches.missing, "missing");
+        add_unmatched(kind, matches.added, "new");
+        std::vector<Pair> comparable = matches.changed;
+        std::erase_if(comparable, [](const Pair& pair) {
+            return pair.golden->points.size() != pair.actual->points.size();
+        });
+        add(kind, comparable, &Element::points, [&](const std::vector<Pair>& pairs) {
             float largest = 0;
             for (const Pair& pair : pairs)
                 largest = std::max(
-                    largest, shift_of(*pair.golden, *pair.actual, golden.camera, actual.camera));
-            return fmt::format(" moved by at most {:.2g} px", largest * pixels_per_unit);
+                    largest, shift_of(*pair.golden, *pair.actual, golden_.camera, actual_.camera));
+            return fmt::format(" moved by at most {:.2g} px", largest * pixels_per_unit_);
         });
-    report.add(
-        matches.changed,
-        [&](const Element& a, const Element& b) { return !has_as_many_points(a, b); },
-        [](const std::vector<Pair>& pairs) {
-            return fmt::format(": {} → {} points", pairs[0].golden->points.size(),
-                               pairs[0].actual->points.size());
+        const auto point_count = [](const Element& element) { return element.points.size(); };
+        add(kind, matches.changed, point_count, [&](const std::vector<Pair>& pairs) {
+            return fmt::format(": {} → {} points", point_count(*pairs[0].golden),
+                               point_count(*pairs[0].actual));
         });
-    report.add(
-        matches.changed, [](const Element& a, const Element& b) { return a.extent != b.extent; },
-        [&](const std::vector<Pair>& pairs) {
+        add(kind, matches.changed, &Element::extent, [&](const std::vector<Pair>& pairs) {
             return fmt::format(": {} {} → {}", kind.extent, pairs[0].golden->extent,
                                pairs[0].actual->extent);
         });
-    report.add(
-        matches.changed, [](const Element& a, const Element& b) { return a.colour != b.colour; },
-        [](const std::vector<Pair>& pairs) {
+        add(kind, matches.changed, &Element::colour, [](const std::vector<Pair>& pairs) {
             int largest = 0;
             for (const Pair& pair : pairs)
                 largest =
                     std::max(largest, largest_channel(pair.golden->colour, pair.actual->colour));
             return fmt::format(" of another colour, by at most {}/255", largest);
         });
-    report.add(
-        matches.changed, [](const Element& a, const Element& b) { return a.text != b.text; },
-        [](const std::vector<Pair>& pairs) {
+        add(kind, matches.changed, &Element::text, [](const std::vector<Pair>& pairs) {
             return fmt::format(": text '{}' → '{}'", pairs[0].golden->text, pairs[0].actual->text);
         });
-    report.add(
-        matches.changed,
-        [](const Element& a, const Element& b) {
-            return a.placing != b.placing || a.space != b.space;
-        },
-        [](const std::vector<Pair>&) { return std::string(" placed in another way"); });
-    if (matches.missing.empty() && matches.added.empty() && matches.changed.empty())
-        report.append(fmt::format("{}s in another order", kind.name));
-}
+        const auto place = [](const Element& element) {
+            return std::pair(element.placing, element.space);
+        };
+        add(kind, matches.changed, place,
+            [](const std::vector<Pair>&) { return std::string(" placed in another way"); });
+        if (matches.missing.empty() && matches.added.empty() && matches.changed.empty())
+            append(fmt::format("{}s in another order", kind.name));
+    }
+
+    /// Describes the pairs whose elements differ in a property.
+    template <class Property, class Describe>
+    void add(const Kind& kind, const std::vector<Pair>& pairs, const Property& property,
+             const Describe& describe) {
+        std::vector<Pair> chosen = pairs;
+        std::erase_if(chosen, [&](const Pair& pair) {
+            return std::invoke(property, *pair.golden) == std::invoke(property, *pair.actual);
+        });
+        if (!chosen.empty()) append(count_of(chosen.size(), kind.name) + describe(chosen));
+    }
+    void add_unmatched(const Kind& kind, const std::vector<const Element*>& elements,
+                       const char* what) {
+        if (elements.empty()) return;
+        std::string names;
+        for (const Element* element : elements)
+            if (!element->text.empty() && names.size() < 60)
+                names += fmt::format("{} '{}'", names.empty() ? ":" : ",", element->text);
+        append(fmt::format("{} {}{}", count_of(elements.size(), kind.name), what, names));
+    }
+    void append(const std::string& words) {
+        if (!words_.empty()) words_ += "; ";
+        words_ += words;
+    }
+
+    const Picture& golden_;
+    const Picture& actual_;
+    float pixels_per_unit_;
+    std::string words_;
+};
 
 }  // namespace
 
@@ -352,33 +366,7 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
 }
 
 std::string describe_picture_change(const Picture& golden, const Picture& actual, Size size) {
-    std::string words;
-    if (golden.background != actual.background)
-        words = fmt::format("background of another colour, by at most {}/255",
-                            largest_channel(golden.background, actual.background));
-    const Camera& before = golden.camera;
-    const Camera& after = actual.camera;
-    const auto separator = [&] { return words.empty() ? "" : "; "; };
-    if (before.centre != after.centre)
-        words += fmt::format("{}camera: centre ({}, {}) → ({}, {})", separator(), before.centre.x,
-                             before.centre.y, after.centre.x, after.centre.y);
-    if (before.height != after.height)
-        words +=
-            fmt::format("{}camera: height {} → {} m", separator(), before.height, after.height);
-    const float pixels_per_unit = std::min(static_cast<float>(size.width) / canvas_width,
-                                           static_cast<float>(size.height) / canvas_height);
-    if (golden.has_bars != actual.has_bars)
-        words += fmt::format("{}bars beside the canvas {}", separator(),
-                             actual.has_bars ? "new" : "missing");
-    compare_kind(sprite_kind, golden.sprites, actual.sprites, golden, actual, pixels_per_unit,
-                 words);
-    compare_kind(polygon_kind, golden.polygons, actual.polygons, golden, actual, pixels_per_unit,
-                 words);
-    compare_kind(line_kind, golden.polylines, actual.polylines, golden, actual, pixels_per_unit,
-                 words);
-    compare_kind(disc_kind, golden.discs, actual.discs, golden, actual, pixels_per_unit, words);
-    compare_kind(label_kind, golden.labels, actual.labels, golden, actual, pixels_per_unit, words);
-    return words;
+    return PictureChanges(golden, actual, size).describe();
 }
 
 }  // namespace oiler

@@ -302,8 +302,6 @@ double Ledger::bytes_per_body() const {
     return bytes + static_cast<double>(links) * bytes_per_link / static_cast<double>(bodies);
 }
 
-bool LedgerPass::is_within_spread() const { return std::abs(saves_percent) <= spread_percent; }
-
 Ledger ledger(const Scene& scene, std::int64_t steps, const LedgerProgress& progress,
               const StepTimer& timer) {
     require(steps >= 2, "a ledger takes at least two steps");

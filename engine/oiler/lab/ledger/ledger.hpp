@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -38,7 +39,9 @@ struct LedgerPass {
     double changes_position = unknown;  ///< m, the largest at any sample; NaN for moving
     std::optional<std::string> diverged{};  ///< how the scene diverges without it
 
-    [[nodiscard]] bool is_within_spread() const;
+    [[nodiscard]] bool is_within_spread() const {
+        return std::abs(saves_percent) <= spread_percent;
+    }
 };
 
 /// The costs of a scene, memory and time, and the effect of each of its parts.
