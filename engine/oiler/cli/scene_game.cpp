@@ -183,7 +183,8 @@ fs::path SceneShelf::neighbour(int places) const {
     return files[static_cast<std::size_t>(place)];
 }
 
-/// Looked at some times a second; a change is reported once, even if the file is then no scene.
+/// Checks the file at most four times a second. Reports a change once, even if the file is not a
+/// valid scene.
 bool SceneShelf::has_changed() {
     const Clock::time_point now = Clock::now();
     if (now < next_look_) return false;
