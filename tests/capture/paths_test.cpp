@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/paths.hpp"
+#include "oiler/capture/file.hpp"
 
 #include "support/folder.hpp"
 #include "support/test.hpp"

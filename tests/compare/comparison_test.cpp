@@ -6,7 +6,7 @@
 
 #include "capture/captures.hpp"
 #include "oiler/capture/png.hpp"
-#include "oiler/compare/captures/picture_changes.hpp"
+#include "oiler/compare/captures/changes.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "oiler/core/ulps.hpp"
+#include "oiler/core/floating_point.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

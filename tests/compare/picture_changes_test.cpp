@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/captures/picture_changes.hpp"
+#include "oiler/compare/captures/changes.hpp"
 
 #include "oiler/plot/plot.hpp"
 #include "support/test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/captures/state_changes.hpp"
+#include "oiler/compare/captures/changes.hpp"
 
 #include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/runs/trace_file.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 #include <fmt/format.h>
 

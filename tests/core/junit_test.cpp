@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 
 #include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
 
+using Outcome = JunitSuite::Outcome;
+
 TEST(Junit, HasEachOutcome) {
     JunitSuite suite("oiler check");
-    suite.add_passed("jump.toml", "position_error", "0.1 of 0.25 m");
-    suite.add_failed("jump.toml", "energy_drift", "2 of 1");
-    suite.add_failed("orbit.toml", "energy_drift", "3 of 1");
-    suite.add_error("bad.toml", "read", "no such file");
-    suite.add_skipped("chain.toml", "budget", "none");
+    suite.add("jump.toml", "position_error", Outcome::passed, "0.1 of 0.25 m");
+    suite.add("jump.toml", "energy_drift", Outcome::failed, "2 of 1");
+    suite.add("orbit.toml", "energy_drift", Outcome::failed, "3 of 1");
+    suite.add("bad.toml", "read", Outcome::error, "no such file");
+    suite.add("chain.toml", "budget", Outcome::skipped, "none");
     EXPECT_EQ(suite.xml(), R"(<?xml version="1.0" encoding="UTF-8"?>
 <testsuite name="oiler check" tests="5" failures="2" errors="1" skipped="1">
   <testcase classname="jump.toml" name="position_error"><system-out>0.1 of 0.25 m</system-out></testcase>
@@ -33,7 +35,7 @@ TEST(Junit, OfNoCaseIsValid) {
 // U+2192, U+1F600, a control of ASCII, one of Latin 1, and bytes that are not UTF-8.
 TEST(Junit, ReplacesWhatXmlDoesNotAllow) {
     JunitSuite suite("\"<&>\"");
-    suite.add_failed("a\nb", "c\x01\xC2\x85", "1 \xE2\x86\x92 2 \xF0\x9F\x98\x80 \xff");
+    suite.add("a\nb", "c\x01\xC2\x85", Outcome::failed, "1 \xE2\x86\x92 2 \xF0\x9F\x98\x80 \xff");
     const std::string xml = suite.xml();
     EXPECT_NE(xml.find("<testsuite name=\"&quot;&lt;&amp;&gt;&quot;\" "), xml.npos) << xml;
     EXPECT_NE(
@@ -51,7 +53,7 @@ TEST(Junit, KeepsItsShapeWithAnyByte) {
         for (int second = 0; second < 256; ++second) {
             const std::string text{static_cast<char>(first), static_cast<char>(second)};
             JunitSuite suite(text);
-            suite.add_error(text, text, text);
+            suite.add(text, text, Outcome::error, text);
             const std::string xml = suite.xml();
             EXPECT_EQ(count(xml, '<'), 6) << first << ' ' << second;
             EXPECT_EQ(count(xml, '>'), 6) << first << ' ' << second;

@@ -20,10 +20,9 @@ namespace fs = std::filesystem;
 std::string junit_of(const Comparison& comparison, const std::vector<BudgetEntry>& budget) {
     JunitSuite suite = suite_of(comparison);
     for (const BudgetEntry& entry : budget)
-        if (entry.kept)
-            suite.add_passed("[budget]", entry.name, entry.words);
-        else
-            suite.add_failed("[budget]", entry.name, entry.words);
+        suite.add("[budget]", entry.name,
+                  entry.kept ? JunitSuite::Outcome::passed : JunitSuite::Outcome::failed,
+                  entry.words);
     return suite.xml();
 }
 

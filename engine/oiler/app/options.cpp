@@ -11,7 +11,6 @@
 #include "oiler/app/loop_keys.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
-#include "oiler/capture/paths.hpp"
 #include "oiler/capture/video.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/version.hpp"

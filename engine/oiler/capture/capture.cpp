@@ -135,8 +135,8 @@ void Capture::stop_workers() {
 }
 
 void Capture::drop_incomplete() {
-    const auto first = static_cast<std::size_t>(
-        std::find(complete_.begin(), complete_.end(), false) - complete_.begin());
+    const auto first =
+        static_cast<std::size_t>(std::ranges::find(complete_, false) - complete_.begin());
     std::error_code ignored;
     for (std::size_t i = first; i < manifest_.frames.size(); ++i)
         if (!manifest_.frames[i].file.empty())

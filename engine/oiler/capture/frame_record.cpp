@@ -97,9 +97,7 @@ Json json_of(const BodyState& body) {
 
 template <class Element>
 Json json_of_all(const std::vector<Element>& elements) {
-    Json json = Json::array();
-    for (const Element& element : elements) json.push_back(json_of(element));
-    return json;
+    return Json::list(elements, [](const Element& element) { return json_of(element); });
 }
 
 Json json_of(const Picture& picture) {

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -63,12 +64,12 @@ template <class IsValid>
 const Parsed& member(const Parsed& json, const char* name, std::string_view expected,
                      const IsValid& is_valid) {
     const auto found = json.find(name);
-    if (found == json.end() || !is_valid(*found)) fail_member(json, name, expected);
+    if (found == json.end() || !std::invoke(is_valid, *found)) fail_member(json, name, expected);
     return *found;
 }
 
 std::string to_text(const Parsed& json, const char* name) {
-    return member(json, name, "a text", [](const Parsed& value) { return value.is_string(); });
+    return member(json, name, "a text", &Parsed::is_string);
 }
 
 std::string to_text_or_empty(const Parsed& json, const char* name) {
@@ -134,7 +135,7 @@ Whole to_whole(const Parsed& json, const char* name, Whole low, Whole high) {
 
 std::uint64_t to_seed(const Parsed& json) {
     return member(json, "seed", "a whole number from 0 to 18446744073709551615",
-                  [](const Parsed& value) { return value.is_number_unsigned(); });
+                  &Parsed::is_number_unsigned);
 }
 
 /// `earlier_tick` is that of the frame before.
@@ -155,9 +156,7 @@ Manifest::Frame to_frame(const Parsed& json, std::int64_t index, std::int64_t ea
 
 std::vector<Manifest::Frame> to_frames(const Parsed& json) {
     std::vector<Manifest::Frame> frames;
-    for (const Parsed& frame :
-         member(json, "frames", "an array", [](const Parsed& value) { return value.is_array(); }))
-        try {
+    for (const Parsed& frame : member(json, "frames", "an array", &Parsed::is_array)) try {
             const std::int64_t earlier_tick = frames.empty() ? 0 : frames.back().tick;
             frames.push_back(to_frame(frame, std::int64_t(frames.size()), earlier_tick));
         } catch (const Error& error) {

@@ -54,22 +54,11 @@ const Format& format_of(const fs::path& path) {
 
 std::vector<std::string> command_of(const Format& format, const fs::path& target, Size size,
                                     int fps) {
-    std::vector<std::string> words{"ffmpeg",
-                                   "-v",
-                                   "error",
-                                   "-xerror",  // else a full disk is no error
-                                   "-nostdin",
-                                   "-y",
-                                   "-f",
-                                   "rawvideo",
-                                   "-pixel_format",
-                                   "rgb24",
-                                   "-video_size",
-                                   fmt::format("{}x{}", size.width, size.height),
-                                   "-framerate",
-                                   std::to_string(fps),
-                                   "-i",
-                                   "pipe:0"};
+    // Without -xerror a full disk is no error.
+    std::vector<std::string> words{"ffmpeg", "-v", "error",    "-xerror",       "-nostdin",
+                                   "-y",     "-f", "rawvideo", "-pixel_format", "rgb24"};
+    words.insert(words.end(), {"-video_size", fmt::format("{}x{}", size.width, size.height),
+                               "-framerate", std::to_string(fps), "-i", "pipe:0"});
     words.insert(words.end(), format.arguments.begin(), format.arguments.end());
     words.insert(words.end(), {"-fflags", "+bitexact", "file:" + target.string()});
     return words;

@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "oiler/certify/measures.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {
@@ -71,6 +70,18 @@ std::vector<std::string> failures_of(const Certificate& certificate) {
 }
 
 }  // namespace
+
+double slope_over_index(std::span<const double> values) {
+    const double middle = static_cast<double>(values.size() - 1) / 2;
+    double products = 0;
+    double squares = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double at = static_cast<double>(i) - middle;
+        products += at * values[i];
+        squares += at * at;
+    }
+    return products / squares;
+}
 
 Certificate certify(const Method& method, Damping damping, std::int64_t steps) {
     const double limit = stability_limit(method, damping, {1, 0});

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "oiler/certify/measures.hpp"
+#include "oiler/certify/certify.hpp"
 #include "oiler/physics/closed_forms.hpp"
 
 namespace oiler::certify {
@@ -117,21 +117,14 @@ Errors errors_after_a_second(const Method& method, Damping damping, const Proble
 /// The slope of −log₂(error) over the index, by least squares. NaN if slopes between neighbours
 /// differ by more than 1.5: then errors do not fall as a power of dt.
 double slope(std::span<const double> errors) {
-    const double middle = static_cast<double>(errors.size() - 1) / 2;
-    double products = 0;
-    double squares = 0;
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
+    std::vector<double> logarithms;
+    std::vector<double> slopes;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-        const double at = static_cast<double>(i) - middle;
-        products -= at * std::log2(errors[i]);
-        squares += at * at;
-        if (i == 0) continue;
-        const double local = std::log2(errors[i - 1] / errors[i]);
-        least = std::min(least, local);
-        most = std::max(most, local);
+        logarithms.push_back(-std::log2(errors[i]));
+        if (i > 0) slopes.push_back(std::log2(errors[i - 1] / errors[i]));
     }
-    return most - least > 1.5 ? nan : products / squares;
+    const auto [least, most] = std::ranges::minmax(slopes);
+    return most - least > 1.5 ? nan : slope_over_index(logarithms);
 }
 
 /// Uses the five finest step sizes at which both errors exceed 100 × the round-off of the steps.

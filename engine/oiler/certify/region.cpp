@@ -104,16 +104,6 @@ std::vector<bool> bounded(const Method& method, Damping damping,
 
 }  // namespace
 
-double StabilityGrid::omega_dt_of(int column) const { return omega_dt * (column + 0.5) / columns; }
-
-double StabilityGrid::zeta_of(int row) const { return row == 0 ? 0 : zeta * (row + 0.5) / rows; }
-
-std::size_t StabilityGrid::size() const { return static_cast<std::size_t>(columns * rows); }
-
-std::size_t StabilityGrid::index(int column, int row) const {
-    return static_cast<std::size_t>(row * columns + column);
-}
-
 StabilityRegion measure_region(const Method& method, Damping damping, const StabilityGrid& grid) {
     const std::vector<Oscillation> cells = oscillations(grid);
     StabilityRegion region{.method = &method,

@@ -17,10 +17,14 @@ struct StabilityGrid {
     double omega_dt = 6;  ///< at the right edge
     double zeta = 2;      ///< at the upper edge
 
-    [[nodiscard]] double omega_dt_of(int column) const;
-    [[nodiscard]] double zeta_of(int row) const;
-    [[nodiscard]] std::size_t size() const;
-    [[nodiscard]] std::size_t index(int column, int row) const;
+    [[nodiscard]] double omega_dt_of(int column) const {
+        return omega_dt * (column + 0.5) / columns;
+    }
+    [[nodiscard]] double zeta_of(int row) const { return row == 0 ? 0 : zeta * (row + 0.5) / rows; }
+    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(columns * rows); }
+    [[nodiscard]] std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row * columns + column);
+    }
 };
 
 /// The stability of a method on damped springs, by theory and by simulation.

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "oiler/certify/measures.hpp"
+#include "oiler/certify/certify.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {
@@ -62,19 +62,6 @@ struct Form {
         return static_cast<double>(xx * x * x + xv * x * v + vv * v * v);
     }
 };
-
-/// The slope of log(value) over the index, by least squares.
-double relative_trend(const std::vector<double>& values) {
-    const double middle = static_cast<double>(values.size() - 1) / 2;
-    double products = 0;
-    double squares = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double at = static_cast<double>(i) - middle;
-        products += at * std::log(values[i]);
-        squares += at * at;
-    }
-    return products / squares;
-}
 
 /// The largest number of roundings per step, each of a number no larger than the amplitude.
 double roundings(const Method& method) {
@@ -211,16 +198,16 @@ LongRun run_long(const Method& method, Damping damping, double limit, std::int64
     // Stops before the energy has changed by a factor of e⁵⁰⁰.
     const double most = std::min(static_cast<double>(steps), 500 / std::abs(run.predicted));
     const auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(most) / samples);
-    std::vector<double> values;
+    std::vector<double> logarithms;
     while (static_cast<double>(run.steps) < most) {
         if (bodies.try_step(method, {each_second, run.steps, stride, damping})) break;
         run.steps += stride;
         const double share = energy.of(bodies.state(0)) / at_start;
         run.lowest = std::min(run.lowest, share);
         run.highest = std::max(run.highest, share);
-        values.push_back(form.of(bodies.state(0)));
+        logarithms.push_back(std::log(form.of(bodies.state(0))));
     }
-    run.trend = relative_trend(values) / static_cast<double>(stride);
+    run.trend = slope_over_index(logarithms) / static_cast<double>(stride);
     run.allowed =
         allowed_trend(method, static_cast<double>(run.steps)) + 1e-6 * std::abs(run.predicted);
     return run;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/advice/advise.hpp"
 
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse_size.hpp"
@@ -32,10 +31,8 @@ std::int64_t frames_of(const std::string& words) {
 Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements,
               bool quiet) {
     Percent percent(quiet, "of the settings, most of which need no run");
-    SweepWatch watch;
-    watch.progress = [&](double fraction) { percent(fraction); };
-    watch.stopped = Interrupt::requested;
-    return advise(scene, reference, requirements, watch);
+    return advise(scene, reference, requirements,
+                  {.progress = std::ref(percent), .stopped = Interrupt::requested});
 }
 
 }  // namespace
@@ -51,7 +48,7 @@ struct AdviseCommand {
 
     SceneOptions scene_options;
     ToleranceOptions tolerances;
-    double longer = 0;             ///< s; 0: the scene's duration
+    std::optional<double> longer;  ///< s; none: the scene's duration
     std::optional<double> pixels;  ///< tolerance, in pixels of a picture of `size`
     std::string size_words = default_size;
     bool at_steps = false;
@@ -119,9 +116,8 @@ struct AdviseCommand {
 
     [[nodiscard]] Scene read_scene() const {
         Scene scene = scene_options.read();
-        if (longer > 0 && scene_options.duration > 0)
-            fail(Exit::usage, "give one of --for and --duration");
-        if (longer > 0) scene.duration = longer;
+        if (longer && scene_options.duration) fail(Exit::usage, "give one of --for and --duration");
+        scene.duration = longer.value_or(scene.duration);
         return scene;
     }
 

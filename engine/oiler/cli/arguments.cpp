@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/core/version.hpp"
 #include "oiler/process/parse.hpp"
 
@@ -18,21 +18,6 @@ std::string_view unit_of(std::string_view type) {
     if (type == "S") return "in s, ";
     if (type == "US") return "in µs, ";
     return "";
-}
-
-template <class Target>
-void add_positive_number(CLI::App& app, const std::string& name, Target& target,
-                         const std::string& type, const std::string& help) {
-    const auto set = [name, type, &target](const std::string& words) {
-        const char* const end = words.data() + words.size();
-        double value = 0;
-        const auto [last, error] = std::from_chars(words.data(), end, value);
-        if (error != std::errc() || last != end || !(value > 0) || !std::isfinite(value))
-            throw CLI::ValidationError(fmt::format("{} {}: give a number above 0, {}such as 0.01",
-                                                   name, words, unit_of(type)));
-        target = value;
-    };
-    app.add_option_function<std::string>(name, set, help)->type_name(type);
 }
 
 /// Declares each command as a subcommand; returns their functions by name.
@@ -148,14 +133,18 @@ void Arguments::add_integer(const std::string& name, std::int64_t& target, std::
     add_whole<std::int64_t>(command_, name, target, low, high, help);
 }
 
-void Arguments::add_positive(const std::string& name, double& target, const std::string& type,
-                             const std::string& help) {
-    add_positive_number(command_, name, target, type, help);
-}
-
 void Arguments::add_positive(const std::string& name, std::optional<double>& target,
                              const std::string& type, const std::string& help) {
-    add_positive_number(command_, name, target, type, help);
+    const auto set = [name, type, &target](const std::string& words) {
+        const char* const end = words.data() + words.size();
+        double value = 0;
+        const auto [last, error] = std::from_chars(words.data(), end, value);
+        if (error != std::errc() || last != end || !(value > 0) || !std::isfinite(value))
+            throw CLI::ValidationError(fmt::format("{} {}: give a number above 0, {}such as 0.01",
+                                                   name, words, unit_of(type)));
+        target = value;
+    };
+    command_.add_option_function<std::string>(name, set, help)->type_name(type);
 }
 
 void Arguments::add_damping(std::string& target) { oiler::add_damping(command_, target); }

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/capture/paths.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/cli/command.hpp"
 
 namespace CLI {
@@ -63,8 +63,6 @@ public:
     void add_integer(const std::string& name, std::int64_t& target, std::int64_t low,
                      std::int64_t high, const std::string& help);
     /// A finite number above 0.
-    void add_positive(const std::string& name, double& target, const std::string& type,
-                      const std::string& help);
     void add_positive(const std::string& name, std::optional<double>& target,
                       const std::string& type, const std::string& help);
     /// `--damping kick|drift`, as in all games.

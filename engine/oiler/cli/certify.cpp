@@ -4,9 +4,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 
@@ -76,11 +75,10 @@ Json to_json(const MeasuredOrder& order) {
 
 Json to_json(const Certificate& certificate) {
     const LongRun& run = certificate.energy;
-    Json orders = Json::array();
-    for (const MeasuredOrder& order : certificate.orders) orders.push_back(to_json(order));
+    const auto to_item = [](const MeasuredOrder& order) { return to_json(order); };
     return {{"method", certificate.method->name},
             {"damping", name_of(certificate.damping)},
-            {"orders", orders},
+            {"orders", Json::list(certificate.orders, to_item)},
             {"symplectic", certificate.method->symplectic},
             {"symplectic_defect", number(certificate.symplectic_defect)},
             {"symmetric", certificate.method->symmetric},

@@ -2,12 +2,11 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
+#include <algorithm>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
@@ -28,30 +27,27 @@ struct CheckResult {
     std::string error{};  ///< the reason why the check is impossible
 
     [[nodiscard]] bool kept() const {
-        if (!divergence.empty()) return false;
-        for (const BudgetEntry& line : lines)
-            if (!line.kept) return false;
-        return true;
+        return divergence.empty() && std::ranges::all_of(lines, &BudgetEntry::kept);
     }
 };
 
 /// One test case for each number of a budget, one for the warnings of a scene and one for a run
 /// that diverged. A scene without a budget is a skipped case.
 void add(JunitSuite& suite, const CheckResult& result) {
+    using Outcome = JunitSuite::Outcome;
     if (!result.warnings.empty())
-        suite.add_passed(result.file, "preflight",
-                         fmt::format("{}", fmt::join(result.warnings, "; ")));
-    if (!result.divergence.empty()) suite.add_failed(result.file, "run", result.divergence);
+        suite.add(result.file, "preflight", Outcome::passed,
+                  fmt::format("{}", fmt::join(result.warnings, "; ")));
+    if (!result.divergence.empty())
+        suite.add(result.file, "run", Outcome::failed, result.divergence);
     for (const BudgetEntry& line : result.lines)
-        if (line.kept)
-            suite.add_passed(result.file, line.name, line.words);
-        else
-            suite.add_failed(result.file, line.name, line.words);
+        suite.add(result.file, line.name, line.kept ? Outcome::passed : Outcome::failed,
+                  line.words);
     if (!result.lines.empty()) return;
     if (!result.error.empty())
-        suite.add_error(result.file, "budget", result.error);
+        suite.add(result.file, "budget", Outcome::error, result.error);
     else
-        suite.add_skipped(result.file, "budget", "no [budget]");
+        suite.add(result.file, "budget", Outcome::skipped, "no [budget]");
 }
 
 std::string to_junit(const std::vector<CheckResult>& all) {
@@ -169,7 +165,7 @@ struct CheckCommand {
             all.push_back(check(path));
             if (Interrupt::requested()) return Exit::interrupted;
         }
-        if (!junit.empty()) write_text(junit, to_junit(all));
+        if (!junit.empty()) write_file(junit, to_junit(all));
         if (!json.empty()) write_json(json, to_json(all));
         if (json != "-" && junit != "-") print(text_of(all, quiet));
         for (const CheckResult& result : all)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/cli/arguments.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/compare/captures/comparison.hpp"
 #include "oiler/compare/captures/differences.hpp"
@@ -46,7 +46,7 @@ struct CompareCommand {
         const std::filesystem::path folder = out.empty() ? differences_folder(actual) : out;
         const bool prints = json != "-" && junit != "-";
         if (prints) print(describe(comparison));
-        if (!junit.empty()) write_text(junit, suite_of(comparison).xml());
+        if (!junit.empty()) write_file(junit, suite_of(comparison).xml());
         if (!json.empty()) write_json(json, to_json(comparison));
         write_differences(comparison, folder);
         if (prints && !comparison.passed())

@@ -6,7 +6,7 @@
 #include <memory>
 #include "oiler/app/run_game.hpp"
 #include "oiler/cli/arguments.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/startable.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/picture/palette.hpp"

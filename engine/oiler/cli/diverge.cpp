@@ -9,13 +9,11 @@
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
-#include "oiler/compare/runs/captured_states.hpp"
 #include "oiler/compare/runs/divergence.hpp"
-#include "oiler/compare/runs/trace_file.hpp"
-#include "oiler/core/ulps.hpp"
+#include "oiler/compare/runs/state_log.hpp"
+#include "oiler/core/floating_point.hpp"
 
 namespace oiler::cli {
 namespace {
@@ -191,15 +189,12 @@ Json to_json(const RunDivergence::Presence& presence) {
             {"only_b", presence.only_b}};
 }
 
-Json to_json(const std::vector<RunDivergence::Growth>& growth) {
-    Json json = Json::array();
-    for (const RunDivergence::Growth& row : growth)
-        json.push_back({{"tick", row.tick},
-                        {"time", row.time},
-                        {"distance", number(row.distance)},
-                        {"ulps", ulps_json(row.ulps)},
-                        {"body", row.body}});
-    return json;
+Json to_json(const RunDivergence::Growth& row) {
+    return {{"tick", row.tick},
+            {"time", row.time},
+            {"distance", number(row.distance)},
+            {"ulps", ulps_json(row.ulps)},
+            {"body", row.body}};
 }
 
 Json to_json(const StateLog& log) {
@@ -221,7 +216,9 @@ Json to_json(const DivergeResult& result) {
               {"value", nullptr},
               {"presence", nullptr},
               {"times", nullptr},
-              {"growth", to_json(found.growth)}};
+              {"growth", Json::list(found.growth, [](const RunDivergence::Growth& row) {
+                   return to_json(row);
+               })}};
     if (result.first_hash) json["first_different_hash"] = *result.first_hash;
     if (found.value) json["value"] = to_json(*found.value, result.a.axes);
     if (found.presence) json["presence"] = to_json(*found.presence);

@@ -2,7 +2,6 @@
 #include "oiler/certify/figures.hpp"
 
 #include "oiler/app/stills.hpp"
-#include "oiler/capture/file.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"

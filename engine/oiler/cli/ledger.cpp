@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
@@ -38,17 +37,11 @@ Json to_json(const LedgerPass& pass) {
             {"saves_percent", number(pass.saves_percent)},
             {"spread_percent", number(pass.spread_percent)},
             {"changes_position_m", number(pass.changes_position)},
-            {"diverges", pass.diverged ? Json(*pass.diverged) : Json(nullptr)}};
-}
-
-template <class Item>
-Json list_of(const std::vector<Item>& items) {
-    Json list = Json::array();
-    for (const Item& item : items) list.push_back(to_json(item));
-    return list;
+            {"diverges", pass.diverged}};
 }
 
 Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) {
+    const auto to_item = [](const auto& item) { return to_json(item); };
     Json stepping = to_json(scene.stepping);
     return {{"scene", name},
             {"title", scene.title},
@@ -64,13 +57,13 @@ Json to_json(const Scene& scene, const std::string& name, const Ledger& ledger) 
             {"rounds", ledger.rounds},
             {"bytes_per_body", ledger.bytes_per_body()},
             {"bytes_per_link", ledger.bytes_per_link},
-            {"columns", list_of(ledger.columns)},
+            {"columns", Json::list(ledger.columns, to_item)},
             {"absent", ledger.absent},
             {"ns_per_body_step", number(ledger.ns)},
             {"spread_ns", number(ledger.spread_ns)},
-            {"passes", list_of(ledger.passes)},
+            {"passes", Json::list(ledger.passes, to_item)},
             {"flags", ledger.flags},
-            {"diverges", ledger.diverged ? Json(*ledger.diverged) : Json(nullptr)}};
+            {"diverges", ledger.diverged}};
 }
 
 std::string heading(const Scene& scene, const std::string& name, const Ledger& ledger,
@@ -190,7 +183,7 @@ std::string flags_text(const Ledger& ledger) {
 
 Ledger measure(const Scene& scene, std::int64_t steps, bool quiet) {
     Percent percent(quiet, "measured");
-    return ledger(scene, steps, [&](double fraction) { percent(fraction); });
+    return ledger(scene, steps, std::ref(percent));
 }
 
 }  // namespace

@@ -11,26 +11,22 @@ using namespace lab;
 
 Reference measure_reference(const Scene& scene, double wanted, bool quiet) {
     Percent percent(quiet, "of the work limit of the reference");
-    ReferenceEffort effort{.wanted = wanted};
-    effort.progress = [&](double fraction) { percent(fraction); };
-    effort.stopped = Interrupt::requested;
-    return make_reference(scene, effort);
+    return make_reference(
+        scene, {.wanted = wanted, .progress = std::ref(percent), .stopped = Interrupt::requested});
 }
 
 void measure_tradeoff(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
                       const SweepPlan& plan, bool quiet,
                       const std::function<void(const Tradeoff&)>& series_done) {
-    SweepWatch watch;
-    watch.stopped = Interrupt::requested;
-    watch.series_done = series_done;
+    SweepWatch watch{.stopped = Interrupt::requested, .series_done = series_done};
     {
         Percent percent(quiet, "of the errors");
-        watch.progress = [&](double fraction) { percent(fraction); };
+        watch.progress = std::ref(percent);
         sweep(tradeoff, scene, reference, plan, watch);
     }
     constexpr int rounds = 7;
     Percent percent(quiet, "of the times");
-    watch.progress = [&](double fraction) { percent(fraction); };
+    watch.progress = std::ref(percent);
     std::vector<TradeoffRow*> rows;
     for (RateSeries& series : tradeoff.all_series)
         for (TradeoffRow& row : series.rows) rows.push_back(&row);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tradeoff_output.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <cmath>
 #include <iterator>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::cli {
@@ -43,24 +41,21 @@ std::string table() {
 }
 
 Json to_json() {
-    Json list = Json::array();
-    for (const Method& method : methods()) {
+    return Json::list(methods(), [](const Method& method) -> Json {
         const bool exact = method.order == exact_order;
         const auto order = [](int of) { return of == exact_order ? Json("exact") : Json(of); };
-        list.push_back(
-            {{"name", method.name},
-             {"order", order(method.order)},
-             {"damped_order", order(damped_order(method, method.damping))},
-             {"dragged_order",
-              exact ? Json(nullptr) : order(dragged_order(method, method.damping))},
-             {"evaluations", method.evaluations > 0 ? Json(method.evaluations) : Json(nullptr)},
-             {"symplectic", method.symplectic},
-             {"symmetric", method.symmetric},
-             {"damping", name_of(method.damping)},
-             {"stability_limit", number(stability_limit(method, method.damping, undamped))},
-             {"source", method.source}});
-    }
-    return list;
+        return {
+            {"name", method.name},
+            {"order", order(method.order)},
+            {"damped_order", order(damped_order(method, method.damping))},
+            {"dragged_order", exact ? Json(nullptr) : order(dragged_order(method, method.damping))},
+            {"evaluations", method.evaluations > 0 ? Json(method.evaluations) : Json(nullptr)},
+            {"symplectic", method.symplectic},
+            {"symmetric", method.symmetric},
+            {"damping", name_of(method.damping)},
+            {"stability_limit", number(stability_limit(method, method.damping, undamped))},
+            {"source", method.source}};
+    });
 }
 
 }  // namespace

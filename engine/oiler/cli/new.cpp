@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <system_error>
-#include <utility>
 
-#include "oiler/capture/file.hpp"
 #include "oiler/cli/arguments.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/startable.hpp"
 #include "oiler/core/markup.hpp"
 #include "oiler/platform/surface.hpp"
@@ -50,7 +47,7 @@ public:
 
     void write(const fs::path& path, const std::string& text) {
         files_.push_back(path);
-        write_text(path, text, Links::replaced);
+        write_file(path, text, Links::replaced);
     }
     void keep() { files_.clear(); }
 

@@ -5,7 +5,7 @@
 
 #include "oiler/app/run_game.hpp"
 #include "oiler/cli/arguments.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/scene_game.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "oiler/process/console.hpp"
@@ -75,37 +75,36 @@ struct PlayCommand {
         .summary = "Play a scene file in a window, as frames or as numbers",
         .example = "assets/scenes/cloth.toml"};
 
-    static Exit parse_and_run(int argc, char** argv);
-};
-
-Exit PlayCommand::parse_and_run(int argc, char** argv) {
-    constexpr About program{.name = "oiler play", .title = "Play a scene file"};
-    std::optional<SceneShelf> shelf;
-    std::string name;
-    std::string text;
-    const auto read = [&](const std::string& path, const std::optional<Manifest>& from) {
-        const SceneFile file = find_scene(path, from);
-        text = file.text;
-        shelf.emplace(path, parse_scene(text, file.name));
-        name = std::filesystem::path(file.name).stem().string();
-        return describe(*shelf->scene(), name, text);
-    };
-    CommandLine line = parse_command_line(argc, argv, program, read);
-    if (!line.text.empty()) {
-        print(line.text);
-        return Exit::done;
+    static Exit parse_and_run(int argc, char** argv) {
+        constexpr About program{.name = "oiler play", .title = "Play a scene file"};
+        std::optional<SceneShelf> shelf;
+        std::string name;
+        std::string text;
+        const auto read = [&](const std::string& path, const std::optional<Manifest>& from) {
+            const SceneFile file = find_scene(path, from);
+            text = file.text;
+            shelf.emplace(path, parse_scene(text, file.name));
+            name = std::filesystem::path(file.name).stem().string();
+            return describe(*shelf->scene(), name, text);
+        };
+        CommandLine line = parse_command_line(argc, argv, program, read);
+        if (!line.text.empty()) {
+            print(line.text);
+            return Exit::done;
+        }
+        const bool watched = is_watched(line.options);
+        const std::string title = shelf->title();
+        line.about.title = title;
+        const auto make = [&](const Settings& settings) {
+            return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
+        };
+        const auto measure_budget = [&](double seconds) {
+            return check(*shelf->scene(), line.options, seconds);
+        };
+        return run_game(line.options, line.about, make, measure_budget,
+                        watched ? &*shelf : nullptr);
     }
-    const bool watched = is_watched(line.options);
-    const std::string title = shelf->title();
-    line.about.title = title;
-    const auto make = [&](const Settings& settings) {
-        return std::make_unique<SceneGame>(shelf->scene(), settings, watched);
-    };
-    const auto measure_budget = [&](double seconds) {
-        return check(*shelf->scene(), line.options, seconds);
-    };
-    return run_game(line.options, line.about, make, measure_budget, watched ? &*shelf : nullptr);
-}
+};
 
 template Command make_command<PlayCommand>();
 

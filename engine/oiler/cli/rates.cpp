@@ -7,10 +7,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/process/interrupt.hpp"
 
 namespace oiler::cli {

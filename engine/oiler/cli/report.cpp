@@ -6,11 +6,9 @@
 #include <map>
 #include <utility>
 #include "oiler/app/stills.hpp"
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
-#include "oiler/cli/tables.hpp"
 #include "oiler/core/markup.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/lab/ledger/ledger.hpp"
@@ -88,10 +86,10 @@ Json stability_json(const Scene& scene, const std::vector<const Method*>& method
     const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     Json springs = springs_json(scene, bodies);
     if (springs.empty()) return nullptr;
-    Json curves = Json::array();
-    for (const Method* method : methods)
-        curves.push_back({{"method", method->name}, {"points", limit_curve(*method)}});
-    return {{"methods", std::move(curves)},
+    const auto curve_of = [](const Method* method) {
+        return Json{{"method", method->name}, {"points", limit_curve(*method)}};
+    };
+    return {{"methods", Json::list(methods, curve_of)},
             {"springs", std::move(springs)},
             {"rate", scene.stepping.rate.steps}};
 }
@@ -114,12 +112,6 @@ Json ledger_json(const Scene& scene) {
             {"flags", measured.flags}};
 }
 
-Json obvious_names() {
-    Json names = Json::array();
-    for (const Method* method : obvious_methods()) names.push_back(method->name);
-    return names;
-}
-
 /// Returns the data that report.html shows. Computes the stability limits and measures the ledger.
 Json report_json(const Scene& scene, const Reference& reference, const Requirements& requirements,
                  const ReportResults& results) {
@@ -129,7 +121,8 @@ Json report_json(const Scene& scene, const Reference& reference, const Requireme
             {"stability", stability_json(scene, notable_methods(tradeoff))},
             {"rates", rates.quantities.empty() ? Json(nullptr) : to_json(rates)},
             {"ledger", ledger_json(scene)},
-            {"obvious_methods", obvious_names()}};
+            {"obvious_methods",
+             Json::list(obvious_methods(), [](const Method* method) { return method->name; })}};
 }
 
 std::string frame_of(const Scene& scene) {
@@ -156,87 +149,77 @@ struct ReportCommand {
         arguments.add_output("--out", out, "output file");
     }
 
-    [[nodiscard]] Exit run() const;
+    [[nodiscard]] Exit run() const {
+        Scene scene = scene_options.read();
+        const Reference reference = measure_meaningful(scene);
+        if (Interrupt::requested()) return Exit::interrupted;
+        const Requirements requirements = this->requirements(scene, reference);
+        require_judgeable(scene, reference, requirements);
+        File page(out);
+        const ReportResults results = measure(scene, reference, requirements);
+        if (Interrupt::requested()) return Exit::interrupted;
+        const Json data = report_json(scene, reference, requirements, results);
+        page.write(page_of(scene, scene_options.name(), data));
+        page.commit();
+        if (!scene_options.json.empty()) write_json(scene_options.json, data);
+        remark(scene_options.quiet, "{} is written; open it in a browser", out.string());
+        return Exit::done;
+    }
 
 private:
-    [[nodiscard]] Requirements requirements(const Scene& scene, const Reference& reference) const;
-    [[nodiscard]] Reference measure_meaningful(Scene& scene) const;
-    [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
-                                        const Requirements& requirements) const;
-    [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
-                                             const Json& data);
-};
-
-/// Takes the tolerance of the options, else of the budget, else the largest power of ten within
-/// `usual_tolerance`.
-Requirements ReportCommand::requirements(const Scene& scene, const Reference& reference) const {
-    Requirements requirements{.position_error = tolerances.position_error,
-                              .energy_drift = tolerances.energy_drift};
-    if (!requirements.has_tolerance()) {
-        requirements.position_error = scene.budget.position_error;
-        requirements.energy_drift = scene.budget.energy_drift;
+    /// Takes the tolerance of the options, else of the budget, else the largest power of ten within
+    /// `usual_tolerance`.
+    [[nodiscard]] Requirements requirements(const Scene& scene, const Reference& reference) const {
+        Requirements requirements{.position_error = tolerances.position_error,
+                                  .energy_drift = tolerances.energy_drift};
+        if (!requirements.has_tolerance()) {
+            requirements.position_error = scene.budget.position_error;
+            requirements.energy_drift = scene.budget.energy_drift;
+        }
+        if (!requirements.has_tolerance())
+            requirements.position_error =
+                std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
+        requirements.methods = parse_methods("all");
+        return requirements;
     }
-    if (!requirements.has_tolerance())
-        requirements.position_error =
-            std::pow(10, std::floor(std::log10(usual_tolerance * reference.extent)));
-    requirements.methods = parse_methods("all");
-    return requirements;
-}
 
-/// Shortens the scene to the time for which its reference is meaningful.
-Reference ReportCommand::measure_meaningful(Scene& scene) const {
-    const bool quiet = scene_options.quiet;
-    Reference reference = measure_reference(scene, 0, quiet);
-    if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
-    remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until,
-           reference.why_no_longer);
-    scene.duration = reference.meaningful_until;
-    return measure_reference(scene, 0, quiet);
-}
+    /// Shortens the scene to the time for which its reference is meaningful.
+    [[nodiscard]] Reference measure_meaningful(Scene& scene) const {
+        const bool quiet = scene_options.quiet;
+        Reference reference = measure_reference(scene, 0, quiet);
+        if (Interrupt::requested() || reference.why_no_longer.empty()) return reference;
+        remark(quiet, "the page covers the first {:.4g} s: {}", reference.meaningful_until,
+               reference.why_no_longer);
+        scene.duration = reference.meaningful_until;
+        return measure_reference(scene, 0, quiet);
+    }
 
-ReportResults ReportCommand::measure(const Scene& scene, const Reference& reference,
-                                     const Requirements& requirements) const {
-    const SweepPlan plan{
-        .methods = parse_methods("all"),
-        .max_rate = std::min<std::int64_t>(
-            1'000'000, std::max({scene.stepping.rate.steps, highest_rate,
-                                 highest_multiple * reference.samples.per_second})),
-        .most_work = most_work};
-    ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
-    results.tradeoff.scene = scene_options.name();
-    measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
-    SweepWatch watch;
-    watch.stopped = Interrupt::requested;
-    results.advice = advise(scene, reference, requirements, watch);
-    results.rates = measure_rates(scene, reference, most_oscillating_row(reference), usual_rates(),
-                                  usual_methods(scene), Interrupt::requested);
-    return results;
-}
+    [[nodiscard]] ReportResults measure(const Scene& scene, const Reference& reference,
+                                        const Requirements& requirements) const {
+        const SweepPlan plan{
+            .methods = parse_methods("all"),
+            .max_rate = std::min<std::int64_t>(
+                1'000'000, std::max({scene.stepping.rate.steps, highest_rate,
+                                     highest_multiple * reference.samples.per_second})),
+            .most_work = most_work};
+        ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
+        results.tradeoff.scene = scene_options.name();
+        measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
+        results.advice = advise(scene, reference, requirements, {.stopped = Interrupt::requested});
+        results.rates = measure_rates(scene, reference, most_oscillating_row(reference),
+                                      usual_rates(), usual_methods(scene), Interrupt::requested);
+        return results;
+    }
 
-std::string ReportCommand::page_of(const Scene& scene, const std::string& name, const Json& data) {
-    return fill_in({oiler_page, oiler_page_end},
-                   {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
-                    {"@FRAME@", frame_of(scene)},
-                    {"@TITLE@", escaped(scene.title.empty() ? name : scene.title)},
-                    {"@DATA@", for_script(data)}});
-}
-
-Exit ReportCommand::run() const {
-    Scene scene = scene_options.read();
-    const Reference reference = measure_meaningful(scene);
-    if (Interrupt::requested()) return Exit::interrupted;
-    const Requirements requirements = this->requirements(scene, reference);
-    require_judgeable(scene, reference, requirements);
-    File page(out);
-    const ReportResults results = measure(scene, reference, requirements);
-    if (Interrupt::requested()) return Exit::interrupted;
-    const Json data = report_json(scene, reference, requirements, results);
-    page.write(page_of(scene, scene_options.name(), data));
-    page.commit();
-    if (!scene_options.json.empty()) write_json(scene_options.json, data);
-    remark(scene_options.quiet, "{} is written; open it in a browser", out.string());
-    return Exit::done;
-}
+    [[nodiscard]] static std::string page_of(const Scene& scene, const std::string& name,
+                                             const Json& data) {
+        return fill_in({oiler_page, oiler_page_end},
+                       {{"@CHART_LIBRARY@", {oiler_chart, oiler_chart_end}},
+                        {"@FRAME@", frame_of(scene)},
+                        {"@TITLE@", escaped(scene.title.empty() ? name : scene.title)},
+                        {"@DATA@", for_script(data)}});
+    }
+};
 
 template Command make_command<ReportCommand>();
 

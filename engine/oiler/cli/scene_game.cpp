@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/startable.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/lab/sweep/judge.hpp"
 #include "oiler/overlay/follower.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/scene/draw.hpp"
@@ -31,16 +32,6 @@ namespace fs = std::filesystem;
 fs::file_time_type written(const fs::path& file) {
     std::error_code error;
     return file.empty() ? fs::file_time_type{} : fs::last_write_time(file, error);
-}
-
-bool is_possible(const Scene& scene, const Stepping& stepping) {
-    try {
-        make_world(scene, Settings{.stepping = stepping}).require_applicable();
-        return true;
-    } catch (const Error& error) {
-        if (error.exit() != Exit::usage) throw;
-        return false;
-    }
 }
 
 }  // namespace
@@ -165,7 +156,8 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
 /// A scene keeps the setting that the player chose, unless its file now says another one.
 Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping>& kept) {
     Scene scene = read_scene(file.string());
-    const bool keeps = kept && scene.stepping == scene_->stepping && is_possible(scene, *kept);
+    const bool keeps =
+        kept && scene.stepping == scene_->stepping && lab::why_not(scene, Settings{*kept}).empty();
     const Stepping stepping = keeps ? *kept : scene.stepping;
     make_world(scene, Settings{.stepping = stepping}).require_applicable();
     places_ = 0;
@@ -191,7 +183,8 @@ fs::path SceneShelf::neighbour(int places) const {
     return files[static_cast<std::size_t>(place)];
 }
 
-/// Looked at some times a second; a change is reported once, even if the file is then no scene.
+/// Checks the file at most four times a second. Reports a change once, even if the file is not a
+/// valid scene.
 bool SceneShelf::has_changed() {
     const Clock::time_point now = Clock::now();
     if (now < next_look_) return false;

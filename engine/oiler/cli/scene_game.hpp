@@ -13,8 +13,8 @@
 
 namespace oiler::cli {
 
-/// A scene as a game. One that is watched in a window is over after its duration, and with R. The
-/// left mouse button drags its bodies, the right one its picture; the wheel zooms.
+/// A scene as a game. In a window it ends after its duration, or with R. The left mouse button
+/// drags its bodies, the right one its picture; the wheel zooms.
 class SceneGame final : public AnyGame {
 public:
     static constexpr Action again{"restart", Key::r};
@@ -63,17 +63,17 @@ private:
     std::shared_ptr<const Scene> scene_;
     bool watched_;
     World world_;
-    Camera camera_;              ///< the user's: copies that are assigned leave it alone
+    Camera camera_;              ///< the user's; assign() keeps it
     std::optional<Point> held_;  ///< the place of the world that the right button holds
     std::optional<Drag> drag_;
-    bool ends_ = false;  ///< the user wants it
+    bool ends_ = false;  ///< the user pressed R
     int places_to_go_ = 0;
 };
 
 /// The scene files of a folder, for a window.
 class SceneShelf final : public Shelf {
 public:
-    /// The scene of `file`. An empty file is none: such a scene never changes, and has no folder.
+    /// The scene of `file`. Without a file, the scene never changes and has no neighbours.
     SceneShelf(std::filesystem::path file, Scene scene);
 
     [[nodiscard]] std::optional<Taken> take(const AnyGame& shown,
@@ -86,14 +86,14 @@ private:
     using Clock = std::chrono::steady_clock;
 
     Taken read(const std::filesystem::path& file, const std::optional<Stepping>& kept);
-    /// The file so many places further in its folder.
+    /// The file that is `places` after this one in its folder. The first file follows the last.
     [[nodiscard]] std::filesystem::path neighbour(int places) const;
     [[nodiscard]] bool has_changed();
 
     std::filesystem::path file_;
     std::shared_ptr<const Scene> scene_;
     std::filesystem::file_time_type written_{};
-    int places_ = 0;  ///< that were tried last
+    int places_ = 0;  ///< of the last request
     Clock::time_point next_look_{};
 };
 

@@ -37,8 +37,7 @@ void add_method_list(Arguments& arguments, std::string& target) {
 std::vector<const Method*> parse_methods(const std::string& words) {
     std::vector<const Method*> chosen;
     const auto add = [&](const Method& method) {
-        if (std::find(chosen.begin(), chosen.end(), &method) == chosen.end())
-            chosen.push_back(&method);
+        if (std::ranges::find(chosen, &method) == chosen.end()) chosen.push_back(&method);
     };
     std::istringstream stream(words);
     for (std::string word; std::getline(stream, word, ',');) {
@@ -100,7 +99,7 @@ void SceneOptions::declare(Arguments& arguments) {
 
 Scene SceneOptions::read() const {
     Scene scene = read_scene(file.string());
-    if (duration > 0) scene.duration = duration;
+    scene.duration = duration.value_or(scene.duration);
     return scene;
 }
 

@@ -60,7 +60,7 @@ struct MethodOptions {
 /// The scene that a command measures, and where the results go.
 struct SceneOptions {
     std::filesystem::path file;
-    double duration = 0;  ///< s; 0: the scene's own
+    std::optional<double> duration;  ///< s; none: the scene's own
     std::filesystem::path json;
     bool quiet = false;
 

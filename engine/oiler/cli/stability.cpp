@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/stills.hpp"
-#include "oiler/capture/file.hpp"
 #include "oiler/certify/region.hpp"
-#include "oiler/cli/files.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
@@ -47,7 +46,7 @@ struct StabilityCommand {
         const std::vector<StabilityRegion> regions = measure(methods, grid);
         if (Interrupt::requested()) return Exit::interrupted;
         make_folder(pictures.out);
-        write_text(pictures.out / "stability.csv", to_csv(regions, grid), Links::replaced);
+        write_file(pictures.out / "stability.csv", to_csv(regions, grid), Links::replaced);
         stills.write(atlas(regions, grid), pictures.out / "stability.png");
         remark(quiet, "stability.csv and stability.png are in {}", pictures.out.string());
         return Exit::done;

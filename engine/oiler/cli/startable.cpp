@@ -11,7 +11,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "oiler/cli/files.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/scene/read.hpp"
 
@@ -104,6 +103,15 @@ Home home_of(const fs::path& program) {
 Home own_home() {
     std::error_code unknown;
     return home_of(fs::read_symlink("/proc/self/exe", unknown));
+}
+
+std::vector<fs::path> scene_files(const fs::path& folder) {
+    std::error_code none;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
 }
 
 std::vector<Startable> startables_of(const fs::path& program) {

@@ -24,6 +24,10 @@ struct Home {
 [[nodiscard]] Home home_of(const std::filesystem::path& program);
 /// The home of the running program.
 [[nodiscard]] Home own_home();
+
+/// The scene files of a folder, sorted; none if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> scene_files(const std::filesystem::path& folder);
+
 /// A demo or a scene that this Oiler brings along.
 struct Startable {
     std::string name;      ///< "cannon" of a demo, "orbit.toml" of a scene
@@ -35,17 +39,17 @@ struct Startable {
 /// The demos and scenes of the Oiler that the program at this path belongs to, PREFIX/bin/oiler or
 /// BUILD/bin/oiler: the demos that are built, in the order of demos.txt, then the scenes by name.
 [[nodiscard]] std::vector<Startable> startables_of(const std::filesystem::path& program);
-/// Those of the running program. Throws Error{usage} if it finds none.
+/// The demos and scenes of the running program. Throws Error{usage} if there are none.
 [[nodiscard]] std::vector<Startable> own_startables();
 
-/// The one of that name; of a scene, ".toml" may be left out. Throws Error{usage} that names a
+/// Finds a demo or a scene by its name, with or without ".toml". Throws Error{usage}, naming a
 /// similar one.
 [[nodiscard]] const Startable& find_startable(const std::vector<Startable>& all,
                                               const std::string& name);
 
-/// Becomes that program, with further arguments. Throws Error{io} if it cannot.
+/// Replaces this process by the program, with further arguments. Throws Error{io} if that fails.
 [[noreturn]] void become(const Startable& one, const std::vector<std::string>& arguments);
-/// Runs that program and returns its exit code. Throws Error{io} if it cannot.
+/// Runs the program and returns its exit code. Throws Error{io} if that fails.
 int run_and_wait(const Startable& one);
 
 }  // namespace oiler::cli

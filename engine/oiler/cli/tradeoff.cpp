@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "oiler/capture/file.hpp"
-#include "oiler/cli/files.hpp"
 #include "oiler/cli/measuring.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/cli/tradeoff_output.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
@@ -29,9 +28,7 @@ std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
     if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
         return std::nullopt;
     remark(quiet, "continuing {}: {} of {} methods and precisions are done", path.string(),
-           std::count_if(found.all_series.begin(), found.all_series.end(),
-                         [](const RateSeries& series) { return series.done; }),
-           found.all_series.size());
+           std::ranges::count(found.all_series, true, &RateSeries::done), found.all_series.size());
     return found;
 } catch (const Error& error) {
     if (error.exit() != Exit::usage) throw;

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oiler/cli/files.hpp"
-#include "oiler/cli/tables.hpp"
+#include "oiler/cli/output.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "oiler/lab/sweep/tradeoff_picture.hpp"
 #include "oiler/process/console.hpp"
@@ -73,9 +72,7 @@ std::vector<const TradeoffRow*> cheapest_of(const Tradeoff& tradeoff, const Meth
     std::vector<const TradeoffRow*> rows;
     for (const TradeoffRow* row : tradeoff.rows())
         if (row->stepping.method == method && row->judgement.stable) rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
-        return a->ns_per_second < b->ns_per_second;
-    });
+    std::ranges::stable_sort(rows, {}, &TradeoffRow::ns_per_second);
     std::vector<const TradeoffRow*> cheapest;
     double reached = INFINITY;
     for (const TradeoffRow* row : rows) {
@@ -93,14 +90,12 @@ std::vector<const TradeoffRow*> shown_rows(const Tradeoff& tradeoff, bool all) {
     if (all) return tradeoff.rows();
     std::vector<const TradeoffRow*> rows = pareto(tradeoff, time_of);
     const auto add = [&](const TradeoffRow* row) {
-        if (row && std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+        if (row && std::ranges::find(rows, row) == rows.end()) rows.push_back(row);
     };
     for (const Method* method : notable_methods(tradeoff))
         for (const TradeoffRow* row : cheapest_of(tradeoff, method)) add(row);
     add(tradeoff.find(tradeoff.current));
-    std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
-        return a->ns_per_second < b->ns_per_second;
-    });
+    std::ranges::stable_sort(rows, {}, &TradeoffRow::ns_per_second);
     return rows;
 }
 
@@ -113,7 +108,7 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
     const auto front = pareto(tradeoff, time_of);
     const auto shown = shown_rows(tradeoff, all);
     for (const TradeoffRow* row : shown) {
-        const bool best = std::find(front.begin(), front.end(), row) != front.end();
+        const bool best = std::ranges::find(front, row) != front.end();
         const char mark = row->stepping == tradeoff.current ? '>' : best ? '*' : ' ';
         text += line_of(*row, tradeoff, mark);
     }
@@ -128,20 +123,18 @@ std::string table_of(const Tradeoff& tradeoff, bool all) {
 }  // namespace
 
 bool is_tradeoff_file(std::string_view name) {
-    for (const char* const one :
-         {data_file, table_file, time_picture, evaluations_picture, energy_picture})
-        if (name == one) return true;
-    return false;
+    return name == data_file || name == table_file || name == time_picture ||
+           name == evaluations_picture || name == energy_picture;
 }
 
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
-    write_text(path, file_text(tradeoff), Links::replaced);
+    write_file(path, file_text(tradeoff), Links::replaced);
 }
 
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
     save(tradeoff, output.out / data_file);
-    write_text(output.out / table_file, to_csv(tradeoff), Links::replaced);
-    if (!output.json.empty()) write_text(output.json, file_text(tradeoff));
+    write_file(output.out / table_file, to_csv(tradeoff), Links::replaced);
+    if (!output.json.empty()) write_file(output.json, file_text(tradeoff));
     if (output.json != "-") print(table_of(tradeoff, output.all));
     stills.write(
         work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),

@@ -21,25 +21,6 @@ std::string text_of(Real value) {
     return digits;
 }
 
-void append_utf8(std::string& text, char32_t code) {
-    const auto byte = [&](char32_t value) { text += static_cast<char>(value); };
-    if (code < 0x80) {
-        byte(code);
-    } else if (code < 0x800) {
-        byte(0xC0 | code >> 6);
-        byte(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        byte(0xE0 | code >> 12);
-        byte(0x80 | (code >> 6 & 0x3F));
-        byte(0x80 | (code & 0x3F));
-    } else {
-        byte(0xF0 | code >> 18);
-        byte(0x80 | (code >> 12 & 0x3F));
-        byte(0x80 | (code >> 6 & 0x3F));
-        byte(0x80 | (code & 0x3F));
-    }
-}
-
 /// Appends one unit of UTF-16, or two beyond U+FFFF.
 void append_escape(std::string& text, char32_t code) {
     if (code > 0xFFFF) {
@@ -54,14 +35,18 @@ void append_string(std::string& text, std::string_view value, Json::Characters c
     constexpr std::u32string_view with_short_escapes = U"\"\\\b\f\n\r\t";
     constexpr std::string_view short_escapes = "\"\\bfnrt";
     text += '"';
-    for (const char32_t code : decode_utf8(value)) {
+    while (!value.empty()) {
+        const char* const begin = value.data();
+        const char32_t code = take_code(value);
         const std::size_t at = with_short_escapes.find(code);
         if (at != with_short_escapes.npos)
             (text += '\\') += short_escapes[at];
         else if (code < 0x20 || (code > 0x7E && characters == Json::Characters::ascii))
             append_escape(text, code);
+        else if (code == 0xFFFD)
+            text += "\xEF\xBF\xBD";
         else
-            append_utf8(text, code);
+            text.append(begin, value.data());
     }
     text += '"';
 }
@@ -91,7 +76,7 @@ void Json::push_back(Json item) {
 Json& Json::operator[](std::string_view name) {
     if (kind_ == Kind::literal) kind_ = Kind::object;
     require(kind_ == Kind::object, "only a JSON object has members");
-    const auto found = std::find(names_.begin(), names_.end(), name);
+    const auto found = std::ranges::find(names_, name);
     if (found != names_.end()) return items_[static_cast<std::size_t>(found - names_.begin())];
     names_.emplace_back(name);
     return items_.emplace_back();

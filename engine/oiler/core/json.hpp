@@ -4,7 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,10 +32,20 @@ public:
     Json(const char* value);
     template <class Item>
     Json(const std::vector<Item>& items) : kind_(Kind::array), items_(items.begin(), items.end()) {}
+    /// Null for nothing.
+    template <class Value>
+    Json(const std::optional<Value>& value) : Json(value ? Json(*value) : Json()) {}
     /// An object.
     Json(std::initializer_list<Member> members);
 
     [[nodiscard]] static Json array(std::initializer_list<Json> items = {});
+    /// An array of what `to_item` makes of each of the items.
+    template <class Items, class ToItem>
+    [[nodiscard]] static Json list(const Items& items, ToItem to_item) {
+        Json json = array();
+        for (const auto& item : items) json.push_back(to_item(item));
+        return json;
+    }
 
     void push_back(Json item);
     /// The member of that name; a new member is null.

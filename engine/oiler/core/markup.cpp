@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/markup.hpp"
 
+#include <fmt/core.h>
 #include <cstdint>
+
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
@@ -21,34 +24,31 @@ std::string base64(const std::vector<std::byte>& bytes) {
     return text;
 }
 
-}  // namespace
-
-std::string escaped(std::string_view text) {
+/// ASCII with character references.
+std::string for_xml(std::string_view text) {
     std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
+    for (const char32_t code : decode_utf8(text)) {
+        const bool is_control = code < ' ' || (code > '~' && code < 0xA0);
+        if (is_control || code == 0xFFFD)
+            safe += '?';
+        else if (code > '~')
+            safe += fmt::format("&#{};", static_cast<unsigned>(code));
         else
-            safe += c;
+            safe += escaped(std::string(1, static_cast<char>(code)));
     }
     return safe;
 }
 
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    static const std::map<std::string, std::string> entities{
+        {"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}};
+    return fill_in(text, entities);
+}
+
 std::string for_script(const Json& json) {
-    std::string safe;
-    for (const char c : json.dump(-1, Json::Characters::ascii)) {
-        if (c == '<')
-            safe += "\\u003c";
-        else
-            safe += c;
-    }
-    return safe;
+    return fill_in(json.dump(-1, Json::Characters::ascii), {{"<", "\\u003c"}});
 }
 
 std::string data_url_of(const std::vector<std::byte>& png) {
@@ -71,6 +71,27 @@ std::string fill_in(std::string_view page, const std::map<std::string, std::stri
         page.remove_prefix(at + found->first.size());
     }
     return text;
+}
+
+void JunitSuite::add(std::string_view group, std::string_view name, Outcome outcome,
+                     std::string_view text) {
+    constexpr std::string_view elements[]{"system-out", "failure", "error", "skipped"};
+    const auto index = static_cast<std::size_t>(outcome);
+    ++counts_[index];
+    cases_ +=
+        fmt::format("  <testcase classname=\"{}\" name=\"{}\">", for_xml(group), for_xml(name));
+    cases_ += outcome == Outcome::passed
+                  ? fmt::format("<{0}>{1}</{0}>", elements[index], for_xml(text))
+                  : fmt::format("<{} message=\"{}\"/>", elements[index], for_xml(text));
+    cases_ += "</testcase>\n";
+}
+
+std::string JunitSuite::xml() const {
+    const auto [passed, failed, errors, skipped] = counts_;
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
+        "failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}</testsuite>\n",
+        for_xml(name_), passed + failed + errors + skipped, failed, errors, skipped, cases_);
 }
 
 }  // namespace oiler

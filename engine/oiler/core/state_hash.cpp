@@ -32,17 +32,6 @@ void StateHash::add(std::span<const std::byte> bytes) {
     XXH3_64bits_update(state_in(state_), bytes.data(), bytes.size());
 }
 
-void StateHash::add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
-
-void StateHash::add(std::string_view text) {
-    add(text.size());
-    add(std::as_bytes(std::span(text)));
-}
-
-void StateHash::add(std::span<const float> column) { add(std::as_bytes(column)); }
-
-void StateHash::add(std::span<const double> column) { add(std::as_bytes(column)); }
-
 std::uint64_t StateHash::value() const { return XXH3_64bits_digest(state_in(state_)); }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

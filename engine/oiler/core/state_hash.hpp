@@ -40,12 +40,15 @@ class StateHash {
 public:
     StateHash();
 
-    void add(std::uint64_t number);
-    void add(std::span<const float> column);
-    void add(std::span<const double> column);
     void add(std::span<const std::byte> bytes);
+    void add(std::uint64_t number) { add(std::as_bytes(std::span(&number, 1))); }
+    void add(std::span<const float> column) { add(std::as_bytes(column)); }
+    void add(std::span<const double> column) { add(std::as_bytes(column)); }
     /// Adds the length and the bytes.
-    void add(std::string_view text);
+    void add(std::string_view text) {
+        add(std::uint64_t{text.size()});
+        add(std::as_bytes(std::span(text)));
+    }
     /// Adds whole numbers as 64 bits, other numbers as a double.
     template <Hashed T>
     void add(const T& value) {

@@ -21,36 +21,28 @@ bool well_formed(char32_t code, int continuations) {
     return code >= least[continuations] && code <= 0x10FFFF && !surrogate;
 }
 
-/// Removes the first code point from `text` and returns it.
-char32_t take(std::string_view& text) {
+}  // namespace
+
+char32_t take_code(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text.front());
     const int more = continuation_bytes(lead);
     text.remove_prefix(1);
-    if (more <= 0) {
-        return more == 0 ? lead : replacement;
-    }
+    if (more <= 0) return more == 0 ? lead : replacement;
     char32_t code = lead & (0x3FU >> static_cast<unsigned>(more));
     for (int i = 0; i < more; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U) {
+        if (at >= text.size() || (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U)
             return replacement;
-        }
         code = (code << 6U) | (static_cast<unsigned char>(text[at]) & 0x3FU);
     }
-    if (!well_formed(code, more)) {
-        return replacement;
-    }
+    if (!well_formed(code, more)) return replacement;
     text.remove_prefix(static_cast<std::size_t>(more));
     return code;
 }
 
-}  // namespace
-
 std::u32string decode_utf8(std::string_view text) {
     std::u32string codes;
-    while (!text.empty()) {
-        codes.push_back(take(text));
-    }
+    while (!text.empty()) codes.push_back(take_code(text));
     return codes;
 }
 
@@ -58,7 +50,7 @@ bool is_utf8(std::string_view text) {
     while (!text.empty()) {
         const std::size_t before = text.size();
         // A bad byte is replaced alone; the replacement itself has three bytes.
-        if (take(text) == replacement && before - text.size() == 1) return false;
+        if (take_code(text) == replacement && before - text.size() == 1) return false;
     }
     return true;
 }

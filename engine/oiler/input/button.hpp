@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,105 +16,18 @@ namespace oiler {
 /// A key by its place on the keyboard, named after the US layout. Its number is that of the USB
 /// standard HID Usage Tables, page 7, which is SDL's scan code, too.
 enum class Key : std::uint8_t {
-    a = 4,
-    b,
-    c,
-    d,
-    e,
-    f,
-    g,
-    h,
-    i,
-    j,
-    k,
-    l,
-    m,
-    n,
-    o,
-    p,
-    q,
-    r,
-    s,
-    t,
-    u,
-    v,
-    w,
-    x,
-    y,
-    z,
-    n1 = 30,
-    n2,
-    n3,
-    n4,
-    n5,
-    n6,
-    n7,
-    n8,
-    n9,
-    n0,
-    enter = 40,
-    escape,
-    backspace,
-    tab,
-    space,
-    minus,
-    equals,
-    left_bracket,
-    right_bracket,
-    backslash,
-    semicolon = 51,
-    apostrophe,
-    grave,
-    comma,
-    period,
-    slash,
-    caps_lock,
-    f1 = 58,
-    f2,
-    f3,
-    f4,
-    f5,
-    f6,
-    f7,
-    f8,
-    f9,
-    f10,
-    f11,
-    f12,  // the loop's own
-    insert = 73,
-    home,
-    page_up,
-    del,
-    end,
-    page_down,
-    right,
-    left,
-    down,
-    up,
-    pad_divide = 84,
-    pad_multiply,
-    pad_minus,
-    pad_plus,
-    pad_enter,
-    pad_1 = 89,
-    pad_2,
-    pad_3,
-    pad_4,
-    pad_5,
-    pad_6,
-    pad_7,
-    pad_8,
-    pad_9,
-    pad_0,
-    pad_period,
-    left_ctrl = 224,
-    left_shift,
-    left_alt,
-    left_gui,
-    right_ctrl,
-    right_shift,
-    right_alt,
-    right_gui,
+    // clang-format off
+    a = 4, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+    n1 = 30, n2, n3, n4, n5, n6, n7, n8, n9, n0,
+    enter = 40, escape, backspace, tab, space,
+    minus, equals, left_bracket, right_bracket, backslash,
+    semicolon = 51, apostrophe, grave, comma, period, slash, caps_lock,
+    f1 = 58, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,  // the loop's own
+    insert = 73, home, page_up, del, end, page_down, right, left, down, up,
+    pad_divide = 84, pad_multiply, pad_minus, pad_plus, pad_enter,
+    pad_1 = 89, pad_2, pad_3, pad_4, pad_5, pad_6, pad_7, pad_8, pad_9, pad_0, pad_period,
+    left_ctrl = 224, left_shift, left_alt, left_gui, right_ctrl, right_shift, right_alt, right_gui,
+    // clang-format on
 };
 
 enum class Mouse : std::uint8_t { left, middle, right, back, forward };
@@ -119,23 +35,10 @@ enum class Mouse : std::uint8_t { left, middle, right, back, forward };
 /// A button of a game controller by its place: `south` is A on an Xbox pad and a cross on a
 /// PlayStation's. The triggers count as pressed from 0.6 on, until 0.4.
 enum class Pad : std::uint8_t {
-    south,
-    east,
-    west,
-    north,
-    back,
-    guide,
-    start,
-    left_stick,
-    right_stick,
-    left_shoulder,
-    right_shoulder,
-    up,
-    down,
-    left,
-    right,
-    left_trigger,
-    right_trigger,
+    // clang-format off
+    south, east, west, north, back, guide, start, left_stick, right_stick,
+    left_shoulder, right_shoulder, up, down, left, right, left_trigger, right_trigger,
+    // clang-format on
 };
 
 /// An axis of a game controller. Sticks go from -1 (left, down) to 1, triggers from 0 to 1.
@@ -177,6 +80,8 @@ public:
     friend constexpr bool operator==(Button, Button) = default;
 
 private:
+    constexpr explicit Button(std::uint16_t id) : id_(id) {}
+
     static constexpr std::uint16_t first_mouse = 256;
     static constexpr std::uint16_t first_pad = 272;
 
@@ -198,5 +103,78 @@ private:
 [[nodiscard]] constexpr bool is_of_loop(Button button) {
     return button.id() >= Button(Key::f1).id() && button.id() <= Button(Key::f12).id();
 }
+
+/// Up to eight buttons of which any one counts.
+class Buttons {
+public:
+    static constexpr std::size_t most = 8;
+
+    constexpr Buttons() = default;
+    constexpr Buttons(Button one) : Buttons({one}) {}
+    constexpr Buttons(Key one) : Buttons(Button(one)) {}
+    constexpr Buttons(Mouse one) : Buttons(Button(one)) {}
+    constexpr Buttons(Pad one) : Buttons(Button(one)) {}
+    constexpr Buttons(std::initializer_list<Button> buttons) {
+        for (const Button button : buttons) add(button);
+    }
+    constexpr void add(Button one) { ids_[size_++] = one; }
+
+    [[nodiscard]] constexpr const Button* begin() const { return ids_.data(); }
+    [[nodiscard]] constexpr const Button* end() const { return ids_.data() + size_; }
+    [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
+    [[nodiscard]] constexpr std::size_t size() const { return size_; }
+
+    friend constexpr bool operator==(const Buttons&, const Buttons&) = default;
+
+private:
+    std::array<Button, most> ids_{Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a, Key::a};
+    std::size_t size_ = 0;
+};
+
+/// A thing that a player does, with the buttons that do it unless the player chooses others:
+/// `static constexpr Action fire{"fire", Key::space, Mouse::left, Pad::south};`
+struct Action {
+    std::string_view name;
+    Buttons buttons;
+
+    template <class... Which>
+    constexpr Action(std::string_view its_name, Which... which)
+        : name(its_name), buttons({Button(which)...}) {}
+};
+
+/// A direction from -1 to 1, from buttons and a stick:
+/// `static constexpr Axis aim{"aim", Key::left, Key::right, Stick::left_x};`
+struct Axis {
+    std::string_view name;
+    Buttons negative;
+    Buttons positive;
+    std::optional<Stick> stick;
+
+    constexpr Axis(std::string_view its_name, Buttons towards_minus, Buttons towards_plus,
+                   std::optional<Stick> its_stick = {})
+        : name(its_name), negative(towards_minus), positive(towards_plus), stick(its_stick) {}
+};
+
+/// The buttons and the stick that a player has for an action or an axis.
+struct Binding {
+    bool is_axis = false;
+    Buttons negative{};  ///< of an axis
+    Buttons positive{};  ///< of an axis; else all buttons of the action
+    std::optional<Stick> stick{};
+
+    friend constexpr bool operator==(const Binding&, const Binding&) = default;
+};
+
+/// An action or an axis in the list of a game, and the buttons that a player chose for it.
+struct Control : Binding {
+    std::string_view name;
+
+    constexpr Control(const Action& action)
+        : Binding{.positive = action.buttons}, name(action.name) {}
+    constexpr Control(const Axis& axis)
+        : Binding{true, axis.negative, axis.positive, axis.stick}, name(axis.name) {}
+
+    friend constexpr bool operator==(const Control&, const Control&) = default;
+};
 
 }  // namespace oiler

@@ -9,8 +9,7 @@ namespace oiler {
 namespace {
 
 bool any_of(const Buttons& buttons, const HeldButtons& held) {
-    return std::any_of(buttons.begin(), buttons.end(),
-                       [&](const Button& button) { return held[button.id()]; });
+    return std::ranges::any_of(buttons, [&](Button button) { return held[button.id()]; });
 }
 
 float to_sixteenths(float canvas) { return std::round(canvas * 16) / 16; }
@@ -42,20 +41,12 @@ const Control* Input::chosen(std::string_view name) const {
     return found == controls_->end() ? nullptr : &*found;
 }
 
-bool Input::held(const Action& action) const {
+const Buttons& Input::buttons_of(const Action& action) const {
     const Control* const control = chosen(action.name);
-    return any_of(control ? control->positive : action.buttons, held_);
+    return control ? control->positive : action.buttons;
 }
 
-int Input::presses(const Action& action) const {
-    const Control* const control = chosen(action.name);
-    return count(control ? control->positive : action.buttons, true);
-}
-
-int Input::releases(const Action& action) const {
-    const Control* const control = chosen(action.name);
-    return count(control ? control->positive : action.buttons, false);
-}
+bool Input::held(const Action& action) const { return any_of(buttons_of(action), held_); }
 
 int Input::count(const Buttons& buttons, bool down) const {
     int changes = 0;

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/control.hpp"
+#include "oiler/input/button.hpp"
 #include "oiler/picture/picture.hpp"
 
 namespace oiler {
@@ -58,9 +58,13 @@ public:
     }
     /// The number of times that it went down since the last step.
     [[nodiscard]] int presses(Button button) const { return count(Buttons(button), true); }
-    [[nodiscard]] int presses(const Action& action) const;
+    [[nodiscard]] int presses(const Action& action) const {
+        return count(buttons_of(action), true);
+    }
     [[nodiscard]] int releases(Button button) const { return count(Buttons(button), false); }
-    [[nodiscard]] int releases(const Action& action) const;
+    [[nodiscard]] int releases(const Action& action) const {
+        return count(buttons_of(action), false);
+    }
 
     /// From -1 to 1: the sum of buttons and stick, no further.
     [[nodiscard]] float axis(const Axis& axis) const;
@@ -94,6 +98,7 @@ private:
 
     [[nodiscard]] int count(const Buttons& buttons, bool down) const;
     [[nodiscard]] const Control* chosen(std::string_view name) const;
+    [[nodiscard]] const Buttons& buttons_of(const Action& action) const;
 
     HeldButtons before_;  ///< at the start of the edges
     HeldButtons held_;

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
-#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -75,13 +74,10 @@ void move(Disc& disc, const Disc& after, float alpha) {
 
 void move(Polyline& line, const Polyline& after, float alpha) {
     // Every interpolated shape of a line that loses points would mislead, so it changes at 1.
-    if (line.points.empty() || after.points.size() < line.points.size()) {
-        return;
-    }
+    if (line.points.empty() || after.points.size() < line.points.size()) return;
     line.points.resize(after.points.size(), Point(line.points.back()));
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
+    for (std::size_t i = 0; i < line.points.size(); ++i)
         line.points[i] = mix(line.points[i], after.points[i], alpha);
-    }
     line.width = std::lerp(line.width, after.width, alpha);
     line.colour = mix(line.colour, after.colour, alpha);
 }
@@ -100,9 +96,7 @@ public:
     explicit Finder(const std::vector<Element>& elements) : elements_(elements) {}
 
     const Element* find(const Element& wanted, std::size_t likely) {
-        if (wanted.key.object == 0) {
-            return nullptr;
-        }
+        if (wanted.key.object == 0) return nullptr;
         const Element* found = likely < elements_.size() && elements_[likely].key == wanted.key
                                    ? &elements_[likely]
                                    : look_up(wanted.key);
@@ -111,11 +105,8 @@ public:
 
 private:
     const Element* look_up(const ElementKey& key) {
-        if (table_.empty()) {
-            for (const Element& element : elements_) {
-                table_.try_emplace(element.key, &element);
-            }
-        }
+        if (table_.empty())
+            for (const Element& element : elements_) table_.try_emplace(element.key, &element);
         const auto found = table_.find(key);
         return found == table_.end() ? nullptr : found->second;
     }
@@ -127,11 +118,8 @@ private:
 template <class Element>
 void move_all(std::vector<Element>& elements, const std::vector<Element>& after, float alpha) {
     Finder<Element> finder(after);
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-        if (const Element* match = finder.find(elements[i], i)) {
-            move(elements[i], *match, alpha);
-        }
-    }
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        if (const Element* match = finder.find(elements[i], i)) move(elements[i], *match, alpha);
 }
 
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }

@@ -15,31 +15,21 @@ constexpr const char* egl_remedy = "install the Debian packages libegl1 and libg
 
 /// The functions of libEGL that a context without a surface needs.
 struct EglFunctions {
-    explicit EglFunctions(const Library& library) {
-        library.resolve(procedure, "eglGetProcAddress");
-        library.resolve(initialise, "eglInitialize");
-        library.resolve(terminate, "eglTerminate");
-        library.resolve(bind_api, "eglBindAPI");
-        library.resolve(choose_config, "eglChooseConfig");
-        library.resolve(create_context, "eglCreateContext");
-        library.resolve(destroy_context, "eglDestroyContext");
-        library.resolve(make_current, "eglMakeCurrent");
-    }
-
-    decltype(&eglGetProcAddress) procedure = nullptr;
-    decltype(&eglInitialize) initialise = nullptr;
-    decltype(&eglTerminate) terminate = nullptr;
-    decltype(&eglBindAPI) bind_api = nullptr;
-    decltype(&eglChooseConfig) choose_config = nullptr;
-    decltype(&eglCreateContext) create_context = nullptr;
-    decltype(&eglDestroyContext) destroy_context = nullptr;
-    decltype(&eglMakeCurrent) make_current = nullptr;
+    const Library& library;
+    decltype(&eglGetProcAddress) procedure = library["eglGetProcAddress"];
+    decltype(&eglInitialize) initialise = library["eglInitialize"];
+    decltype(&eglTerminate) terminate = library["eglTerminate"];
+    decltype(&eglBindAPI) bind_api = library["eglBindAPI"];
+    decltype(&eglChooseConfig) choose_config = library["eglChooseConfig"];
+    decltype(&eglCreateContext) create_context = library["eglCreateContext"];
+    decltype(&eglDestroyContext) destroy_context = library["eglDestroyContext"];
+    decltype(&eglMakeCurrent) make_current = library["eglMakeCurrent"];
 };
 
 /// EGL on Mesa's surfaceless platform: no display server, no default framebuffer.
 class Egl final : public Surface {
 public:
-    Egl() : library_("libEGL.so.1", egl_remedy), egl_(library_), display_(open_display()) {
+    Egl() : library_("libEGL.so.1", egl_remedy), egl_{library_}, display_(open_display()) {
         context_ = create_context();
         if (context_ == EGL_NO_CONTEXT ||
             egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
@@ -63,33 +53,29 @@ private:
         const auto get_platform_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
             egl_.procedure("eglGetPlatformDisplayEXT"));
         EGLDisplay display = EGL_NO_DISPLAY;
-        if (get_platform_display != nullptr) {
+        if (get_platform_display != nullptr)
             display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-        }
-        if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE) {
+        if (display == EGL_NO_DISPLAY || egl_.initialise(display, nullptr, nullptr) == EGL_FALSE)
             fail(Exit::no_display, "EGL has no surfaceless platform; {}", egl_remedy);
-        }
         return display;
     }
 
     [[nodiscard]] EGLContext create_context() const {
-        constexpr std::array wanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                    EGL_NONE};
-        constexpr std::array attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_MINOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                        EGL_NONE};
+        constexpr EGLint wanted[]{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                  EGL_NONE};
+        constexpr EGLint attributes[]{EGL_CONTEXT_MAJOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_MINOR_VERSION,
+                                      3,
+                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                      EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
         if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE ||
-            egl_.choose_config(display_, wanted.data(), &config, 1, &count) == EGL_FALSE ||
-            count == 0) {
+            egl_.choose_config(display_, wanted, &config, 1, &count) == EGL_FALSE || count == 0)
             return EGL_NO_CONTEXT;
-        }
-        return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes.data());
+        return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes);
     }
 
     Library library_;

@@ -14,13 +14,7 @@ constexpr const char* osmesa_remedy = "install the Debian package libosmesa6, or
 /// Mesa's off-screen rendering into memory. Mesa 25.1 removed it; EGL replaces it.
 class OsMesa final : public Surface {
 public:
-    OsMesa() : library_("libOSMesa.so.8", osmesa_remedy) {
-        library_.resolve(create_, "OSMesaCreateContextAttribs");
-        library_.resolve(destroy_, "OSMesaDestroyContext");
-        library_.resolve(make_current_, "OSMesaMakeCurrent");
-        library_.resolve(procedure_, "OSMesaGetProcAddress");
-        open();
-    }
+    OsMesa() : library_("libOSMesa.so.8", osmesa_remedy) { open(); }
 
     ~OsMesa() override {
         make_current_(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
@@ -32,19 +26,18 @@ public:
 
 private:
     void open() {
-        const std::array attributes{OSMESA_FORMAT,
-                                    OSMESA_RGBA,
-                                    OSMESA_PROFILE,
-                                    OSMESA_CORE_PROFILE,
-                                    OSMESA_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    OSMESA_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    0};
-        context_ = create_(attributes.data(), nullptr);
-        if (context_ == nullptr) {
+        constexpr int attributes[]{OSMESA_FORMAT,
+                                   OSMESA_RGBA,
+                                   OSMESA_PROFILE,
+                                   OSMESA_CORE_PROFILE,
+                                   OSMESA_CONTEXT_MAJOR_VERSION,
+                                   3,
+                                   OSMESA_CONTEXT_MINOR_VERSION,
+                                   3,
+                                   0};
+        context_ = create_(attributes, nullptr);
+        if (context_ == nullptr)
             fail(Exit::no_display, "OSMesa offers no OpenGL 3.3 core context; {}", osmesa_remedy);
-        }
         if (make_current_(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
             destroy_(context_);
             fail(Exit::no_display, "OSMesa cannot make its context current; {}", osmesa_remedy);
@@ -52,10 +45,10 @@ private:
     }
 
     Library library_;
-    decltype(&OSMesaCreateContextAttribs) create_ = nullptr;
-    decltype(&OSMesaDestroyContext) destroy_ = nullptr;
-    decltype(&OSMesaMakeCurrent) make_current_ = nullptr;
-    decltype(&OSMesaGetProcAddress) procedure_ = nullptr;
+    decltype(&OSMesaCreateContextAttribs) create_ = library_["OSMesaCreateContextAttribs"];
+    decltype(&OSMesaDestroyContext) destroy_ = library_["OSMesaDestroyContext"];
+    decltype(&OSMesaMakeCurrent) make_current_ = library_["OSMesaMakeCurrent"];
+    decltype(&OSMesaGetProcAddress) procedure_ = library_["OSMesaGetProcAddress"];
     /// The default framebuffer that OSMesa requires. It stays unused.
     std::array<unsigned char, 4> pixel_{};
     OSMesaContext context_ = nullptr;

@@ -22,15 +22,18 @@ public:
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 
-    /// Sets `function` to the function `name`. Throws Error{no_display} if it is missing.
-    template <class Function>
-    void resolve(Function*& function, const char* name) const {
-        function = reinterpret_cast<Function*>(address(name));
-    }
+    /// A function; it becomes a pointer of the type that it initialises.
+    struct Symbol {
+        void* address;
+        template <class Function>
+        operator Function*() const {
+            return reinterpret_cast<Function*>(address);
+        }
+    };
+    /// Throws Error{no_display} if the function is missing.
+    [[nodiscard]] Symbol operator[](const char* name) const;
 
 private:
-    [[nodiscard]] void* address(const char* name) const;
-
     std::string soname_;
     void* handle_;
 };

@@ -66,71 +66,44 @@ constexpr const char* sdl_remedy =
     "install the Debian package libsdl2-2.0-0, or run with --headless";
 
 struct SdlFunctions {
-    explicit SdlFunctions(const Library& library) {
-        library.resolve(set_hint, "SDL_SetHint");
-        library.resolve(set_main_ready, "SDL_SetMainReady");
-        library.resolve(init, "SDL_InitSubSystem");
-        library.resolve(quit, "SDL_Quit");
-        library.resolve(error, "SDL_GetError");
-        library.resolve(video_driver, "SDL_GetCurrentVideoDriver");
-        library.resolve(create_window, "SDL_CreateWindow");
-        library.resolve(destroy_window, "SDL_DestroyWindow");
-        library.resolve(display_index, "SDL_GetWindowDisplayIndex");
-        library.resolve(display_mode, "SDL_GetCurrentDisplayMode");
-        library.resolve(poll_event, "SDL_PollEvent");
-        library.resolve(set_attribute, "SDL_GL_SetAttribute");
-        library.resolve(create_context, "SDL_GL_CreateContext");
-        library.resolve(delete_context, "SDL_GL_DeleteContext");
-        library.resolve(make_current, "SDL_GL_MakeCurrent");
-        library.resolve(procedure, "SDL_GL_GetProcAddress");
-        library.resolve(swap_interval, "SDL_GL_SetSwapInterval");
-        library.resolve(drawable_size, "SDL_GL_GetDrawableSize");
-        library.resolve(swap_window, "SDL_GL_SwapWindow");
-        library.resolve(window_size, "SDL_GetWindowSize");
-        library.resolve(window_info, "SDL_GetWindowWMInfo");
-        library.resolve(set_title, "SDL_SetWindowTitle");
-        library.resolve(set_fullscreen, "SDL_SetWindowFullscreen");
-        library.resolve(free, "SDL_free");
-    }
-
-    decltype(&SDL_SetHint) set_hint = nullptr;
-    decltype(&SDL_SetMainReady) set_main_ready = nullptr;
-    decltype(&SDL_InitSubSystem) init = nullptr;
-    decltype(&SDL_Quit) quit = nullptr;
-    decltype(&SDL_GetError) error = nullptr;
-    decltype(&SDL_GetCurrentVideoDriver) video_driver = nullptr;
-    decltype(&SDL_CreateWindow) create_window = nullptr;
-    decltype(&SDL_DestroyWindow) destroy_window = nullptr;
-    decltype(&SDL_GetWindowDisplayIndex) display_index = nullptr;
-    decltype(&SDL_GetCurrentDisplayMode) display_mode = nullptr;
-    decltype(&SDL_PollEvent) poll_event = nullptr;
-    decltype(&SDL_GL_SetAttribute) set_attribute = nullptr;
-    decltype(&SDL_GL_CreateContext) create_context = nullptr;
-    decltype(&SDL_GL_DeleteContext) delete_context = nullptr;
-    decltype(&SDL_GL_MakeCurrent) make_current = nullptr;
-    decltype(&SDL_GL_GetProcAddress) procedure = nullptr;
-    decltype(&SDL_GL_SetSwapInterval) swap_interval = nullptr;
-    decltype(&SDL_GL_GetDrawableSize) drawable_size = nullptr;
-    decltype(&SDL_GL_SwapWindow) swap_window = nullptr;
-    decltype(&SDL_GetWindowSize) window_size = nullptr;
-    decltype(&SDL_GetWindowWMInfo) window_info = nullptr;
-    decltype(&SDL_SetWindowTitle) set_title = nullptr;
-    decltype(&SDL_SetWindowFullscreen) set_fullscreen = nullptr;
-    decltype(&SDL_free) free = nullptr;
+    const Library& library;
+    decltype(&SDL_SetHint) set_hint = library["SDL_SetHint"];
+    decltype(&SDL_SetMainReady) set_main_ready = library["SDL_SetMainReady"];
+    decltype(&SDL_InitSubSystem) init = library["SDL_InitSubSystem"];
+    decltype(&SDL_Quit) quit = library["SDL_Quit"];
+    decltype(&SDL_GetError) error = library["SDL_GetError"];
+    decltype(&SDL_GetCurrentVideoDriver) video_driver = library["SDL_GetCurrentVideoDriver"];
+    decltype(&SDL_CreateWindow) create_window = library["SDL_CreateWindow"];
+    decltype(&SDL_DestroyWindow) destroy_window = library["SDL_DestroyWindow"];
+    decltype(&SDL_GetWindowDisplayIndex) display_index = library["SDL_GetWindowDisplayIndex"];
+    decltype(&SDL_GetCurrentDisplayMode) display_mode = library["SDL_GetCurrentDisplayMode"];
+    decltype(&SDL_PollEvent) poll_event = library["SDL_PollEvent"];
+    decltype(&SDL_GL_SetAttribute) set_attribute = library["SDL_GL_SetAttribute"];
+    decltype(&SDL_GL_CreateContext) create_context = library["SDL_GL_CreateContext"];
+    decltype(&SDL_GL_DeleteContext) delete_context = library["SDL_GL_DeleteContext"];
+    decltype(&SDL_GL_MakeCurrent) make_current = library["SDL_GL_MakeCurrent"];
+    decltype(&SDL_GL_GetProcAddress) procedure = library["SDL_GL_GetProcAddress"];
+    decltype(&SDL_GL_SetSwapInterval) swap_interval = library["SDL_GL_SetSwapInterval"];
+    decltype(&SDL_GL_GetDrawableSize) drawable_size = library["SDL_GL_GetDrawableSize"];
+    decltype(&SDL_GL_SwapWindow) swap_window = library["SDL_GL_SwapWindow"];
+    decltype(&SDL_GetWindowSize) window_size = library["SDL_GetWindowSize"];
+    decltype(&SDL_GetWindowWMInfo) window_info = library["SDL_GetWindowWMInfo"];
+    decltype(&SDL_SetWindowTitle) set_title = library["SDL_SetWindowTitle"];
+    decltype(&SDL_SetWindowFullscreen) set_fullscreen = library["SDL_SetWindowFullscreen"];
+    decltype(&SDL_free) free = library["SDL_free"];
 };
 
 /// SDL's library with its video and its controllers, for the lifetime of the object.
 class Sdl {
 public:
-    Sdl() : library_("libSDL2-2.0.so.0", sdl_remedy), sdl_(library_) {
+    Sdl() : library_("libSDL2-2.0.so.0", sdl_remedy), sdl_{library_} {
         sdl_.set_main_ready();
         // The program handles Ctrl-C itself, to complete its files.
         sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
         sdl_.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
         // Without this folder there is no Wayland, and libwayland would print that on stderr.
-        if (std::getenv("XDG_RUNTIME_DIR") == nullptr) {
+        if (std::getenv("XDG_RUNTIME_DIR") == nullptr)
             sdl_.set_hint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
-        }
         if (sdl_.init(SDL_INIT_VIDEO) != 0 || invisible()) {
             const std::string reason = sdl_.error();
             sdl_.quit();
@@ -145,7 +118,6 @@ public:
     Sdl& operator=(const Sdl&) = delete;
 
     const SdlFunctions* operator->() const { return &sdl_; }
-    [[nodiscard]] const Library& library() const { return library_; }
 
 private:
     /// Without a display SDL does not fail; it selects an invisible driver.
@@ -189,7 +161,7 @@ public:
         sdl_->swap_interval(1);
         // A system without controllers plays with keys.
         (void)sdl_->init(SDL_INIT_GAMECONTROLLER);
-        events_.emplace(sdl_.library());
+        events_.emplace(sdl_->library);
     }
     ~SdlWindow() override { close(); }
 
@@ -272,9 +244,7 @@ private:
             sdl_->make_current(window_, nullptr);
             sdl_->delete_context(context_);
         }
-        if (window_ != nullptr) {
-            sdl_->destroy_window(window_);
-        }
+        if (window_ != nullptr) sdl_->destroy_window(window_);
     }
 
     Sdl sdl_;

@@ -8,11 +8,11 @@ namespace oiler {
 namespace {
 
 std::optional<Button> mouse_button(std::uint8_t button) {
-    constexpr std::array buttons{Mouse::left, Mouse::middle, Mouse::right, Mouse::back,
-                                 Mouse::forward};
-    static_assert(SDL_BUTTON_LEFT == 1 && SDL_BUTTON_MIDDLE == 2 && SDL_BUTTON_X2 == 5);
-    if (button < 1 || button > buttons.size()) return std::nullopt;
-    return buttons[button - 1U];
+    static_assert(SDL_BUTTON_LEFT == 1 + static_cast<int>(Mouse::left) &&
+                  SDL_BUTTON_MIDDLE == 1 + static_cast<int>(Mouse::middle) &&
+                  SDL_BUTTON_X2 == 1 + static_cast<int>(Mouse::forward));
+    if (button < SDL_BUTTON_LEFT || button > SDL_BUTTON_X2) return std::nullopt;
+    return static_cast<Mouse>(button - SDL_BUTTON_LEFT);
 }
 
 std::optional<Button> pad_button(std::uint8_t button) {
@@ -25,9 +25,9 @@ std::optional<Button> pad_button(std::uint8_t button) {
 
 /// What a key does while text is entered.
 bool edits_text(Button key) {
-    constexpr std::array keys{Key::enter, Key::escape, Key::backspace, Key::tab,
-                              Key::left,  Key::right,  Key::up,        Key::down};
-    return std::any_of(keys.begin(), keys.end(), [&](Key one) { return key == Button(one); });
+    constexpr Button keys[]{Key::enter, Key::escape, Key::backspace, Key::tab,
+                            Key::left,  Key::right,  Key::up,        Key::down};
+    return std::ranges::find(keys, key) != std::end(keys);
 }
 
 Point canvas_point(int x, int y, Size window) {
@@ -59,19 +59,8 @@ void handle_mouse(const SDL_Event& event, Size window, InputQueue& queue, bool t
 
 }  // namespace
 
-SdlInputFunctions::SdlInputFunctions(const Library& library) {
-    library.resolve(open_controller, "SDL_GameControllerOpen");
-    library.resolve(close_controller, "SDL_GameControllerClose");
-    library.resolve(joystick_of, "SDL_GameControllerGetJoystick");
-    library.resolve(instance_of, "SDL_JoystickInstanceID");
-    library.resolve(start_text, "SDL_StartTextInput");
-    library.resolve(stop_text, "SDL_StopTextInput");
-    library.resolve(key_of_scancode, "SDL_GetKeyFromScancode");
-    library.resolve(name_of_key, "SDL_GetKeyName");
-}
-
 // SDL takes text from the start on.
-SdlEvents::SdlEvents(const Library& library) : sdl_(library) { sdl_.stop_text(); }
+SdlEvents::SdlEvents(const Library& library) : sdl_{library} { sdl_.stop_text(); }
 
 SdlEvents::~SdlEvents() {
     for (const auto& [id, controller] : controllers_) sdl_.close_controller(controller.handle);

@@ -14,16 +14,15 @@ namespace oiler {
 
 /// SDL's functions for game controllers and text, resolved at run time like the others.
 struct SdlInputFunctions {
-    explicit SdlInputFunctions(const Library& library);
-
-    decltype(&SDL_GameControllerOpen) open_controller = nullptr;
-    decltype(&SDL_GameControllerClose) close_controller = nullptr;
-    decltype(&SDL_GameControllerGetJoystick) joystick_of = nullptr;
-    decltype(&SDL_JoystickInstanceID) instance_of = nullptr;
-    decltype(&SDL_StartTextInput) start_text = nullptr;
-    decltype(&SDL_StopTextInput) stop_text = nullptr;
-    decltype(&SDL_GetKeyFromScancode) key_of_scancode = nullptr;
-    decltype(&SDL_GetKeyName) name_of_key = nullptr;
+    const Library& library;
+    decltype(&SDL_GameControllerOpen) open_controller = library["SDL_GameControllerOpen"];
+    decltype(&SDL_GameControllerClose) close_controller = library["SDL_GameControllerClose"];
+    decltype(&SDL_GameControllerGetJoystick) joystick_of = library["SDL_GameControllerGetJoystick"];
+    decltype(&SDL_JoystickInstanceID) instance_of = library["SDL_JoystickInstanceID"];
+    decltype(&SDL_StartTextInput) start_text = library["SDL_StartTextInput"];
+    decltype(&SDL_StopTextInput) stop_text = library["SDL_StopTextInput"];
+    decltype(&SDL_GetKeyFromScancode) key_of_scancode = library["SDL_GetKeyFromScancode"];
+    decltype(&SDL_GetKeyName) name_of_key = library["SDL_GetKeyName"];
 };
 
 /// Translates SDL's events to those of a game. Keys are places of the keyboard, whatever is printed

@@ -32,15 +32,11 @@ bool has_display() {
 
 std::unique_ptr<Surface> open_offscreen(Offscreen which) {
     limit_llvmpipe_vectors();
-    if (which == Offscreen::egl) {
-        return open_egl();
-    }
+    if (which == Offscreen::egl) return open_egl();
     try {
         return open_osmesa();
     } catch (const Error& osmesa) {
-        if (which == Offscreen::osmesa) {
-            throw;
-        }
+        if (which == Offscreen::osmesa) throw;
         return open_egl_after(osmesa);
     }
 }

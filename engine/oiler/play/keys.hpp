@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/control.hpp"
+#include "oiler/input/button.hpp"
 
 namespace oiler {
 

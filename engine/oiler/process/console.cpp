@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "oiler/core/seconds_since.hpp"
+#include "oiler/core/timing.hpp"
 
 namespace oiler {
 

@@ -62,7 +62,7 @@ struct Ending {
 
 /// Names of files and options may have line breaks.
 std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::ranges::replace(text, '\n', ' ');
     return text;
 }
 

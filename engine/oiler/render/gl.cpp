@@ -62,14 +62,11 @@ Framebuffer::Framebuffer(const Gl& gl)
 
 void Framebuffer::bind(Size size) {
     if (size.width < 1 || size.height < 1 || size.width > largest_.width ||
-        size.height > largest_.height) {
+        size.height > largest_.height)
         fail(Exit::usage, "cannot draw a frame of {}x{} pixels; choose a --size from 1x1 to {}x{}",
              size.width, size.height, largest_.width, largest_.height);
-    }
     gl_.BindFramebuffer(GL_FRAMEBUFFER, name_);
-    if (size != size_) {
-        resize(size);
-    }
+    if (size != size_) resize(size);
     gl_.Viewport(0, 0, size.width, size.height);
 }
 

@@ -3,7 +3,6 @@
 
 #include <glad/gl.h>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 

@@ -20,9 +20,8 @@ constexpr int full_atlas = 2048;
 
 std::vector<int> glyph_numbers(const stbtt_fontinfo& font, const std::string& text) {
     std::vector<int> numbers;
-    for (const char32_t code : decode_utf8(text)) {
+    for (const char32_t code : decode_utf8(text))
         numbers.push_back(stbtt_FindGlyphIndex(&font, static_cast<int>(code)));
-    }
     return numbers;
 }
 
@@ -53,9 +52,8 @@ float Glyphs::advance(int glyph, int next, float scale) const {
 float Glyphs::measure(const std::string& text, int em) const {
     const std::vector<int> numbers = glyph_numbers(font_, text);
     float length = 0;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
         length += advance(numbers[i], i + 1 < numbers.size() ? numbers[i + 1] : -1, scale(em));
-    }
     return length;
 }
 
@@ -81,9 +79,7 @@ const Glyph& Glyphs::find(int glyph, int em, int phase) {
                               (static_cast<std::uint64_t>(glyph) << 2U) |
                               static_cast<std::uint64_t>(phase);
     const auto [entry, fresh] = known_.try_emplace(key);
-    if (fresh) {
-        entry->second = rasterise(glyph, em, phase);
-    }
+    if (fresh) entry->second = rasterise(glyph, em, phase);
     return entry->second;
 }
 
@@ -134,9 +130,7 @@ void Glyphs::reserve(Glyph& glyph) {
 int Glyphs::atlas_height() const { return static_cast<int>(atlas_.size() / atlas_width); }
 
 void Glyphs::clear_if_full() {
-    if (atlas_height() <= full_atlas) {
-        return;
-    }
+    if (atlas_height() <= full_atlas) return;
     known_.clear();
     atlas_.clear();
     shelf_x_ = shelf_y_ = shelf_height_ = 0;

@@ -57,9 +57,7 @@ bool runs_along_axes(const Polyline& line) {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
         const Point from = line.points[i];
         const Point to = line.points[i + 1];
-        if (from.x != to.x && from.y != to.y) {
-            return false;
-        }
+        if (from.x != to.x && from.y != to.y) return false;
     }
     return true;
 }
@@ -69,9 +67,8 @@ bool runs_along_axes(const Polyline& line) {
 /// Curves may be flat too, but have more points.
 void snap(const Polyline& line, float width, std::vector<Point>& points) {
     constexpr std::size_t most_corners = 5;
-    if (line.space != Space::canvas || points.size() > most_corners || !runs_along_axes(line)) {
+    if (line.space != Space::canvas || points.size() > most_corners || !runs_along_axes(line))
         return;
-    }
     const bool odd = std::lround(std::clamp(width, 1.0F, 1e3F)) % 2 != 0;
     for (Point& p : points) {
         p = odd ? Point{std::floor(p.x) + 0.5F, std::floor(p.y) + 0.5F}
@@ -125,9 +122,8 @@ void lay_out_disc(const Disc& disc, const Mapping& mapping, Size frame,
                   std::vector<PlacedDisc>& discs) {
     const Point centre = mapping.pixel(disc.centre, disc.space);
     const float radius = mapping.pixels(disc.radius, disc.space);
-    if (radius > 0 && std::isfinite(radius) && is_near(centre, frame, radius + 1)) {
+    if (radius > 0 && std::isfinite(radius) && is_near(centre, frame, radius + 1))
         discs.push_back(with_soft_edge(centre, radius, disc.colour));
-    }
 }
 
 void lay_out_label(const Label& label, const Mapping& mapping, Size frame, Glyphs& glyphs,
@@ -135,9 +131,8 @@ void lay_out_label(const Label& label, const Mapping& mapping, Size frame, Glyph
     const float em = std::round(mapping.pixels(label.size, label.size_in));
     const Point at = mapping.pixel(label.at, label.space);
     const float longest = 65536;  // pixels of text that may still reach into the frame
-    if (em >= 1 && is_near(at, frame, longest)) {
+    if (em >= 1 && is_near(at, frame, longest))
         glyphs.place(label, at, static_cast<int>(std::min<float>(em, largest_em)), placed);
-    }
 }
 
 /// Calls f(element) for the elements of a list that are in a layer.

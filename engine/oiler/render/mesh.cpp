@@ -20,9 +20,7 @@ struct Segment {
 /// Narrows [first, last] to the t at which from + t·step is in [low, high] on one axis. Returns
 /// whether any is left.
 bool narrow(double from, double step, double low, double high, double& first, double& last) {
-    if (step == 0) {
-        return from >= low && from <= high;
-    }
+    if (step == 0) return from >= low && from <= high;
     const double a = (low - from) / step;
     const double b = (high - from) / step;
     first = std::max(first, std::min(a, b));
@@ -41,9 +39,8 @@ std::optional<Segment> clip(const Segment& segment, const Box& box) {
     double first = 0;
     double last = 1;
     if (!narrow(segment.from.x, step.x, box.low.x, box.high.x, first, last) ||
-        !narrow(segment.from.y, step.y, box.low.y, box.high.y, first, last)) {
+        !narrow(segment.from.y, step.y, box.low.y, box.high.y, first, last))
         return std::nullopt;
-    }
     // Clamped to the box, in case both ends are so far away that no digit is left.
     return Segment{box.nearest(segment.from + first * step),
                    box.nearest(last < 1 ? segment.from + last * step : segment.to)};
@@ -62,9 +59,7 @@ std::vector<std::vector<Vec>> runs_within(const Box& box, std::span<const Point>
         if (seen && !unbroken) {
             runs.push_back({seen->from});
         }
-        if (seen) {
-            runs.back().push_back(seen->to);
-        }
+        if (seen) runs.back().push_back(seen->to);
         unbroken = seen && box.holds(to);
     }
     return runs;
@@ -117,19 +112,12 @@ private:
     static void thin_out(std::vector<Vec>& points) {
         const Vec last = points.back();
         std::size_t kept = 1;
-        for (const Vec& point : points) {
-            if (length(point - points[kept - 1]) >= closest) {
-                points[kept++] = point;
-            }
-        }
+        for (const Vec& point : points)
+            if (length(point - points[kept - 1]) >= closest) points[kept++] = point;
         points.resize(kept);
         // Thinning must keep the last point.
-        if (kept > 1) {
-            points.back() = last;
-        }
-        if (kept > 2 && length(points[kept - 1] - points[kept - 2]) == 0) {
-            points.pop_back();
-        }
+        if (kept > 1) points.back() = last;
+        if (kept > 2 && length(points[kept - 1] - points[kept - 2]) == 0) points.pop_back();
     }
 
     void add_dot(Vec centre) {
@@ -143,9 +131,8 @@ private:
         Vec direction = towards(points[0], points[1]);
         Cut cut = straight_cut(points[0], direction);
         add_cap(points[0], -1 * direction, {cut.right, cut.left});
-        for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        for (std::size_t i = 1; i + 1 < points.size(); ++i)
             cut = add_joint(cut, points[i - 1], points[i], points[i + 1]);
-        }
         direction = towards(points[points.size() - 2], points.back());
         const Cut end = straight_cut(points.back(), direction);
         add_quad(cut, end);
@@ -158,9 +145,8 @@ private:
         const auto quads = mesh_.indices.size();
         Cut cut = add_joint({0, 0}, points[count - 1], points[0], points[1]);
         mesh_.indices.resize(quads);
-        for (std::size_t i = 1; i <= count; ++i) {
+        for (std::size_t i = 1; i <= count; ++i)
             cut = add_joint(cut, points[i - 1], points[i % count], points[(i + 1) % count]);
-        }
     }
 
     /// Ends the segment that started at `start`. Returns the start of the next segment.
@@ -172,9 +158,8 @@ private:
         // The mitre reaches outer_ · tan(turn/2) back along the segments. Beyond half of a segment
         // the strip would fold over itself.
         const double reach = outer_ * std::sqrt(std::max(0.0, (1 - cosine) / (1 + cosine)));
-        if (cosine < sharpest_cosine || reach > shorter / 2) {
+        if (cosine < sharpest_cosine || reach > shorter / 2)
             return add_round_joint(start, at, in, out);
-        }
         const Vec mitre = (outer_ / (1 + cosine)) * (left_of(in) + left_of(out));
         const Cut cut = add_cut(at, mitre);
         add_quad(start, cut);
@@ -391,17 +376,13 @@ void add_sliver(const Ring& ring, double area, Colour colour, Size frame, LineMe
 
 void append_polyline(std::span<const Point> points, const Stroke& stroke, Size frame,
                      LineMesh& mesh) {
-    if (!(stroke.width > 0)) {
-        return;
-    }
+    if (!(stroke.width > 0)) return;
     const Stroke drawable{std::min(stroke.width, widest), stroke.colour};
     // Ends and mitres from clipping stay outside the frame.
     const double margin = 2 * (drawable.width + 2.0);
     const Box box{{-margin, -margin}, {frame.width + margin, frame.height + margin}};
     Strip strip(drawable, mesh);
-    for (std::vector<Vec>& run : runs_within(box, points)) {
-        strip.add(std::move(run));
-    }
+    for (std::vector<Vec>& run : runs_within(box, points)) strip.add(std::move(run));
 }
 
 void append_polygon(std::span<const Point> points, Colour colour, Size frame, LineMesh& mesh) {

@@ -21,19 +21,59 @@ Gl load_functions(const Renderer::LoadProcedure& load) {
     };
     const int version =
         gladLoadGLContextUserPtr(&gl, call, const_cast<Renderer::LoadProcedure*>(&load));
-    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33) {
+    if (GLAD_VERSION_MAJOR(version) * 10 + GLAD_VERSION_MINOR(version) < 33)
         fail(Exit::no_display, "this surface offers OpenGL {}.{}; Oiler needs 3.3; try --headless",
              GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version));
-    }
     return gl;
 }
 
-/// A vertex buffer, its layout, and the program that draws it.
+const void* as_pointer(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+/// An attribute of a vertex or an instance.
+struct Attribute {
+    GLint count;
+    GLenum type;  ///< bytes are the channels of a colour
+    std::size_t offset;
+};
+
+/// The attributes of a vertex, or of an instance if `divisor` is 1, in the order of their
+/// locations.
+struct Attributes {
+    std::size_t stride = 0;
+    GLuint divisor = 0;
+    std::vector<Attribute> all{};
+
+    void describe(const Gl& gl) const {
+        const auto size = static_cast<GLsizei>(stride);
+        for (GLuint location = 0; location < all.size(); ++location) {
+            const auto& [count, type, offset] = all[location];
+            const GLboolean is_colour = type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE;
+            if (type == GL_INT)
+                gl.VertexAttribIPointer(location, count, type, size, as_pointer(offset));
+            else
+                gl.VertexAttribPointer(location, count, type, is_colour, size, as_pointer(offset));
+            gl.VertexAttribDivisor(location, divisor);
+            gl.EnableVertexAttribArray(location);
+        }
+    }
+};
+
+/// Buffers of vertices and their indices, and the program that draws them.
 struct Batch {
-    Batch(const Gl& gl, std::string_view vertex, std::string_view fragment)
+    Batch(const Gl& gl, std::string_view vertex, std::string_view fragment,
+          const Attributes& attributes)
         : program(gl, vertex, fragment),
           array(gl.GenVertexArrays, gl.DeleteVertexArrays),
-          buffer(gl.GenBuffers, gl.DeleteBuffers) {
+          buffer(gl.GenBuffers, gl.DeleteBuffers),
+          indices(gl.GenBuffers, gl.DeleteBuffers) {
+        gl.BindVertexArray(array);
+        gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+        gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+        attributes.describe(gl);
+    }
+    /// Makes it current, for a frame of that size.
+    void use(const Gl& gl, Size size) const {
+        program.use(size.width, size.height);
         gl.BindVertexArray(array);
         gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
     }
@@ -41,37 +81,8 @@ struct Batch {
     GlProgram program;
     GlName array;
     GlName buffer;
+    GlName indices;
 };
-
-/// Location of an attribute in a vertex or an instance.
-struct Field {
-    std::size_t offset;
-    std::size_t stride;
-    GLuint divisor;
-};
-
-const void* as_pointer(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
-
-void describe_floats(const Gl& gl, GLuint location, GLint count, const Field& field) {
-    gl.VertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(field.stride),
-                           as_pointer(field.offset));
-    gl.VertexAttribDivisor(location, field.divisor);
-    gl.EnableVertexAttribArray(location);
-}
-
-void describe_integers(const Gl& gl, GLuint location, GLint count, const Field& field) {
-    gl.VertexAttribIPointer(location, count, GL_INT, static_cast<GLsizei>(field.stride),
-                            as_pointer(field.offset));
-    gl.VertexAttribDivisor(location, field.divisor);
-    gl.EnableVertexAttribArray(location);
-}
-
-void describe_colour(const Gl& gl, GLuint location, const Field& field) {
-    gl.VertexAttribPointer(location, 4, GL_UNSIGNED_BYTE, GL_TRUE,
-                           static_cast<GLsizei>(field.stride), as_pointer(field.offset));
-    gl.VertexAttribDivisor(location, field.divisor);
-    gl.EnableVertexAttribArray(location);
-}
 
 template <class Item>
 void upload(const Gl& gl, GLenum target, std::span<const Item> items) {
@@ -85,75 +96,46 @@ struct Renderer::Impl {
     explicit Impl(const LoadProcedure& load)
         : gl(load_functions(load)),
           framebuffer(gl),
-          sprites(gl, embedded::sprite_vert(), embedded::sprite_frag()),
-          lines(gl, embedded::line_vert(), embedded::line_frag()),
-          discs(gl, embedded::disc_vert(), embedded::disc_frag()),
-          splat_image(gl, embedded::splats_vert(), embedded::splats_frag()),
-          text(gl, embedded::text_vert(), embedded::text_frag()),
-          overlays(gl, embedded::overlay_vert(), embedded::overlay_frag()),
-          line_indices(gl.GenBuffers, gl.DeleteBuffers),
-          overlay_indices(gl.GenBuffers, gl.DeleteBuffers),
+          sprites(gl, embedded::sprite_vert(), embedded::sprite_frag(),
+                  {sizeof(PlacedSprite),
+                   1,
+                   {{4, GL_FLOAT, offsetof(PlacedSprite, centre)},
+                    {3, GL_FLOAT, offsetof(PlacedSprite, direction)},
+                    {4, GL_UNSIGNED_BYTE, offsetof(PlacedSprite, tint)}}}),
+          lines(gl, embedded::line_vert(), embedded::line_frag(),
+                {sizeof(LineVertex),
+                 0,
+                 {{2, GL_FLOAT, offsetof(LineVertex, position)},
+                  {2, GL_FLOAT, offsetof(LineVertex, across)},
+                  {2, GL_FLOAT, offsetof(LineVertex, half_width)},
+                  {4, GL_UNSIGNED_BYTE, offsetof(LineVertex, colour)}}}),
+          discs(gl, embedded::disc_vert(), embedded::disc_frag(),
+                {sizeof(PlacedDisc),
+                 1,
+                 {{2, GL_FLOAT, offsetof(PlacedDisc, centre)},
+                  {2, GL_FLOAT, offsetof(PlacedDisc, radius)},
+                  {4, GL_UNSIGNED_BYTE, offsetof(PlacedDisc, colour)}}}),
+          splat_image(gl, embedded::splats_vert(), embedded::splats_frag(), {}),
+          text(gl, embedded::text_vert(), embedded::text_frag(),
+               {sizeof(PlacedGlyph),
+                1,
+                {{4, GL_INT, offsetof(PlacedGlyph, box)},
+                 {2, GL_INT, offsetof(PlacedGlyph, atlas)},
+                 {4, GL_UNSIGNED_BYTE, offsetof(PlacedGlyph, colour)}}}),
+          overlays(gl, embedded::overlay_vert(), embedded::overlay_frag(),
+                   {sizeof(Overlay::Vertex),
+                    0,
+                    {{2, GL_FLOAT, offsetof(Overlay::Vertex, at)},
+                     {2, GL_FLOAT, offsetof(Overlay::Vertex, texel)},
+                     {4, GL_UNSIGNED_BYTE, offsetof(Overlay::Vertex, colour)}}}),
           atlas(gl.GenTextures, gl.DeleteTextures),
           splat_texels(gl.GenTextures, gl.DeleteTextures),
           textures(gl) {
-        describe_sprites();
-        describe_lines();
-        describe_discs();
-        describe_text();
-        describe_overlays();
         for (const GLuint texture : {GLuint{atlas}, GLuint{splat_texels}}) {
             gl.BindTexture(GL_TEXTURE_2D, texture);
             gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
             gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         }
-    }
-
-    void describe_sprites() const {
-        constexpr std::size_t stride = sizeof(PlacedSprite);
-        gl.BindVertexArray(sprites.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, sprites.buffer);
-        describe_floats(gl, 0, 4, {offsetof(PlacedSprite, centre), stride, 1});
-        describe_floats(gl, 1, 3, {offsetof(PlacedSprite, direction), stride, 1});
-        describe_colour(gl, 2, {offsetof(PlacedSprite, tint), stride, 1});
-    }
-
-    void describe_lines() const {
-        constexpr std::size_t stride = sizeof(LineVertex);
-        gl.BindVertexArray(lines.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, lines.buffer);
-        gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, line_indices);
-        describe_floats(gl, 0, 2, {offsetof(LineVertex, position), stride, 0});
-        describe_floats(gl, 1, 2, {offsetof(LineVertex, across), stride, 0});
-        describe_floats(gl, 2, 2, {offsetof(LineVertex, half_width), stride, 0});
-        describe_colour(gl, 3, {offsetof(LineVertex, colour), stride, 0});
-    }
-
-    void describe_discs() const {
-        constexpr std::size_t stride = sizeof(PlacedDisc);
-        gl.BindVertexArray(discs.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, discs.buffer);
-        describe_floats(gl, 0, 2, {offsetof(PlacedDisc, centre), stride, 1});
-        describe_floats(gl, 1, 2, {offsetof(PlacedDisc, radius), stride, 1});
-        describe_colour(gl, 2, {offsetof(PlacedDisc, colour), stride, 1});
-    }
-
-    void describe_text() const {
-        constexpr std::size_t stride = sizeof(PlacedGlyph);
-        gl.BindVertexArray(text.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, text.buffer);
-        describe_integers(gl, 0, 4, {offsetof(PlacedGlyph, box), stride, 1});
-        describe_integers(gl, 1, 2, {offsetof(PlacedGlyph, atlas), stride, 1});
-        describe_colour(gl, 2, {offsetof(PlacedGlyph, colour), stride, 1});
-    }
-
-    void describe_overlays() const {
-        constexpr std::size_t stride = sizeof(Overlay::Vertex);
-        gl.BindVertexArray(overlays.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, overlays.buffer);
-        gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, overlay_indices);
-        describe_floats(gl, 0, 2, {offsetof(Overlay::Vertex, at), stride, 0});
-        describe_floats(gl, 1, 2, {offsetof(Overlay::Vertex, texel), stride, 0});
-        describe_colour(gl, 2, {offsetof(Overlay::Vertex, colour), stride, 0});
     }
 
     void clear(Colour colour) const {
@@ -189,12 +171,8 @@ struct Renderer::Impl {
     }
 
     void draw_lines(Size size) const {
-        if (layout.lines.indices.empty()) {
-            return;
-        }
-        lines.program.use(size.width, size.height);
-        gl.BindVertexArray(lines.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, lines.buffer);
+        if (layout.lines.indices.empty()) return;
+        lines.use(gl, size);
         upload(gl, GL_ARRAY_BUFFER, std::span(std::as_const(layout.lines.vertices)));
         upload(gl, GL_ELEMENT_ARRAY_BUFFER, std::span(std::as_const(layout.lines.indices)));
         gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(layout.lines.indices.size()),
@@ -203,12 +181,8 @@ struct Renderer::Impl {
 
     template <class Item>
     void draw_quads(const Batch& batch, std::span<const Item> items, Size size) const {
-        if (items.empty()) {
-            return;
-        }
-        batch.program.use(size.width, size.height);
-        gl.BindVertexArray(batch.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
+        if (items.empty()) return;
+        batch.use(gl, size);
         upload(gl, GL_ARRAY_BUFFER, items);
         gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(items.size()));
     }
@@ -238,8 +212,7 @@ struct Renderer::Impl {
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16, size.width, size.height, 0, GL_RGBA,
                       GL_UNSIGNED_SHORT, splats.texels().data());
-        splat_image.program.use(size.width, size.height);
-        gl.BindVertexArray(splat_image.array);
+        splat_image.use(gl, size);
         gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
         gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         blend_straight_colours();
@@ -258,9 +231,7 @@ struct Renderer::Impl {
         const Size size = framebuffer.size();
         framebuffer.bind(size);
         set_state();
-        overlays.program.use(size.width, size.height);
-        gl.BindVertexArray(overlays.array);
-        gl.BindBuffer(GL_ARRAY_BUFFER, overlays.buffer);
+        overlays.use(gl, size);
         upload(gl, GL_ARRAY_BUFFER, std::span(overlay.vertices));
         upload(gl, GL_ELEMENT_ARRAY_BUFFER, std::span(overlay.indices));
         textures.remember(overlay.bitmap);
@@ -278,9 +249,7 @@ struct Renderer::Impl {
         gl.ActiveTexture(GL_TEXTURE0);
         gl.BindTexture(GL_TEXTURE_2D, atlas);
         gl.BindSampler(0, 0);
-        if (atlas_revision == glyphs.revision()) {
-            return;
-        }
+        if (atlas_revision == glyphs.revision()) return;
         atlas_revision = glyphs.revision();
         gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, Glyphs::atlas_width, glyphs.atlas_height(), 0,
@@ -295,8 +264,6 @@ struct Renderer::Impl {
     Batch splat_image;
     Batch text;
     Batch overlays;
-    GlName line_indices;
-    GlName overlay_indices;
     GlName atlas;
     GlName splat_texels;
     Textures textures;

@@ -6,7 +6,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <type_traits>
 
 #include "oiler/core/error.hpp"
 

@@ -20,7 +20,8 @@ struct Price {
 SweepWatch clock_of(const std::vector<Price>& prices) {
     constexpr std::int64_t rate_of_estimates = 1 << 16;
     SweepWatch watch;
-    watch.ns_per_step = [prices](const Scene&, const Stepping& choice, std::int64_t) {
+    watch.ns_per_step = [prices](const Scene&, const Settings& settings, std::int64_t) {
+        const Stepping& choice = settings.stepping;
         for (const Price& price : prices)
             if (choice.method->name == price.method)
                 return choice.rate.steps == rate_of_estimates ? price.estimated : price.timed;

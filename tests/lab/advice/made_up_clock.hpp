@@ -11,8 +11,8 @@ namespace oiler::test {
 /// A clock by which a step takes the given time, ns, however many steps a frame or a call has.
 inline lab::SweepWatch made_up_clock(std::function<double(const Stepping&)> ns_per_step) {
     lab::SweepWatch watch;
-    watch.ns_per_step = [ns_per_step](const Scene&, const Stepping& choice, std::int64_t) {
-        return ns_per_step(choice);
+    watch.ns_per_step = [ns_per_step](const Scene&, const Settings& settings, std::int64_t) {
+        return ns_per_step(settings.stepping);
     };
     watch.ns_per_step_together = [ns = std::move(ns_per_step)](
                                      const Scene&, const Stepping& choice) { return ns(choice); };

@@ -98,7 +98,8 @@ Advice advice_of_many(int bodies, double on_all) {
         "velocity_to = [9.0]\n",
         bodies));
     SweepWatch watch = made_up_clock([](const Stepping&) { return 100.0; });
-    watch.ns_per_step_on_threads = [=](const Scene&, const Settings& settings, std::int64_t) {
+    watch.ns_per_step = [=](const Scene&, const Settings& settings, std::int64_t) {
+        if (settings.threads == 1) return 100.0;
         return settings.threads == this_machine().cores ? on_all : unknown;
     };
     return advise(many.scene, many.reference,
@@ -144,7 +145,8 @@ Advice advice_among(const std::vector<const char*>& names, const SweepWatch& wat
 SweepWatch noisy(double spread, const std::function<double(const Stepping&)>& ns) {
     SweepWatch watch = made_up_clock(ns);
     auto reading = std::make_shared<int>(0);
-    watch.ns_per_step = [=](const Scene&, const Stepping& choice, std::int64_t) {
+    watch.ns_per_step = [=](const Scene&, const Settings& settings, std::int64_t) {
+        const Stepping& choice = settings.stepping;
         const bool is_estimate = choice.rate.steps == 1 << 16;
         return ns(choice) * (is_estimate ? 1 : 1 + spread * ((*reading)++ % 7 - 3) / 3);
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Times from made-up clocks, so that each number is known.
-#include "oiler/lab/ledger/timing.hpp"
+#include "oiler/lab/ledger/ledger.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/test.hpp"

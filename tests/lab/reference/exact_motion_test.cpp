@@ -372,7 +372,7 @@ TEST(NoExactMotion, OfUnboundOrbits) {
 
 // Both ways to compute a state round alike, to far less than 1e-15 of positions of 1 m. An orbit
 // turns fastest near its centre, within a tenth of a tick.
-TEST(ExactMotions, WalkAsTheyAreAtEachTime) {
+TEST(ExactMotions, AreAtTicksAsTheyAreAtTheirTimes) {
     constexpr std::int64_t rate = 7;
     Bodies bodies = in_space();
     bodies.add({.position = {1, 0, 0}, .velocity = {0, 1, 0}}, LinearDrag{0.5});
@@ -383,14 +383,14 @@ TEST(ExactMotions, WalkAsTheyAreAtEachTime) {
     auto closed_forms = exact_motions(bodies, 1);
     ASSERT_TRUE(closed_forms);
     const ExactMotions motions(std::move(*closed_forms));
-    const auto walk = motions.walk(rate);
-    std::vector<State3> walked(3);
+    const auto at_ticks = motions.at_ticks(rate);
+    std::vector<State3> states(3);
     const auto expect_at = [&](std::int64_t tick) {
-        walk(tick, walked);
-        for (std::size_t row = 0; row < walked.size(); ++row) {
+        at_ticks(tick, states);
+        for (std::size_t row = 0; row < states.size(); ++row) {
             const State3 there = motions.at(row, static_cast<Real>(tick) / rate);
-            EXPECT_LE(length(walked[row].x - there.x), 1e-15L) << row << " at tick " << tick;
-            EXPECT_LE(length(walked[row].v - there.v), 1e-14L) << row << " at tick " << tick;
+            EXPECT_LE(length(states[row].x - there.x), 1e-15L) << row << " at tick " << tick;
+            EXPECT_LE(length(states[row].v - there.v), 1e-14L) << row << " at tick " << tick;
         }
     };
     for (std::int64_t tick = 0; tick < 300; ++tick) expect_at(tick);

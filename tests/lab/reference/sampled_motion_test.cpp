@@ -70,9 +70,9 @@ TEST(SampledMotion, KeepsApartWhatAKinkParts) {
     }
     EXPECT_GT(std::abs(static_cast<double>(motion.at(0, kink).x[0] - cube)), 1e-3);
     // Only the body with the kink bends there, by no more than three times its way.
-    EXPECT_EQ(motion.bend(0, {}, {}, 0.9L, 1), 0);
-    EXPECT_GE(motion.bend(1, {}, {}, 0.9L, 1), 0.3 * 3 * 0.94 * 0.94);
-    EXPECT_EQ(motion.bend(1, {}, {}, 0.8L, 0.9L), 0);
+    EXPECT_EQ(motion.cubic_error(0, {}, {}, 0.9L, 1), 0);
+    EXPECT_GE(motion.cubic_error(1, {}, {}, 0.9L, 1), 0.3 * 3 * 0.94 * 0.94);
+    EXPECT_EQ(motion.cubic_error(1, {}, {}, 0.8L, 0.9L), 0);
     // Leaving a sample out shows no kink.
     EXPECT_LE(
         interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second).back(),
@@ -102,11 +102,11 @@ TEST(SampledMotion, HasTheRemainderOfDegreeSeven) {
 // π/4 at 2 1/s is 0.3927 s; at 50 1/s it is less than a sample.
 TEST(SampledMotion, IsACubicOverAnEighthOfAPeriodOrASample) {
     const SampledMotion slow(sampled(1, 4), per_second, 2);
-    EXPECT_EQ(slow.bend(0, {}, {}, 0.2L, 0.592L), 0);
-    EXPECT_TRUE(std::isinf(slow.bend(0, {}, {}, 0.2L, 0.593L)));
+    EXPECT_EQ(slow.cubic_error(0, {}, {}, 0.2L, 0.592L), 0);
+    EXPECT_TRUE(std::isinf(slow.cubic_error(0, {}, {}, 0.2L, 0.593L)));
     const SampledMotion fast(sampled(1, 4), per_second, 50);
-    EXPECT_EQ(fast.bend(0, {}, {}, 0.2L, 0.3L), 0);
-    EXPECT_TRUE(std::isinf(fast.bend(0, {}, {}, 0.2L, 0.31L)));
+    EXPECT_EQ(fast.cubic_error(0, {}, {}, 0.2L, 0.3L), 0);
+    EXPECT_TRUE(std::isinf(fast.cubic_error(0, {}, {}, 0.2L, 0.31L)));
 }
 
 // The estimate must not be below the largest error anywhere, and not much above the one at the

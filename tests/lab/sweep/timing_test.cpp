@@ -114,8 +114,8 @@ TEST(TimeRow, IsTimedWithItsOwnSetting) {
     const Stepping choice{&find_method("velocity_verlet"), {75}, Precision::single};
     Stepping timed;
     SweepWatch watch = quick_watch();
-    watch.ns_per_step = [&](const auto&, const Stepping& given, std::int64_t) {
-        timed = given;
+    watch.ns_per_step = [&](const auto&, const Settings& given, std::int64_t) {
+        timed = given.stepping;
         return 1.0;
     };
     TradeoffRow row{.stepping = choice};

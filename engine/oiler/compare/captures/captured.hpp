@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/capture/manifest.hpp"

@@ -9,8 +9,7 @@
 #include <map>
 
 #include "oiler/compare/captures/captured.hpp"
-#include "oiler/compare/captures/picture_changes.hpp"
-#include "oiler/compare/captures/state_changes.hpp"
+#include "oiler/compare/captures/changes.hpp"
 #include "oiler/core/error.hpp"
 
 namespace oiler {

@@ -70,29 +70,14 @@ std::string frames_are(std::int64_t count) {
 }  // namespace
 
 std::string_view name_of(Cause cause) {
-    switch (cause) {
-        case Cause::missing:
-            return "missing";
-        case Cause::simulation:
-            return "simulation";
-        case Cause::picture:
-            return "picture";
-        case Cause::pixels:
-            return "pixels";
-        case Cause::none:
-            break;
-    }
-    return "none";
+    constexpr std::string_view names[]{"none", "missing", "simulation", "picture", "pixels"};
+    return names[static_cast<std::size_t>(cause)];
 }
 
-bool Comparison::passed() const {
-    return std::all_of(frames.begin(), frames.end(),
-                       [](const FrameComparison& frame) { return frame.passed(); });
-}
+bool Comparison::passed() const { return std::ranges::all_of(frames, &FrameComparison::passed); }
 
 std::int64_t Comparison::count(Cause cause) const {
-    return std::count_if(frames.begin(), frames.end(),
-                         [&](const FrameComparison& frame) { return frame.cause == cause; });
+    return std::ranges::count(frames, cause, &FrameComparison::cause);
 }
 
 std::string verdict_of(const Comparison& comparison) {
@@ -116,8 +101,7 @@ std::string verdict_of(const Comparison& comparison) {
     const auto is_unseen = [](const FrameComparison& frame) {
         return frame.tolerated && !frame.has_images;
     };
-    const auto unseen =
-        std::count_if(comparison.frames.begin(), comparison.frames.end(), is_unseen);
+    const auto unseen = std::ranges::count_if(comparison.frames, is_unseen);
     const std::int64_t tolerated = comparison.count(Cause::pixels) - unseen;
     const std::string equal = frames_are(std::ssize(comparison.frames)) + " equal";
     std::string text = equal;
@@ -141,9 +125,9 @@ std::string describe(const Comparison& comparison) {
     for (const std::string& finding : comparison.findings) text += finding + "\n";
     if (comparison.passed()) return text;
     const auto count_failed = [&](Cause cause) {
-        return std::count_if(
-            comparison.frames.begin(), comparison.frames.end(),
-            [&](const FrameComparison& frame) { return frame.cause == cause && !frame.tolerated; });
+        return std::ranges::count_if(comparison.frames, [&](const FrameComparison& frame) {
+            return frame.cause == cause && !frame.tolerated;
+        });
     };
     const std::int64_t tolerated = comparison.count(Cause::pixels) - count_failed(Cause::pixels);
     text += fmt::format("{} frames:", comparison.frames.size());

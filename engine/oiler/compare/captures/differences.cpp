@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <vector>
 
@@ -43,8 +42,7 @@ fs::path image_path(const fs::path& folder, std::string_view name, std::int64_t 
 }
 
 bool is_our_image(std::string_view name) {
-    return name.ends_with(".png") &&
-           std::any_of(image_names.begin(), image_names.end(), [&](std::string_view image) {
+    return name.ends_with(".png") && std::ranges::any_of(image_names, [&](std::string_view image) {
                return name.starts_with(fmt::format("{}_", image));
            });
 }
@@ -112,14 +110,10 @@ Json frame_json(const FrameComparison& frame, const Captured& golden, const Capt
 }
 
 std::string timeline_of(const Comparison& comparison) {
+    constexpr std::string_view marks = "=mspx";  // in the order of Cause
     std::string timeline;
     for (const FrameComparison& frame : comparison.frames)
-        timeline += frame.tolerated                    ? '~'
-                    : frame.cause == Cause::none       ? '='
-                    : frame.cause == Cause::simulation ? 's'
-                    : frame.cause == Cause::picture    ? 'p'
-                    : frame.cause == Cause::pixels     ? 'x'
-                                                       : 'm';
+        timeline += frame.tolerated ? '~' : marks[static_cast<std::size_t>(frame.cause)];
     return timeline;
 }
 
@@ -164,22 +158,22 @@ fs::path differences_folder(const fs::path& actual) {
 }
 
 JunitSuite suite_of(const Comparison& comparison) {
+    using Outcome = JunitSuite::Outcome;
     JunitSuite suite("oiler compare");
     const std::string group = comparison.golden.string();
     for (const Cause cause : {Cause::simulation, Cause::picture, Cause::pixels, Cause::missing}) {
         const auto failed = [&](const FrameComparison& frame) {
             return frame.cause == cause && !frame.passed();
         };
-        const auto first = std::find_if(comparison.frames.begin(), comparison.frames.end(), failed);
-        const auto count =
-            std::count_if(comparison.frames.begin(), comparison.frames.end(), failed);
+        const auto first = std::ranges::find_if(comparison.frames, failed);
+        const auto count = std::ranges::count_if(comparison.frames, failed);
         if (first == comparison.frames.end())
-            suite.add_passed(group, name_of(cause), "no frame differs");
+            suite.add(group, name_of(cause), Outcome::passed, "no frame differs");
         else
-            suite.add_failed(group, name_of(cause),
-                             fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
-                                         comparison.frames.size(), first->index, first->words,
-                                         circumstances_of(comparison)));
+            suite.add(group, name_of(cause), Outcome::failed,
+                      fmt::format("{} of {} frames, the first is frame {}: {}{}", count,
+                                  comparison.frames.size(), first->index, first->words,
+                                  circumstances_of(comparison)));
     }
     return suite;
 }

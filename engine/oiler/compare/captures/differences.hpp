@@ -2,11 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "oiler/compare/captures/comparison.hpp"
-#include "oiler/core/junit.hpp"
+#include "oiler/core/markup.hpp"
 
 namespace oiler {
 

@@ -12,7 +12,7 @@
 
 #include "oiler/compare/runs/state_log.hpp"
 #include "oiler/core/error.hpp"
-#include "oiler/core/ulps.hpp"
+#include "oiler/core/floating_point.hpp"
 
 namespace oiler {
 namespace {
@@ -58,8 +58,8 @@ public:
         result_.last_tick = std::min(a_.ticks.back().tick, b_.ticks.back().tick);
         result_.floats = floats_;
         BodyCount count;
-        TickWalk walk(a_, b_, result_.last_tick);
-        while (const std::optional<TickPair> pair = walk.next()) {
+        TickPairs pairs(a_, b_, result_.last_tick);
+        while (const std::optional<TickPair> pair = pairs.next()) {
             compare(*pair);
             count.add(bodies_of(a_, pair->a));
             if (!matched_) count.add(bodies_of(b_, pair->b));

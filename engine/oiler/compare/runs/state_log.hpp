@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "oiler/compare/captures/captured.hpp"
 
 namespace oiler {
 
@@ -58,9 +61,10 @@ struct TickPair {
 };
 
 /// Visits the ticks of either log in their order, up to the tick `last`.
-class TickWalk {
+class TickPairs {
 public:
-    TickWalk(const StateLog& a, const StateLog& b, std::int64_t last) : a_(a), b_(b), last_(last) {}
+    TickPairs(const StateLog& a, const StateLog& b, std::int64_t last)
+        : a_(a), b_(b), last_(last) {}
 
     /// Returns empty after the last tick.
     [[nodiscard]] std::optional<TickPair> next();
@@ -76,5 +80,22 @@ private:
 /// Empty if a log lacks the tick.
 [[nodiscard]] std::optional<TickPair> find_tick(const StateLog& a, const StateLog& b,
                                                 std::int64_t tick);
+
+/// The states of a capture's frames that have a record, in three axes. Bodies are numbered by their
+/// names: those of `names` first, then new ones. Throws Error{usage} if no frame has a record.
+[[nodiscard]] StateLog state_log_of(const Captured& captured, std::vector<std::string> names);
+
+/// Removes the ticks that only one log has, up to the end of the shorter one: frames at other times
+/// show other ticks. Throws Error{usage} if no tick is left.
+void keep_common_ticks(StateLog& a, StateLog& b);
+
+/// The first tick whose state hashes differ; empty if they are equal as far as both captures go. In
+/// a capture of more than 1000 bodies, only frames have hashes.
+[[nodiscard]] std::optional<std::int64_t> first_different_tick(const Captured& a,
+                                                               const Captured& b);
+
+/// Reads a trace, the CSV file of `--trace`. Throws Error(Exit::usage) with file and line if it is
+/// malformed or has no rows, and Error(Exit::io) if it cannot be read.
+[[nodiscard]] StateLog read_trace(const std::filesystem::path& path);
 
 }  // namespace oiler

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/compare/runs/trace_file.hpp"
+#include "oiler/compare/runs/state_log.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -8,9 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -23,76 +22,42 @@
 namespace oiler {
 namespace {
 
-/// Reads a text file line by line, in pieces: files may be larger than the memory, or pipes.
+/// Reads a text file line by line: files may be larger than the memory, or pipes.
 class LineReader {
 public:
     /// Throws Error(Exit::io) if the file cannot be read, as next() does.
-    explicit LineReader(const std::filesystem::path& path);
+    explicit LineReader(const std::filesystem::path& path) : path_(path), file_(path) {
+        if (!file_) fail_read();
+    }
 
     /// The next line without its line end; empty after the last one. It is valid until the next
     /// call.
-    [[nodiscard]] std::optional<std::string_view> next();
+    [[nodiscard]] std::optional<std::string_view> next() {
+        if (!file_) return std::nullopt;
+        file_.getline(line_.data(), std::ssize(line_));
+        if (file_.bad()) fail_read();
+        if (file_.gcount() == 0) return std::nullopt;
+        ++number_;
+        const std::streamsize ending = ended() ? 1 : 0;
+        return std::string_view(line_.data(), std::size_t(file_.gcount() - ending));
+    }
 
     /// The number of the line that next() returned, from 1.
     [[nodiscard]] std::int64_t number() const { return number_; }
     /// Whether that line has a line end. Without one, the file ends there or the line is longer
     /// than a MiB.
-    [[nodiscard]] bool ended() const { return ended_; }
+    [[nodiscard]] bool ended() const { return file_.good(); }
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
-    void fill();
-    [[noreturn]] void fail_read(int error_number) const;
+    [[noreturn]] void fail_read() const {
+        fail(Exit::io, "{}: cannot be read: {}", path_.string(), system_reason(errno));
+    }
 
     std::filesystem::path path_;
-    std::unique_ptr<std::FILE, Closer> file_;
-    std::vector<char> buffer_;
-    std::string_view unread_;  ///< in buffer_
+    std::ifstream file_;
+    std::vector<char> line_ = std::vector<char>(std::size_t{1} << 20);
     std::int64_t number_ = 0;
-    bool ended_ = false;
 };
-
-constexpr std::size_t buffer_size = std::size_t{1} << 20;
-
-LineReader::LineReader(const std::filesystem::path& path)
-    : path_(path),
-      file_(std::fopen(path.c_str(), "rbe")),
-      buffer_(buffer_size),
-      unread_(buffer_.data(), 0) {
-    if (!file_) fail_read(errno);
-    std::setbuf(file_.get(), nullptr);
-}
-
-std::optional<std::string_view> LineReader::next() {
-    std::size_t end = unread_.find('\n');
-    if (end == unread_.npos) {
-        fill();
-        end = unread_.find('\n');
-    }
-    if (unread_.empty()) return std::nullopt;
-    ++number_;
-    ended_ = end != unread_.npos;
-    const std::string_view line = unread_.substr(0, end);
-    unread_.remove_prefix(ended_ ? end + 1 : unread_.size());
-    return line;
-}
-
-/// Moves what is unread to the start of the buffer and reads until it is full or the file ends.
-void LineReader::fill() {
-    const std::size_t kept = unread_.size();
-    std::memmove(buffer_.data(), unread_.data(), kept);
-    const std::size_t read =
-        std::fread(buffer_.data() + kept, 1, buffer_.size() - kept, file_.get());
-    if (std::ferror(file_.get()) != 0) fail_read(errno);
-    unread_ = {buffer_.data(), kept + read};
-}
-
-void LineReader::fail_read(int error_number) const {
-    fail(Exit::io, "{}: cannot be read: {}", path_.string(), system_reason(error_number));
-}
 
 constexpr std::array<std::string_view, 3> headers{"tick,time,body,x,vx", "tick,time,body,x,y,vx,vy",
                                                   "tick,time,body,x,y,z,vx,vy,vz"};

@@ -30,9 +30,7 @@ std::vector<TradeoffRow> contenders_among(const std::vector<TradeoffRow>& rows) 
         return std::tuple(row.stepping.method, row.stepping.precision, row.stepping.damping);
     };
     for (const TradeoffRow& row : rows) {
-        const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const TradeoffRow& one) {
-            return kind(one) == kind(row);
-        });
+        const bool is_new = std::ranges::find(kept, kind(row), kind) == kept.end();
         if (is_new && kept.size() < most_contenders) kept.push_back(row);
     }
     return kept;
@@ -67,7 +65,7 @@ private:
     /// highest rate that costs no more than the best.
     void consider(const Method& method) {
         const auto& asked = requirements_.methods;
-        if (std::find(asked.begin(), asked.end(), &method) == asked.end()) return;
+        if (std::ranges::find(asked, &method) == asked.end()) return;
         Alternative alternative{.method = &method};
         alternative.why =
             why_not(scene_, Settings{{&method, {search_.rates().back()}, Precision::double_}});
@@ -75,7 +73,7 @@ private:
         if (alternative.why.empty()) {
             const std::vector<TradeoffRow> meeting =
                 requirements_.has_tolerance() ? search_.meeting_rows() : std::vector<TradeoffRow>{};
-            const auto found = std::find_if(meeting.begin(), meeting.end(), is_of);
+            const auto found = std::ranges::find_if(meeting, is_of);
             const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
             alternative.row = search_.measure(
                 found != meeting.end() ? found->stepping : search_.within_cost(method, cost));
@@ -85,10 +83,7 @@ private:
     /// Puts the settings that tie with the cheapest before the others: the most accurate first,
     /// then those of the highest rate.
     void rank() {
-        std::stable_sort(front_.begin(), front_.end(),
-                         [](const TradeoffRow& a, const TradeoffRow& b) {
-                             return a.ns_per_second < b.ns_per_second;
-                         });
+        std::ranges::stable_sort(front_, {}, &TradeoffRow::ns_per_second);
         const TradeoffRow cheapest = front_.front();
         const auto others = std::stable_partition(
             front_.begin(), front_.end(),
@@ -98,9 +93,7 @@ private:
             return std::tuple(std::round(100 * excess(row.judgement, requirements_)),
                               -row.stepping.rate.steps, row.stepping.method);
         };
-        std::stable_sort(front_.begin(), others, [&](const TradeoffRow& a, const TradeoffRow& b) {
-            return merit(a) < merit(b);
-        });
+        std::ranges::stable_sort(front_.begin(), others, {}, merit);
         for (auto row = front_.begin() + 1; row != front_.end(); ++row)
             if (row < others || (in_time(*row) && is_tie(*row, front_.front())))
                 advice_.ties.push_back(*row);
@@ -132,7 +125,7 @@ private:
                 return row.stepping.method == alternative.method;
             };
             return is_of(*advice_.best) || (advice_.runner_up && is_of(*advice_.runner_up)) ||
-                   std::any_of(advice_.ties.begin(), advice_.ties.end(), is_of);
+                   std::ranges::any_of(advice_.ties, is_of);
         };
         std::erase_if(advice_.alternatives, named);
         std::erase_if(advice_.alternatives, [&](const Alternative& alternative) {
@@ -169,10 +162,10 @@ private:
         TradeoffRow threaded = *advice_.best;
         SweepWatch on_threads = watch;
         on_threads.progress = [](double) {};
-        on_threads.ns_per_step = [&](const Scene& scene, const Stepping& choice,
+        on_threads.ns_per_step = [&](const Scene& scene, Settings settings,
                                      std::int64_t per_frame) {
-            return watch.ns_per_step_on_threads(
-                scene, Settings{.stepping = choice, .threads = cores}, per_frame);
+            settings.threads = cores;
+            return watch.ns_per_step(scene, settings, per_frame);
         };
         time_rows(scene_, {&threaded}, rounds, on_threads);
         if (is_tie(threaded, *advice_.best) ||
@@ -193,8 +186,7 @@ private:
                                             : "no method is stable at any of the rates");
             return;
         }
-        std::stable_partition(front_.begin(), front_.end(),
-                              [&](const TradeoffRow& row) { return in_time(row); });
+        std::ranges::stable_partition(front_, [&](const TradeoffRow& row) { return in_time(row); });
         advice_.best = front_.front();
         const Judgement& best = advice_.best->judgement;
         // A few roundings of the largest coordinate.
@@ -206,9 +198,8 @@ private:
                        32 * rounding * reference_.coordinate);
         const auto is_named = [&](const TradeoffRow& row) {
             return row.stepping.method == advice_.best->stepping.method ||
-                   std::any_of(
-                       advice_.ties.begin(), advice_.ties.end(),
-                       [&](const TradeoffRow& tie) { return tie.stepping == row.stepping; });
+                   std::ranges::find(advice_.ties, row.stepping, &TradeoffRow::stepping) !=
+                       advice_.ties.end();
         };
         for (const TradeoffRow& row : front_)
             if (!is_named(row) && !advice_.runner_up) advice_.runner_up = row;
@@ -230,9 +221,8 @@ private:
                     fmt::format("in float, round-off alone moves bodies by {:.3g} m", *rounding));
                 continue;
             }
-            const auto row = std::find_if(nearest.begin(), nearest.end(), [&](const auto& one) {
-                return one.stepping.precision == precision;
-            });
+            const auto row = std::ranges::find(
+                nearest, precision, [](const TradeoffRow& one) { return one.stepping.precision; });
             if (row == nearest.end()) continue;
             const double off = excess(row->judgement, requirements_);
             const std::string objection = off <= 1 ? search_.objection(*row) : "";

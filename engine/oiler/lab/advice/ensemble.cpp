@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/advice/ensemble.hpp"
+#include "oiler/lab/advice/search.hpp"
 
 #include <fmt/core.h>
 

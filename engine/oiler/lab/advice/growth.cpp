@@ -95,22 +95,10 @@ Growth fit_growth(const std::vector<double>& at_steps, double drawn, double unti
 }
 
 const char* describe(Growth::Law law) {
-    switch (law) {
-        case Growth::Law::round_off:
-            return "round-off";
-        case Growth::Law::bounded:
-            return "bounded";
-        case Growth::Law::linear:
-            return "grows with t";
-        case Growth::Law::quadratic:
-            return "grows with t²";
-        case Growth::Law::faster_than_linear:
-            return "grows faster than t";
-        case Growth::Law::exponential:
-            return "grows exponentially";
-        default:
-            return "not fitted";
-    }
+    constexpr const char* words[]{"not fitted",         "round-off",     "bounded",
+                                  "grows with t",       "grows with t²", "grows faster than t",
+                                  "grows exponentially"};
+    return words[static_cast<std::size_t>(law)];
 }
 
 }  // namespace oiler::lab

@@ -148,11 +148,12 @@ void Search::add_candidate(const Method& method, Precision precision,
                         .precision = precision,
                         .damping = damping,
                         .convergence = Convergence(largest_converging_error * reference_.extent)};
-    candidate.first = candidate.further = watch_.ns_per_step(scene_, candidate.at(rate), 1);
+    candidate.first = candidate.further =
+        watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, 1);
     if (std::isnan(candidate.first)) return;
     candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until;
     if (candidate.first < expensive) {
-        const double in_many = watch_.ns_per_step(scene_, candidate.at(rate), many);
+        const double in_many = watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, many);
         candidate.further =
             std::clamp((many * in_many - candidate.first) / (many - 1), 0.0, candidate.first);
     }
@@ -194,10 +195,6 @@ TradeoffRow Search::measure(const Stepping& choice) {
         }
     rows_.push_back(judged(choice, INFINITY));
     return rows_.back();
-}
-
-TradeoffRow Search::try_next(const Candidate& candidate) {
-    return try_choice(candidate.at(rates_[candidate.next]));
 }
 
 bool Search::meets_tolerance(const TradeoffRow& row) {
@@ -267,7 +264,7 @@ void Search::find_cheapest() {
         const double cost = next_cost(*next);
         if (cost > first * (has_second ? rival_cost_ratio : runner_up_cost_ratio)) break;
         report_progress();
-        const TradeoffRow row = try_next(*next);
+        const TradeoffRow row = try_choice(next->at(rates_[next->next]));
         if (!meets_tolerance(row)) {
             advance(*next, row, excess(row.judgement, requirements_));
             continue;
@@ -302,8 +299,7 @@ void Search::try_highest() {
         const int order = std::min(candidate.method->order, requirements_.at_steps ? 8 : 2);
         highest.emplace_back(candidate.error / std::pow(times, order), candidate.at(rate));
     }
-    std::stable_sort(highest.begin(), highest.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::ranges::stable_sort(highest, {}, &std::pair<double, Stepping>::first);
     highest.resize(std::min(highest.size(), most));
     for (const auto& [error, choice] : highest)
         if (!watch_.stopped()) try_choice(choice);
@@ -314,7 +310,7 @@ void Search::find_most_accurate() {
     for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
         if (next_cost(*next) > *requirements_.ns_per_second && !rows_.empty()) break;
         report_progress();
-        const TradeoffRow row = try_next(*next);
+        const TradeoffRow row = try_choice(next->at(rates_[next->next]));
         const Judgement& judgement = row.judgement;
         if (judgement.below_floor()) {
             least = reference_.floor().position;
@@ -352,7 +348,7 @@ void Search::refine_to_time() {
 /// Bisects between a rate that meets the tolerance and the one below. Returns false if there is
 /// none.
 bool Search::refine(const TradeoffRow& row) {
-    const auto found = std::find(rates_.begin(), rates_.end(), row.stepping.rate.steps);
+    const auto found = std::ranges::find(rates_, row.stepping.rate.steps);
     if (found == rates_.begin() && !too_low_) return false;
     std::int64_t low = found == rates_.begin() ? *too_low_ : *std::prev(found);
     std::int64_t high = row.stepping.rate.steps;
@@ -369,9 +365,8 @@ std::vector<TradeoffRow> Search::meeting_rows() {
     std::vector<TradeoffRow> found;
     for (const TradeoffRow& row : rows_)
         if (meets_tolerance(row)) found.push_back(row);
-    std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
-        return cost_of(a.stepping) < cost_of(b.stepping);
-    });
+    std::ranges::stable_sort(found, {},
+                             [&](const TradeoffRow& row) { return cost_of(row.stepping); });
     return found;
 }
 
@@ -381,7 +376,7 @@ std::vector<TradeoffRow> Search::closest_rows() {
         const std::vector<TradeoffRow> rows = rows_by_excess();
         bool has[2]{};
         std::size_t rank = 0;
-        const auto incomplete = std::find_if(rows.begin(), rows.end(), [&](const TradeoffRow& row) {
+        const auto incomplete = std::ranges::find_if(rows, [&](const TradeoffRow& row) {
             bool& known = has[row.stepping.precision == Precision::single ? 0 : 1];
             const bool matters = rank++ < most || !known;
             known = true;
@@ -401,8 +396,8 @@ std::vector<TradeoffRow> Search::rows_by_excess() {
     for (const TradeoffRow& row : rows_)
         if (row.judgement.stable && (requirements_.has_tolerance() || objection(row).empty()))
             found.push_back(row);
-    std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
-        return std::pair(off(a), cost_of(a.stepping)) < std::pair(off(b), cost_of(b.stepping));
+    std::ranges::stable_sort(found, {}, [&](const TradeoffRow& row) {
+        return std::pair(off(row), cost_of(row.stepping));
     });
     return found;
 }

@@ -2,11 +2,52 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "oiler/lab/advice/ensemble.hpp"
+#include "oiler/lab/advice/advise.hpp"
 
 namespace oiler::lab {
+
+/// Perturbed starts of a scene: positions by up to 0.1 % of the extent, velocities by up to 0.1 %
+/// of the speed. A scene at rest is moved by 0.1 % of its size; there, errors up to twice that are
+/// tolerated, because only instability makes them larger.
+class Ensemble {
+public:
+    Ensemble(const Scene& scene, const Reference& reference, const Requirements& requirements,
+             const std::function<bool()>& stopped)
+        : scene_(scene), reference_(reference), requirements_(requirements), stopped_(stopped) {}
+
+    /// Why a setting that meets the tolerances is not advised: a warning before the run, at this
+    /// rate or 5 % below it, or an error from a perturbed start. Empty if it holds.
+    [[nodiscard]] std::string objection(const Stepping& choice);
+
+    /// The number of starts that were judged. Those without a reference that can judge the
+    /// tolerance are left out.
+    [[nodiscard]] std::size_t size() const { return members_.size(); }
+
+private:
+    struct Member {
+        Reference reference;
+        Requirements requirements;
+    };
+    struct Known {
+        Stepping choice;
+        std::string objection;
+    };
+
+    [[nodiscard]] std::string warning(Stepping choice) const;
+    void make_members();
+    [[nodiscard]] std::string judge_members(const Stepping& choice);
+
+    const Scene& scene_;
+    const Reference& reference_;
+    const Requirements& requirements_;
+    const std::function<bool()>& stopped_;
+    std::vector<Member> members_;
+    bool is_made_ = false;
+    std::vector<Known> known_;
+};
 
 /// A method in one precision, as far as a search has tried its rates.
 struct Candidate {
@@ -37,6 +78,7 @@ private:
     [[nodiscard]] double least_factor(const Judgement& judgement, double excess,
                                       const Requirements& requirements) const;
 };
+
 /// Tries settings from the cheapest up and skips rates that the method's order rules out, until it
 /// has a setting that meets the tolerance and a runner-up.
 class Search {
@@ -85,7 +127,6 @@ private:
     Candidate* cheapest_next();
     [[nodiscard]] double next_cost(const Candidate& candidate) const;
     TradeoffRow judged(const Stepping& choice, double enough);
-    TradeoffRow try_next(const Candidate& candidate);
     void advance(Candidate& candidate, const TradeoffRow& row, double excess);
     [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
     /// Reports the share of settings that were tried or ruled out.

@@ -10,7 +10,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
-#include "oiler/core/seconds_since.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/scene/make_world.hpp"
 namespace oiler::lab {
 namespace {
@@ -106,8 +106,7 @@ void leave_out_links(Scene& scene) {
 
 const ForceDescription& describe(std::string_view force) {
     const auto& all = force_descriptions();
-    const auto found = std::find_if(
-        all.begin(), all.end(), [&](const ForceDescription& words) { return words.name == force; });
+    const auto found = std::ranges::find(all, force, &ForceDescription::name);
     require(found != all.end(), "every force has a description in the ledger");
     return *found;
 }

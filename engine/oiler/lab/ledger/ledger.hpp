@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "oiler/core/timing.hpp"
 #include "oiler/scene/scene.hpp"
 #include "oiler/sim/bodies.hpp"
 
@@ -37,7 +39,9 @@ struct LedgerPass {
     double changes_position = unknown;  ///< m, the largest at any sample; NaN for moving
     std::optional<std::string> diverged{};  ///< how the scene diverges without it
 
-    [[nodiscard]] bool is_within_spread() const;
+    [[nodiscard]] bool is_within_spread() const {
+        return std::abs(saves_percent) <= spread_percent;
+    }
 };
 
 /// The costs of a scene, memory and time, and the effect of each of its parts.
@@ -77,5 +81,20 @@ using StepTimer = std::function<double(Bodies&, const Method&, const Steps&)>;
 [[nodiscard]] Ledger ledger(
     const Scene& scene, std::int64_t steps, const LedgerProgress& progress = [](double) {},
     const StepTimer& timer = cpu_seconds);
+
+struct Timing {
+    std::int64_t rounds = 0;
+    std::int64_t steps_per_turn = 0;  ///< timed, in one call
+    Median seconds{};                 ///< of a turn of the first scene
+    std::vector<Median> ratios{};     ///< of the others' times to the first's in the same round
+};
+
+/// Times the scenes in many short rounds, within the first `steps` steps of the first scene. In
+/// each round every scene takes a turn; the scene that begins changes. Ratios within a round do not
+/// change if other load slows the whole machine. All turns of a round begin with a state of the
+/// first scene's run: in a run that stays at rest, implicit methods take fewer iterations. In each
+/// turn the first step prepares data and is not timed.
+[[nodiscard]] Timing race(const std::vector<const Scene*>& scenes, std::int64_t steps,
+                          const StepTimer& timer, const LedgerProgress& progress);
 
 }  // namespace oiler::lab

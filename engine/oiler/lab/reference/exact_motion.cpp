@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace oiler::lab {
 namespace {
@@ -43,17 +42,6 @@ Influence influence_on(const Bodies& bodies, std::size_t row) {
     });
     return influence;
 }
-
-State3 state_at(const LinearMotion& motion, Real t) { return motion.at(t); }
-
-State3 state_at(const OrbitMotion& motion, Real t) {
-    const State3 state = motion.ellipse.at(t);
-    return {state.x + motion.centre, state.v};
-}
-
-State3 state_at(const LandingMotion& motion, Real t) { return motion.at(t); }
-
-State3 state_at(const GivenMotion& motion, Real t) { return motion(t); }
 
 double length(const Real3& a) { return static_cast<double>(std::sqrt(squared_length(a))); }
 
@@ -95,16 +83,17 @@ double snap_of(const GivenMotion&, const State3&, const State3&, Real) { return 
 
 /// The remainder of Hermite's cubic over h s: h⁴/384 times the fourth derivative.
 template <class Any>
-double bend_of(const Any& motion, const State3& first, const State3& last, Real from, Real to) {
+double cubic_error_of(const Any& motion, const State3& first, const State3& last, Real from,
+                      Real to) {
     const auto h = static_cast<double>(to - from);
     return h * h * h * h / 384 * snap_of(motion, first, last, to - from);
 }
 
 /// Across an impact: the body and the cubic each stay within that distance of the first state.
-double bend_of(const LandingMotion& motion, const State3& first, const State3& last, Real from,
-               Real to) {
+double cubic_error_of(const LandingMotion& motion, const State3& first, const State3& last,
+                      Real from, Real to) {
     if (const LinearMotion* const piece = motion.piece(from, to))
-        return bend_of(*piece, first, last, from, to);
+        return cubic_error_of(*piece, first, last, from, to);
     return 3 * motion.fastest() * static_cast<double>(to - from);
 }
 
@@ -149,16 +138,21 @@ std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, Real
 
 }  // namespace
 
+State3 OrbitMotion::at(Real t) const {
+    const State3 state = ellipse.at(t);
+    return {state.x + centre, state.v};
+}
+
 State3 ExactMotion::operator()(Real t) const {
-    return std::visit([&](const auto& motion) { return state_at(motion, t); }, motion_);
+    return std::visit([&](const auto& motion) { return motion.at(t); }, motion_);
 }
 
-double ExactMotion::bend(const State3& first, const State3& last, Real from, Real to) const {
-    return std::visit([&](const auto& motion) { return bend_of(motion, first, last, from, to); },
-                      motion_);
+double ExactMotion::cubic_error(const State3& first, const State3& last, Real from, Real to) const {
+    return std::visit(
+        [&](const auto& motion) { return cubic_error_of(motion, first, last, from, to); }, motion_);
 }
 
-double ExactMotion::steady_bend() const {
+double ExactMotion::steady_cubic_error() const {
     return std::visit([](const auto& motion) { return steady_snap(motion) / 384; }, motion_);
 }
 
@@ -180,14 +174,12 @@ std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies, doub
     return motions;
 }
 
-namespace {}  // namespace
-
 ExactMotions::ExactMotions(std::vector<ExactMotion> motions) : motions_(std::move(motions)) {
     std::map<std::pair<Real, Real>, std::size_t> groups;
     for (std::size_t row = 0; row < motions_.size(); ++row) {
         const LinearMotion* const motion = motions_[row].linear();
         group_.push_back(alone);
-        steady_bends_.push_back(motions_[row].steady_bend());
+        steady_cubic_errors_.push_back(motions_[row].steady_cubic_error());
         if (!motion) continue;
         const auto [at, is_new] =
             groups.try_emplace(std::pair(motion->k, motion->c), first_of_group_.size());
@@ -255,7 +247,7 @@ private:
     std::vector<Ellipse<Real>::Solution> solutions_;  ///< of the latest tick, for orbits
 };
 
-Motion::Walk ExactMotions::walk(std::int64_t rate) const {
+Motion::AtTicks ExactMotions::at_ticks(std::int64_t rate) const {
     return [blocks = Blocks(*this, rate)](std::int64_t tick, std::span<State3> states) mutable {
         blocks.write(tick, states);
     };

@@ -19,10 +19,15 @@ struct OrbitMotion {
     Real3 centre{};         ///< m
     Ellipse<Real> ellipse;  ///< around the centre
     Real nearest = 0;       ///< m, distance of the pericentre
+
+    /// The state t s after the start.
+    [[nodiscard]] State3 at(Real t) const;
 };
 
 /// A motion that is given as a function of time.
-using GivenMotion = std::function<State3(Real t)>;
+struct GivenMotion {
+    std::function<State3(Real t)> at;
+};
 
 /// The closed form of a body's motion.
 class ExactMotion {
@@ -32,16 +37,17 @@ public:
     ExactMotion(LandingMotion motion) : motion_(std::move(motion)) {}
     template <class F>
     requires std::invocable<const F&, Real> ExactMotion(F motion)
-        : motion_(GivenMotion(std::move(motion))) {}
+        : motion_(GivenMotion{std::move(motion)}) {}
 
     /// Position and velocity t seconds after the start.
     State3 operator()(Real t) const;
     [[nodiscard]] const LinearMotion* linear() const { return std::get_if<LinearMotion>(&motion_); }
     [[nodiscard]] const OrbitMotion* orbit() const { return std::get_if<OrbitMotion>(&motion_); }
-    /// See Motion::bend; 0 for a given motion.
-    [[nodiscard]] double bend(const State3& first, const State3& last, Real from, Real to) const;
-    /// A bound of all bends over 1 s, of the whole motion; those over h s are h⁴ times that.
-    [[nodiscard]] double steady_bend() const;
+    /// See Motion::cubic_error; 0 for a given motion.
+    [[nodiscard]] double cubic_error(const State3& first, const State3& last, Real from,
+                                     Real to) const;
+    /// A bound of all cubic errors over 1 s, of the whole motion; those over h s are h⁴ times that.
+    [[nodiscard]] double steady_cubic_error() const;
     /// See Motion::enclosure.
     [[nodiscard]] Ball enclosure(const State3& state) const;
 
@@ -65,14 +71,14 @@ public:
     [[nodiscard]] std::size_t bodies() const override { return motions_.size(); }
     [[nodiscard]] State3 at(std::size_t row, Real t) const override { return motions_[row](t); }
     void all_at(Real t, std::span<State3> states) const override;
-    [[nodiscard]] Walk walk(std::int64_t rate) const override;
-    [[nodiscard]] double bend(std::size_t row, const State3& first, const State3& last, Real from,
-                              Real to) const override {
-        return motions_[row].bend(first, last, from, to);
+    [[nodiscard]] AtTicks at_ticks(std::int64_t rate) const override;
+    [[nodiscard]] double cubic_error(std::size_t row, const State3& first, const State3& last,
+                                     Real from, Real to) const override {
+        return motions_[row].cubic_error(first, last, from, to);
     }
-    [[nodiscard]] double bend_of_any(std::size_t row, Real h) const override {
+    [[nodiscard]] double largest_cubic_error(std::size_t row, Real h) const override {
         const auto length = static_cast<double>(h);
-        return length * length * length * length * steady_bends_[row];
+        return length * length * length * length * steady_cubic_errors_[row];
     }
     [[nodiscard]] Ball enclosure(std::size_t row, const State3& state) const override {
         return motions_[row].enclosure(state);
@@ -83,7 +89,7 @@ private:
     static constexpr std::size_t alone = static_cast<std::size_t>(-1);
 
     std::vector<ExactMotion> motions_;
-    std::vector<double> steady_bends_;  ///< see ExactMotion::steady_bend
+    std::vector<double> steady_cubic_errors_;  ///< see ExactMotion::steady_cubic_error
     /// The first body of each group with equal k and c, and the group of each body.
     std::vector<std::size_t> first_of_group_;
     std::vector<std::size_t> group_;

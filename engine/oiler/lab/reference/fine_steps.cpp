@@ -34,7 +34,7 @@ bool is_damped_along_lines(const Scene& scene) {
 /// Whether friction may turn with a body's velocity.
 bool slides_in_two_directions(const Scene& scene) {
     const auto brakes = [](const ScenePlane& one) { return one.plane.friction > 0; };
-    return scene.axes == 3 && std::any_of(scene.planes.begin(), scene.planes.end(), brakes);
+    return scene.axes == 3 && std::ranges::any_of(scene.planes, brakes);
 }
 
 /// A method of the highest order that holds on the scene, with a small error constant.
@@ -211,9 +211,8 @@ private:
 };
 
 std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double most) {
-    return std::count_if(
-        uncertainties.begin(), uncertainties.end(),
-        [&](const Uncertainty& uncertainty) { return uncertainty.position <= most; });
+    return std::ranges::count_if(
+        uncertainties, [&](double position) { return position <= most; }, &Uncertainty::position);
 }
 
 /// The error that is enough. A loose tolerance must not make a scene look chaotic.

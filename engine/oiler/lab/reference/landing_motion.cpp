@@ -243,8 +243,7 @@ LandingMotion::LandingMotion(std::vector<Piece> pieces) : pieces_(std::move(piec
 
 std::size_t LandingMotion::index_at(Real t) const {
     const auto later =
-        std::upper_bound(pieces_.begin() + 1, pieces_.end(), t,
-                         [](Real time, const Piece& piece) { return time < piece.from; });
+        std::ranges::upper_bound(pieces_.begin() + 1, pieces_.end(), t, {}, &Piece::from);
     return static_cast<std::size_t>(later - pieces_.begin()) - 1;
 }
 

@@ -41,18 +41,18 @@ public:
     }
     /// A function that writes the states of all bodies at the time tick/rate, fastest for
     /// consecutive ticks. It refers to the motion.
-    using Walk = std::function<void(std::int64_t tick, std::span<State3> states)>;
-    [[nodiscard]] virtual Walk walk(std::int64_t rate) const {
+    using AtTicks = std::function<void(std::int64_t tick, std::span<State3> states)>;
+    [[nodiscard]] virtual AtTicks at_ticks(std::int64_t rate) const {
         return [this, rate](std::int64_t tick, std::span<State3> states) {
             all_at(static_cast<Real>(tick) / static_cast<Real>(rate), states);
         };
     }
     /// A bound of the distance (m) of a body, between `from` and `to`, from the cubic through its
     /// states `first` and `last` at both times.
-    [[nodiscard]] virtual double bend(std::size_t row, const State3& first, const State3& last,
-                                      Real from, Real to) const = 0;
-    /// A bound of the bend over any `h` s of the run, if one is known without the state.
-    [[nodiscard]] virtual double bend_of_any(std::size_t, Real) const {
+    [[nodiscard]] virtual double cubic_error(std::size_t row, const State3& first,
+                                             const State3& last, Real from, Real to) const = 0;
+    /// A bound of cubic_error over any `h` s of the run, if one is known without the state.
+    [[nodiscard]] virtual double largest_cubic_error(std::size_t, Real) const {
         return std::numeric_limits<double>::infinity();
     }
     /// A ball around the body from a time on at which it has this state.

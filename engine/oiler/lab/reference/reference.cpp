@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "oiler/core/error.hpp"
-#include "oiler/lab/reference/fastest_motion.hpp"
 #include "oiler/lab/reference/fine_steps.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/scales.hpp"
@@ -66,10 +65,9 @@ double largest_difference(const Motion& motion, const Trajectory& trajectory,
 
 /// The number of samples before 100 × the uncertainty exceeds `tolerable`.
 std::int64_t count_usable(const std::vector<Uncertainty>& uncertainties, double tolerable) {
-    const auto bad = std::find_if(uncertainties.begin(), uncertainties.end(),
-                                  [&](const Uncertainty& uncertainty) {
-                                      return !(margin * uncertainty.position <= tolerable);
-                                  });
+    const auto bad = std::ranges::find_if(uncertainties, [&](const Uncertainty& uncertainty) {
+        return !(margin * uncertainty.position <= tolerable);
+    });
     return std::max<std::int64_t>(1, bad - uncertainties.begin());
 }
 
@@ -85,13 +83,7 @@ std::vector<double> times_of(const SampleTimes& samples, double until) {
 class ReferenceBuilder {
 public:
     ReferenceBuilder(const Scene& scene, const ReferenceEffort& effort, const Perturbation& start)
-        : scene_(scene),
-          effort_(effort),
-          start_(make_world(
-                     scene,
-                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
-                     start)
-                     .bodies()) {
+        : scene_(scene), effort_(effort), start_(make_exact_bodies(scene, start)) {
         require_measurable(scene);
         reference_.start = start;
         reference_.conservative = is_conservative(start_);
@@ -236,8 +228,7 @@ private:
     }
     [[nodiscard]] std::int64_t count_followed(double most) const {
         if (reference_.closed_form) return reference_.samples.count;
-        return std::count_if(round_off_.begin(), round_off_.end(),
-                             [&](double error) { return error <= most; });
+        return std::ranges::count_if(round_off_, [&](double error) { return error <= most; });
     }
 
     /// Shortens the meaningful time until the scales of what remains do not shorten it further.
@@ -339,11 +330,7 @@ Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
 
 TrueEnergy::TrueEnergy(const Scene& scene, const Reference& reference)
     : reference_(reference),
-      bodies_(
-          make_world(scene,
-                     Settings{{scene.stepping.method, scene.stepping.rate, Precision::extended}},
-                     reference.start)
-              .bodies()),
+      bodies_(make_exact_bodies(scene, reference.start)),
       states_(bodies_.size()),
       at_start_(bodies_.energy().total()) {}
 

@@ -98,9 +98,8 @@ public:
                 std::span<const Kink> kinks) {
         // A node so close to a kink would be multiplied by large weights.
         constexpr Real close = 1e-3L;
-        const auto later = std::find_if(kinks.begin(), kinks.end(), [&](const Kink& kink) {
-            return window.place_of(kink) > window.place;
-        });
+        const auto later = std::ranges::find_if(
+            kinks, [&](const Kink& kink) { return window.place_of(kink) > window.place; });
         Real from = -1;
         Real to = static_cast<Real>(most_nodes);
         if (later != kinks.begin()) {
@@ -196,10 +195,8 @@ double fastest_of(const Trajectory& trajectory) {
 std::span<const Kink> Trajectory::kinks_between(std::size_t row, Real from, Real to) const {
     if (kinks.empty()) return {};
     const std::vector<Kink>& all = kinks[row];
-    const auto first = std::upper_bound(
-        all.begin(), all.end(), from, [](Real time, const Kink& kink) { return time < kink.time; });
-    const auto last = std::lower_bound(
-        first, all.end(), to, [](const Kink& kink, Real time) { return kink.time < time; });
+    const auto first = std::ranges::upper_bound(all, from, {}, &Kink::time);
+    const auto last = std::ranges::lower_bound(first, all.end(), to, {}, &Kink::time);
     return {first, last};
 }
 
@@ -236,8 +233,8 @@ void SampledMotion::all_at(Real t, std::span<State3> states) const {
         states[row] = state_in(window, smooth, trajectory_, row);
 }
 
-double SampledMotion::bend(std::size_t row, const State3&, const State3&, Real from,
-                           Real to) const {
+double SampledMotion::cubic_error(std::size_t row, const State3&, const State3&, Real from,
+                                  Real to) const {
     // The body and the cubic each stay within that distance of the first state.
     if (!trajectory_.kinks_between(row, from, to).empty())
         return 3 * fastest_ * static_cast<double>(to - from);

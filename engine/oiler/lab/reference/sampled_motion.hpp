@@ -48,8 +48,8 @@ public:
     void all_at(Real t, std::span<State3> states) const override;
     /// A cubic over 1/8 of the shortest period, or between two samples, follows a motion without
     /// kinks.
-    [[nodiscard]] double bend(std::size_t row, const State3&, const State3&, Real from,
-                              Real to) const override;
+    [[nodiscard]] double cubic_error(std::size_t row, const State3&, const State3&, Real from,
+                                     Real to) const override;
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 
 private:

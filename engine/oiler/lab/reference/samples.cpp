@@ -7,7 +7,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/random.hpp"
-#include "oiler/lab/reference/fastest_motion.hpp"
+#include "oiler/lab/reference/scales.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -36,6 +36,11 @@ World make_world(const Scene& scene, const Settings& settings, const Perturbatio
         world.set_velocity(entity, moved(world.velocity(entity), perturbation.velocity));
     }
     return world;
+}
+
+Bodies make_exact_bodies(const Scene& scene, const Perturbation& perturbation) {
+    const Stepping exact{scene.stepping.method, scene.stepping.rate, Precision::extended};
+    return make_world(scene, Settings{exact}, perturbation).bodies();
 }
 
 void require_measurable(const Scene& scene) {

@@ -19,6 +19,9 @@ struct Perturbation {
 [[nodiscard]] World make_world(const Scene& scene, const Settings& settings,
                                const Perturbation& perturbation);
 
+/// The bodies of that world in long double.
+[[nodiscard]] Bodies make_exact_bodies(const Scene& scene, const Perturbation& perturbation);
+
 /// The times at which a run is sampled: `per_second` per second, from 0 s to the end.
 struct SampleTimes {
     std::int64_t per_second = 60;

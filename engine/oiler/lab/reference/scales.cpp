@@ -4,27 +4,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/stability/oscillations.hpp"
+
 namespace oiler::lab {
 namespace {
 
-/// Whether a force takes energy from a body or, if it depends on time, gives it energy.
-struct Damped {
-    template <class Force>
-    bool operator()(const Force& force) const {
-        if constexpr (DependsOnTime<Force>)
-            return acts(force);
-        else if constexpr (requires { force.damping; })
-            return force.damping != 0;
-        else if constexpr (requires { force.coefficient; })
-            return force.coefficient != 0;
-        else
-            return false;
-    }
-};
-
+/// Whether a force takes energy from the body or, if it depends on time, gives it energy.
 bool is_damped(const GivenForces& forces) {
-    return std::apply([](const auto&... force) { return ((force && Damped()(*force)) || ...); },
-                      forces);
+    bool damped = false;
+    for_each_given(forces, [&]<class Force>(const Force& force) {
+        if constexpr (DependsOnTime<Force>)
+            damped = damped || acts(force);
+        else if constexpr (requires { force.damping; })
+            damped = damped || force.damping != 0;
+        else if constexpr (requires { force.coefficient; })
+            damped = damped || force.coefficient != 0;
+    });
+    return damped;
+}
+
+/// The rate of decay by drag, at the present speed through the air or at the terminal speed, 1/s.
+double dragged(const AirDrag<double, 3>& drag, const Vec3& velocity, double gravity) {
+    return std::max(2 * drag.coefficient * length(velocity - drag.velocity),
+                    2 * std::sqrt(drag.coefficient * gravity));
+}
+
+double fastest_of(const GivenForces& forces, const State<double, 3>& state) {
+    const auto& gravity = std::get<std::optional<Gravity>>(forces);
+    const double g = gravity ? length(gravity->acceleration) : 0;
+    double fastest = 0;
+    for_each_given(forces, [&]<class Force>(const Force& force) {
+        if constexpr (DragsInAir<Force>)
+            fastest = std::max(fastest, dragged(force.air_drag(), state.v, g));
+        else if constexpr (!Linear<Force> && !LineSpring<Force>)
+            fastest = std::max(fastest, force.fastest(state));
+    });
+    return fastest;
 }
 
 }  // namespace
@@ -67,7 +82,7 @@ std::vector<double> probe_times(double until, double fastest, std::size_t bodies
         times.push_back(first * std::pow(until / first, share));
         times.push_back(until * (share + offset / static_cast<double>(count / 2)));
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times;
 }
 
@@ -83,6 +98,18 @@ bool is_conservative(const Bodies& bodies) {
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (bodies.contact(row)) return std::ranges::all_of(bodies.planes(), lossless);
     return true;
+}
+
+double fastest_motion(const Bodies& bodies) {
+    double fastest = 0;
+    for (const BodyOscillation& oscillation : oscillations(bodies, false))
+        fastest =
+            std::max({fastest, std::sqrt(std::abs(oscillation.of.k)), std::abs(oscillation.of.c)});
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        for (std::size_t row = 0; row < bodies.size(); ++row)
+            fastest = std::max(fastest, fastest_of(bodies.forces_per_mass(row, index),
+                                                   {bodies.position(row), bodies.velocity(row)}));
+    return fastest;
 }
 
 }  // namespace oiler::lab

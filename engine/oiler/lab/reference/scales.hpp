@@ -28,4 +28,9 @@ struct Scales {
 /// Whether no force on the bodies takes or gives energy.
 [[nodiscard]] bool is_conservative(const Bodies& bodies);
 
+/// An upper bound of the angular frequencies and rates of decay of the bodies' motion, 1/s: of
+/// springs, links, drag at the present and at the terminal speed, and of attractors at the closest
+/// point of an orbit around one attractor, else at the present distance.
+[[nodiscard]] double fastest_motion(const Bodies& bodies);
+
 }  // namespace oiler::lab

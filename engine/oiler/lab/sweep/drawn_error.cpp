@@ -12,7 +12,7 @@ using Offset = Vec<double, 3>;
 
 /// A part of a step is divided while the cubic through its ends may deviate by more than this
 /// fraction of the largest distance.
-constexpr double tolerable_bend = 0.01;
+constexpr double tolerable_cubic_error = 0.01;
 constexpr int points_of_line = 16;
 
 Offset narrowed(const Real3& a) {
@@ -63,11 +63,12 @@ void DrawnError::add_part(const DrawnStep& step, const Part& part) {
     const Offset p = narrowed(part.true_from.v) * h - chord;
     const Offset q = narrowed(part.true_to.v) * h - chord;
     const double bulge = ends + std::max(length(p), length(q)) / 4;
-    if (bulge + motion_.bend_of_any(step.row, part.to - part.from) <= most_) return;
-    const double bend = motion_.bend(step.row, part.true_from, part.true_to, part.from, part.to);
-    if (bulge + bend <= most_) return;
-    if (bend <= tolerable_bend * std::max(most_, least_)) return sample(part, p, q);
-    if (!may_exceed(step, part, most_ * (1 + tolerable_bend))) return;
+    if (bulge + motion_.largest_cubic_error(step.row, part.to - part.from) <= most_) return;
+    const double cubic_error =
+        motion_.cubic_error(step.row, part.true_from, part.true_to, part.from, part.to);
+    if (bulge + cubic_error <= most_) return;
+    if (cubic_error <= tolerable_cubic_error * std::max(most_, least_)) return sample(part, p, q);
+    if (!may_exceed(step, part, most_ * (1 + tolerable_cubic_error))) return;
     const Real middle = (part.from + part.to) / 2;
     if (!(middle > part.from && middle < part.to)) return;
     const State3 there = motion_.at(step.row, middle);
@@ -87,24 +88,24 @@ bool DrawnError::may_exceed(const DrawnStep& step, const Part& part, double most
 void DrawnError::sample(const Part& part, const Offset& p, const Offset& q) {
     for (int point = 1; point < points_of_line; ++point) {
         const double s = static_cast<double>(point) / points_of_line;
-        const Offset bent = (p * (1 - s) - q * s) * (s * (1 - s));
-        const Offset offset = part.offset_from * (1 - s) + part.offset_to * s - bent;
+        const Offset cubic = (p * (1 - s) - q * s) * (s * (1 - s));
+        const Offset offset = part.offset_from * (1 - s) + part.offset_to * s - cubic;
         most_ = larger(most_, length(offset));
     }
 }
 
 double least_drawn_error(const Motion& motion, std::int64_t rate, double until, double enough) {
-    const Motion::Walk walk = motion.walk(2 * rate);
+    const Motion::AtTicks at_ticks = motion.at_ticks(2 * rate);
     std::vector<State3> from(motion.bodies());
     std::vector<State3> middle = from;
     std::vector<State3> to = from;
-    walk(0, to);
+    at_ticks(0, to);
     const auto steps = static_cast<std::int64_t>(std::floor(until * static_cast<double>(rate)));
     double least = 0;
     for (std::int64_t step = 0; step < steps && least <= enough; ++step) {
         from.swap(to);
-        walk(2 * step + 1, middle);
-        walk(2 * step + 2, to);
+        at_ticks(2 * step + 1, middle);
+        at_ticks(2 * step + 2, to);
         for (std::size_t row = 0; row < from.size(); ++row)
             least =
                 std::max(least, distance(middle[row].x, (from[row].x + to[row].x) * Real(0.5)) / 2);

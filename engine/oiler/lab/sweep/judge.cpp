@@ -59,7 +59,7 @@ public:
           options_(options),
           world_(make_world(scene, settings, reference.start)),
           true_energy_(scene, reference),
-          walk_(reference.motion->walk(settings.stepping.rate.steps)),
+          true_at_(reference.motion->at_ticks(settings.stepping.rate.steps)),
           floor_(reference.floor()),
           drawn_(*reference.motion, floor_.position, options.display),
           crossings_(reference.oscillation),
@@ -113,7 +113,7 @@ private:
     }
     void read() {
         for (std::size_t row = 0; row < run_.size(); ++row) run_[row] = world_.bodies().state(row);
-        walk_(world_.tick(), true_);
+        true_at_(world_.tick(), true_);
     }
     bool step(double until) {
         const Real from = time();
@@ -144,7 +144,7 @@ private:
     const JudgeOptions& options_;
     World world_;
     TrueEnergy true_energy_;
-    Motion::Walk walk_;
+    Motion::AtTicks true_at_;
     Uncertainty floor_;
     DrawnError drawn_;
     Crossings crossings_;

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
-#include "oiler/core/median.hpp"
-#include "oiler/core/seconds_since.hpp"
+#include "oiler/core/timing.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 
 namespace oiler::lab {
@@ -124,11 +123,11 @@ double ns_per_second(const Scene& scene, const Stepping& choice, const SweepWatc
     const double in_frame = rate / frames_per_second;
     const double few = std::floor(in_frame);
     if (few >= static_cast<double>(most_steps))
-        return rate * watch.ns_per_step(scene, choice, most_steps);
+        return rate * watch.ns_per_step(scene, Settings{choice}, most_steps);
     const auto frame = [&](double steps) {
-        return steps == 0
-                   ? 0
-                   : steps * watch.ns_per_step(scene, choice, static_cast<std::int64_t>(steps));
+        return steps == 0 ? 0
+                          : steps * watch.ns_per_step(scene, Settings{choice},
+                                                      static_cast<std::int64_t>(steps));
     };
     const double share = in_frame - few;
     const double more = share > 0 ? share * frame(few + 1) : 0;

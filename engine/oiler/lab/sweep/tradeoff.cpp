@@ -16,31 +16,28 @@
 namespace oiler::lab {
 namespace {
 
-class SeriesRun {
-public:
-    SeriesRun(RateSeries& series, const Scene& scene, const Reference& reference,
-              const SweepPlan& plan, const RunWork& work, const std::vector<std::int64_t>& rates)
-        : series_(series),
-          scene_(scene),
-          reference_(reference),
-          plan_(plan),
-          work_(work),
-          rates_(rates) {}
+struct SeriesRun {
+    RateSeries& series;
+    const Scene& scene;
+    const Reference& reference;
+    const SweepPlan& plan;
+    const RunWork& work;
+    const std::vector<std::int64_t>& rates;
 
     /// A stopped call leaves the series unchanged.
     void run(const std::function<bool()>& stopped) {
         std::vector<TradeoffRow> rows;
-        std::string end = why_not(scene_, Settings{choice(rates_.back())});
-        const double work_per_hertz = work_.per_step(*series_.method) * reference_.meaningful_until;
-        Convergence convergence(largest_converging_error * reference_.extent);
-        for (const std::int64_t rate : rates_) {
+        std::string end = why_not(scene, Settings{choice(rates.back())});
+        const double work_per_hertz = work.per_step(*series.method) * reference.meaningful_until;
+        Convergence convergence(largest_converging_error * reference.extent);
+        for (const std::int64_t rate : rates) {
             if (!end.empty()) break;
-            if (work_per_hertz * static_cast<double>(rate) > plan_.most_work) {
+            if (work_per_hertz * static_cast<double>(rate) > plan.most_work) {
                 end = "a run at higher rates is too much work";
                 break;
             }
             rows.push_back({.stepping = choice(rate),
-                            .judgement = judge(scene_, Settings{choice(rate)}, reference_,
+                            .judgement = judge(scene, Settings{choice(rate)}, reference,
                                                {.stopped = stopped})});
             if (stopped()) return;
             const Judgement& judgement = rows.back().judgement;
@@ -48,9 +45,9 @@ public:
             convergence.take(judgement.position_error);
             end = why_ended(rows.back(), convergence, stopped);
         }
-        series_.rows = std::move(rows);
-        series_.end = end.empty() ? "the highest rate of the sweep was reached" : end;
-        series_.done = true;
+        series.rows = std::move(rows);
+        series.end = end.empty() ? "the highest rate of the sweep was reached" : end;
+        series.done = true;
     }
 
 private:
@@ -62,7 +59,7 @@ private:
         if (only_lines(judgement))
             return "smaller errors are those of the drawn lines, equal for all methods";
         if (!convergence.stalled()) return "";
-        if (is_round_off(scene_, row, reference_, stopped))
+        if (is_round_off(scene, row, reference, stopped))
             return "round-off keeps errors from falling";
         convergence.restart();
         return "";
@@ -71,19 +68,12 @@ private:
     [[nodiscard]] bool only_lines(const Judgement& judgement) const {
         constexpr double exact = 1e-6;  // of the extent
         constexpr double little = 0.01;
-        return judgement.position_error < exact * reference_.extent &&
+        return judgement.position_error < exact * reference.extent &&
                !(judgement.step_error > little * judgement.position_error);
     }
     [[nodiscard]] Stepping choice(std::int64_t rate) const {
-        return {series_.method, {rate}, series_.precision};
+        return {series.method, {rate}, series.precision};
     }
-
-    RateSeries& series_;
-    const Scene& scene_;
-    const Reference& reference_;
-    const SweepPlan& plan_;
-    const RunWork& work_;
-    const std::vector<std::int64_t>& rates_;
 };
 
 /// Calls task(i, stopped) for each i below `count`. If one throws, all stop and the exception is
@@ -135,14 +125,10 @@ Machine this_machine() {
     return machine;
 }
 
-bool Tradeoff::complete() const {
-    return std::all_of(all_series.begin(), all_series.end(),
-                       [](const RateSeries& series) { return series.done; });
-}
+bool Tradeoff::complete() const { return std::ranges::all_of(all_series, &RateSeries::done); }
 
 bool Tradeoff::timed() const {
-    const auto all = rows();
-    return std::all_of(all.begin(), all.end(), [](const TradeoffRow* row) {
+    return std::ranges::all_of(rows(), [](const TradeoffRow* row) {
         return !row->judgement.stable || !std::isnan(row->ns_per_second);
     });
 }
@@ -180,9 +166,8 @@ std::vector<const TradeoffRow*> pareto(const Tradeoff& tradeoff, Cost cost) {
     const auto error = [](const TradeoffRow* row) {
         return row->judgement.below_floor() ? 0 : row->judgement.position_error;
     };
-    std::stable_sort(rows.begin(), rows.end(), [&](const TradeoffRow* a, const TradeoffRow* b) {
-        return std::pair(cost(*a), error(a)) < std::pair(cost(*b), error(b));
-    });
+    std::ranges::stable_sort(
+        rows, {}, [&](const TradeoffRow* row) { return std::pair(cost(*row), error(row)); });
     std::vector<const TradeoffRow*> front;
     for (const TradeoffRow* row : rows)
         if (front.empty() || error(row) < error(front.back())) front.push_back(row);
@@ -239,7 +224,7 @@ void sweep(Tradeoff& tradeoff, const Scene& scene, const Reference& reference,
     std::mutex mutex;
     on_all_cores(open.size(), watch.stopped, [&](std::size_t at, const auto& stopped) {
         RateSeries series = tradeoff.all_series[open[at]];
-        SeriesRun(series, scene, reference, plan, work, rates).run(stopped);
+        SeriesRun{series, scene, reference, plan, work, rates}.run(stopped);
         if (!series.done) return;
         const std::lock_guard lock(mutex);
         done += work.per_step(*series.method);

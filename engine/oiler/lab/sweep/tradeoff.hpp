@@ -147,13 +147,8 @@ struct SweepWatch {
     std::function<bool()> stopped = [] { return false; };
     std::function<void(const Tradeoff&)> series_done = [](const Tradeoff&) {};
     /// Measures all costs. Tests replace it.
-    std::function<double(const Scene&, const Stepping&, std::int64_t per_frame)> ns_per_step =
-        [](const Scene& scene, const Stepping& choice, std::int64_t per_frame) {
-            return lab::ns_per_step(scene, Settings{choice}, per_frame);
-        };
-    /// The same on several threads.
-    std::function<double(const Scene&, const Settings&, std::int64_t per_frame)>
-        ns_per_step_on_threads = lab::ns_per_step;
+    std::function<double(const Scene&, const Settings&, std::int64_t per_frame)> ns_per_step =
+        lab::ns_per_step;
     std::function<double(const Scene&, const Stepping&)> ns_per_step_together =
         lab::ns_per_step_together;
 };

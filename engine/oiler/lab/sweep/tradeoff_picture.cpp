@@ -67,8 +67,7 @@ std::vector<const TradeoffRow*> rows_of(const Tradeoff& tradeoff, const Method* 
 }
 
 void add_if_new(std::vector<const Method*>& methods, const Method* method) {
-    if (methods.size() < most_methods &&
-        std::find(methods.begin(), methods.end(), method) == methods.end())
+    if (methods.size() < most_methods && std::ranges::find(methods, method) == methods.end())
         methods.push_back(method);
 }
 
@@ -293,8 +292,7 @@ std::vector<const Method*> notable_methods(const Tradeoff& tradeoff) {
     std::vector<std::pair<int, const Method*>> order;
     for (const Method& method : oiler::methods())
         if (best.contains(&method)) order.emplace_back(-best[&method], &method);
-    std::stable_sort(order.begin(), order.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::ranges::stable_sort(order, {}, &std::pair<int, const Method*>::first);
     for (const auto& [count, method] : order)
         if (has_rows(method)) add_if_new(methods, method);
     return methods;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -18,7 +19,7 @@ struct Median {
 [[nodiscard]] inline Median median_of(std::vector<double> values) {
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
+    std::ranges::sort(values);
     const auto quantile = [&](double share) {
         const double at = share * static_cast<double>(values.size() - 1);
         const auto low = static_cast<std::size_t>(at);
@@ -26,6 +27,10 @@ struct Median {
         return values[low] + (high - values[low]) * (at - static_cast<double>(low));
     };
     return {quantile(0.5), (quantile(0.75) - quantile(0.25)) / 2};
+}
+
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace oiler

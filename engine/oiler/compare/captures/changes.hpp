@@ -2,11 +2,21 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "oiler/capture/frame_record.hpp"
 #include "oiler/core/size.hpp"
 #include "oiler/picture/picture.hpp"
 
 namespace oiler {
+
+/// Describes how the bodies of a frame differ: the body and coordinate with the largest distance in
+/// units in the last place (ulp) of `precision`, "float" or "double". Names bodies that were added,
+/// removed or swapped. Empty if neither a bit nor the order differs.
+[[nodiscard]] std::string describe_state_change(const std::vector<BodyState>& golden,
+                                                const std::vector<BodyState>& actual,
+                                                std::string_view precision);
 
 /// Describes how two pictures differ, for example "3 discs moved by at most 0.4 px; 1 line: width 2
 /// → 1.9". Distances are in pixels of a frame of that size. Elements are matched by their keys;

@@ -6,12 +6,20 @@
 #include <cmath>
 #include <string>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/json.hpp"
 #include "oiler/physics/methods/methods.hpp"
 
 namespace oiler::cli {
 
-// Numbers in the tables and JSON of the commands.
+// Texts of the commands, and the numbers in their tables and JSON.
+
+/// Writes to standard output. Throws Error{io}.
+inline void print(const std::string& text) { write_file("-", text); }
+/// Throws Error{io}.
+inline void write_json(const std::filesystem::path& path, const Json& json) {
+    write_file(path, json.dump(2) + "\n");
+}
 
 [[nodiscard]] inline std::string order_text(int order) {
     return order == exact_order ? "exact" : fmt::format("{}", order);
