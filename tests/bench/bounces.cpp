@@ -4,7 +4,6 @@
 // An apex is the height that the motion reaches between two steps: that after the last step of the
 // rise, and the closed form of what is left of the rise, without drag v²/2g. The highest sample,
 // which a player sees, is up to g·dt²/8 lower than the apex.
-#include "bench/bounces.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +15,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/peers.hpp"
+#include "bench/plots.hpp"
 
 namespace oiler::bench {
 namespace {
@@ -124,40 +124,25 @@ double add_row(Report& report, const std::string& name, double drag, Make make) 
 
 struct PeerOfBall {
     std::string_view name;
-    bool found;
     BouncingBall (*make)(double speed, double restitution, double dt);
 };
-
-/// The functions of a peer that was not found are never used, and so never linked.
-template <bool found, auto make>
-constexpr PeerOfBall peer(std::string_view name) {
-    if constexpr (found)
-        return {name, true, make};
-    else
-        return {name, false, nullptr};
-}
-
-constexpr std::array peers{peer<OILER_BENCH_BOX2D, box2d_ball>("Box2D"),
-                           peer<OILER_BENCH_ODE, ode_ball>("ODE"),
-                           peer<OILER_BENCH_BULLET, bullet_ball>("Bullet")};
+constexpr std::array peers{PeerOfBall{"Box2D", if_found<OILER_BENCH_BOX2D, box2d_ball>()},
+                           PeerOfBall{"ODE", if_found<OILER_BENCH_ODE, ode_ball>()},
+                           PeerOfBall{"Bullet", if_found<OILER_BENCH_BULLET, bullet_ball>()}};
 
 void measure_peers(Report& report) {
-    for (const PeerOfBall& peer : peers)
-        if (peer.found)
-            add_row(report, std::string(peer.name), 0,
-                    [&](int rate) { return peer.make(take_off, restitution, 1.0 / rate); });
+    for (const auto& [name, make] : peers)
+        if (make)
+            add_row(report, std::string(name), 0,
+                    [&](int rate) { return make(take_off, restitution, 1.0 / rate); });
         else
-            report.missing(fmt::format("{}, bounces: it is not installed", peer.name));
+            report.missing(fmt::format("{}, bounces: it is not installed", name));
 }
 
 /// Ten flights and 9000 steps at 640 Hz add round-off of a few units of 7 m.
 void demand_exact(Report& report, std::string_view method, double largest) {
-    report.target({.id = "T9",
-                   .what = fmt::format("{}, without drag, any rate", method),
-                   .measured = largest,
-                   .unit = "m",
-                   .limit = 2e-13,
-                   .remark = "the largest error of the tenth apex"});
+    report.target({"T9", fmt::format("{}, without drag, any rate", method), largest,
+                   at_most(2e-13, "m"), "the largest error of the tenth apex"});
 }
 
 void measure_methods(Report& report, double drag) {

@@ -3,6 +3,10 @@
 //   oiler_capture_bench PROGRAMS SCENES [FRAMES]
 // PROGRAMS is the folder of the programs, SCENES that of the scene files.
 #include <fmt/core.h>
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
 
 #include <chrono>
 #include <cstdio>
@@ -14,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/stock_png.hpp"
 #include "oiler/compare/captures/captured.hpp"
 
 namespace {
@@ -129,8 +132,11 @@ void measure_capture(const std::string& name, const std::string& command, const 
                        }),
                measure(images,
                        [](const Image& image) {
-                           return oiler::bench::encode_with_stock_stb(
-                               image.size.width, image.size.height, image.rgb_bottom_up);
+                           const auto& [width, height] = image.size;
+                           int count = 0;
+                           std::free(stbi_write_png_to_mem(image.rgb_bottom_up.data(), 3 * width,
+                                                           width, height, 3, &count));
+                           return static_cast<std::size_t>(count);
                        }),
                measure_ffmpeg(images));
 }

@@ -104,7 +104,7 @@ double seconds_of(const Deed& deed, std::size_t count, int repetitions) {
     double least = INFINITY;
     for (int i = 0; i < repetitions; ++i) {
         World world(3, {.precision = Precision::single});
-        reserve(world, count);
+        world.reserve(count);
         std::vector<Entity> entities(count);
         deed.prepare(world, entities);
         const auto start = std::chrono::steady_clock::now();
@@ -131,11 +131,8 @@ constexpr Limit limits[]{
 void add_target(Bench& bench, const Deed& deed, std::size_t count, double cost) {
     const auto* const limit = std::ranges::find(limits, deed.name, &Limit::deed);
     if (limit == std::end(limits) || (count != 10'000 && count != 1'000'000)) return;
-    bench.report.target({.id = "T6",
-                         .what = deed.name + ", " + in_powers(count),
-                         .measured = cost,
-                         .unit = "ns",
-                         .limit = count == 10'000 ? limit->few : limit->many});
+    bench.report.target({"T6", deed.name + ", " + in_powers(count), cost,
+                         at_most(count == 10'000 ? limit->few : limit->many, "ns")});
 }
 
 /// The bytes in use by malloc.
@@ -147,7 +144,7 @@ double bytes_in_use() {
 double bytes_of(int axes, std::size_t bodies) {
     const double before = bytes_in_use();
     World world(axes, {.precision = Precision::single});
-    reserve(world, bodies);
+    world.reserve(bodies);
     for (std::size_t i = 0; i < bodies; ++i) keep(world.spawn({}));
     return bytes_in_use() - before;
 }
@@ -156,11 +153,8 @@ double bytes_of(int axes, std::size_t bodies) {
 void measure_memory(Bench& bench, int axes, double most) {
     constexpr std::size_t few = 1 << 20;
     const double more = bytes_of(axes, 2 * few) - bytes_of(axes, few);
-    bench.report.target({.id = "T6",
-                         .what = fmt::format("bytes for a body and its handle, {} axes", axes),
-                         .measured = more / few,
-                         .limit = most,
-                         .remark = "float, from 2²⁰ to 2²¹ bodies"});
+    bench.report.target({"T6", fmt::format("bytes for a body and its handle, {} axes", axes),
+                         more / few, at_most(most), "float, from 2²⁰ to 2²¹ bodies"});
 }
 
 }  // namespace

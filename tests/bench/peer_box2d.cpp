@@ -17,9 +17,7 @@ b2Body* add_body(b2World& world, std::size_t i) {
 }
 
 PeerWork work_of(const std::shared_ptr<b2World>& world) {
-    return {[=](long times) {
-                for (long i = 0; i < times; ++i) world->Step(static_cast<float>(peer_dt), 0, 0);
-            },
+    return {repeated([=] { world->Step(static_cast<float>(peer_dt), 0, 0); }),
             [=] { return double{world->GetBodyList()->GetPosition().y}; }};
 }
 

@@ -70,9 +70,7 @@ PeerWork ode_fall(std::size_t bodies) {
         dBodySetGyroscopicMode(body, 0);
         falling->bodies.push_back(body);
     }
-    return {[=](long times) {
-                for (long i = 0; i < times; ++i) dWorldQuickStep(falling->world, peer_dt);
-            },
+    return {repeated([=] { dWorldQuickStep(falling->world, peer_dt); }),
             [=] { return double{dBodyGetPosition(falling->bodies.front())[1]}; }};
 }
 

@@ -41,10 +41,7 @@ PeerWork odeint_rk4(std::size_t oscillators) {
         Numbers state;
     };
     const auto run = std::make_shared<Run>(Run{{}, start(2 * oscillators)});
-    return {[=](long times) {
-                for (long i = 0; i < times; ++i)
-                    run->stepper.do_step(rates, run->state, 0, peer_dt);
-            },
+    return {repeated([=] { run->stepper.do_step(rates, run->state, 0, peer_dt); }),
             [=] { return run->state.front(); }};
 }
 
@@ -55,11 +52,10 @@ PeerWork odeint_symplectic_euler(std::size_t oscillators) {
         Numbers v;
     };
     const auto run = std::make_shared<Run>(Run{{}, start(oscillators), start(oscillators)});
-    return {[=](long times) {
-                for (long i = 0; i < times; ++i)
-                    run->stepper.do_step(force, std::pair(std::ref(run->x), std::ref(run->v)), 0,
-                                         peer_dt);
-            },
+    return {repeated([=] {
+                run->stepper.do_step(force, std::pair(std::ref(run->x), std::ref(run->v)), 0,
+                                     peer_dt);
+            }),
             [=] { return run->x.front(); }};
 }
 

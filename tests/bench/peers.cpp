@@ -26,15 +26,6 @@ struct Peer {
     std::string_view besides;
 };
 
-/// Null if the peer was not found.
-template <bool has, PeerWork (*make)(std::size_t)>
-constexpr PeerWork (*if_found())(std::size_t) {
-    if constexpr (has)
-        return make;
-    else
-        return nullptr;
-}
-
 const std::vector<Peer>& peers() {
     constexpr auto single = Precision::single;
     constexpr auto twice = Precision::double_;
@@ -62,7 +53,7 @@ const std::vector<Peer>& peers() {
 World our_world(const Peer& peer, std::size_t bodies) {
     World world(peer.axes,
                 {.method = &find_method(peer.method), .rate = rate, .precision = peer.precision});
-    reserve(world, bodies);
+    world.reserve(bodies);
     if (peer.task == Task::fall) world.set_gravity({0, -9.81, 0});
     for (std::size_t i = 0; i < bodies; ++i) {
         if (peer.task == Task::fall)
@@ -86,15 +77,9 @@ std::optional<Costs> race_with(const Bench& bench, const Peer& peer, std::size_t
     World far = world;
     const PeerWork work = peer.make(bodies);
     const double before = work.measure();
-    const std::vector<double> seconds = race({work.step,
-                                              [&](long times) {
-                                                  for (long i = 0; i < times; ++i) world.step(1);
-                                              },
-                                              [&](long times) {
-                                                  for (long i = 0; i < times; ++i)
-                                                      far.step(per_call);
-                                              }},
-                                             bench.effort);
+    const std::vector<double> seconds =
+        race({work.step, repeated([&] { world.step(1); }), repeated([&] { far.step(per_call); })},
+             bench.effort);
     if (work.measure() == before) return std::nullopt;
     const auto each = static_cast<double>(bodies);
     return Costs{Bench::ns(seconds[0], each), Bench::ns(seconds[1], each),
@@ -114,14 +99,10 @@ void measure(Bench& bench, const Peer& peer) {
     bench.report.add("Peers, ns per body and step",
                      {name, {{"peer", c->theirs}, {"one step", c->one}, {"256 at once", c->many}}});
     const double ours = falls ? c->one : c->many;
-    bench.report.target({.id = "T4",
-                         .what = name + (falls ? ", one step per call" : ", 256 steps per call"),
-                         .measured = c->theirs / ours,
-                         .unit = "×",
-                         .wanted = Wanted::at_least,
-                         .limit = peer.least,
-                         .remark = fmt::format("{:.3g} ns, Oiler {:.3g} ns; besides: {}", c->theirs,
-                                               ours, peer.besides)});
+    bench.report.target(
+        {"T4", name + (falls ? ", one step per call" : ", 256 steps per call"), c->theirs / ours,
+         at_least(peer.least, "×"),
+         fmt::format("{:.3g} ns, Oiler {:.3g} ns; besides: {}", c->theirs, ours, peer.besides)});
 }
 
 void measure_net(Bench& bench) {
@@ -134,22 +115,14 @@ void measure_net(Bench& bench) {
         World world =
             make_net(net, net.links(), {.stiffness = 50, .damping = 0.5, .rest_length = 1});
         const PeerWork work = bullet_net(net);
-        const std::vector<double> seconds = race({work.step,
-                                                  [&](long times) {
-                                                      for (long i = 0; i < times; ++i) world.step();
-                                                  }},
-                                                 bench.effort);
+        const std::vector<double> seconds =
+            race({work.step, repeated([&] { world.step(); })}, bench.effort);
         const auto springs = static_cast<double>(net.links().size());
-        bench.report.target({.id = "T5",
-                             .what = "Bullet soft body, 100 × 100",
-                             .measured = seconds[0] / seconds[1],
-                             .unit = "×",
-                             .wanted = Wanted::at_least,
-                             .limit = 50,
-                             .remark = fmt::format("{:.3g} ns, Oiler {:.3g} ns a spring; besides: "
-                                                   "normals, bounding box, one solver iteration",
-                                                   Bench::ns(seconds[0], springs),
-                                                   Bench::ns(seconds[1], springs))});
+        bench.report.target(
+            {"T5", "Bullet soft body, 100 × 100", seconds[0] / seconds[1], at_least(50, "×"),
+             fmt::format("{:.3g} ns, Oiler {:.3g} ns a spring; besides: "
+                         "normals, bounding box, one solver iteration",
+                         Bench::ns(seconds[0], springs), Bench::ns(seconds[1], springs))});
     }
 }
 

@@ -105,9 +105,8 @@ Price price_of(const Bench& bench, const Priced& priced, const Method& method, P
     Bodies many = bodies_of(priced, precision, axes);
     Bodies one = many;
     const auto steps = [&](Bodies& bodies, int count) -> Work {
-        return [&bodies, &method, count](long times) {
-            for (long i = 0; i < times; ++i) bodies.step(method, {.rate = rate, .count = count});
-        };
+        return repeated(
+            [&bodies, &method, count] { bodies.step(method, {.rate = rate, .count = count}); });
     };
     const std::vector<double> seconds = race({steps(many, per_call), steps(one, 1)}, bench.effort);
     return {Bench::ns(seconds[0], double{body_count} * per_call),
@@ -135,23 +134,18 @@ void add_targets(Bench& bench, const std::string& where, const Priced& priced, c
         for (const auto& [other, cheaper] : without)
             if (method == other)
                 bench.report.target(
-                    {.id = "T8",
-                     .what = fmt::format("{}, {}: {} / {}", where, method, priced.without_one,
-                                         priced.name),
-                     .measured = cheaper.many / price.many,
-                     .limit = 1.05,
-                     .remark = fmt::format("{:.3f} ns, {:.3f} ns", cheaper.many, price.many)});
+                    {"T8",
+                     fmt::format("{}, {}: {} / {}", where, method, priced.without_one, priced.name),
+                     cheaper.many / price.many, at_most(1.05),
+                     fmt::format("{:.3f} ns, {:.3f} ns", cheaper.many, price.many)});
 }
 
 void add_implicit_target(Bench& bench, const std::string& where, const Prices& prices) {
     const auto at = [&](std::string_view name) {
         return std::ranges::find(prices, name, &Prices::value_type::first)->second.many;
     };
-    bench.report.target(
-        {.id = "T8",
-         .what = where + ", spring, own anchors: implicit_midpoint / velocity_verlet",
-         .measured = at("implicit_midpoint") / at("velocity_verlet"),
-         .limit = 20});
+    bench.report.target({"T8", where + ", spring, own anchors: implicit_midpoint / velocity_verlet",
+                         at("implicit_midpoint") / at("velocity_verlet"), at_most(20)});
 }
 
 void measure(Bench& bench, Precision precision, int axes) {

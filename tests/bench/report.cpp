@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: MIT
-#include "bench/report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/bench.hpp"
+
 namespace oiler::bench {
 namespace {
+
+double seconds_of(const Work& work, long times) {
+    const auto start = std::chrono::steady_clock::now();
+    work(times);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The number of times that make a repetition; also warms up.
+long times_for(const Work& work, double seconds) {
+    long times = 1;
+    for (;;) {
+        const double took = seconds_of(work, times);
+        if (took >= seconds) return times;
+        const double more = took > 0 ? 1.2 * seconds / took : 10.0;
+        times =
+            static_cast<long>(std::ceil(static_cast<double>(times) * std::clamp(more, 1.2, 10.0)));
+    }
+}
 
 /// The subject of each group of targets.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 9> groups{
@@ -26,11 +45,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> groups{
 std::size_t width(std::string_view words) {
     return static_cast<std::size_t>(
         std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-/// Text padded to a number of letters, not bytes.
-std::string padded(const std::string& words, std::size_t to) {
-    return words + std::string(to > width(words) ? to - width(words) : 0, ' ');
 }
 
 /// A number with three significant digits.
@@ -53,29 +67,45 @@ std::string table(const Section& section) {
     };
     for (const Row& row : section.rows) {
         if (!head || !same_columns(row, *head)) {
-            text += "  " + std::string(names, ' ');
-            for (const auto& [column, value] : row.numbers) text += "  " + padded(column, 9);
+            text += fmt::format("  {:<{}}", "", names);
+            for (const auto& [column, value] : row.numbers) text += fmt::format("  {:<9}", column);
             text += '\n';
             head = &row;
         }
-        text += "  " + padded(row.name, names);
+        text += fmt::format("  {:<{}}", row.name, names);
         for (const auto& [column, value] : row.numbers)
-            text += "  " + padded(number(value), std::max<std::size_t>(9, width(column)));
+            text += fmt::format("  {:<{}}", number(value), std::max<std::size_t>(9, width(column)));
         text += '\n';
     }
     return text;
 }
 
 std::string line(const Target& target, std::size_t names) {
-    const std::string unit = target.unit.empty() ? "" : " " + target.unit;
-    const std::string measured = padded(number(target.measured) + unit, 12);
-    const std::string wanted =
-        padded((target.wanted == Wanted::at_least ? "≥ " : "≤ ") + number(target.limit) + unit, 12);
-    return fmt::format("    {}  {} {} {}  {}\n", padded(target.what, names), measured, wanted,
+    const auto& [is_least, limit, unit] = target.bound;
+    const std::string suffix = unit.empty() ? "" : " " + unit;
+    return fmt::format("    {:<{}}  {:<12} {:<12} {}  {}\n", target.what, names,
+                       number(target.measured) + suffix,
+                       (is_least ? "≥ " : "≤ ") + number(limit) + suffix,
                        target.met() ? "met   " : "MISSED", target.remark);
 }
 
 }  // namespace
+
+std::vector<double> race(const std::vector<Work>& work, const Effort& effort) {
+    std::vector<long> times;
+    for (const Work& one : work) times.push_back(times_for(one, effort.seconds));
+    std::vector<double> least(work.size(), INFINITY);
+    std::vector<double> spent(work.size());
+    for (int repetition = 0; repetition < effort.repetitions; ++repetition)
+        for (std::size_t i = 0; i < work.size(); ++i) {
+            if (spent[i] > effort.patience) continue;
+            if (effort.prepared) work[i](1);
+            const double took = seconds_of(work[i], times[i]);
+            spent[i] += took;
+            least[i] = std::min(least[i], took / static_cast<double>(times[i]));
+        }
+    return least;
+}
 
 void Report::fact(const std::string& name, const std::string& value) {
     facts_.emplace_back(name, value);
@@ -130,9 +160,9 @@ std::string Report::json() const {
         all["targets"].push_back({{"id", t.id},
                                   {"what", t.what},
                                   {"measured", t.measured},
-                                  {"unit", t.unit},
-                                  {"wanted", t.wanted == Wanted::at_least ? "at least" : "at most"},
-                                  {"limit", t.limit},
+                                  {"unit", t.bound.unit},
+                                  {"wanted", t.bound.is_least ? "at least" : "at most"},
+                                  {"limit", t.bound.limit},
                                   {"met", t.met()},
                                   {"remark", t.remark}});
     for (const std::string& words : missing_) all["missing"].push_back(words);

@@ -61,14 +61,14 @@ Body start_of(std::size_t i, int axes) {
 
 World make_world(Scene scene, int axes, std::size_t bodies, const Settings& settings) {
     World world(axes, settings);
-    reserve(world, bodies);
+    world.reserve(bodies);
     fill(world, scene, axes, bodies);
     return world;
 }
 
 Bodies make_bodies(Scene scene, int axes, std::size_t count, Precision precision) {
     Bodies bodies(axes, precision);
-    reserve(bodies, count);
+    bodies.reserve(count);
     fill(bodies, scene, axes, count);
     return bodies;
 }

@@ -36,24 +36,6 @@ template <class T>
 inline constexpr Precision precision_of = sizeof(T) == sizeof(float) ? Precision::single
                                                                      : Precision::double_;
 
-/// Reserves memory for `count` bodies if the world supports it.
-template <class W>
-void reserve(W& world, std::size_t bodies) {
-    if constexpr (requires { world.reserve(bodies); }) world.reserve(bodies);
-}
-
-template <class S>
-constexpr bool has_threads = requires(S settings) {
-    settings.threads;
-};
-
-/// Sets the number of threads if settings have it.
-template <class S>
-S with_threads(S settings, int threads) {
-    if constexpr (has_threads<S>) settings.threads = threads;
-    return settings;
-}
-
 [[nodiscard]] World make_world(Scene scene, int axes, std::size_t bodies, const Settings& settings);
 [[nodiscard]] Bodies make_bodies(Scene scene, int axes, std::size_t count, Precision precision);
 

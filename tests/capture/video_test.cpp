@@ -132,13 +132,11 @@ TEST_F(Videos, WithoutTheirEndLeaveNoFile) {
 }
 
 TEST_F(Videos, AnotherEndingIsRefusedBeforeAnyFolderIsMade) {
-    for (const char* name : {"new/a.avi", "new/a", "new/.mp4", "new/a.MP4"}) try {
-            const Video video(folder / name, size, 25);
-            ADD_FAILURE() << name;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::usage);
-            EXPECT_TRUE(holds(error.what(), ".mp4, .gif or .apng"));
-        }
+    for (const char* name : {"new/a.avi", "new/a", "new/.mp4", "new/a.MP4"})
+        EXPECT_TRUE(
+            holds(line_of_error(Exit::usage, [&] { const Video video(folder / name, size, 25); }),
+                  ".mp4, .gif or .apng"))
+            << name;
     EXPECT_EQ(names_in(folder.path()), Names{});
 }
 
@@ -159,18 +157,14 @@ pid_t child() {
 }
 
 TEST_F(Videos, AKilledFfmpegIsAnError) {
-    const auto error_of = [&](bool adds) -> std::string {
+    const auto error_of = [&](bool adds) {
         Video video(folder / "a.mp4", {640, 360}, 25);
         video.add(frame(0, {640, 360}));
         kill(child(), SIGKILL);
-        try {
+        return line_of_error(Exit::io, [&] {
             for (int i = 0; adds && i < 1000; ++i) video.add(frame(i % 10, {640, 360}));
             video.finish();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::io);
-            return error.what();
-        }
-        return "none";
+        });
     };
     for (const bool adds : {true, false}) {
         EXPECT_EQ(error_of(adds),
@@ -195,13 +189,9 @@ TEST_F(Videos, WithoutTheirEndDoNotWaitForFfmpeg) {
 TEST_F(Videos, TheLastWordsOfFfmpegAreTold) {
     put_program(folder / "ffmpeg", "cat > /dev/null; echo first >&2; echo last words >&2; exit 3");
     const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
-    try {
-        write(folder / "a.gif", 2);
-        ADD_FAILURE() << "no error";
-    } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()), "cannot write " + (folder / "a.gif").string() +
-                                                 ": ffmpeg ended with exit code 3: last words");
-    }
+    EXPECT_EQ(line_of_error(Exit::io, [&] { write(folder / "a.gif", 2); }),
+              "cannot write " + (folder / "a.gif").string() +
+                  ": ffmpeg ended with exit code 3: last words");
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
 }
 
@@ -210,7 +200,8 @@ TEST_F(Videos, AFileThatCannotBeCompletedIsAnError) {
     if (!fs::exists("/usr/bin/ffmpeg")) GTEST_SKIP() << "ffmpeg is elsewhere";
     put_program(folder / "ffmpeg", "trap '' XFSZ; ulimit -f 8; exec /usr/bin/ffmpeg \"$@\"");
     const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
-    for (const char* name : {"a.mp4", "a.gif", "a.apng"}) try {
+    for (const char* name : {"a.mp4", "a.gif", "a.apng"}) {
+        const std::string line = line_of_error(Exit::io, [&] {
             Video video(folder / name, size, 25);
             std::mt19937 random(3);
             for (int i = 0; i < 60; ++i) {
@@ -219,11 +210,9 @@ TEST_F(Videos, AFileThatCannotBeCompletedIsAnError) {
                 video.add(noise);
             }
             video.finish();
-            ADD_FAILURE() << name << ": no error";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::io);
-            EXPECT_TRUE(holds(error.what(), "File too large"));
-        }
+        });
+        EXPECT_TRUE(holds(line, "File too large")) << name;
+    }
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
 }
 

@@ -150,16 +150,6 @@ TEST(DivergeCommand, ComparesRunsOfDifferentLengths) {
     EXPECT_EQ(compare(desk, start, start).out, same);
 }
 
-// Rows of a tick are in the order of the engine's rows, which depends on which entities were
-// destroyed before.
-TEST(DivergeCommand, MatchesRowsByBody) {
-    const Desk desk;
-    const Outcome run =
-        compare(desk, "0,0,3,1,2,3,4\n0,0,8,5,6,7,8\n", "0,0,8,5,6,7,8\n0,0,3,1,2,3,4\n");
-    EXPECT_EQ(run.out, "The runs are the same: ticks 0 to 0 (0 s), 2 bodies.\n");
-    EXPECT_EQ(run.exit, 0);
-}
-
 TEST(DivergeCommand, ReadsPipes) {
     const Desk desk;
     compare(desk, "0,0,3,1,2,3,4\n", "0,0,3,1,2,3,4\n");
@@ -258,19 +248,6 @@ void expect_first_difference_of_orbits(const std::string& gm, const std::string&
 TEST(DivergeCommand, FindsTheFirstDifferenceOfOrbits) {
     expect_first_difference_of_orbits("1.0000000000000002", "double");
     expect_first_difference_of_orbits("1.0000001", "float");
-}
-
-TEST(DivergeCommand, RunsWithAnyNumberOfThreadsAreTheSame) {
-    const Desk desk;
-    for (const std::string threads : {"1", "2"}) {
-        const Outcome run =
-            desk.run("oiler play " + scenes + "hundred_thousand.toml --steps 2 --quiet --threads " +
-                         threads + " --trace " + threads + ".csv",
-                     0);
-    }
-    const Outcome run = desk.run("oiler diverge 1.csv 2.csv", 0);
-    EXPECT_TRUE(run.out.starts_with("The runs are the same: ticks 0 to 2 (")) << run.out;
-    EXPECT_TRUE(run.out.ends_with(", 100000 bodies.\n")) << run.out;
 }
 
 /// Frames of a spring at 120 Hz.

@@ -26,14 +26,8 @@ protected:
     }
     /// Returns the message with which the comparison of the folders is refused.
     std::string refusal() {
-        try {
-            (void)compare_captures(folder / "golden", folder / "actual", {});
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::usage);
-            return error.what();
-        }
-        ADD_FAILURE() << "not refused";
-        return {};
+        return line_of_error(
+            Exit::usage, [&] { (void)compare_captures(folder / "golden", folder / "actual", {}); });
     }
     Film golden = film_of(5);
     Folder folder;

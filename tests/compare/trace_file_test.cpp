@@ -125,15 +125,9 @@ std::string refusal_of(const std::string& text) {
     const Folder folder;
     const std::string path = folder / "t.csv";
     put(path, text);
-    try {
-        static_cast<void>(read_trace(path));
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::usage);
-        const std::string line = error.what();
-        EXPECT_TRUE(line.starts_with(path + ":")) << line;
-        return line.substr(path.size() + 1);
-    }
-    return "nothing thrown";
+    const std::string line = line_of_error(Exit::usage, [&] { (void)read_trace(path); });
+    EXPECT_TRUE(line.starts_with(path + ":")) << line;
+    return line.starts_with(path) ? line.substr(path.size() + 1) : line;
 }
 
 TEST(TraceFile, RefusesOtherHeaders) {
@@ -215,13 +209,8 @@ TEST(TraceFile, NamesTheReasonWhyItCannotBeRead) {
     const Folder folder;
     for (const auto& [path, reason] : {std::pair(folder / "none", "No such file or directory"),
                                        std::pair(folder.path(), "Is a directory")})
-        try {
-            static_cast<void>(read_trace(path));
-            FAIL();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::io);
-            EXPECT_EQ(error.what(), path.string() + ": cannot be read: " + reason);
-        }
+        EXPECT_EQ(line_of_error(Exit::io, [&] { (void)read_trace(path); }),
+                  path.string() + ": cannot be read: " + reason);
 }
 
 }  // namespace

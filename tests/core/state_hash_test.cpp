@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/core/state_hash.hpp"
-
+#include "oiler/core/handle_slots.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -121,6 +121,38 @@ TEST(StateHash, IsAValue) {
 TEST(HashText, HasSixteenDigits) {
     EXPECT_EQ(hash_text(0), "0000000000000000");
     EXPECT_EQ(hash_text(0x2D06800538D394C2), "2d06800538d394c2");
+}
+
+struct Handle {
+    std::uint32_t slot;
+    std::uint32_t generation;
+};
+
+TEST(HandleSlots, KnowWhatIsGone) {
+    HandleSlots slots;
+    const auto first = slots.take<Handle>();
+    const auto second = slots.take<Handle>();
+    EXPECT_NE(first.slot, second.slot);
+    slots.release(first.slot);
+    EXPECT_FALSE(slots.holds(first.slot, first.generation));
+    EXPECT_TRUE(slots.holds(second.slot, second.generation));
+    EXPECT_EQ(slots.used(), 1U);
+    const auto third = slots.take<Handle>();
+    EXPECT_EQ(third.slot, first.slot);
+    EXPECT_TRUE(slots.holds(third.slot, third.generation));
+    EXPECT_FALSE(slots.holds(first.slot, first.generation));
+    EXPECT_FALSE(slots.holds(7, 1));
+}
+
+// While a slot is free, no handle matches, not even one that a copy gave out.
+TEST(HandleSlots, OfACopyGiveHandlesOfTheirOwn) {
+    HandleSlots slots;
+    const auto first = slots.take<Handle>();
+    HandleSlots copy = slots;
+    slots.release(first.slot);
+    EXPECT_TRUE(copy.holds(first.slot, first.generation));
+    EXPECT_FALSE(slots.holds(first.slot, slots.generation(first.slot) - 1));
+    EXPECT_EQ(slots.generation(first.slot) % 2, 0U);
 }
 
 }  // namespace

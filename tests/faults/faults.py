@@ -5,11 +5,9 @@ import argparse
 import json
 import os
 import random
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
@@ -49,37 +47,15 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def decoded_size(png):
-    """The size of a PNG of 8-bit RGB; raises an error if a chunk or the pixels are damaged."""
-    assert png[:8] == b"\x89PNG\r\n\x1a\n", "no signature"
-    at, data, size, ended = 8, b"", None, False
-    while at < len(png):
-        length, kind = struct.unpack(">I4s", png[at : at + 8])
-        body = png[at + 8 : at + 8 + length]
-        (check,) = struct.unpack(">I", png[at + 8 + length : at + 12 + length])
-        assert zlib.crc32(kind + body) == check, "wrong checksum"
-        if kind == b"IHDR":
-            size = struct.unpack(">II", body[:8])
-        data += body if kind == b"IDAT" else b""
-        ended = kind == b"IEND"
-        at += 12 + length
-    assert ended, "no end"
-    assert len(zlib.decompress(data)) == size[1] * (1 + 3 * size[0]), "missing pixels"
-    return size
-
-
 def lies_of(folder):
     """The lies of a folder: damaged frames, and claims of its manifest that do not hold."""
     files = contents(folder)
     lies = []
     frames = sorted(name for name in files if name.startswith("frame_"))
-    for name in frames:
-        try:
-            decoded_size(files[name])
-        except Exception as error:
-            lies.append(f"{name}: {error!r}")
-    if frames and subprocess.run(["pngcheck", "-q", *(folder / name for name in frames)]).returncode:
-        lies.append("pngcheck refuses a frame")
+    if frames:
+        check = subprocess.run(["pngcheck", "-q", *(folder / name for name in frames)],
+                               capture_output=True, text=True)
+        lies += [check.stdout] if check.returncode else []
     if "manifest.json" not in files:
         return lies
     try:

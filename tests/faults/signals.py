@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT
 """Interrupts every command of oiler and every demo at random moments. Each must end in time with exit
 code 130 and leave whole files. Exits with 1 after a fault, with 77 without pngcheck."""
-import argparse
 import gzip
 import json
 import os
@@ -16,8 +15,9 @@ import tempfile
 import time
 import xml.etree.ElementTree
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENES = ROOT / "assets" / "scenes"
+import faults
+
+SCENES = faults.root / "assets" / "scenes"
 STEPS = ["--steps", "1000000000", "--json", "{out}/run.json"]
 RECORDED = STEPS + ["--trace", "{out}/trace.csv", "--energy", "{out}/energy.csv"]
 FRAMES = ["--headless", "--size", "160x90", "--frames", "100000", "--out", "{out}/frames"]
@@ -140,7 +140,6 @@ class Campaign:
     def __init__(self, options, work):
         self.options = options
         self.work = work
-        self.random = random.Random(options.seed)
         self.faults = 0
         self.runs = 0
         self.finished = 0
@@ -151,7 +150,7 @@ class Campaign:
 
     def line_of(self, words, out):
         parts = self.work / "parts"
-        program = str(self.options.bin / words[0])
+        program = str(self.options.programs / words[0])
         return [program] + [w.replace("{out}", str(out)).replace("{parts}", str(parts))
                             for w in words[1:]]
 
@@ -212,9 +211,9 @@ class Campaign:
         span = self.duration(words)
         before = (self.runs, self.finished, self.slowest)
         self.slowest = 0.0
-        for _ in range(self.options.moments):
-            count = self.random.choice([1, 1, 1, 3])
-            self.interrupt(words, self.random.uniform(0, span), self.random.sample(SIGNALS, count))
+        for _ in range(self.options.count):
+            count = random.choice([1, 1, 1, 3])
+            self.interrupt(words, random.uniform(0, span), random.sample(SIGNALS, count))
         print(f"{self.slowest:5.2f} s at most, {self.finished - before[1]} of "
               f"{self.runs - before[0]} had finished: {' '.join(words[:2])} "
               f"{' '.join(w for w in words[2:] if w[:2] == '--')}", flush=True)
@@ -265,7 +264,7 @@ def start_server():
 def all_lines(options, has_display):
     chosen = SHORT if options.short else COMMANDS
     lines = [["oiler", name, *words] for name in chosen for words in COMMANDS[name]]
-    demos = sorted(path.stem for path in (ROOT / "demos").glob("*.cpp"))
+    demos = sorted(path.stem for path in (faults.root / "demos").glob("*.cpp"))
     modes = [RECORDED, FRAMES] + ([WINDOW] if has_display else [])
     if options.short:
         return lines + [["hello", *mode] for mode in modes]
@@ -274,37 +273,25 @@ def all_lines(options, has_display):
 
 def prepare_parts(options, work):
     for part in ["1/2", "2/2"]:
-        subprocess.run([options.bin / "oiler", "tradeoff", scene("jump"), "--quiet", "--methods",
+        subprocess.run([options.programs / "oiler", "tradeoff", scene("jump"), "--quiet", "--methods",
                         "velocity_verlet", "--max-rate", "240", "--shard", part, "--out",
                         work / "parts"], check=True, stdout=subprocess.DEVNULL)
     for rate, capture, trace in [("60", "golden", "a.csv"), ("120", "actual", "b.csv")]:
         for words in [["--headless", "--frames", "30", "--out", work / "parts" / capture],
                       ["--steps", "100000", "--trace", work / "parts" / trace]]:
-            subprocess.run([options.bin / "hello", "--quiet", "--rate", rate, *words], check=True)
-
-
-def parse():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "bin")
-    parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
-    parser.add_argument("--moments", type=int, help="signals for each command line")
-    parser.add_argument("--short", action="store_true", help="fewer commands, less than a minute")
-    options = parser.parse_args()
-    options.moments = options.moments or (5 if options.short else 10)
-    options.span = 0.4 if options.short else 3.0  # s, the latest moment
-    return options
+            subprocess.run([options.programs / "hello", "--quiet", "--rate", rate, *words], check=True)
 
 
 def main():
-    options = parse()
+    options = faults.arguments(__doc__.splitlines()[0], count=10, short_count=5)
+    options.span = 0.4 if options.short else 3.0  # s, the latest moment
     if not shutil.which("pngcheck"):
         print("signals: install the Debian package pngcheck")
         return 77
-    print(f"seed {options.seed}", flush=True)
     with tempfile.TemporaryDirectory(prefix="oiler-signals-") as folder:
         work = pathlib.Path(folder)
         campaign = Campaign(options, work)
-        if commands_of(options.bin / "oiler") != set(COMMANDS):
+        if commands_of(options.programs / "oiler") != set(COMMANDS):
             campaign.fault(["oiler", "--help"], f"its commands are not {', '.join(COMMANDS)}")
         if not options.short:
             prepare_parts(options, work)

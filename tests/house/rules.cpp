@@ -1,15 +1,47 @@
 // SPDX-License-Identifier: MIT
-#include "house/rules.hpp"
-
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
-#include "house/plan.hpp"
 #include "house/scan.hpp"
+#include "house/rules.hpp"
 
 namespace oiler::house {
 namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> words_of(const std::string& text) {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// Adds the rows of a room's CMakeLists.txt.
+void add_room(const fs::path& folder, Plan& plan) {
+    static const std::regex row(R"(\bset\((rooms|floor_(\w+))([^)]*)\))");
+    const std::string room = folder.filename().string();
+    std::ifstream file(folder / "CMakeLists.txt");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator at(text.begin(), text.end(), row), end; at != end; ++at) {
+        const std::set<std::string> below = words_of((*at)[3]);
+        if ((*at)[1] == "rooms") {
+            plan[room] = below;
+            continue;
+        }
+        std::set<std::string>& floors = plan[room + "/" + (*at)[2].str()];
+        for (const std::string& floor : below) floors.insert(room + "/" + floor);
+    }
+}
+
+Plan read_plan() {
+    Plan plan;
+    for (const auto& entry : fs::directory_iterator(fs::path(OILER_SOURCE) / "engine/oiler"))
+        if (entry.is_directory()) add_room(entry.path(), plan);
+    return plan;
+}
 
 namespace fs = std::filesystem;
 
@@ -57,7 +89,67 @@ bool walk(const Graph& graph, const std::string& node, std::vector<std::string>&
     return false;
 }
 
+using Names = std::set<std::string>;
+
+/// The optional folder that a file is in; empty for none.
+std::string optional_folder_of(const fs::path& file) {
+    for (const std::string folder : optional_folders)
+        if (file.string().starts_with(folder + "/")) return folder;
+    return {};
+}
+
+/// The arguments and commands of a CMake file, without folders: "state_hash.cpp" for
+/// "${CMAKE_CURRENT_LIST_DIR}/state_hash.cpp".
+Names cmake_words(const std::string& text) {
+    static const std::regex word(R"re([^\s()";]+)re");
+    const std::string code = without_cmake_comments(text);
+    Names words;
+    for (std::sregex_iterator at(code.begin(), code.end(), word), end; at != end; ++at)
+        words.insert(fs::path(at->str()).filename().string());
+    return words;
+}
+
+/// Whether `word` names the file: by itself, or as "peer_${name}.cpp" where another word is the
+/// value of the variable.
+bool names_file(const std::string& word, const std::string& file, const Names& words) {
+    static const std::regex variable(R"(\$\{\w+\})");
+    std::smatch found;
+    if (!std::regex_search(word, found, variable)) return word == file;
+    const std::string before = found.prefix();
+    const std::string after = found.suffix();
+    if (file.size() <= before.size() + after.size() || !file.starts_with(before) ||
+        !file.ends_with(after))
+        return false;
+    return words.count(file.substr(before.size(), file.size() - before.size() - after.size())) == 1;
+}
+
+bool is_named(const fs::path& file, const std::string& folder, const Texts& cmake_files) {
+    for (const auto& [path, text] : cmake_files) {
+        if (optional_folder_of(path) != folder) continue;
+        const Names words = cmake_words(text);
+        if (std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+                return names_file(word, file.filename().string(), words);
+            }))
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
+
+const Plan& plan() {
+    static const Plan read = read_plan();
+    return read;
+}
+
+std::set<std::string> rooms_below(const std::string& room) {
+    std::set<std::string> below;
+    for (const std::string& next : plan().at(room)) {
+        below.insert(next);
+        below.merge(rooms_below(next));
+    }
+    return below;
+}
 
 std::string room_of(const fs::path& file) {
     return file.empty() ? std::string() : file.begin()->string();
@@ -142,6 +234,18 @@ Faults find_doubled_names(const Texts& texts) {
         std::string list;
         for (const std::string& file : files) list += (list.empty() ? "" : ", ") + file;
         faults.push_back(list + ": each defines " + name);
+    }
+    return faults;
+}
+
+Faults find_uncompiled(const std::vector<fs::path>& files, const std::set<fs::path>& compiled,
+                       const Texts& cmake_files) {
+    Faults faults;
+    for (const fs::path& file : files) {
+        if (file.extension() != ".cpp" || compiled.count(file) == 1) continue;
+        const std::string folder = optional_folder_of(file);
+        if (folder.empty() || !is_named(file, folder, cmake_files))
+            faults.push_back(file.string() + ": no build compiles it");
     }
     return faults;
 }

@@ -13,10 +13,8 @@ using Rate = std::int64_t;
 
 Rates rates_of(const std::string& text, const std::vector<Rate>& rates,
                const std::vector<const char*>& names, std::size_t row = 0) {
-    std::vector<const Method*> methods;
-    for (const char* name : names) methods.push_back(&find_method(name));
     const MeasuredScene measured(text);
-    return measure_rates(measured.scene, measured.reference, row, rates, methods,
+    return measure_rates(measured.scene, measured.reference, row, rates, methods_of(names),
                          [] { return false; });
 }
 
@@ -235,11 +233,9 @@ TEST(Rates, CanBeStopped) {
 constexpr double stiffness = 15;
 constexpr double start = 1000;
 
-std::string spring_with(const std::string& damping, const std::string& duration) {
-    return one_axis + "duration = " + duration +
-           "\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\nbody = \"mass\"\n"
-           "anchor = [0.0]\nstiffness = 15.0\ndamping = " +
-           damping + "\n";
+std::string spring_with(const std::string& damping) {
+    return one_axis + "duration = 20.0\n" + on_spring(start, stiffness) + "damping = " + damping +
+           "\n";
 }
 
 /// A coordinate after n steps.
@@ -285,8 +281,8 @@ double amplitude_of(const Samples& x, double h, int steps, double period) {
 const std::vector<Rate> oscillation_rates{5, 10, 20, 50, 100};
 
 TEST(RatesOfAnOscillation, HaveThePeriodOfTheStepsByTheory) {
-    const Rates rates = rates_of(spring_with("0.0", "20.0"), oscillation_rates,
-                                 {"semi_implicit_euler", "velocity_verlet"});
+    const Rates rates =
+        rates_of(spring_with("0.0"), oscillation_rates, {"semi_implicit_euler", "velocity_verlet"});
     const double period = 2 * std::numbers::pi / std::sqrt(stiffness);
     // Cubics between 50 samples per second have an error of (ωh)⁴/384, also at the maximum.
     EXPECT_NEAR(quantity_of(rates, "period").truth, period, 1e-7);
@@ -329,7 +325,7 @@ double settle_time_of(const Samples& x, double h, int steps) {
 }
 
 TEST(RatesOfAnOscillation, HaveTheTimeToSettle) {
-    const Rates rates = rates_of(spring_with("0.5", "20.0"), {20, 50, 100, 1000}, {"exact"});
+    const Rates rates = rates_of(spring_with("0.5"), {20, 50, 100, 1000}, {"exact"});
     const auto settle = [](double h) {
         return settle_time_of([h](int n) { return damped(0.5, n * h); }, h,
                               static_cast<int>(std::lround(20 / h)));
@@ -345,11 +341,9 @@ TEST(RatesOfAnOscillation, HaveTheTimeToSettle) {
 
 // A weight on a spring oscillates around g/k below the anchor.
 TEST(RatesOfAnOscillation, GoAroundTheCentre) {
-    const Rates rates = rates_of(
-        "[scene]\naxes = 1\nrate = 100\nduration = 20.0\n[gravity]\nacceleration = [-9.81]\n"
-        "[[body]]\nname = \"mass\"\nposition = [3.0]\n[[spring]]\nbody = \"mass\"\n"
-        "anchor = [0.0]\nstiffness = 15.0\ndamping = 0.5\n",
-        {100}, {"exact"});
+    const Rates rates = rates_of(one_axis + "duration = 20.0\n[gravity]\nacceleration = [-9.81]\n" +
+                                     on_spring(3, 15) + "damping = 0.5\n",
+                                 {100}, {"exact"});
     const double rest = -9.81 / stiffness;
     const double oscillation = (3 - rest) / start;
     const double settle = settle_time_of([&](int n) { return damped(0.5, n / 100.0); }, 0.01, 2000);
@@ -398,7 +392,7 @@ TEST(RatesOfAnOscillation, WithoutAPeriodHaveNone) {
 // ω·dt is 3.9 at 1 Hz; the limit is 2.
 TEST(RatesOfAnOscillation, ThatIsUnstableAreUnknown) {
     const Rates rates =
-        rates_of(spring_with("0.0", "20.0"), {1, 100}, {"velocity_verlet", "implicit_midpoint"});
+        rates_of(spring_with("0.0"), {1, 100}, {"velocity_verlet", "implicit_midpoint"});
     for (const RatesQuantity& quantity : rates.quantities) {
         EXPECT_TRUE(std::isnan(quantity.lines[0].values[0])) << quantity.name;
         EXPECT_FALSE(std::isnan(quantity.lines[0].values[1])) << quantity.name;

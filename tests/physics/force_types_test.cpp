@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/physics/forces/forces.hpp"
 
-#include "oiler/physics/forces/forces.hpp"
-
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "oiler/sim/bodies.hpp"
+#include "support/oscillator.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -64,22 +65,6 @@ Bodies rebuilt(const Bodies& from) {
             to.link_to_point(ends.row, ends.point, from.link_at(i));
     }
     return to;
-}
-
-std::uint64_t hash_of(const Bodies& bodies) {
-    StateHash hash;
-    bodies.hash_into(hash);
-    return hash.value();
-}
-
-template <class F>
-void for_each_kind(F f) {
-    for (const Method& method : methods())
-        for (const Precision precision : {Precision::single, Precision::double_}) {
-            if (method.order == exact_order) continue;
-            SCOPED_TRACE(std::string(method.name) + ", " + std::string(name_of(precision)));
-            f(method, precision);
-        }
 }
 
 TEST(LinkedBodies, TakeManyStepsPerCallAsOneByOne) {

@@ -216,16 +216,6 @@ TEST(LinkForce, HasAPotential) {
     }
 }
 
-template <class F>
-void for_each_kind(F f) {
-    for (const Method& method : methods())
-        for (const Precision precision : {Precision::single, Precision::double_})
-            if (!is_exact(method)) {
-                SCOPED_TRACE(std::string(method.name) + ", " + std::string(name_of(precision)));
-                f(method, precision);
-            }
-}
-
 /// Expects no force, to the bit, on two bodies on a link with a rest length of 5 m.
 void expect_no_force(const Vec3& other, const Vec3& velocity) {
     for_each_kind([&](const Method& method, Precision precision) {

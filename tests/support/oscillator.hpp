@@ -60,6 +60,17 @@ inline long double amplitude(const Bodies& bodies, long double omega) {
     return std::hypot(omega * x_of(bodies), v_of(bodies));
 }
 
+/// Calls f(method, precision) for each method that may step linked bodies, in both precisions.
+template <class F>
+void for_each_kind(F f) {
+    for (const Method& method : methods())
+        for (const Precision precision : precisions) {
+            if (is_exact(method)) continue;
+            SCOPED_TRACE(testing::Message() << method.name << " in " << name_of(precision));
+            f(method, precision);
+        }
+}
+
 inline std::uint64_t hash_of(const Bodies& bodies) {
     StateHash hash;
     bodies.hash_into(hash);

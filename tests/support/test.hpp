@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/require.hpp"
 
 namespace oiler::test {
 
@@ -59,6 +60,17 @@ std::string line_of_error(Exit exit, F f) {
         return error.what();
     }
     ADD_FAILURE() << "nothing thrown";
+    return {};
+}
+
+/// The message of the Mistake that `f` makes; empty without one.
+template <class F>
+std::string mistake_of(F f) {
+    try {
+        f();
+    } catch (const Mistake& mistake) {
+        return mistake.what();
+    }
     return {};
 }
 

@@ -1,20 +1,95 @@
 // SPDX-License-Identifier: MIT
-#include "trap/closed_forms.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-namespace oiler::trap {
+#include "oiler/sim/bodies.hpp"
+#include "trap/truth.hpp"
 
+namespace oiler::trap {
 namespace {
 
 const Real pi = std::acos(Real(-1));
 
 Real dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// The position after t s from the coefficients of its Taylor series: u(0), u'(0), …
+struct Series {
+    Real x = 0;
+    Real v = 0;
+};
+
+/// For k·t² + c·t < 1, where the closed forms cancel.
+Series series(Real k, Real c, Real f, Real u0, Real v0, Real t) {
+    constexpr int terms = 28;
+    std::array<Real, terms> a{u0, v0};
+    for (int n = 0; n + 2 < terms; ++n) {
+        const auto m = static_cast<Real>(n);
+        a[n + 2] = ((n == 0 ? f : 0) - c * (m + 1) * a[n + 1] - k * a[n]) / ((m + 1) * (m + 2));
+    }
+    Series sum;
+    for (int n = terms - 1; n >= 0; --n) {
+        sum.x = sum.x * t + a[n];
+        if (n > 0) sum.v = sum.v * t + static_cast<Real>(n) * a[n];
+    }
+    return sum;
+}
+
+Flow short_flow(Real k, Real c, Real t) {
+    const Series from_x = series(k, c, 0, 1, 0, t);
+    const Series from_v = series(k, c, 0, 0, 1, t);
+    return {from_x.x, from_v.x, series(k, c, 1, 0, 0, t).x, from_x.v, from_v.v};
+}
+
+Flow dragged(Real c, Real t) {
+    const Real xv = -std::expm1(-c * t) / c;
+    return {1, xv, (t - xv) / c, 0, std::exp(-c * t)};
+}
+
+Flow underdamped(Real k, Real gamma, Real w, Real t) {
+    const Real decay = std::exp(-gamma * t);
+    const Real xv = decay * (w > 0 ? std::sin(w * t) / w : t);
+    const Real cosine = decay * std::cos(w * t);
+    const Real xx = cosine + gamma * xv;
+    return {xx, xv, (1 - xx) / k, -k * xv, cosine - gamma * xv};
+}
+
+/// With the rates slow = γ − s and fast = γ + s.
+Flow overdamped(Real k, Real gamma, Real s, Real t) {
+    const Real slow = k / (gamma + s);
+    const Real fast = gamma + s;
+    const Real decay = std::exp(-slow * t);
+    const Real xv = decay * -std::expm1(-2 * s * t) / (2 * s);
+    const Real xf = (-std::expm1(-slow * t) / slow - xv) / fast;
+    return {decay + slow * xv, xv, xf, -k * xv, decay - fast * xv};
+}
+
+constexpr Eigen::Index axes = 3;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 }  // namespace
+
+bool System::is_linear() const {
+    return attractors.empty() &&
+           std::ranges::all_of(springs, [](const auto& one) { return one.rest_length == 0; }) &&
+           std::ranges::all_of(bodies, [](const auto& one) { return one.quadratic_drag == 0; });
+}
+
+Real System::shortest_spring_period() const {
+    std::vector<Real> stiffness(bodies.size(), 0);
+    for (const CoupledSpring& spring : springs) {
+        stiffness[spring.body] += spring.to ? 2 * spring.stiffness : spring.stiffness;
+        if (spring.to) stiffness[*spring.to] += 2 * spring.stiffness;
+    }
+    // Gershgorin's circles bound the squares of the frequencies.
+    Real largest = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        largest = std::max(largest, stiffness[i] / bodies[i].mass);
+    if (largest == 0) return std::numeric_limits<Real>::infinity();
+    return 2 * std::acos(Real(-1)) / std::sqrt(largest);
+}
 
 Orbit::Orbit(const Point& centre, Real gm, const Point& x, const Point& v)
     : centre_(centre), v_(v), gm_(gm) {
@@ -74,61 +149,6 @@ void Orbit::sample(std::int64_t n, Point* out) {
         out[j] = at((static_cast<Real>(n) + share_of(j, inside_)) / rate);
 }
 
-namespace {
-
-/// The position after t s from the coefficients of its Taylor series: u(0), u'(0), …
-struct Series {
-    Real x = 0;
-    Real v = 0;
-};
-
-/// For k·t² + c·t < 1, where the closed forms cancel.
-Series series(Real k, Real c, Real f, Real u0, Real v0, Real t) {
-    constexpr int terms = 28;
-    std::array<Real, terms> a{u0, v0};
-    for (int n = 0; n + 2 < terms; ++n) {
-        const auto m = static_cast<Real>(n);
-        a[n + 2] = ((n == 0 ? f : 0) - c * (m + 1) * a[n + 1] - k * a[n]) / ((m + 1) * (m + 2));
-    }
-    Series sum;
-    for (int n = terms - 1; n >= 0; --n) {
-        sum.x = sum.x * t + a[n];
-        if (n > 0) sum.v = sum.v * t + static_cast<Real>(n) * a[n];
-    }
-    return sum;
-}
-
-Flow short_flow(Real k, Real c, Real t) {
-    const Series from_x = series(k, c, 0, 1, 0, t);
-    const Series from_v = series(k, c, 0, 0, 1, t);
-    return {from_x.x, from_v.x, series(k, c, 1, 0, 0, t).x, from_x.v, from_v.v};
-}
-
-Flow dragged(Real c, Real t) {
-    const Real xv = -std::expm1(-c * t) / c;
-    return {1, xv, (t - xv) / c, 0, std::exp(-c * t)};
-}
-
-Flow underdamped(Real k, Real gamma, Real w, Real t) {
-    const Real decay = std::exp(-gamma * t);
-    const Real xv = decay * (w > 0 ? std::sin(w * t) / w : t);
-    const Real cosine = decay * std::cos(w * t);
-    const Real xx = cosine + gamma * xv;
-    return {xx, xv, (1 - xx) / k, -k * xv, cosine - gamma * xv};
-}
-
-/// With the rates slow = γ − s and fast = γ + s.
-Flow overdamped(Real k, Real gamma, Real s, Real t) {
-    const Real slow = k / (gamma + s);
-    const Real fast = gamma + s;
-    const Real decay = std::exp(-slow * t);
-    const Real xv = decay * -std::expm1(-2 * s * t) / (2 * s);
-    const Real xf = (-std::expm1(-slow * t) / slow - xv) / fast;
-    return {decay + slow * xv, xv, xf, -k * xv, decay - fast * xv};
-}
-
-}  // namespace
-
 Flow flow(Real k, Real c, Real t) {
     if (k * t * t + c * t < 1) return short_flow(k, c, t);
     if (k == 0) return dragged(c, t);
@@ -185,14 +205,6 @@ void Oscillators::sample_body(std::size_t i, Point* out) const {
         }
     }
 }
-
-namespace {
-
-constexpr Eigen::Index axes = 3;
-
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-}  // namespace
 
 Matrix exponential(const Matrix& a) {
     const Real norm = a.cwiseAbs().rowwise().sum().maxCoeff();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "trap/integration.hpp"
+#include "trap/truth.hpp"
 
 #include <algorithm>
 #include <array>

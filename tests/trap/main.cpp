@@ -10,7 +10,7 @@
 
 #include "oiler/core/error.hpp"
 #include "trap/truth.hpp"
-#include "trap/verdict.hpp"
+#include "trap/traps.hpp"
 
 using namespace oiler;
 using namespace oiler::trap;

@@ -5,7 +5,6 @@
 
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/scene.hpp"
-#include "trap/system.hpp"
 #include "trap/truth.hpp"
 
 namespace oiler::trap {

@@ -7,12 +7,9 @@
 
 #include "oiler/scene/make_world.hpp"
 #include "support/reference.hpp"
-#include "trap/closed_forms.hpp"
-#include "trap/integration.hpp"
-#include "trap/measure.hpp"
-#include "trap/scene.hpp"
-#include "trap/traps.hpp"
 #include "trap/truth.hpp"
+#include "trap/measure.hpp"
+#include "trap/traps.hpp"
 
 namespace oiler::trap {
 namespace {

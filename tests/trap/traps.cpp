@@ -5,56 +5,159 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
 
-#include "trap/draws.hpp"
+#include "oiler/scene/read.hpp"
 
 namespace oiler::trap {
-
-std::string Draft::vector(const std::vector<double>& numbers) const {
-    std::string list;
-    for (int axis = 0; axis < axes; ++axis)
-        list += fmt::format("{}{}", axis > 0 ? ", " : "",
-                            static_cast<std::size_t>(axis) < numbers.size()
-                                ? numbers[static_cast<std::size_t>(axis)]
-                                : 0.0);
-    return "[" + list + "]";
-}
-
-std::string Draft::body(double mass, const std::vector<double>& position,
-                        const std::vector<double>& velocity, const std::string& more) {
-    const std::string name = fmt::format("b{}", bodies++);
-    text += fmt::format("[[body]]\nname = \"{}\"\nmass = {}\nposition = {}\nvelocity = {}\n{}",
-                        name, mass, vector(position), vector(velocity), more);
-    return name;
-}
-
-void Draft::spring(const std::string& body, const std::vector<double>& anchor, double stiffness,
-                   double damping, double rest_length) {
-    text += fmt::format(
-        "[[spring]]\nbody = \"{}\"\nanchor = {}\nstiffness = {}\ndamping = {}\nrest_length = {}\n",
-        body, vector(anchor), stiffness, damping, rest_length);
-}
-
-void Draft::link(const std::string& body, const std::string& to, double stiffness, double damping,
-                 double rest_length) {
-    text += fmt::format(
-        "[[spring]]\nbody = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\nrest_length = {}\n",
-        body, to, stiffness, damping, rest_length);
-}
-
-void Draft::gravity(double g) {
-    std::vector<double> acceleration(static_cast<std::size_t>(axes), 0.0);
-    acceleration[axes == 1 ? 0 : 1] = -g;
-    text += fmt::format("[gravity]\nacceleration = {}\n", vector(acceleration));
-}
-
-void Draft::attractor(const std::vector<double>& position, double gm) {
-    text += fmt::format("[[attractor]]\nposition = {}\ngm = {}\n", vector(position), gm);
-}
-
-void Draft::limit(double hertz, double periods) { longest = std::min(longest, periods / hertz); }
-
 namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// Four significant digits keep a file readable.
+double rounded(double number) { return std::stod(fmt::format("{:.4g}", number)); }
+
+double mass_of(Dice& dice) { return rounded(dice.log_uniform(0.1, 10)); }
+
+/// No, weak, exactly critical or strong damping of a spring, N·s/m.
+double damping_of(Dice& dice, double mass, double stiffness) {
+    const double critical = 2 * std::sqrt(mass * stiffness);
+    const int choice = dice.whole(0, 4);
+    if (choice == 0) return 0;
+    if (choice == 1) return critical;
+    if (choice == 2) return rounded(critical * dice.log_uniform(1, 50));
+    return rounded(critical * dice.log_uniform(1e-5, 1));
+}
+
+std::vector<double> random_point(Dice& dice, double size) {
+    std::vector<double> point(3);
+    for (double& number : point) number = rounded(dice.uniform(-size, size));
+    return point;
+}
+
+/// A chain between two anchors. Rest lengths make it nonlinear.
+void add_chain(Dice& dice, Draft& draft, int count, double rest, double periods) {
+    const double omega = dice.log_uniform(0.5, 300);
+    const double damping = dice.chance(0.5) ? 0 : rounded(omega * dice.log_uniform(1e-4, 1));
+    const double stiffness = rounded(omega * omega);
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i)
+        names.push_back(draft.body(
+            dice.chance(0.5) ? 1 : mass_of(dice),
+            {i + 1 + rounded(dice.uniform(-0.2, 0.2)), rounded(dice.uniform(-0.1, 0.1))}, {0}));
+    draft.spring(names.front(), {0}, stiffness, damping, rest);
+    for (int i = 1; i < count; ++i)
+        draft.link(names[static_cast<std::size_t>(i)], names[static_cast<std::size_t>(i - 1)],
+                   stiffness, damping, rest);
+    if (dice.chance(0.5))
+        draft.spring(names.back(), {static_cast<double>(count + 1)}, stiffness, damping, rest);
+    draft.limit(omega * 6 / turn, periods);
+}
+
+/// A body on a spring that oscillates by about `size` at `omega`, rad/s.
+void add_oscillator(Dice& dice, Draft& draft, double omega, double size, bool damped) {
+    // Squares of powers of two: damping can be exactly critical.
+    const bool exact = dice.chance(0.3);
+    const double mass = exact ? 1 : mass_of(dice);
+    if (exact) omega = std::exp2(std::round(std::log2(omega)));
+    const double stiffness = exact ? omega * omega : rounded(mass * omega * omega);
+    const std::vector<double> anchor = random_point(dice, dice.chance(0.5) ? 0 : 10 * size);
+    std::vector<double> position = anchor;
+    for (double& number : position) number += rounded(dice.uniform(-size, size));
+    const double speed = dice.chance(0.5) ? 0 : omega * size;
+    const std::string body = draft.body(mass, position, random_point(dice, speed));
+    draft.spring(body, anchor, stiffness, damped ? damping_of(dice, mass, stiffness) : 0);
+    draft.limit(omega / turn);
+}
+
+void single_spring(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 3);
+    if (dice.chance(0.5)) draft.gravity(9.81);
+    add_oscillator(dice, draft, dice.log_uniform(0.01, 1e4), dice.log_uniform(0.01, 1000), true);
+}
+
+void several_springs(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    if (dice.chance(0.5)) draft.gravity(9.81);
+    for (int i = dice.whole(2, 12); i > 0; --i)
+        add_oscillator(dice, draft, dice.log_uniform(0.01, 1e3), dice.log_uniform(0.1, 100), true);
+}
+
+void many_springs(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    const double omega = dice.log_uniform(0.1, 1e3);
+    for (int i = dice.whole(30, 200); i > 0; --i)
+        add_oscillator(dice, draft, omega * dice.uniform(0.5, 1), dice.uniform(0.5, 2), false);
+    draft.limit(omega / turn, 100);
+}
+
+/// A slow large oscillation beside small fast ones.
+void slow_and_fast(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    if (dice.chance(0.3)) draft.gravity(9.81);
+    add_oscillator(dice, draft, dice.log_uniform(0.05, 2), dice.log_uniform(10, 1000), false);
+    for (int i = dice.whole(1, 3); i > 0; --i)
+        add_oscillator(dice, draft, turn * dice.log_uniform(10, 1000), dice.log_uniform(0.1, 5),
+                       dice.chance(0.5));
+}
+
+/// A spring whose frequency is a multiple of a usual rate: samples at that rate see it at rest.
+void aliased(Dice& dice, Draft& draft) {
+    constexpr double rates[]{1, 10, 30, 60};
+    const double hertz = rates[dice.whole(0, 3)] * dice.whole(1, 16);
+    const double stiffness = turn * hertz * turn * hertz;
+    const double size = rounded(dice.log_uniform(0.1, 10));
+    if (dice.chance(0.3)) draft.gravity(9.81);
+    const bool released = dice.chance(0.5);
+    const std::string body =
+        draft.body(1, {released ? size : 0}, {released ? 0 : turn * hertz * size});
+    draft.spring(body, {0}, stiffness, dice.chance(0.7) ? 0 : rounded(dice.log_uniform(1e-4, 1)));
+    if (dice.chance(0.5))
+        add_oscillator(dice, draft, dice.log_uniform(0.05, 2), dice.log_uniform(10, 300), false);
+    draft.limit(hertz);
+}
+
+void linked_pair(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 3);
+    const double omega = dice.log_uniform(0.1, 1e3);
+    const double mass = mass_of(dice);
+    const double stiffness = rounded(mass * omega * omega);
+    const std::string a = draft.body(mass, random_point(dice, 5), random_point(dice, 5));
+    const std::string b = draft.body(mass_of(dice), random_point(dice, 5), {0});
+    draft.link(a, b, stiffness, damping_of(dice, mass, stiffness));
+    if (dice.chance(0.7)) draft.spring(a, random_point(dice, 5), rounded(stiffness / 3), 0);
+    if (dice.chance(0.5)) draft.spring(b, {0}, rounded(stiffness * dice.log_uniform(0.1, 10)), 0);
+    if (dice.chance(0.3)) draft.gravity(9.81);
+    draft.limit(omega * 3 / turn, 5000);
+}
+
+void linear_chain(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    if (dice.chance(0.3)) draft.gravity(9.81);
+    add_chain(dice, draft, dice.whole(3, 20), 0, 1000);
+}
+
+void coiled_chain(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    if (dice.chance(0.3)) draft.gravity(1);
+    add_chain(dice, draft, dice.whole(2, 8), rounded(dice.uniform(0.3, 0.9)), 100);
+}
+
+/// An elastic pendulum; its spring never vanishes.
+void pendulum(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(2, 3);
+    const double omega = dice.log_uniform(3, 300);
+    const double mass = mass_of(dice);
+    const double length = rounded(dice.uniform(0.5, 3));
+    draft.gravity(9.81);
+    const double angle = dice.uniform(0.1, 1.2);
+    const std::string body = draft.body(
+        mass, {rounded(length * std::sin(angle)), rounded(-length * std::cos(angle) - 0.1)}, {0});
+    draft.spring(body, {0}, rounded(mass * omega * omega),
+                 dice.chance(0.5) ? 0 : rounded(mass * omega * dice.log_uniform(1e-3, 1)), length);
+    draft.limit(omega / turn, 300);
+}
 
 std::string drags(double linear, double quadratic) {
     return fmt::format("linear_drag = {}\nquadratic_drag = {}\n", rounded(linear),
@@ -171,8 +274,110 @@ constexpr Kind all[]{
     {"many springs", many_springs},
 };
 
+constexpr double smallest_tolerance = 1e-6;  ///< of the extent
+
+/// The scene file. The default rate does not suit short scenes; few keep it.
+std::string file_of(const Draft& draft, double duration, bool keeps_rate) {
+    const double rate = std::clamp(std::ceil(4 / duration), 100.0, 1e6);
+    return fmt::format("[scene]\naxes = {}\nduration = {}\n{}{}", draft.axes, duration,
+                       keeps_rate ? "" : fmt::format("rate = {}\n", rate), draft.text);
+}
+
+/// The truth, if it is much better than any tolerance will be.
+bool find_truth(Trap& trap) {
+    try {
+        trap.truth = std::make_unique<Truth>(trap.scene);
+    } catch (const std::domain_error&) {
+        return false;
+    }
+    trap.extent = static_cast<double>(trap.truth->extent(trap.scene.duration));
+    return trap.truth->uncertainty() <= 1e-3 * smallest_tolerance * trap.extent;
+}
+
+Question question_of(Dice& dice, double extent, bool plain) {
+    Question question;
+    // Round-off is no motion.
+    const double size = extent > 1e-15 ? extent : 1;
+    question.tolerance =
+        std::stod(fmt::format("{:.3g}", size * dice.log_uniform(smallest_tolerance, 0.3)));
+    const int choice = dice.whole(0, 5);
+    if (choice == 1 && !plain) question.meaning = Meaning::at_steps;
+    if (choice == 2 && !plain) question.meaning = Meaning::display;
+    if (choice == 3) question.gives_min_rate = true;
+    if (choice == 4)
+        for (int i = dice.whole(2, 4); i > 0; --i)
+            question.methods.emplace_back(methods()[static_cast<std::size_t>(dice.whole(
+                                                        0, static_cast<int>(methods().size()) - 1))]
+                                              .name);
+    return question;
+}
+
 }  // namespace
 
+std::string Draft::vector(const std::vector<double>& numbers) const {
+    std::string list;
+    for (int axis = 0; axis < axes; ++axis)
+        list += fmt::format("{}{}", axis > 0 ? ", " : "",
+                            static_cast<std::size_t>(axis) < numbers.size()
+                                ? numbers[static_cast<std::size_t>(axis)]
+                                : 0.0);
+    return "[" + list + "]";
+}
+
+std::string Draft::body(double mass, const std::vector<double>& position,
+                        const std::vector<double>& velocity, const std::string& more) {
+    const std::string name = fmt::format("b{}", bodies++);
+    text += fmt::format("[[body]]\nname = \"{}\"\nmass = {}\nposition = {}\nvelocity = {}\n{}",
+                        name, mass, vector(position), vector(velocity), more);
+    return name;
+}
+
+void Draft::spring(const std::string& body, const std::vector<double>& anchor, double stiffness,
+                   double damping, double rest_length) {
+    text += fmt::format(
+        "[[spring]]\nbody = \"{}\"\nanchor = {}\nstiffness = {}\ndamping = {}\nrest_length = {}\n",
+        body, vector(anchor), stiffness, damping, rest_length);
+}
+
+void Draft::link(const std::string& body, const std::string& to, double stiffness, double damping,
+                 double rest_length) {
+    text += fmt::format(
+        "[[spring]]\nbody = \"{}\"\nto = \"{}\"\nstiffness = {}\ndamping = {}\nrest_length = {}\n",
+        body, to, stiffness, damping, rest_length);
+}
+
+void Draft::gravity(double g) {
+    std::vector<double> acceleration(static_cast<std::size_t>(axes), 0.0);
+    acceleration[axes == 1 ? 0 : 1] = -g;
+    text += fmt::format("[gravity]\nacceleration = {}\n", vector(acceleration));
+}
+
+void Draft::attractor(const std::vector<double>& position, double gm) {
+    text += fmt::format("[[attractor]]\nposition = {}\ngm = {}\n", vector(position), gm);
+}
+
+void Draft::limit(double hertz, double periods) { longest = std::min(longest, periods / hertz); }
+
 std::span<const Kind> kinds() { return all; }
+
+Trap make_trap(std::uint64_t seed, bool plain) {
+    const Kind& kind = kinds()[seed % kinds().size()];
+    Dice dice(seed);
+    Draft draft;
+    kind.make(dice, draft);
+    // Longer runs than the truth can follow become as long as it can.
+    double duration = dice.log_uniform(1e-3, 100);
+    if (duration > draft.longest) duration = draft.longest * dice.uniform(0.3, 1);
+    const bool keeps_rate = dice.chance(0.15);
+    Trap trap{.kind = kind.name};
+    // A motion that is not steady enough is cut short.
+    do {
+        trap.text = file_of(draft, std::stod(fmt::format("{:.3g}", duration)), keeps_rate);
+        trap.scene = parse_scene(trap.text, "scene.toml");
+        duration /= 4;
+    } while (!find_truth(trap));
+    trap.question = question_of(dice, trap.extent, plain);
+    return trap;
+}
 
 }  // namespace oiler::trap

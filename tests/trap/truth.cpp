@@ -8,8 +8,6 @@
 #include <numeric>
 
 #include "oiler/scene/make_world.hpp"
-#include "trap/closed_forms.hpp"
-#include "trap/integration.hpp"
 
 namespace oiler::trap {
 namespace {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "oiler/sim/bodies.hpp"
+#include "support/dice.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -123,20 +124,14 @@ void expect_same(const Collisions& found, const std::vector<BruteForce::Pair>& e
     EXPECT_EQ(next, found.pairs().size());
 }
 
-using Random = std::mt19937;
-
-double uniform(Random& random, double low, double high) {
-    return std::uniform_real_distribution(low, high)(random);
-}
 /// Of any magnitude between two powers of ten.
-double power(Random& random, double low, double high) {
-    return std::pow(10, uniform(random, low, high));
+double power(Dice& random, double low, double high) {
+    return std::pow(10, random.uniform(low, high));
 }
-bool chance(Random& random, double part) { return uniform(random, 0, 1) < part; }
 
-Vec3 random_vector(Random& random, int axes, double size) {
+Vec3 random_vector(Dice& random, int axes, double size) {
     Vec3 vector{};
-    for (int i = 0; i < axes; ++i) vector[i] = uniform(random, -size, size);
+    for (int i = 0; i < axes; ++i) vector[i] = random.uniform(-size, size);
     return vector;
 }
 
@@ -148,21 +143,21 @@ struct Sizes {
     double greatest_radius = 0;  ///< powers of ten
 };
 
-void spawn_random(World& world, Random& random, const Sizes& sizes) {
+void spawn_random(World& world, Dice& random, const Sizes& sizes) {
     const Entity entity =
         world.spawn({.position = random_vector(random, sizes.axes, sizes.extent)});
-    if (chance(random, 0.9))
-        world.set_contact(entity, Contact{chance(random, 0.1) ? 0
-                                                              : power(random, sizes.least_radius,
-                                                                      sizes.greatest_radius)});
+    if (random.chance(0.9))
+        world.set_contact(entity, Contact{random.chance(0.1) ? 0
+                                                             : power(random, sizes.least_radius,
+                                                                     sizes.greatest_radius)});
 }
 
 /// Moves some bodies a little, some far; some jump, some are replaced.
-void change(World& world, Random& random, const Sizes& sizes) {
+void change(World& world, Dice& random, const Sizes& sizes) {
     for (std::size_t row = world.bodies().size(); row-- > 0;) {
         const Entity entity = world.entity_of_row(row);
         const Vec3 place = random_vector(random, sizes.axes, sizes.extent);
-        const double kind = uniform(random, 0, 1);
+        const double kind = random.uniform(0, 1);
         if (kind < 0.3) world.set_position(entity, place);
         if (kind > 0.5) world.set_position(entity, world.position(entity) + place * 0.01);
         if (kind > 0.8) world.teleport(entity, place);
@@ -175,7 +170,7 @@ void change(World& world, Random& random, const Sizes& sizes) {
 }
 
 void compare_with_brute_force(unsigned seed, const Sizes& sizes, std::size_t bodies) {
-    Random random(seed);
+    Dice random(seed);
     World world = world_of(sizes.axes, seed % 2 == 0 ? Precision::double_ : Precision::single);
     Collisions collisions;
     BruteForce brute_force;
@@ -196,13 +191,13 @@ TEST(Collisions, AreThoseOfBruteForce) {
 
 TEST(Collisions, AreThoseOfBruteForceAtAllSizes) {
     for (unsigned seed = 0; seed < 600; ++seed) {
-        Random random(seed);
-        const double scale = uniform(random, -12, 12);
+        Dice random(seed);
+        const double scale = random.uniform(-12, 12);
         compare_with_brute_force(seed,
                                  {.axes = static_cast<int>(seed % 3) + 1,
                                   .extent = std::pow(10, scale),
-                                  .least_radius = scale - uniform(random, 0, 12),
-                                  .greatest_radius = scale - uniform(random, 0, 2)},
+                                  .least_radius = scale - random.uniform(0, 12),
+                                  .greatest_radius = scale - random.uniform(0, 2)},
                                  20);
     }
 }
@@ -402,7 +397,7 @@ TEST(Collisions, LeaveOutBodiesThatAreNotFinite) {
 }
 
 TEST(Collisions, AreFastAmongVeryDifferentBodies) {
-    Random random(1);
+    Dice random(1);
     World world = world_of(2);
     for (int i = 0; i < 20'000; ++i) spawn(world, random_vector(random, 2, 1e3), 0.1);
     for (int i = 0; i < 20; ++i) spawn(world, random_vector(random, 2, 1e9), power(random, -9, 12));

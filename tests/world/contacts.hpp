@@ -12,6 +12,8 @@ inline constexpr double g = 9.81;
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 inline constexpr std::array contact_methods{"semi_implicit_euler", "velocity_verlet", "rk4",
                                             "implicit_midpoint",   "implicit_euler",  "exact"};
+/// Those that step flights under gravity exactly.
+inline constexpr std::array exact_flights{"velocity_verlet", "rk4", "implicit_midpoint", "exact"};
 
 inline World world_of(const char* method, int rate, int axes = 2, const Vec3& gravity = {},
                       const std::vector<Plane>& planes = {},
@@ -22,23 +24,18 @@ inline World world_of(const char* method, int rate, int axes = 2, const Vec3& gr
     return world;
 }
 
-/// Steps the world and counts the impacts of one kind.
-inline int count(World& world, int steps, Meeting kind) {
-    int met = 0;
+/// Steps the world and returns its impacts, those of one kind if it is given.
+inline std::vector<Impact> impacts(World& world, int steps, std::optional<Meeting> kind = {}) {
+    std::vector<Impact> all;
     for (int i = 0; i < steps; ++i) {
         world.step();
-        for (const Impact& impact : world.impacts()) met += impact.kind == kind;
+        for (const Impact& impact : world.impacts())
+            if (!kind || impact.kind == kind) all.push_back(impact);
     }
-    return met;
+    return all;
 }
-/// Steps the world and counts the impacts of all kinds.
-inline int count(World& world, int steps) {
-    int met = 0;
-    for (int i = 0; i < steps; ++i) {
-        world.step();
-        met += static_cast<int>(world.impacts().size());
-    }
-    return met;
+inline int count(World& world, int steps, std::optional<Meeting> kind = {}) {
+    return static_cast<int>(impacts(world, steps, kind).size());
 }
 
 }  // namespace oiler::test

@@ -4,24 +4,20 @@
 #include <random>
 
 #include "oiler/sim/bodies.hpp"
+#include "support/dice.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using Random = std::mt19937;
 
 constexpr double most = std::numeric_limits<double>::max();
 
 World world_of(int axes, Precision precision = Precision::double_) {
     return World(axes, {.rate = {60}, .precision = precision});
 }
-double uniform(Random& random, double low, double high) {
-    return std::uniform_real_distribution(low, high)(random);
-}
-Vec3 random_vector(Random& random, int axes, double size) {
+Vec3 random_vector(Dice& random, int axes, double size) {
     Vec3 vector{};
-    for (int i = 0; i < axes; ++i) vector[i] = uniform(random, -size, size);
+    for (int i = 0; i < axes; ++i) vector[i] = random.uniform(-size, size);
     return vector;
 }
 
@@ -49,25 +45,25 @@ std::size_t expect_same(const World& world, const Neighbours& neighbours, const 
 TEST(Neighbours, AreThoseOfBruteForce) {
     std::size_t found = 0;
     for (unsigned seed = 0; seed < 2000; ++seed) {
-        Random random(seed);
+        Dice random(seed);
         const int axes = static_cast<int>(seed % 3) + 1;
         World world = world_of(axes, static_cast<Precision>(seed / 3 % 3));
         Neighbours neighbours;
         for (unsigned i = 0; i < seed % 97; ++i) {
-            const double size = seed % 2 == 0 ? 10 : std::pow(10, uniform(random, -9, 9));
+            const double size = seed % 2 == 0 ? 10 : std::pow(10, random.uniform(-9, 9));
             static_cast<void>(world.spawn({.position = random_vector(random, axes, size)}));
         }
         neighbours.update(world);
         for (int i = 0; i < 20; ++i)
             found += expect_same(world, neighbours, random_vector(random, 3, 10),
-                                 std::pow(10, uniform(random, -3, 2)));
+                                 std::pow(10, random.uniform(-3, 2)));
     }
     EXPECT_GT(found, 100'000U);
 }
 
 TEST(Neighbours, AreThoseOfBruteForceInALargeWorld) {
     for (const int axes : {1, 2, 3}) {
-        Random random(1);
+        Dice random(1);
         World world = world_of(axes);
         for (int i = 0; i < 20'000; ++i)
             static_cast<void>(
@@ -151,14 +147,8 @@ TEST(Neighbours, LeaveOutBodiesThatAreNotFinite) {
 
 TEST(Neighbours, RefuseBallsThatAreNotFinite) {
     const World world = world_of(2);
-    const auto line_of = [&](const Vec3& point, double radius) -> std::string {
-        try {
-            static_cast<void>(world.within(point, radius));
-        } catch (const Error& error) {
-            EXPECT_EQ(error.exit(), Exit::usage);
-            return error.what();
-        }
-        return "";
+    const auto line_of = [&](const Vec3& point, double radius) {
+        return line_of_error(Exit::usage, [&] { (void)world.within(point, radius); });
     };
     const std::string remedy = ": give a radius that is finite and 0 or more";
     EXPECT_EQ(line_of({}, -1), "a query within -1 m" + remedy);

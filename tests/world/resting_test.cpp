@@ -13,15 +13,11 @@ TEST(Resting, BeginsWhenAllBouncesAreOver) {
             World world =
                 world_of("velocity_verlet", rate, 1, {-g}, {{.normal = {1}, .restitution = e}});
             const Entity ball = world.spawn({.velocity = {3}, .contact = Contact{}});
-            double rest = 0;
-            while (rest == 0 && world.time() < 100) {
-                world.step();
-                for (const Impact& impact : world.impacts())
-                    if (impact.kind == Meeting::rest) rest = impact.time;
-            }
+            const auto rests = impacts(world, 70 * rate, Meeting::rest);
+            ASSERT_EQ(rests.size(), 1U) << e << " " << rate;
             const double expected = 2 * 3 / (g * (1 - e));
             // Each flight adds the round-off of a time to it.
-            EXPECT_NEAR(rest, expected, 1e-11 * expected) << e << " " << rate;
+            EXPECT_NEAR(rests[0].time, expected, 1e-11 * expected) << e << " " << rate;
             world.step(rate);
             EXPECT_EQ(world.position(ball)[0], 0);
             EXPECT_EQ(world.velocity(ball)[0], 0);
@@ -227,8 +223,7 @@ TEST(Resting, AtTheApexOfAWedge) {
 // them is known. The body ends where it touches both planes.
 TEST(Resting, InAValleyWithAnElasticSide) {
     for (const int rate : {5, 20, 60}) {
-        World world = world_of("velocity_verlet", rate, 2);
-        world.set_gravity({0, -g});
+        World world = world_of("velocity_verlet", rate, 2, {0, -g});
         const double slopes[] = {0.3, -0.2};
         const double elastic[] = {1, 0.4};
         for (const int i : {0, 1})
@@ -247,8 +242,7 @@ TEST(Resting, InAValleyWithAnElasticSide) {
 
 // Planes that leave no room for a body leave its numbers finite.
 TEST(Resting, WhereThereIsNoRoom) {
-    World world = world_of("velocity_verlet", 60, 2);
-    world.set_gravity({0, -g});
+    World world = world_of("velocity_verlet", 60, 2, {0, -g});
     for (const Vec3 normal : {Vec3{0.9, 1.96}, {0.63, -0.64}, {-0.8, -0.63}, {0.21, 0.72}})
         world.add_plane({.normal = normal});
     const Entity ball = world.spawn(
@@ -264,12 +258,7 @@ TEST(Resting, IsNotReportedBehindAWall) {
                            {{.normal = {0, 1}, .restitution = 0.5},
                             {.normal = {-1, 0}, .offset = -0.75, .restitution = 0.9}});
     world.spawn({.position = {0.5, 0.001}, .velocity = {10}, .contact = Contact{}});
-    std::vector<Impact> rests;
-    for (int i = 0; i < 3; ++i) {
-        world.step();
-        for (const Impact& impact : world.impacts())
-            if (impact.kind == Meeting::rest) rests.push_back(impact);
-    }
+    const auto rests = impacts(world, 3, Meeting::rest);
     ASSERT_EQ(rests.size(), 1U);
     EXPECT_NEAR(rests[0].time, 0.025, 4 * epsilon);
     EXPECT_NEAR(rests[0].point[0], 0.75, 4 * epsilon);
@@ -282,17 +271,10 @@ TEST(Resting, IsNotReportedAgainAtAWall) {
                             {.normal = {1, 0}, .restitution = 1},
                             {.normal = {-1, 0}, .offset = -1, .restitution = 1}});
     world.spawn({.position = {0.5, 0.1}, .velocity = {3}, .contact = Contact{}});
-    int rests = 0;
-    int bounces = 0;
-    for (int i = 0; i < 600; ++i) {
-        world.step();
-        for (const Impact& impact : world.impacts()) {
-            rests += impact.kind == Meeting::rest;
-            bounces += impact.kind == Meeting::bounce;
-        }
-    }
-    EXPECT_EQ(rests, 1);
-    EXPECT_EQ(bounces, 31) << "30 walls and a floor";
+    const auto all = impacts(world, 600);
+    EXPECT_EQ(std::ranges::count(all, Meeting::rest, &Impact::kind), 1);
+    EXPECT_EQ(std::ranges::count(all, Meeting::bounce, &Impact::kind), 31)
+        << "30 walls and a floor";
 }
 
 // A game that waits for the end of bounces hears of it once, whatever the method, the rate and the
@@ -301,10 +283,9 @@ TEST(Resting, IsReportedOnce) {
     for (const char* method : contact_methods)
         for (const int rate : {20, 50, 60, 144})
             for (const auto precision : {Precision::single, Precision::double_}) {
-                World world(
-                    2, {.method = &find_method(method), .rate = {rate}, .precision = precision});
-                world.set_gravity({0, -g});
-                world.add_plane({.normal = {0, 1}, .restitution = 0.8, .friction = 0.1});
+                World world =
+                    world_of(method, rate, 2, {0, -g},
+                             {{.normal = {0, 1}, .restitution = 0.8, .friction = 0.1}}, precision);
                 world.spawn({.position = {0, 4}, .velocity = {1}, .contact = Contact{0.2}});
                 const int rests = count(world, 20 * rate, Meeting::rest);
                 EXPECT_EQ(rests, 1) << method << rate << name_of(precision);
@@ -314,11 +295,8 @@ TEST(Resting, IsReportedOnce) {
 // In float, the last flights are as low as round-off: they may end between two steps.
 TEST(Resting, IsReportedAfterFlightsAsLowAsRoundOff) {
     for (int i = 0; i < 100; ++i) {
-        World world(
-            2,
-            {.method = &find_method("rk3_kutta"), .rate = {240}, .precision = Precision::single});
-        world.set_gravity({0, -g});
-        world.add_plane({.normal = {0, 1}, .restitution = 0.95});
+        World world = world_of("rk3_kutta", 240, 2, {0, -g},
+                               {{.normal = {0, 1}, .restitution = 0.95}}, Precision::single);
         world.spawn({.position = {0, 0.5 + 0.03 * i}, .contact = Contact{0.25}});
         const int rests = count(world, 40 * 240, Meeting::rest);
         EXPECT_EQ(rests, 1) << i;

@@ -172,12 +172,7 @@ TEST(Visits, OfBodiesMoveThem) {
 TEST(Visits, NeitherCopyNorReplaceNorStepTheirWorld) {
     World world = crowd(2);
     const auto mistake = [&](auto f) {
-        try {
-            world.each<Health>([&](Entity, Health&) { f(); });
-        } catch (const Mistake& caught) {
-            return std::string(caught.what());
-        }
-        return std::string();
+        return mistake_of([&] { world.each<Health>([&](Entity, Health&) { f(); }); });
     };
     EXPECT_EQ(mistake([&] { world = World(1); }),
               "a world is not replaced inside its own each; restart after it, or with "

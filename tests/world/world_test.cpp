@@ -297,16 +297,6 @@ TEST(World, TryStepReturnsTheDivergence) {
     EXPECT_EQ(world.tick(), 100);
 }
 
-template <class F>
-std::string mistake(F f) {
-    try {
-        f();
-    } catch (const Mistake& mistake) {
-        return mistake.what();
-    }
-    return "";
-}
-
 // Checked in every build, because continuing would change the entity that uses the slot now.
 TEST(World, MistakesNameCallEntityAndTickAndChangeNothing) {
     World world(2);
@@ -324,20 +314,22 @@ TEST(World, MistakesNameCallEntityAndTickAndChangeNothing) {
     };
     constexpr const char* no_body = "it has no body, or is gone";
     constexpr const char* no_component = "it has no component of this type, or is gone";
-    EXPECT_EQ(mistake([&] { (void)world.position(gone); }), line("the body", no_body));
-    EXPECT_EQ(mistake([&] { world.set_velocity(gone, {1}); }), line("set_velocity", no_body));
-    EXPECT_EQ(mistake([&] { world.teleport(gone, {1}); }), line("teleport", no_body));
-    EXPECT_EQ(mistake([&] { world.destroy(gone); }), line("destroy", "it is gone"));
-    EXPECT_EQ(mistake([&] { world.add(gone, Name{}); }), line("add", "it is gone"));
-    EXPECT_EQ(mistake([&] { world.add_body(gone, {}); }), line("add_body", "it is gone"));
-    EXPECT_EQ(mistake([&] { (void)world.get<Health>(gone); }), line("get", no_component));
-    EXPECT_EQ(mistake([&] { world.remove<Health>(gone); }), line("remove", no_component));
-    EXPECT_EQ(mistake([&] { world.add(now, Health{}); }),
+    EXPECT_EQ(mistake_of([&] { (void)world.position(gone); }), line("the body", no_body));
+    EXPECT_EQ(mistake_of([&] { world.set_velocity(gone, {1}); }), line("set_velocity", no_body));
+    EXPECT_EQ(mistake_of([&] { world.teleport(gone, {1}); }), line("teleport", no_body));
+    EXPECT_EQ(mistake_of([&] { world.destroy(gone); }), line("destroy", "it is gone"));
+    EXPECT_EQ(mistake_of([&] { world.add(gone, Name{}); }), line("add", "it is gone"));
+    EXPECT_EQ(mistake_of([&] { world.add_body(gone, {}); }), line("add_body", "it is gone"));
+    EXPECT_EQ(mistake_of([&] { (void)world.get<Health>(gone); }), line("get", no_component));
+    EXPECT_EQ(mistake_of([&] { world.remove<Health>(gone); }), line("remove", no_component));
+    EXPECT_EQ(mistake_of([&] { world.add(now, Health{}); }),
               line("add", "it has a component of this type already"));
-    EXPECT_EQ(mistake([&] { world.add_body(now, {}); }), line("add_body", "it has a body already"));
-    EXPECT_TRUE(holds(mistake([&] { (void)world.bodies().position(2); }), "no body in this row"));
-    EXPECT_TRUE(holds(mistake([] { World(4); }), "1, 2 or 3 axes"));
-    EXPECT_TRUE(holds(mistake([&] { (void)world.random().below(0); }), "give 1 or more"));
+    EXPECT_EQ(mistake_of([&] { world.add_body(now, {}); }),
+              line("add_body", "it has a body already"));
+    EXPECT_TRUE(
+        holds(mistake_of([&] { (void)world.bodies().position(2); }), "no body in this row"));
+    EXPECT_TRUE(holds(mistake_of([] { World(4); }), "1, 2 or 3 axes"));
+    EXPECT_TRUE(holds(mistake_of([&] { (void)world.random().below(0); }), "give 1 or more"));
     EXPECT_EQ(world.state_hash(), hash);
 }
 
@@ -348,12 +340,7 @@ TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
     const Entity last = world.spawn({.position = {1e300}}, Spring{.stiffness = 1e9});
     world.destroy(first);
     ASSERT_EQ(world.row(last), 0U);
-    try {
-        world.step(100);
-        FAIL() << "nothing diverged";
-    } catch (const Error& error) {
-        EXPECT_TRUE(holds(error.what(), "body 2"));
-    }
+    EXPECT_TRUE(holds(line_of_error(Exit::diverged, [&] { world.step(100); }), "body 2"));
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 
 #include <variant>
 
-#include "lab/advice/advice_on.hpp"
+#include "lab/measured_scenes.hpp"
+#include "lab/motions.hpp"
 #include "support/folder.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"
@@ -13,68 +14,9 @@ namespace {
 
 // ---- exact motions, from textbooks
 
-/// The exact position of a body at time t.
-using Truth = std::function<Vec<Real, 2>(std::size_t row, Real t)>;
-
-/// x = A·e^(−b·t/2)·(cos ωt + b/(2ω)·sin ωt), ω² = k − b²/4
-Vec<Real, 2> spring_truth(std::size_t, Real t) {
-    constexpr Real b = 0.1L;
-    const Real w = std::sqrt(15 - b * b / 4);
-    return {1000 * std::exp(-b / 2 * t) * (std::cos(w * t) + b / (2 * w) * std::sin(w * t)), 0};
-}
-
-/// Kepler's equation M = E − e·sin E by bisection: gm = a = 1, e = 0.6, from the perihelion.
-Vec<Real, 2> orbit_truth(std::size_t, Real t) {
-    constexpr Real e = 0.6L;
-    Real low = t - 1;
-    Real high = t + 1;
-    for (int i = 0; i < 80; ++i) {
-        const Real middle = (low + high) / 2;
-        (middle - e * std::sin(middle) < t ? low : high) = middle;
-    }
-    return {std::cos(low) - e, std::sqrt(1 - e * e) * std::sin(low)};
-}
-
-/// Two masses of 1 kg, springs of 15, 1.5 and 15 N/m: the modes have √15 rad/s in phase and √18
-/// rad/s in antiphase. The left mass starts 1 m from its rest at −2 m.
-Vec<Real, 2> chain_truth(std::size_t row, Real t) {
-    const Real together = std::cos(std::sqrt(Real(15)) * t) / 2;
-    const Real apart = std::cos(std::sqrt(Real(18)) * t) / 2;
-    return row == 0 ? Vec<Real, 2>{-2 + together + apart, 0}
-                    : Vec<Real, 2>{2 + together - apart, 0};
-}
-
-/// The largest distance from the truth at any step of the scene and, with points, at so many times
-/// on the straight line of each step.
-double error_of(const Scene& scene, const Stepping& choice, const Truth& truth, int points = 1) {
-    World world = make_world(scene, Settings{choice});
-    const auto rate = static_cast<Real>(choice.rate.steps);
-    const Real end = scene.duration;
-    Real most = 0;
-    for (std::int64_t tick = 0; static_cast<Real>(tick) / rate < end; ++tick) {
-        std::vector<Vec3> before;
-        for (std::size_t row = 0; row < world.bodies().size(); ++row)
-            before.push_back(world.bodies().position(row));
-        world.step();
-        for (int point = 1; point <= points; ++point) {
-            const Real share = static_cast<Real>(point) / points;
-            const Real t = (static_cast<Real>(tick) + share) / rate;
-            if (t > end) break;
-            for (std::size_t row = 0; row < before.size(); ++row) {
-                const Vec3 after = world.bodies().position(row);
-                const Vec<Real, 2> right = truth(row, t);
-                Real squares = 0;
-                for (int axis = 0; axis < 2; ++axis) {
-                    const Real from = before[row][axis];
-                    const Real off = from + share * (after[axis] - from) - right[axis];
-                    squares += off * off;
-                }
-                most = std::max(most, std::sqrt(squares));
-            }
-        }
-    }
-    return static_cast<double>(most);
-}
+Vec<Real, 3> spring_truth(std::size_t, Real t) { return article_motion(0.1L)(t).x; }
+Vec<Real, 3> orbit_truth(std::size_t, Real t) { return planet(0.6L, t).x; }
+Vec<Real, 3> chain_truth(std::size_t row, Real t) { return chain_motion(row == 0 ? 1 : -1)(t).x; }
 
 const std::string orbit = text_of(OILER_SOURCE "/assets/scenes/orbit.toml");
 const std::string chain = text_of(OILER_SOURCE "/assets/scenes/chain.toml");
@@ -95,18 +37,16 @@ protected:
                 .at_steps = GetParam().at_steps,
                 .methods = methods};
     }
-    static void expect_within_tolerance(const std::string& text, const Truth& truth,
+    static void expect_within_tolerance(const std::string& text, const ExactPosition& truth,
                                         const std::vector<const Method*>& methods) {
-        const Requirements requirements = among(methods);
-        const MeasuredScene measured = measured_for(text, requirements);
-        const Advice advice =
-            advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
+        const Advised advised(text, among(methods));
+        const Advice& advice = advised.advice;
         ASSERT_TRUE(advice.best);
         ASSERT_TRUE(advice.meets) << advice.obstacles.front();
         EXPECT_TRUE(advice.obstacles.empty());
         const int points = GetParam().at_steps ? 1 : 16;
         const auto error = [&](const TradeoffRow& row) {
-            return error_of(measured.scene, row.stepping, truth, points);
+            return true_error(advised.scene, row.stepping, truth, points);
         };
         const std::string words = describe(advice.best->stepping);
         EXPECT_LE(error(*advice.best), GetParam().error) << words;
@@ -141,19 +81,17 @@ TEST_P(AdviceOnPosition, OfADraggedProjectileIsKept) {
             "[scene]\naxes = 2\nrate = 60\nduration = 6.0\n[gravity]\nacceleration = [0.0, -" +
             word("g") + "]\n[[body]]\nvelocity = [" + word("vx0") + ", " + word("vy0") +
             "]\nquadratic_drag = " + word("k_per_m") + "\n";
-        const Requirements requirements = among(all_methods());
-        const MeasuredScene measured = measured_for(text, requirements);
-        const Advice advice =
-            advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-        ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, Settings{advice.best->stepping});
+        const Advised advised(text, among(all_methods()));
+        ASSERT_TRUE(advised.advice.meets);
+        const Stepping& best = advised.advice.best->stepping;
+        World world = make_world(advised.scene, Settings{best});
         for (const nlohmann::json& state : run.at("states")) {
-            world.step(advice.best->stepping.rate.steps);
+            world.step(best.rate.steps);
             const Vec3 at = world.bodies().position(0);
             EXPECT_LE(std::hypot(at[0] - number<Real>(state.at("x")),
                                  at[1] - number<Real>(state.at("y"))),
                       GetParam().error)
-                << describe(advice.best->stepping) << " after " << state.at("t");
+                << describe(best) << " after " << state.at("t");
         }
         EXPECT_EQ(world.time(), 6);
         return;
@@ -173,10 +111,9 @@ INSTANTIATE_TEST_SUITE_P(AsDrawn, AdviceOnPosition,
 // Exact steps are right at any rate, and the lowest rate has the fewest. Each takes no longer than
 // an evaluation of the forces; float takes as long as double, which is more accurate.
 TEST(Advice, OnTheArticlesSpringIsTheExactMotion) {
-    const MeasuredScene measured(article_spring);
     for (const double tolerance : {1e-3, 1e-6}) {
         const Advice advice = advise(
-            measured.scene, measured.reference,
+            spring().scene, spring().reference,
             {.position_error = tolerance, .at_steps = true, .methods = all_methods()},
             made_up_clock([](const Stepping& choice) {
                 return choice.method->name == "exact" ? 1.0
@@ -199,15 +136,14 @@ TEST(Advice, AmongSplittingsIsOneOfTheSweepsBest) {
                                         .min_rate = 1,
                                         .max_rate = plan.max_rate,
                                         .methods = plan.methods};
-        const MeasuredScene measured = measured_for(article_spring, requirements);
-        Tradeoff tradeoff = start_tradeoff(measured.scene, measured.reference, plan);
-        sweep(tradeoff, measured.scene, measured.reference, plan, {});
+        const Advised advised(article_spring, requirements);
+        Tradeoff tradeoff = start_tradeoff(advised.scene, advised.reference, plan);
+        sweep(tradeoff, advised.scene, advised.reference, plan, {});
         double fewest = INFINITY;
         for (const TradeoffRow* row : tradeoff.rows())
             if (row->judgement.stable && !(row->judgement.step_error > tolerance))
                 fewest = std::min(fewest, row->judgement.evaluations);
-        const Advice advice =
-            advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
+        const Advice& advice = advised.advice;
         ASSERT_TRUE(advice.meets);
         EXPECT_LE(advice.best->judgement.evaluations, 1.1 * fewest)
             << describe(advice.best->stepping);
@@ -222,14 +158,13 @@ TEST(Advice, IsTheLowestRateThatMeetsTheTolerance) {
         for (const double tolerance : {1e-2, at_steps ? 1e-7 : 1e-4}) {
             const Requirements requirements{
                 .position_error = tolerance, .at_steps = at_steps, .methods = methods_of({"rk4"})};
-            const MeasuredScene measured = measured_for(article_spring, requirements);
-            const Advice advice =
-                advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
+            const Advised advised(article_spring, requirements);
+            const Advice& advice = advised.advice;
             ASSERT_TRUE(advice.meets);
             Stepping lower = advice.best->stepping;
             lower.rate.steps -= std::max<std::int64_t>(1, lower.rate.steps / 32);
             ASSERT_GE(lower.rate.steps, 30);
-            EXPECT_GT(error_of(measured.scene, lower, spring_truth, at_steps ? 1 : 16),
+            EXPECT_GT(true_error(advised.scene, lower, spring_truth, at_steps ? 1 : 16),
                       0.96 * tolerance)
                 << describe(advice.best->stepping);
         }
@@ -239,17 +174,12 @@ TEST(Advice, IsTheLowestRateThatMeetsTheTolerance) {
 
 // Without a damper ½·v² + ½·15·x² stays 7.5e6 J.
 TEST(AdviceOnEnergy, IsKept) {
-    const std::string undamped =
-        one_axis +
-        "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n"
-        "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n";
     for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
         const Requirements requirements{.energy_drift = tolerance, .methods = splittings()};
-        const MeasuredScene measured = measured_for(undamped, requirements);
-        const Advice advice =
-            advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
+        const Advised advised(undamped_spring, requirements);
+        const Advice& advice = advised.advice;
         ASSERT_TRUE(advice.meets);
-        World world = make_world(measured.scene, Settings{advice.best->stepping});
+        World world = make_world(advised.scene, Settings{advice.best->stepping});
         double most = 0;
         while (world.time() < 10) {
             world.step();
@@ -259,7 +189,7 @@ TEST(AdviceOnEnergy, IsKept) {
         }
         EXPECT_LE(most, tolerance) << describe(advice.best->stepping);
         EXPECT_GT(most, 0);
-        EXPECT_NEAR(measured.reference.energy_scale, 7.5e6, 0.1);
+        EXPECT_NEAR(advised.reference.energy_scale, 7.5e6, 0.1);
     }
 }
 
@@ -309,9 +239,7 @@ TEST(Advice, KeepsFivePercentFromTheLimitOfStability) {
     const Requirements requirements{.position_error = 0.1,
                                     .methods = methods_of({"velocity_verlet"})};
     const Advice advice = advice_on(
-        one_axis + "duration = 5.0\n[[body]]\nname = \"slow\"\nposition = [1.0]\n[[spring]]\n" +
-            "body = \"slow\"\nanchor = [0.0]\nstiffness = 1.0\n[[body]]\nname = \"stiff\"\n" +
-            "[[spring]]\nbody = \"stiff\"\nanchor = [0.0]\nstiffness = 100000.0\n",
+        one_axis + "duration = 5.0\n" + on_spring(1, 1, "slow") + on_spring(0, 1e5, "stiff"),
         requirements);
     ASSERT_TRUE(advice.meets);
     EXPECT_GE(advice.best->stepping.rate.steps, 167);  // 158.1/0.95
@@ -359,9 +287,8 @@ TEST(Advice, IsNotBelow30HzUnlessAsked) {
 }
 
 TEST(Advice, IsEmptyIfStopped) {
-    const MeasuredScene measured(article_spring);
     const Advice advice =
-        advise(measured.scene, measured.reference, {.position_error = 1, .methods = splittings()},
+        advise(spring().scene, spring().reference, {.position_error = 1, .methods = splittings()},
                {.stopped = [] { return true; }});
     EXPECT_FALSE(advice.best);
     EXPECT_FALSE(advice.meets);
@@ -371,9 +298,9 @@ TEST(Advice, IsEmptyIfStopped) {
 TEST(Advice, NamesAMethodOnce) {
     const Requirements requirements{.position_error = 1,
                                     .methods = methods_of({"rk4", "exact", "velocity_verlet"})};
-    const MeasuredScene measured = measured_for(article_spring, requirements);
-    const Advice advice = advise(measured.scene, measured.reference, requirements,
-                                 made_up_clock([](const Stepping&) { return 1.0; }));
+    const Advice advice =
+        Advised(article_spring, requirements, made_up_clock([](const Stepping&) { return 1.0; }))
+            .advice;
     ASSERT_TRUE(advice.meets);
     std::vector<const Method*> cheapest{advice.best->stepping.method};
     for (const TradeoffRow& tie : advice.ties) cheapest.push_back(tie.stepping.method);
@@ -389,18 +316,15 @@ TEST(Advice, NamesAMethodOnce) {
 
 TEST(Advice, SaysTheConclusionFirst) {
     const Requirements requirements{.position_error = 1, .methods = all_methods()};
-    const MeasuredScene measured = measured_for(article_spring, requirements);
-    const Advice advice =
-        advise(measured.scene, measured.reference, requirements, clock_by_evaluations());
-    const std::vector<std::string> words =
-        describe(advice, measured.scene, measured.reference, requirements);
-    EXPECT_TRUE(words.front().starts_with(describe(advice.best->stepping) + ": ")) << words.front();
+    Advised advised(article_spring, requirements);
+    const std::vector<std::string> words = advised.words();
+    EXPECT_TRUE(words.front().starts_with(describe(advised.advice.best->stepping) + ": "))
+        << words.front();
     EXPECT_TRUE(holds(words.back(), "10 s"));
     EXPECT_TRUE(holds(words.back(), "between steps at any time"));
-    Requirements displayed = requirements;
-    displayed.display = 60;
-    EXPECT_TRUE(holds(describe(advice, measured.scene, measured.reference, displayed).back(),
-                      "between steps at the times of 60 frames per second"));
+    advised.requirements.display = 60;
+    EXPECT_TRUE(
+        holds(advised.words().back(), "between steps at the times of 60 frames per second"));
     EXPECT_EQ(describe(Stepping{&find_method("rk4"), {60}, Precision::double_}),
               "rk4 at 60 Hz in double");
 }

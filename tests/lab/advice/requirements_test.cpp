@@ -4,7 +4,6 @@
 
 #include <functional>
 
-#include "lab/advice/made_up_clock.hpp"
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "support/test.hpp"
@@ -80,9 +79,7 @@ TEST(Requirements, OfAFallAreThoseOfItsParabola) {
 
 // A setting whose first step ends after the run is not judged at any step.
 TEST(Requirements, OfAShortRunHaveASettingWithAStep) {
-    const MeasuredScene brief(one_axis + "duration = 0.002\n[[body]]\nname = \"mass\"\n" +
-                              "position = [1.0]\n[[spring]]\nbody = \"mass\"\n" +
-                              "anchor = [0.0]\nstiffness = 15.0\n");
+    const MeasuredScene brief(one_axis + "duration = 0.002\n" + on_spring(1, 15));
     const Requirements requirements{.position_error = 1,
                                     .methods = methods_of({"exact", "velocity_verlet"})};
     EXPECT_GE(rate_for(brief, requirements), 500);
@@ -199,9 +196,7 @@ TEST(Ties, OfEqualErrorsGoToTheFirstMethod) {
 // most 2 m are equal beside 1000 m, and all settings take as long: the higher rate shows input
 // earlier.
 TEST(Ties, OfEqualErrorsGoToTheHigherRate) {
-    const MeasuredScene stiff(one_axis + "duration = 2.0\n[[body]]\nname = \"mass\"\n" +
-                              "position = [1.0]\n[[spring]]\nbody = \"mass\"\nanchor = [0.0]\n" +
-                              "stiffness = 40000.0\n");
+    const MeasuredScene stiff(one_axis + "duration = 2.0\n" + on_spring(1, 40'000));
     for (const auto& names : {std::vector<const char*>{"exact", "velocity_verlet"},
                               std::vector<const char*>{"velocity_verlet", "exact"}}) {
         const Advice advice = advise(
@@ -240,9 +235,7 @@ TEST(Damping, IsChosenWhereItIsMoreAccurate) {
 }
 
 TEST(Damping, OfAConservativeSceneIsNoChoice) {
-    const MeasuredScene undamped(
-        one_axis + "duration = 10.0\n[[body]]\nname = \"mass\"\nposition = [1000.0]\n[[spring]]\n" +
-        "body = \"mass\"\nanchor = [0.0]\nstiffness = 15.0\n");
+    const MeasuredScene undamped(undamped_spring);
     const Advice advice =
         advise(undamped.scene, undamped.reference,
                {.position_error = 5, .at_steps = true, .methods = methods_of({"velocity_verlet"})},

@@ -1,24 +1,37 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/lab/ledger/ledger.hpp"
+// What a scene pays for. Most times are from made-up clocks, so that each number is known.
 
+#include "oiler/lab/ledger/ledger.hpp"
+#include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
 #include "scene/everything.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
-using namespace lab;
 namespace {
 
+using namespace lab;
+using Strings = std::vector<std::string>;
+
+Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml"); }
+
 Ledger ledger_of(const std::string& text, std::int64_t steps = 20) {
-    return ledger(parse_scene(text, "test.toml"), steps);
+    return ledger(scene_of(text), steps);
 }
 
 const std::string one_axis = "[scene]\naxes = 1\nrate = 100\n";
 const std::string two_axes = "[scene]\naxes = 2\nrate = 100\n";
+const std::string gravity = "[gravity]\nacceleration = [-10.0]\n";
+const std::string body = "[[body]]\nname = \"a\"\nposition = [1.0]\n";
+const std::string drag = "linear_drag = 0.1\n";
+const std::string spring = "[[spring]]\nbody = \"a\"\nanchor = [1.0]\nstiffness = 15.0\n";
+const std::string to_origin =
+    one_axis + body + "[[spring]]\nbody = \"a\"\nanchor = [0.0]\nstiffness = ";
+const std::string lone_spring = to_origin + "15.0\n";
+const std::string too_stiff = to_origin + "1e9\n";
 
 const LedgerPass& pass_of(const Ledger& ledger, const std::string& name) {
-    const auto found = std::find_if(ledger.passes.begin(), ledger.passes.end(),
-                                    [&](const LedgerPass& pass) { return pass.name == name; });
+    const auto found = std::ranges::find(ledger.passes, name, &LedgerPass::name);
     if (found == ledger.passes.end()) throw std::invalid_argument("no pass " + name);
     return *found;
 }
@@ -31,17 +44,11 @@ std::size_t bytes_of(const Ledger& ledger, const std::string& kind) {
     return bytes;
 }
 
-std::vector<std::string> names_of_passes(const Ledger& ledger) {
-    std::vector<std::string> names;
+Strings names_of_passes(const Ledger& ledger) {
+    Strings names;
     for (const LedgerPass& pass : ledger.passes) names.push_back(pass.name);
     return names;
 }
-
-using Strings = std::vector<std::string>;
-
-const std::string lone_spring = one_axis +
-                                "[[body]]\nname = \"a\"\nposition = [1.0]\n"
-                                "[[spring]]\nbody = \"a\"\nanchor = [0.0]\nstiffness = 15.0\n";
 
 // x and v of 8 bytes and a handle of 12. Numbers of a lone body are shared.
 TEST(Ledger, OfASpringCountsItsBytes) {
@@ -64,9 +71,7 @@ TEST(Ledger, CountsAColumnForNumbersThatDiffer) {
     EXPECT_EQ(bytes_of(ledger, "spring"), 8U);
     EXPECT_EQ(ledger.bytes_per_body(), 8 + 8 + 8 + 8 + 12);
     const auto& columns = ledger.columns;
-    const auto stiffness =
-        std::find_if(columns.begin(), columns.end(),
-                     [](const LedgerColumn& column) { return column.number == "stiffness"; });
+    const auto stiffness = std::ranges::find(columns, "stiffness", &LedgerColumn::number);
     ASSERT_NE(stiffness, columns.end());
     EXPECT_FALSE(stiffness->shared);
     EXPECT_EQ(stiffness->bodies, 2);
@@ -122,8 +127,7 @@ TEST(Ledger, ReportsTheEffectOfGravity) {
 
 // Without its only spring, the body stays at 1 m. With it, the body oscillates to −1 m, 2 m away.
 TEST(Ledger, ReportsTheLargestChangeOfTheRun) {
-    const Ledger ledger = ledger_of(lone_spring, 170);
-    EXPECT_NEAR(pass_of(ledger, "spring").changes_position, 2, 0.01);
+    EXPECT_NEAR(pass_of(ledger_of(lone_spring, 170), "spring").changes_position, 2, 0.01);
 }
 
 // The last sample is at the last step, for any stride.
@@ -230,27 +234,23 @@ TEST(Ledger, ReportsDivergenceWithoutAForce) {
                   400);
     EXPECT_FALSE(ledger.diverged);
     EXPECT_EQ(ledger.steps, 400);
-    const LedgerPass& drag = pass_of(ledger, "linear_drag");
-    ASSERT_TRUE(drag.diverged);
-    EXPECT_NE(drag.diverged->find("step"), std::string::npos) << *drag.diverged;
-    EXPECT_TRUE(std::isnan(drag.changes_position));
-    EXPECT_TRUE(std::isnan(drag.saves_ns));
+    const LedgerPass& dragged = pass_of(ledger, "linear_drag");
+    ASSERT_TRUE(dragged.diverged);
+    EXPECT_TRUE(holds(*dragged.diverged, "step"));
+    EXPECT_TRUE(std::isnan(dragged.changes_position));
+    EXPECT_TRUE(std::isnan(dragged.saves_ns));
     EXPECT_FALSE(pass_of(ledger, "spring").diverged);
     EXPECT_GT(pass_of(ledger, "spring").changes_position, 0);
     EXPECT_TRUE(std::isfinite(pass_of(ledger, "spring").saves_ns));
 }
 
 TEST(Ledger, ReportsDivergenceOfTheSceneItself) {
-    const Ledger ledger = ledger_of(two_axes +
-                                        "[[body]]\nname = \"a\"\nposition = [1.0, 0.0]\n"
-                                        "[[spring]]\nbody = \"a\"\nanchor = [0.0, 0.0]\n"
-                                        "stiffness = 1e9\n",
-                                    2000);
+    const Ledger ledger = ledger_of(too_stiff, 2000);
     ASSERT_TRUE(ledger.diverged);
-    EXPECT_NE(ledger.diverged->find("step"), std::string::npos) << *ledger.diverged;
+    EXPECT_TRUE(holds(*ledger.diverged, "step"));
     EXPECT_TRUE(std::isnan(ledger.ns));
     for (const LedgerPass& pass : ledger.passes) EXPECT_TRUE(std::isnan(pass.changes_position));
-    EXPECT_EQ(ledger.bytes_per_body(), 16 + 16 + 12);
+    EXPECT_EQ(ledger.bytes_per_body(), 8 + 8 + 12);
 }
 
 TEST(Ledger, RefusesAMethodThatCannotStepTheScene) {
@@ -261,11 +261,189 @@ TEST(Ledger, RefusesAMethodThatCannotStepTheScene) {
 
 TEST(Ledger, ReportsProgressFrom0To1) {
     std::vector<double> shares;
-    static_cast<void>(ledger(parse_scene(lone_spring, "test.toml"), 20,
-                             [&](double share) { shares.push_back(share); }));
+    static_cast<void>(
+        ledger(scene_of(lone_spring), 20, [&](double share) { shares.push_back(share); }));
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     EXPECT_GT(shares.front(), 0);
     EXPECT_LE(shares.back(), 1);
+}
+
+bool has(const Bodies& bodies, std::string_view force) {
+    const std::vector<Stored> stored = bodies.stored();
+    return std::ranges::find(stored, force, &Stored::of) != stored.end();
+}
+
+/// A clock that counts the turns. Single steps before the first round choose the length of turns.
+struct Turns {
+    static constexpr std::size_t before = 3;
+    std::size_t calls = 0;
+
+    template <class Cost>
+    StepTimer timer(Cost cost) {
+        return [this, cost](Bodies& bodies, const Method& method, const Steps& steps) {
+            const double now = calls++ < before ? 1 : cost(bodies, steps, calls - before - 1);
+            return bodies.try_step(method, steps) ? LedgerPass::unknown : now;
+        };
+    }
+};
+
+const auto silent = [](double) {};
+
+/// Three scenes: whole, without gravity, without drag.
+class LedgerRace : public testing::Test {
+protected:
+    template <class Cost>
+    Timing race_with(Cost cost, std::int64_t steps = 40) {
+        Turns turns;
+        return race({&whole_, &weightless_, &dragless_}, steps, turns.timer(cost), silent);
+    }
+    static std::size_t index_of(const Bodies& bodies) {
+        if (!has(bodies, "gravity")) return 1;
+        return has(bodies, "linear_drag") ? 0 : 2;
+    }
+
+    Scene whole_ = scene_of(one_axis + gravity + body + drag);
+    Scene weightless_ = scene_of(one_axis + body + drag);
+    Scene dragless_ = scene_of(one_axis + gravity + body);
+};
+
+TEST_F(LedgerRace, TakesTurnsInRotatingOrder) {
+    std::vector<std::size_t> order;
+    const Timing timing = race_with([&](const Bodies& bodies, const Steps&, std::size_t) {
+        order.push_back(index_of(bodies));
+        return 1.0;
+    });
+    ASSERT_GE(timing.rounds, 9);
+    ASSERT_EQ(order.size(), 3 * static_cast<std::size_t>(timing.rounds));
+    for (std::size_t turn = 0; turn + 9 <= order.size(); turn += 9) {
+        std::set<std::size_t> first;
+        for (std::size_t round = turn; round < turn + 9; round += 3) {
+            EXPECT_EQ(std::set(&order[round], &order[round] + 3), (std::set<std::size_t>{0, 1, 2}));
+            first.insert(order[round]);
+        }
+        EXPECT_EQ(first.size(), 3U) << turn;
+    }
+}
+
+double cost_of(std::size_t scene) { return scene == 0 ? 8 : scene == 1 ? 6 : 2; }
+
+// Costs of 8, 6 and 2, times a load that is equal in a round: ratios of 0.75 and 0.25.
+TEST_F(LedgerRace, PairsTimesOfARound) {
+    const Timing timing = race_with([](const Bodies& bodies, const Steps&, std::size_t turn) {
+        const double load = 1.0 + static_cast<double>(turn / 3 * 5 % 7);
+        return load * cost_of(index_of(bodies));
+    });
+    EXPECT_GT(timing.seconds.spread, 0);
+    ASSERT_EQ(timing.ratios.size(), 2U);
+    EXPECT_DOUBLE_EQ(timing.ratios[0].value, 0.75);
+    EXPECT_DOUBLE_EQ(timing.ratios[1].value, 0.25);
+    EXPECT_NEAR(timing.ratios[0].spread, 0, 1e-15);
+}
+
+TEST_F(LedgerRace, IgnoresRareInterruptions) {
+    const Timing timing = race_with([](const Bodies& bodies, const Steps&, std::size_t turn) {
+        return cost_of(index_of(bodies)) * (turn % 16 == 5 ? 1000 : 1);
+    });
+    EXPECT_EQ(timing.seconds.value, 8);
+    EXPECT_EQ(timing.ratios[0].value, 0.75);
+    EXPECT_EQ(timing.ratios[0].spread, 0);
+}
+
+TEST_F(LedgerRace, LeavesOutTurnsThatDiverge) {
+    const Timing timing = race_with([](const Bodies& bodies, const Steps&, std::size_t turn) {
+        const std::size_t scene = index_of(bodies);
+        const bool diverges = scene == 2 || (scene == 1 && turn % 2 == 0);
+        return diverges ? LedgerPass::unknown : cost_of(scene);
+    });
+    EXPECT_EQ(timing.ratios[0].value, 0.75);
+    EXPECT_TRUE(std::isnan(timing.ratios[1].value));
+}
+
+// With g·dt = 0.1 m/s, the whole scene has v = −0.1·tick. An ablation takes the state from the
+// whole scene's run, then one step without gravity.
+TEST(LedgerRaceOfAFall, BeginsWithAStateOfTheWholeScene) {
+    const std::string method = "method = \"semi_implicit_euler\"\n";
+    const Scene whole = scene_of(one_axis + method + gravity + body);
+    const Scene without = scene_of(one_axis + method + body);
+    std::set<std::int64_t> ticks;
+    Turns turns;
+    const StepTimer timer = turns.timer([&](const Bodies& bodies, const Steps& steps, std::size_t) {
+        const auto fallen = static_cast<double>(steps.first - (has(bodies, "gravity") ? 0 : 1));
+        EXPECT_NEAR(bodies.velocity(0)[0], -0.1 * fallen, 1e-12) << steps.first;
+        EXPECT_GE(steps.first, 2);
+        EXPECT_LE(steps.first + steps.count, 40);
+        ticks.insert(steps.first);
+        return 1.0;
+    });
+    const Timing timing = race({&whole, &without}, 40, timer, silent);
+    EXPECT_GE(timing.steps_per_turn, 1);
+    EXPECT_GT(ticks.size(), 1U);
+}
+
+/// A clock that reads the evaluations of the forces.
+double evaluations_of(Bodies& bodies, const Method& method, const Steps& steps) {
+    const std::int64_t before = bodies.evaluations();
+    if (bodies.try_step(method, steps)) return LedgerPass::unknown;
+    return static_cast<double>(bodies.evaluations() - before);
+}
+
+// From rest, the ablation is in equilibrium, and its implicit steps need one evaluation instead of
+// two: half of the cost would be gravity's.
+TEST(LedgerOfAnImplicitMethod, ComparesTheSameMotion) {
+    for (const char* method : {"implicit_midpoint", "implicit_euler"}) {
+        const Scene scene =
+            scene_of(one_axis + "method = \"" + method + "\"\n" + gravity + body + spring);
+        const Ledger measured = ledger(scene, 200, silent, evaluations_of);
+        EXPECT_EQ(measured.passes.front().name, "gravity");
+        EXPECT_EQ(measured.passes.front().saves_percent, 0) << method;
+        EXPECT_EQ(measured.passes.front().spread_percent, 0) << method;
+    }
+}
+
+// Gravity costs 5 of 15, drag nothing; costs vary by up to 1.
+TEST(LedgerTimes, HaveASpread) {
+    Turns turns;
+    const StepTimer timer = turns.timer([](const Bodies& bodies, const Steps&, std::size_t turn) {
+        const double noise = static_cast<double>(turn * 5 % 7) / 3 - 1;
+        return noise + (has(bodies, "gravity") ? 15 : 10);
+    });
+    const Ledger measured = ledger(scene_of(one_axis + gravity + body + drag), 40, silent, timer);
+    const LedgerPass& of_gravity = measured.passes.at(0);
+    const LedgerPass& of_drag = measured.passes.at(1);
+    EXPECT_NEAR(of_gravity.saves_percent, 100.0 / 3, 100.0 / 15);
+    EXPECT_FALSE(of_gravity.is_within_spread());
+    EXPECT_EQ(of_drag.name, "linear_drag");
+    EXPECT_TRUE(of_drag.is_within_spread()) << of_drag.saves_percent;
+    EXPECT_LT(of_drag.spread_percent, 100.0 * 2 / 15);
+    EXPECT_GT(measured.spread_ns, 0);
+    EXPECT_EQ(measured.rounds, static_cast<std::int64_t>(turns.calls - Turns::before) / 4);
+}
+
+// Sorted: 1, 2, 3, 4 and 100. The median is 3, the quartiles are 2 and 4.
+TEST(LedgerMedian, IsThatOfTheFiniteValues) {
+    const Median median = median_of({4, 1, NAN, 100, 3, INFINITY, 2});
+    EXPECT_EQ(median.value, 3);
+    EXPECT_EQ(median.spread, 1);
+    EXPECT_EQ(median_of({10, 20}).value, 15);
+    EXPECT_EQ(median_of({10, 20}).spread, 2.5);
+    EXPECT_TRUE(std::isnan(median_of({NAN}).value));
+}
+
+TEST(LedgerClock, TimesTheStepsThatItTakes) {
+    const Scene scene = scene_of(one_axis + gravity + body);
+    Bodies timed = make_world(scene, Settings{scene.stepping}).bodies();
+    Bodies plain = timed;
+    const Steps steps{scene.stepping.rate, 0, 1000};
+    EXPECT_GT(cpu_seconds(timed, *scene.stepping.method, steps), 0);
+    EXPECT_FALSE(plain.try_step(*scene.stepping.method, steps));
+    EXPECT_EQ(timed.position(0)[0], plain.position(0)[0]);
+}
+
+TEST(LedgerClock, ReadsNoTimeOfADivergence) {
+    const Scene scene = scene_of(too_stiff);
+    Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
+    const Steps steps{scene.stepping.rate, 0, 2000};
+    EXPECT_TRUE(std::isnan(cpu_seconds(bodies, *scene.stepping.method, steps)));
 }
 
 }  // namespace

@@ -86,20 +86,6 @@ TEST(FineSteps, AreInDoubleWhereThatSuffices) {
     }
 }
 
-/// gm = 1, semi-axis 1, from the perihelion, by bisection of Kepler's equation.
-State3 planet(Real e, Real t) {
-    Real low = t - 1;
-    Real high = t + 1;
-    for (int i = 0; i < 80; ++i) {
-        const Real middle = (low + high) / 2;
-        (middle - e * std::sin(middle) < t ? low : high) = middle;
-    }
-    const Real minor = std::sqrt(1 - e * e);
-    const Real rate = 1 / (1 - e * std::cos(low));
-    return {{std::cos(low) - e, minor * std::sin(low), 0},
-            {-rate * std::sin(low), rate * minor * std::cos(low), 0}};
-}
-
 // 0.4 is rounded to double, which changes the frequency by 3·2·u·0.4/0.4² and moves the planet with
 // a speed of up to 2 (and an acceleration of up to 1/0.4²).
 TEST(FineSteps, OfAnOrbit) {
@@ -112,22 +98,9 @@ TEST(FineSteps, OfAnOrbit) {
                       12.566 * 15 * 0.4 * double_round_off * 6.25);
 }
 
-// The displacements of the masses from −2 m and 2 m are u1 and u2 = (cos ω1·t ± cos ω2·t)/2, with
-// ω1 = √15 in phase and ω2 = √18 in antiphase. Neither reaches a wall or the other, where its
-// spring would turn over.
 TEST(FineSteps, OfTheChainMeetItsNormalModes) {
-    const Scene scene = read_scene(OILER_SOURCE "/assets/scenes/chain.toml");
-    const auto mass = [](Real sign) {
-        return [sign](Real t) {
-            const Real together = std::sqrt(15.0L);
-            const Real against = std::sqrt(18.0L);
-            const Real u = (std::cos(together * t) + sign * std::cos(against * t)) / 2;
-            const Real v =
-                -(together * std::sin(together * t) + sign * against * std::sin(against * t)) / 2;
-            return along_x(u - sign * 2, v);
-        };
-    };
-    expect_fine_steps(scene, {mass(1), mass(-1)});
+    expect_fine_steps(read_scene(OILER_SOURCE "/assets/scenes/chain.toml"),
+                      {chain_motion(1), chain_motion(-1)});
 }
 
 // The initial speed, g and the drag coefficient of the file are rounded to double, which moves the

@@ -3,13 +3,12 @@
 
 #include <complex>
 
+#include "lab/motions.hpp"
 #include "support/oscillator.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-using namespace lab;
 
 constexpr double start_x = 1000;
 const double omega = std::sqrt(15.0);
@@ -35,17 +34,14 @@ Settings with(const Method& method, std::int64_t rate) {
 }
 Settings with(const char* method, std::int64_t rate) { return with(find_method(method), rate); }
 
-/// The spring's exact position and velocity: x = e^(−γt)·(cos ωd·t + (γ/ωd)·sin ωd·t)·x0.
+/// A position and a velocity of the spring.
 struct ExactState {
     Real x;
     Real v;
 };
 ExactState exact(Real t, Real damping = 0, Real stiffness = 15) {
-    const Real gamma = damping / 2;
-    const Real turning = std::sqrt(stiffness - gamma * gamma);
-    const Real decay = start_x * std::exp(-gamma * t);
-    return {decay * (std::cos(turning * t) + gamma / turning * std::sin(turning * t)),
-            -decay * stiffness / turning * std::sin(turning * t)};
+    const State3 state = article_motion(damping, stiffness)(t);
+    return {state.x[0], state.v[0]};
 }
 
 /// Energy relative to that at the start.

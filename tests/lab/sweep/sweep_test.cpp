@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/sweep/tradeoff.hpp"
 
-#include "lab/article_errors.hpp"
+#include "lab/motions.hpp"
 #include "lab/tradeoffs.hpp"
 #include "oiler/lab/sweep/tradeoff_file.hpp"
 #include "support/test.hpp"
@@ -51,19 +51,9 @@ TEST_P(Rungs, AreDivisorsOf60AndDoublingsOf60And90) {
 INSTANTIATE_TEST_SUITE_P(All, Rungs,
                          testing::Values(std::pair{100, 3200}, std::pair{60, 3840},
                                          std::pair{1000, 500}, std::pair{1, 1}, std::pair{144, 89},
-                                         std::pair{7, 90}, std::pair{90, 61'440}));
-
-TEST(RungsAt, TheUsualRates) {
-    EXPECT_EQ(rates_at(60, 500), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
-                                                            60, 90, 120, 180, 240, 360, 480}));
-    EXPECT_EQ(rates_at(600, 250), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30,
-                                                             60, 90, 120, 180, 240, 600}));
-}
-
-TEST(RungsAt, NoneIsAboveTheLimitButTheScenesRate) {
-    EXPECT_EQ(rates_at(100, 10), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 10, 100}));
-    EXPECT_EQ(rates_at(60, 7), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 60}));
-}
+                                         std::pair{7, 90}, std::pair{90, 61'440},
+                                         std::pair{60, 500}, std::pair{600, 250},
+                                         std::pair{100, 10}, std::pair{60, 7}));
 
 // The scene's own 1 Hz is always a rate.
 TEST(RungsAt, TheLimitItselfIsOne) {
@@ -269,9 +259,7 @@ TEST(RateSeries, WithErrorsThatHaveNotBegunToFallGoesOn) {
     SweepPlan plan{.methods = methods_of({"implicit_midpoint"}),
                    .precisions = {Precision::double_},
                    .max_rate = 61'440};
-    const MeasuredScene fast(
-        one_axis + "duration = 0.5\n[[body]]\nposition = [1.0]\nname = \"a\"\n[[spring]]\n" +
-        "body = \"a\"\nanchor = [0.0]\nstiffness = 394784.0\n");
+    const MeasuredScene fast(one_axis + "duration = 0.5\n" + on_spring(1, 394784));
     const Tradeoff tradeoff = swept(fast, plan);
     const RateSeries& series = tradeoff.all_series.front();
     ASSERT_GT(series.rows.size(), 12U);
@@ -298,10 +286,8 @@ TEST(RateSeries, EndsWhereARunIsTooMuchWork) {
 }
 
 /// The last rate of explicit Euler's series on a spring, without a given limit.
-std::int64_t last_rate_on(const std::string& stiffness, const std::string& duration) {
-    const MeasuredScene brief(one_axis + "duration = " + duration +
-                              "\n[[body]]\nposition = [1.0]\nname = \"a\"\n[[spring]]\n" +
-                              "body = \"a\"\nanchor = [0.0]\nstiffness = " + stiffness + "\n");
+std::int64_t last_rate_on(double stiffness, const std::string& duration) {
+    const MeasuredScene brief(one_axis + "duration = " + duration + "\n" + on_spring(1, stiffness));
     const Tradeoff tradeoff = swept(
         brief, {.methods = methods_of({"explicit_euler"}), .precisions = {Precision::double_}});
     EXPECT_EQ(tradeoff.all_series.front().end, "the highest rate of the sweep was reached");
@@ -311,8 +297,8 @@ std::int64_t last_rate_on(const std::string& stiffness, const std::string& durat
 // Without a limit, rates go to 1024 × 60 Hz, or to 64 × 48 per period of the fastest motion: with
 // 100 periods per second to 307,200 Hz, below which 60·2¹² Hz is the highest rate.
 TEST(RateSeries, GoesUpToTheFastestMotionWhereNoLimitIsGiven) {
-    EXPECT_EQ(last_rate_on("15.0", "2.0"), 61'440);
-    EXPECT_EQ(last_rate_on("394784.0", "0.2"), 245'760);
+    EXPECT_EQ(last_rate_on(15, "2.0"), 61'440);
+    EXPECT_EQ(last_rate_on(394784, "0.2"), 245'760);
 }
 
 TEST(RateSeries, EndsAtTheHighestRateOfThePlan) {

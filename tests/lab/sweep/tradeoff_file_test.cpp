@@ -10,11 +10,6 @@
 namespace oiler::test {
 namespace {
 
-bool same_times(const TradeoffRow& a, const TradeoffRow& b) {
-    return same(a.ns_per_second, b.ns_per_second) && same(a.ns_spread, b.ns_spread) &&
-           same(a.ns_together, b.ns_together);
-}
-
 // ---- files
 
 /// A trade-off with numbers that are hard to write in every field.
@@ -53,29 +48,11 @@ Tradeoff hard_numbers() {
     return tradeoff;
 }
 
+// The text has the shortest digits of each number. Each of its fields is read, see below.
 TEST(TradeoffFile, ReadsBackToTheSameBits) {
     const Tradeoff written = hard_numbers();
     const Tradeoff read = parse_tradeoff(file_text(written), "tradeoff.json");
     expect_same_errors(read, written);
-    EXPECT_EQ(read.scene, written.scene);
-    EXPECT_EQ(read.title, written.title);
-    EXPECT_EQ(read.fingerprint, written.fingerprint);
-    EXPECT_EQ(read.duration, written.duration);
-    EXPECT_EQ(read.current, written.current);
-    EXPECT_EQ(read.machines, written.machines);
-    EXPECT_EQ(read.reference.words, written.reference.words);
-    EXPECT_EQ(read.reference.closed_form, written.reference.closed_form);
-    EXPECT_TRUE(same(read.reference.position_error, written.reference.position_error));
-    EXPECT_TRUE(same(read.reference.velocity_error, written.reference.velocity_error));
-    EXPECT_TRUE(same(read.reference.floor.position, written.reference.floor.position));
-    EXPECT_TRUE(same(read.reference.floor.velocity, written.reference.floor.velocity));
-    EXPECT_TRUE(same(read.reference.floor.energy, written.reference.floor.energy));
-    EXPECT_TRUE(same(read.reference.extent, written.reference.extent));
-    EXPECT_TRUE(same(read.reference.meaningful_until, written.reference.meaningful_until));
-    EXPECT_EQ(read.reference.why_no_longer, written.reference.why_no_longer);
-    EXPECT_TRUE(same(read.reference.period, written.reference.period));
-    for (std::size_t i = 0; i < written.rows().size(); ++i)
-        EXPECT_TRUE(same_times(*read.rows()[i], *written.rows()[i])) << i;
     EXPECT_EQ(file_text(read), file_text(written));
 }
 
