@@ -8,6 +8,7 @@
 #include "oiler/plot/plot.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::bench {
 namespace {

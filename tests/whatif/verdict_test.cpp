@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "oiler/app/playback.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/whatif/play_along.hpp"
 #include "support/test.hpp"
 

@@ -4,7 +4,6 @@
 #include "oiler/core/error.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "oiler/picture/palette.hpp"
-#include "oiler/sim/bodies.hpp"
 #include "oiler/whatif/verdict.hpp"
 
 namespace oiler {
@@ -19,7 +18,7 @@ constexpr double longest_arrow = 0.2;  // of the picture's height
 
 std::vector<Entity> bodies_to_show(const World& world, const std::optional<Entity>& followed) {
     std::vector<Entity> bodies;
-    const std::size_t count = std::min(world.bodies().size(), most_bodies_shown);
+    const std::size_t count = std::min(world.body_count(), most_bodies_shown);
     for (std::size_t row = 0; row < count; ++row) bodies.push_back(world.entity_of_row(row));
     if (followed && world.has_body(*followed) && world.row(*followed) >= count)
         bodies.push_back(*followed);
@@ -77,7 +76,7 @@ void MotionOverlay::sample(const World& world, const Shown& shown,
     bodies_ = bodies;
     if (after_ && after_->time == world.time()) return;
     before_ = std::exchange(after_, Sample{.time = world.time()});
-    scales_.bodies = bodies.size() < world.bodies().size() ? bodies.size() : 0;
+    scales_.bodies = bodies.size() < world.body_count() ? bodies.size() : 0;
     if (shown.velocities || shown.accelerations) {
         after_->motions = motions_of(world, bodies);
         largest_.speed = std::max(largest_.speed, largest(after_->motions, &BodyMotion::velocity));

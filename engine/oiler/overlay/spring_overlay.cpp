@@ -16,7 +16,7 @@ constexpr std::size_t most_springs = 10'000;
 double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
 DrawnSpring::End end_at(const World& world, std::size_t row) {
-    return {world.entity_of_row(row), world.bodies().position(row)};
+    return {world.entity_of_row(row), world.position_of_row(row)};
 }
 
 /// Adds the springs from the body in a row to their anchors.

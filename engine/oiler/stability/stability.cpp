@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/modes.hpp"
 
 namespace oiler {

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "lab/advice/advice_on.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/folder.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"

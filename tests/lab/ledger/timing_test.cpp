@@ -3,6 +3,7 @@
 #include "oiler/lab/ledger/timing.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/lab/reference/exact_motion.hpp"
+#include "oiler/sim/bodies.hpp"
 
 #include <complex>
 

@@ -2,6 +2,7 @@
 #include <ostream>
 
 #include "oiler/lab/sweep/tradeoff.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"
 

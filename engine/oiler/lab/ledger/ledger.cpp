@@ -11,6 +11,7 @@
 #include "oiler/lab/ledger/ablations.hpp"
 #include "oiler/lab/ledger/timing.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {

@@ -8,8 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "oiler/physics/steps.hpp"
 #include "oiler/scene/scene.hpp"
-#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+class Bodies;
+}
 
 namespace oiler::lab {
 

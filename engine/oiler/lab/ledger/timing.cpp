@@ -9,6 +9,7 @@
 #include "oiler/core/seconds_since.hpp"
 #include "oiler/lab/ledger/ablations.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {

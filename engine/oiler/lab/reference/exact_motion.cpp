@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler::lab {
 namespace {
 

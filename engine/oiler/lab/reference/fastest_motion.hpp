@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "oiler/sim/bodies.hpp"
+namespace oiler {
+class Bodies;
+}
 
 namespace oiler::lab {
 
