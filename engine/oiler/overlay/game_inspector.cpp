@@ -11,7 +11,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/steps/row_parts.hpp"
+#include "oiler/sim/steps/step_rows.hpp"
 
 namespace oiler {
 namespace {

@@ -48,6 +48,22 @@ struct AlignedAllocator {
     std::size_t skipped;
 };
 
+/// The number at an address, or a batch of the numbers from there on.
+template <class V, class T>
+[[gnu::always_inline]] inline V load_from(const T* from) {
+    if constexpr (std::is_same_v<V, T>)
+        return *from;
+    else
+        return V::load(from);
+}
+template <class V, class T>
+[[gnu::always_inline]] inline void store_to(const V& value, T* to) {
+    if constexpr (std::is_same_v<V, T>)
+        *to = value;
+    else
+        value.store(to);
+}
+
 /// One number for each row, aligned and padded.
 template <class T>
 class Column {
