@@ -188,14 +188,13 @@ public:
     /// Newton's changes of w for the residual of w − v − τ·a(x + τ·w, w). The matrix is kept while
     /// all forces are linear.
     [[nodiscard]] Vectors solve(const MotionColumns<T, Axes>& at, T tau, const Vectors& residual) {
-        if (!cache_.solver || cache_.solver_tau != tau || !linear()) {
-            cache_.solver =
-                std::make_shared<LinkSolver<T>>(columns_.size * Axes, velocity_entries(at, tau));
+        if (!cache_.solve || cache_.solver_tau != tau || !linear()) {
+            cache_.solve = factorised(columns_.size * Axes, velocity_entries(at, tau));
             cache_.solver_tau = tau;
         }
         std::vector<T> right(columns_.size * Axes);
         for (std::size_t i = 0; i < right.size(); ++i) right[i] = residual[i % Axes][i / Axes];
-        const std::vector<T> solution = cache_.solver->solve(right);
+        const std::vector<T> solution = cache_.solve(right);
         Vectors change = residual;
         for (std::size_t i = 0; i < right.size(); ++i) change[i % Axes][i / Axes] = solution[i];
         return change;

@@ -6,8 +6,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <tuple>
 #include <type_traits>
@@ -223,22 +223,20 @@ struct LinearSums {
     Parameter<T> damping;
 };
 
-template <class T>
-class LinkSolver;
-
 /// The data that steps of linked rows reuse in the next step.
 template <class T, int Axes>
 struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
     PreparedLinks<T> links;
     PointLinks<T, Axes> point_links;
-    Stages<MotionColumns<T, Axes>> stages;        ///< scratch
-    VecColumns<T, Axes> acceleration;             ///< m/s², scratch
-    VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
-    MotionColumns<T, Axes> before;                ///< at the start of a step that may land
-    bool field_valid = false;                     ///< also false after a change of positions
-    std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
-    T solver_tau = 0;                             ///< s
+    Stages<MotionColumns<T, Axes>> stages;  ///< scratch
+    VecColumns<T, Axes> acceleration;       ///< m/s², scratch
+    VecColumns<T, Axes> field;              ///< m/s², at the positions of the last kick
+    MotionColumns<T, Axes> before;          ///< at the start of a step that may land
+    bool field_valid = false;               ///< also false after a change of positions
+    /// Solves the equations of implicit steps; kept while they are linear, else empty.
+    std::function<std::vector<T>(const std::vector<T>&)> solve;
+    T solver_tau = 0;  ///< s
 };
 
 /// The plan of the last step with a method of the list, and the kernels for it; most steps reuse
