@@ -75,7 +75,7 @@ struct Derivative {
 template <class State>
 using Derivatives = std::array<Derivative<State>, Tableau::most_stages>;
 
-/// What a step of a Runge–Kutta method holds beside the state.
+/// The memory of a step of a Runge–Kutta method.
 template <class State>
 struct Stages {
     Derivatives<State> k;
@@ -108,7 +108,8 @@ template <IsTableau Plan, class State, class Physics>
         });
 }
 
-/// The same. A physics of large states may keep their memory from step to step.
+/// One step of a Runge–Kutta method. A physics of large states may keep their memory from step to
+/// step.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline bool advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {

@@ -427,7 +427,7 @@ private:
     bool settled_ = false;
     PlaneSet resting_ = 0;  ///< the planes that the body has not left since its last rest on them
     std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before
-    /// What round-off hides in a step from rest.
+    /// The speed and the distance that round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s
         T distance = 0;  ///< m

@@ -48,8 +48,8 @@ public:
     using Vector = Vec<T, Axes>;
     using Surface = PlaneOf<T, Axes>;
 
-    /// Those of the touched planes into which `push` (an acceleration or a velocity) presses, also
-    /// after the others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
+    /// The touched planes into which `push` (an acceleration or a velocity) presses, also after the
+    /// others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
     [[nodiscard]] static Support against(const Vector& push, std::span<const Surface> planes,
                                          PlaneSet touched) {
         Support support;

@@ -113,7 +113,7 @@ template <std::floating_point T, int Axes>
     return all;
 }
 
-/// Where a rule applies forces that depend on velocity.
+/// The part of a rule's steps that applies forces that depend on velocity.
 template <class Rule>
 [[gnu::always_inline]] constexpr Damping damping_of_rule(const Rule& rule) {
     if constexpr (SplitsSteps<Rule>)

@@ -157,7 +157,7 @@ private:
     bool shared_ = true;
 };
 
-/// Where the rows of one number are, for the inner loops: they read no Parameter, whose fields the
+/// The place of one number of all rows. The inner loops read no Parameter, whose fields the
 /// compiler would read again after every store. Valid until the number changes. A default view is
 /// of a number that is 0 for all rows.
 template <class T>

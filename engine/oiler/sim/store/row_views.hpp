@@ -75,7 +75,7 @@ struct AxisRows {
     std::int64_t* evaluations;  ///< of the first row; null if another axis counts them
 };
 
-/// Where the numbers of one force are, and its number of prepare_damping.
+/// The places of the numbers of one force, and of its number of prepare_damping.
 template <class Force, class T>
 struct ForceView {
     std::array<NumberView<T>, number_count<Force>()> numbers;
@@ -89,7 +89,7 @@ struct ForceViewsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
 
-/// Where all numbers are that steps of rows read.
+/// The places of all numbers that steps of rows read, kept from call to call.
 template <std::floating_point T, int Axes>
 struct RowViews {
     bool valid = false;  ///< false after a change of forces, plan or memory
