@@ -141,7 +141,7 @@ struct Cloth {
     static std::size_t body_at(int column, int row) {
         return static_cast<std::size_t>(row * columns + column);
     }
-    Vec3 position(std::size_t body) const { return world.bodies().position(body); }
+    Vec3 position(std::size_t body) const { return world.position_of_row(body); }
     Point place(std::size_t body) const { return to_point(position(body)); }
     double apart(std::size_t a, std::size_t b) const { return length(position(a) - position(b)); }
 

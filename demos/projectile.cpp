@@ -12,7 +12,6 @@
 #include "oiler/physics/closed_forms.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/plot/plot.hpp"
-#include "oiler/sim/bodies.hpp"
 
 using namespace oiler;
 
@@ -113,7 +112,7 @@ struct Projectile {
                 if (shot.drag != Drag::quadratic) measure(shot, at);
                 if (at[1] < 0) land(entity);
             });
-        if (world.bodies().size() == 0 && world.time() - last_landing >= pause_after_landing) {
+        if (world.body_count() == 0 && world.time() - last_landing >= pause_after_landing) {
             world.each<Shot>([&](Entity entity, const Shot&) { world.destroy(entity); });
             fire_salvo();
         }

@@ -6,7 +6,6 @@
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/picture/shapes.hpp"
-#include "oiler/sim/bodies.hpp"
 #include "oiler/world/collisions.hpp"
 #include "oiler/world/neighbours.hpp"
 #include "oiler/world/world.hpp"

@@ -2,6 +2,7 @@
 // A game that a player controls: pause, way back, changes of the setting, restarts, divergence. The
 // test has its own clock.
 #include "oiler/app/live_play.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

@@ -13,6 +13,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 
 // Checks advice. For each scene and tolerance, the advice is run again and compared with a motion
 // that is computed without the engine. Its cost and search time are compared with a full sweep.

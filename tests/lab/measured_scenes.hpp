@@ -13,6 +13,7 @@
 #include "oiler/lab/reference/reference.hpp"
 #include "oiler/lab/sweep/tradeoff.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::test {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/scene/apply.hpp"
+#include "oiler/scene/read.hpp"
 
 #include <filesystem>
 #include <regex>
 
-#include "oiler/scene/read.hpp"
 #include "support/folder.hpp"
 #include "support/oscillator.hpp"
 #include "support/test.hpp"

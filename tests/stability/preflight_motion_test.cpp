@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The pre-flight's warnings of drag, attraction and rounded positions, compared with runs.
+#include "oiler/sim/bodies.hpp"
 #include "support/dice.hpp"
 #include "support/explained_step.hpp"
 #include "support/springs.hpp"

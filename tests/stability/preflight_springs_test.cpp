@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <chrono>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/stability.hpp"
 #include "support/dice.hpp"
 #include "support/springs.hpp"

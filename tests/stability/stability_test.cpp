@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/stability/stability.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/stiffest.hpp"
 #include "support/oscillator.hpp"
 #include "support/reference.hpp"

@@ -2,6 +2,7 @@
 // The costs of the timestep that are measured while a game is played.
 #include "oiler/whatif/live_what_if.hpp"
 
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 #include <chrono>

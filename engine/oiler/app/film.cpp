@@ -13,7 +13,6 @@
 #include "oiler/picture/palette.hpp"
 #include "oiler/picture/picture.hpp"
 #include "oiler/process/console.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {

@@ -43,7 +43,7 @@ Playback::Playback(AnyGame& game, TraceWriter& trace, Keep keep, Profile* profil
     : game_(game), trace_(trace), keep_(keep), profile_(profile) {}
 
 bool Playback::hashes_ticks() const {
-    return keep_ == Keep::hashes && game_.world().bodies().size() <= most_bodies_kept;
+    return keep_ == Keep::hashes && game_.world().body_count() <= most_bodies_kept;
 }
 
 void Playback::step_to(std::int64_t step, InputSource& inputs) {

@@ -5,7 +5,6 @@
 
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -33,7 +32,7 @@ void write_report(File& file, const RunReport& report, const World& world) {
               {"seed", settings.seed},
               {"steps", report.steps},
               {"time", settings.stepping.rate.time(report.steps)},
-              {"bodies", world.bodies().size()},
+              {"bodies", world.body_count()},
               {"diverged", report.divergence.empty() ? Json() : Json(report.divergence)},
               {"state_hash", report.last ? Json(hash_text(report.state_hash)) : Json()},
               {"energy",

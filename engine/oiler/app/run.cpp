@@ -21,7 +21,6 @@
 #include "oiler/play/script.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
-#include "oiler/sim/bodies.hpp"
 #include "oiler/sim/kernels/instructions.hpp"
 #include "oiler/whatif/what_if_runs.hpp"
 
@@ -198,7 +197,7 @@ Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
     RunEnd end;
     try {
         end = play_to_end(run);
-        report.last = playback.world().bodies().energy();
+        report.last = playback.world().energy();
         report.state_hash = playback.game().state_hash();
         report.readings = playback.game().readings();
         require_finite(*report.last, playback.world());
@@ -226,7 +225,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
     for (const std::string& line : world.preflight()) remark(options.quiet, "{}", line);
-    RunReport report{.scene = about.name, .first = world.bodies().energy()};
+    RunReport report{.scene = about.name, .first = world.energy()};
     TraceWriter trace(options.trace, options.energy, world);
     std::optional<File> json;  // opened before the run, so that a wrong path costs no time
     if (!options.json.empty()) json.emplace(options.json);

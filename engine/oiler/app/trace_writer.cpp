@@ -51,7 +51,7 @@ void require_finite(const Energy& energy, const World& world) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& trace, const std::filesystem::path& energy,
                          const World& world) {
-    if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.bodies().axes()));
+    if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.axes()));
     if (!energy.empty()) energy_.emplace(energy).write("tick,time,kinetic,potential,total\n");
     write(0, world);
 }
@@ -77,7 +77,7 @@ void TraceWriter::write_bodies(std::int64_t step, const World& world) {
 }
 
 void TraceWriter::write_energy(std::int64_t step, const World& world) {
-    const Energy energy = world.bodies().energy();
+    const Energy energy = world.energy();
     require_finite(energy, world);
     energy_->write(fmt::format("{},{},{},{},{}\n", step, world.settings().stepping.rate.time(step),
                                energy.kinetic, energy.potential, energy.total()));

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/sim/bodies.hpp"
+#include "oiler/physics/stepping.hpp"
 
 namespace oiler::certify {
 

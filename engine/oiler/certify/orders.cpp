@@ -7,6 +7,7 @@
 
 #include "oiler/certify/certify.hpp"
 #include "oiler/physics/closed_forms.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::certify {
 namespace {

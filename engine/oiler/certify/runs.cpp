@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oiler/certify/certify.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler::certify {

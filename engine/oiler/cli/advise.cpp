@@ -6,8 +6,8 @@
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse_size.hpp"
-#include "oiler/scene/apply.hpp"
 #include "oiler/scene/draw.hpp"
+#include "oiler/scene/read.hpp"
 
 namespace oiler::cli {
 

@@ -18,6 +18,7 @@
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/draw.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/oscillations.hpp"
 extern "C" {
 extern const char oiler_page[], oiler_page_end[];

@@ -81,7 +81,7 @@ void SceneGame::drag(const Input& input) {
     if (!at || !input.held(pull)) return drag_.reset();
     if (input.pressed(pull))
         if (const auto body = body_at(*at, camera_.height, world_, [&](std::size_t row) {
-                return std::optional(world_.bodies().position(row));
+                return std::optional(world_.position_of_row(row));
             }))
             drag_ = Drag{.body = *body, .from = *canvas};
     if (!drag_) return;
@@ -90,7 +90,7 @@ void SceneGame::drag(const Input& input) {
     if (!drag_->pulls) return;
     drag_->to = world_.position(drag_->body);
     drag_->to[0] = at->x;
-    if (world_.bodies().axes() > 1) drag_->to[1] = at->y;
+    if (world_.axes() > 1) drag_->to[1] = at->y;
     const double frequency = std::min(highest_frequency, most_periods_per_step / world_.dt());
     const double omega = 2 * std::numbers::pi * frequency;
     const Vec3 acceleration = (drag_->to - world_.position(drag_->body)) * (omega * omega) -

@@ -8,7 +8,6 @@
 #include "oiler/input/input.hpp"
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/picture/picture.hpp"
-#include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {
@@ -21,7 +20,7 @@ template <class PlaceOf>
     constexpr double reach = 0.06;  // of the height
     std::optional<Entity> nearest;
     double least = reach * double{height};
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+    for (std::size_t row = 0; row < world.body_count(); ++row) {
         const std::optional<Vec3> place = place_of(row);
         if (!place) continue;
         const double distance = std::hypot((*place)[0] - at.x, (*place)[1] - at.y);

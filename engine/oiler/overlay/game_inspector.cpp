@@ -11,7 +11,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
-#include "oiler/sim/steps/row_parts.hpp"
+#include "oiler/sim/steps/step_rows.hpp"
 
 namespace oiler {
 namespace {
@@ -33,7 +33,7 @@ std::vector<const Method*> applicable_methods(const World& world) {
 int most_threads(const World& world) {
     const auto here = static_cast<int>(std::thread::hardware_concurrency());
     const int most = std::max(here, world.settings().threads);
-    return pays_for_team(world.bodies().size(), 1) ? most : 1;
+    return pays_for_team(world.body_count(), 1) ? most : 1;
 }
 
 /// The mouse and Escape; the mouse in pixels; the canvas is centred in `view`.
@@ -89,7 +89,7 @@ void GameInspector::find_stiffest(bool waits) {
     const Stepping& stepping = world.settings().stepping;
     const auto now = std::chrono::steady_clock::now();
     if (!finding_.valid() && (waits || now >= next_stiffest_) &&
-        world.bodies().size() <= most_bodies) {
+        world.body_count() <= most_bodies) {
         next_stiffest_ = now + period;
         found_for_ = stepping;
         finding_ = std::async(
@@ -103,7 +103,7 @@ void GameInspector::find_stiffest(bool waits) {
     if (!waits && finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     const std::optional<Stiffest> found = finding_.get();
     stiffest_.reset();
-    const auto is_here = [&](std::size_t row) { return row < world.bodies().size(); };
+    const auto is_here = [&](std::size_t row) { return row < world.body_count(); };
     if (found_for_ != stepping || !found || !is_here(found->row) ||
         (found->linked && !is_here(*found->linked)))
         return;
@@ -147,7 +147,7 @@ std::string GameInspector::figures_of(Entity body) const {
     const Vec3 v = world.velocity(body);
     const Vec3 x = world.position(body);
     std::string place;
-    for (int axis = 0; axis < world.bodies().axes(); ++axis)
+    for (int axis = 0; axis < world.axes(); ++axis)
         place += fmt::format("{}{:.4g}", axis == 0 ? "" : ", ", x[axis]);
     return fmt::format("{}: {:.4g} m/s at ({}) m", game_.name_of(body),
                        std::hypot(v[0], v[1], v[2]), place);
@@ -158,7 +158,7 @@ Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size,
     const World& world = game_.world();
     if (methods_.empty()) methods_ = applicable_methods(world);
     find_stiffest(frame.waits);
-    const double energy = world.bodies().energy().total();
+    const double energy = world.energy().total();
     Inspected run{.stepping = world.settings().stepping,
                   .methods = methods_,
                   .fixed = fixed_,
@@ -167,7 +167,7 @@ Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size,
                   .energy = energy,
                   .time = world.time(),
                   .dropped = frame.dropped,
-                  .bodies = world.bodies().size(),
+                  .bodies = world.body_count(),
                   .threads = world.settings().threads,
                   .most_threads = most_threads(world),
                   .is_paused = frame.is_paused,

@@ -48,7 +48,7 @@ constexpr std::size_t most_springs = 10'000;
 double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
 DrawnSpring::End end_at(const World& world, std::size_t row) {
-    return {world.entity_of_row(row), world.bodies().position(row)};
+    return {world.entity_of_row(row), world.position_of_row(row)};
 }
 
 /// Adds the springs from the body in a row to their anchors.
@@ -96,7 +96,7 @@ constexpr double longest_arrow = 0.2;  // of the picture's height
 
 std::vector<Entity> bodies_to_show(const World& world, const std::optional<Entity>& followed) {
     std::vector<Entity> bodies;
-    const std::size_t count = std::min(world.bodies().size(), most_bodies_shown);
+    const std::size_t count = std::min(world.body_count(), most_bodies_shown);
     for (std::size_t row = 0; row < count; ++row) bodies.push_back(world.entity_of_row(row));
     if (followed && world.has_body(*followed) && world.row(*followed) >= count)
         bodies.push_back(*followed);
@@ -278,7 +278,7 @@ void MotionOverlay::sample(const World& world, const Shown& shown,
     bodies_ = bodies;
     if (after_ && after_->time == world.time()) return;
     before_ = std::exchange(after_, Sample{.time = world.time()});
-    scales_.bodies = bodies.size() < world.bodies().size() ? bodies.size() : 0;
+    scales_.bodies = bodies.size() < world.body_count() ? bodies.size() : 0;
     if (shown.velocities || shown.accelerations) {
         after_->motions = motions_of(world, bodies);
         largest_.speed = std::max(largest_.speed, largest(after_->motions, &BodyMotion::velocity));

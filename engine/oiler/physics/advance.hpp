@@ -31,13 +31,20 @@ concept SplitsDamping = requires(Physics& physics, State& state, double t) {
     physics.kick(state, t);
 };
 
+/// A physics with damping that is not linear.
+template <class Physics, class State>
+concept DampsAround = requires(Physics& physics, State& state) {
+    physics.damp_before(state);
+    physics.damp_after(state);
+};
+
 /// One step of a splitting from time `t` (s): kicks and drifts in turn, between two half-steps of
 /// the damping that is not linear.
 template <SplitsSteps Plan, class State, class Physics>
 [[gnu::always_inline]] inline bool advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {
     constexpr bool splits_damping = SplitsDamping<Physics, State>;
-    if constexpr (splits_damping) physics.damp_before(state);
+    if constexpr (DampsAround<Physics, State>) physics.damp_before(state);
     repeat(
         plan.count, [&](auto i) __attribute__((always_inline)) {
             const auto& stage = plan.stages[i];
@@ -54,7 +61,7 @@ template <SplitsSteps Plan, class State, class Physics>
                 t += static_cast<double>(stage.tau);
             }
         });
-    if constexpr (splits_damping) physics.damp_after(state);
+    if constexpr (DampsAround<Physics, State>) physics.damp_after(state);
     return true;
 }
 
@@ -68,7 +75,7 @@ struct Derivative {
 template <class State>
 using Derivatives = std::array<Derivative<State>, Tableau::most_stages>;
 
-/// What a step of a Runge–Kutta method holds beside the state.
+/// The memory of a step of a Runge–Kutta method.
 template <class State>
 struct Stages {
     Derivatives<State> k;
@@ -101,7 +108,8 @@ template <IsTableau Plan, class State, class Physics>
         });
 }
 
-/// The same. A physics of large states may keep their memory from step to step.
+/// One step of a Runge–Kutta method. A physics of large states may keep their memory from step to
+/// step.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline bool advance(const Plan& plan, State& state, Physics& physics,
                                            double t) {

@@ -44,33 +44,6 @@ private:
     }
 };
 
-/// A splitting whose stages are compile-time constants, so that they all stay in registers.
-template <std::floating_point T, Damping Treatment, Move... Moves>
-struct FixedSplittingPlan {
-    [[nodiscard]] static bool fits(const SplittingPlan<T>& plan) {
-        std::size_t i = 0;
-        return plan.count == count && plan.damping == Treatment &&
-               ((plan.stages[i++].move == Moves) && ...);
-    }
-    [[gnu::always_inline]] explicit FixedSplittingPlan(const SplittingPlan<T>& plan)
-        : half_step(plan.half_step) {
-        std::size_t i = 0;
-        stages = {ScaledStage<T>{Moves, plan.stages[i].tau, plan.stages[i++].flow}...};
-    }
-
-    static constexpr Damping damping = Treatment;
-    static constexpr std::integral_constant<std::size_t, sizeof...(Moves)> count{};
-    T half_step;
-    std::array<ScaledStage<T>, count> stages;
-};
-
-/// The most common methods: the article's, with damping in the kick, and velocity Verlet.
-template <std::floating_point T>
-using KickDriftPlan = FixedSplittingPlan<T, Damping::in_kick, Move::kick, Move::drift>;
-template <std::floating_point T>
-using KickDriftKickPlan =
-    FixedSplittingPlan<T, Damping::in_drift, Move::kick, Move::drift, Move::kick>;
-
 template <class Plan>
 concept SplitsSteps = requires(const Plan& plan) {
     plan.stages[0].move;
@@ -94,22 +67,6 @@ struct TableauPlan {
     std::array<T, Tableau::most_stages> b;
     std::array<double, Tableau::most_stages> c;
     std::size_t count;
-};
-
-/// A tableau with a compile-time number of stages, where each stage uses only the one before it.
-template <std::floating_point T, std::size_t Stages>
-struct ChainTableauPlan : TableauPlan<T> {
-    [[nodiscard]] static bool fits(const TableauPlan<T>& plan) {
-        bool chain = plan.count == Stages;
-        for (std::size_t i = 0; i < plan.count; ++i)
-            for (std::size_t j = 0; j + 1 < i; ++j) chain = chain && !plan.uses(i, j);
-        return chain;
-    }
-    [[gnu::always_inline]] explicit ChainTableauPlan(const TableauPlan<T>& plan)
-        : TableauPlan<T>(plan) {}
-
-    [[nodiscard]] static constexpr bool uses(std::size_t i, std::size_t j) { return i == j + 1; }
-    static constexpr std::integral_constant<std::size_t, Stages> count{};
 };
 
 template <class Plan>
@@ -147,6 +104,13 @@ template <std::floating_point T>
                 return ExactPlan<T>{dt};
         },
         method.rule);
+}
+
+/// Where steps of the plan apply forces that depend on velocity.
+template <std::floating_point T>
+[[nodiscard]] Damping damping_of(const Plan<T>& plan) {
+    const auto* const splitting = std::get_if<SplittingPlan<T>>(&plan);
+    return splitting ? splitting->damping : Damping::in_kick;
 }
 
 template <std::floating_point T>

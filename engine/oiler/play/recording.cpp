@@ -239,7 +239,7 @@ void RecordingWriter::add(std::int64_t step, const Input& input) {
 void RecordingWriter::add_state(std::int64_t step, const AnyGame& game) {
     const bool ends_second = (step + 1) % steps_per_second_ == 0;
     const auto stride =
-        static_cast<std::int64_t>(1 + game.world().bodies().size() / (bodies_hashed_per_step + 1));
+        static_cast<std::int64_t>(1 + game.world().body_count() / (bodies_hashed_per_step + 1));
     if (ends_second || (step + 1) % stride == 0) add_hashes(step, game);
     if (ends_second || records_.size() > largest_chunk / 2) write_chunk();
 }

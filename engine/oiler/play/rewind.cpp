@@ -5,8 +5,6 @@
 #include <cassert>
 #include <iterator>
 
-#include "oiler/sim/bodies.hpp"
-
 namespace oiler {
 namespace {
 
@@ -64,7 +62,7 @@ void Rewind::keep(std::int64_t step) {
     if (step > at_ && at_ < last_) forget_after(at_);  // a game without input asks for none
     at_ = step;
     last_ = std::max(last_, step);
-    if (game_.world().bodies().size() > limits_.bodies) {
+    if (game_.world().body_count() > limits_.bodies) {
         copies_.clear();
         spans_.clear();
     } else if (!has_past() ||
@@ -75,7 +73,7 @@ void Rewind::keep(std::int64_t step) {
 
 void Rewind::add_copy(std::int64_t step) {
     const Clock::time_point start = Clock::now();
-    const std::size_t bodies = std::max<std::size_t>(1, game_.world().bodies().size());
+    const std::size_t bodies = std::max<std::size_t>(1, game_.world().body_count());
     const std::size_t most = std::clamp<std::size_t>(limits_.copied / bodies, 2, limits_.copies);
     while (copies_.size() >= most) thin_out();
     copies_.insert(first_after(step), {step, game_.clone()});

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -20,7 +19,7 @@ constexpr float small_radius = 1 / 200.0F;
 Point to_point(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
 
 Point position_of(const World& world, std::size_t row) {
-    return to_point(world.bodies().position(row));
+    return to_point(world.position_of_row(row));
 }
 
 ElementKey key_of(const World& world, std::size_t row, std::size_t part = 0) {
@@ -40,7 +39,7 @@ struct Box {
 
 Box box_of(const Scene& scene, const World& world) {
     Box box;
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) box.add(position_of(world, row));
+    for (std::size_t row = 0; row < world.body_count(); ++row) box.add(position_of(world, row));
     for (const SceneSpring& spring : scene.springs)
         if (!spring.to) box.add(to_point(spring.anchor));
     for (const SceneAttractor& attractor : scene.attractors) box.add(to_point(attractor.position));
@@ -52,7 +51,7 @@ class Drawing {
 public:
     Drawing(const Scene& scene, const World& world, const Camera& camera)
         : scene_(scene), world_(world), picture_{.camera = camera} {
-        picture_.discs.reserve(world.bodies().size() + scene.attractors.size());
+        picture_.discs.reserve(world.body_count() + scene.attractors.size());
     }
 
     Picture run() {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "oiler/sim/bodies.hpp"
@@ -8,18 +11,33 @@
 
 namespace oiler {
 
-/// A vector in the precision and the axes of columns.
-template <class T, int Axes, class V>
-[[nodiscard]] Vec<T, Axes> narrow(const Vec<V, 3>& given) {
-    return {generate<Axes>([&](auto i) { return static_cast<T>(given.axis[i]); })};
+/// A number in another precision.
+template <std::floating_point To>
+[[nodiscard]] To converted(std::floating_point auto from) {
+    return static_cast<To>(from);
 }
-
-/// The opposite: a vector with three axes.
-template <class V, class T, int Axes>
-[[nodiscard]] Vec<V, 3> widen(const Vec<T, Axes>& vector) {
-    Vec<V, 3> wide{};
-    for (std::size_t i = 0; i < Axes; ++i) wide.axis[i] = static_cast<V>(vector.axis[i]);
-    return wide;
+/// A vector in another precision and number of axes; 0 on axes that `from` lacks.
+template <class To, class V, int Axes>
+[[nodiscard]] To converted(const Vec<V, Axes>& from) {
+    To to{};
+    for (std::size_t i = 0; i < std::min(to.axis.size(), from.axis.size()); ++i)
+        to.axis[i] = static_cast<std::decay_t<decltype(to.axis[i])>>(from.axis[i]);
+    return to;
+}
+/// A force of the same kind in another precision and number of axes.
+template <class To, class From>
+[[nodiscard]] To converted_force(const From& from) {
+    To to;
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        constexpr auto target = To::fields();
+        constexpr auto source = From::fields();
+        const auto convert = [](auto& number, const auto& given) {
+            number = converted<std::decay_t<decltype(number)>>(given);
+        };
+        (convert(to.*std::get<I>(target).member, from.*std::get<I>(source).member), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
+    return to;
 }
 
 /// The columns of all bodies, for each precision and number of axes. Only the files that define
@@ -29,6 +47,12 @@ struct AnyColumns {
                  Columns<double, 2>, Columns<double, 3>, Columns<long double, 1>,
                  Columns<long double, 2>, Columns<long double, 3>>
         of;
+
+    /// Calls f(columns).
+    template <class F>
+    decltype(auto) visit(F f) {
+        return std::visit(f, of);
+    }
 };
 
 }  // namespace oiler

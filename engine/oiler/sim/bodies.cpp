@@ -9,31 +9,6 @@
 namespace oiler {
 namespace {
 
-template <class T, int Axes>
-T narrow_field(const double& given, const T&) {
-    return static_cast<T>(given);
-}
-template <class T, int Axes>
-Vec<T, Axes> narrow_field(const Vec3& given, const Vec<T, Axes>&) {
-    return narrow<T, Axes>(given);
-}
-
-/// The user's force per unit mass, in the precision and axes of the columns.
-template <class To, class T, int Axes, class From>
-To stored_form(const From& given, double mass) {
-    const From specific = given.per_unit_mass(mass);
-    To force;
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        constexpr auto to = To::fields();
-        constexpr auto from = From::fields();
-        ((force.*std::get<I>(to).member = narrow_field<T, Axes>(specific.*std::get<I>(from).member,
-                                                                force.*std::get<I>(to).member)),
-         ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
-    return force;
-}
-
 /// Adds columns up to `count` forces of a kind; new forces are zero for all rows.
 template <class Numbers>
 void make_room(std::vector<Numbers>& stored, std::size_t count, std::size_t rows) {
@@ -82,28 +57,24 @@ void for_each_force(Columns<T, Axes>& columns, const GivenForces& forces, double
         using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
         std::optional<Stored> stored_force;
         if (const auto& given = std::get<i>(forces))
-            stored_force = stored_form<Stored, T, Axes>(*given, mass);
+            stored_force = converted_force<Stored>(given->per_unit_mass(mass));
         f(std::get<i>(columns.forces), stored_force);
     });
 }
 
 template <class T, std::size_t Axes>
-Vec3 widen(const std::array<Column<T>, Axes>& columns, std::size_t row) {
-    Vec3 out{};
-    for (std::size_t i = 0; i < Axes; ++i) out.axis[i] = static_cast<double>(columns[i][row]);
-    return out;
+Vec3 vector_of(const std::array<Column<T>, Axes>& columns, std::size_t row) {
+    return converted<Vec3>(load<T>(columns, row));
 }
 
 template <class T, std::size_t Axes>
 void push(std::array<Column<T>, Axes>& columns, const Vec3& value) {
-    const auto narrowed = narrow<T, int{Axes}>(value);
-    for (std::size_t i = 0; i < Axes; ++i) columns[i].push(narrowed.axis[i]);
+    for (std::size_t i = 0; i < Axes; ++i) columns[i].push(static_cast<T>(value.axis[i]));
 }
 
 template <class T, std::size_t Axes, class V>
 void assign(std::array<Column<T>, Axes>& columns, std::size_t row, const Vec<V, 3>& value) {
-    const auto narrowed = narrow<T, int{Axes}>(value);
-    for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = narrowed.axis[i];
+    for (std::size_t i = 0; i < Axes; ++i) columns[i][row] = static_cast<T>(value.axis[i]);
 }
 
 /// Removes the links of `row`, to which row `last` has moved. Calls f(link) for each of them first.
@@ -129,6 +100,17 @@ void drop_if_unused(Stored& stored, const Parameter<Kinds>& kinds, std::size_t k
     for (std::size_t row = 0; row < (kinds.shared() ? 1 : rows); ++row)
         if (kinds[row] >> kind & 1U) return;
     stored.clear();
+}
+
+template <class T, int Axes>
+PlaneOf<T, Axes> unit_plane(const Plane& given) {
+    const double size = length(given.normal);
+    PlaneOf<T, Axes> plane;
+    plane.normal = converted<Vec<T, Axes>>(given.normal / size);
+    plane.offset = static_cast<T>(given.offset / size);
+    plane.restitution = static_cast<T>(given.restitution);
+    plane.friction = static_cast<T>(given.friction);
+    return plane;
 }
 
 }  // namespace
@@ -170,164 +152,144 @@ void Bodies::require_row(std::size_t row) const {
 }
 
 std::size_t Bodies::size() const {
-    return std::visit([](const auto& columns) { return columns.size; }, columns_->of);
+    return columns_->visit([](const auto& columns) { return columns.size; });
 }
 
 void Bodies::reserve(std::size_t rows) {
-    std::visit(
-        [&](auto& columns) {
-            for (auto& column : columns.motion.x) column.reserve(rows);
-            for (auto& column : columns.motion.v) column.reserve(rows);
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        for (auto& column : columns.motion.x) column.reserve(rows);
+        for (auto& column : columns.motion.v) column.reserve(rows);
+        columns.views.valid = false;
+    });
 }
 
 std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
     const Limits limits(precision(), axes());
     limits.check(body);
     limits.check(forces, body.mass);
-    return std::visit(
-        [&](auto& columns) {
-            const std::size_t row = columns.size;
-            for_each_force(columns, forces, body.mass, [&](auto& stored, const auto& force) {
-                if (force) make_room(stored, 1, row);
-                push_force(stored, force);
-            });
-            push(columns.motion.x, body.position);
-            push(columns.motion.v, body.velocity);
-            columns.mass.push(body.mass);
-            columns.kinds.push(kinds_of_row(columns, row));
-            columns.applied.push_row();
-            columns.contacts.push_row(columns.contacts.radius_of(body.contact));
-            columns.forces_changed();
-            return columns.size++;
-        },
-        columns_->of);
+    return columns_->visit([&](auto& columns) {
+        const std::size_t row = columns.size;
+        for_each_force(columns, forces, body.mass, [&](auto& stored, const auto& force) {
+            if (force) make_room(stored, 1, row);
+            push_force(stored, force);
+        });
+        push(columns.motion.x, body.position);
+        push(columns.motion.v, body.velocity);
+        columns.mass.push(body.mass);
+        columns.kinds.push(kinds_of_row(columns, row));
+        columns.applied.push_row();
+        columns.contacts.push_row(columns.contacts.radius_of(body.contact));
+        columns.forces_changed();
+        return columns.size++;
+    });
 }
 
 void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
-    std::visit(
-        [&](auto& columns) {
-            for_each_force(columns, forces, columns.mass[row],
-                           [&](auto& stored, const auto& force) {
-                               if (!force) return;
-                               make_room(stored, index + 1, columns.size);
-                               set_force(stored[index], row, *force);
-                           });
-            columns.kinds.set(row, kinds_of_row(columns, row));
-            columns.forces_changed(row);
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        for_each_force(columns, forces, columns.mass[row], [&](auto& stored, const auto& force) {
+            if (!force) return;
+            make_room(stored, index + 1, columns.size);
+            set_force(stored[index], row, *force);
+        });
+        columns.kinds.set(row, kinds_of_row(columns, row));
+        columns.forces_changed(row);
+    });
 }
 
 void Bodies::detach_kind(std::size_t row, std::size_t kind) {
     require_row(row);
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            for_each_index<force_count>([&](auto i) {
-                if (i != kind) return;
-                auto& stored = std::get<i>(columns.forces);
-                for (auto& numbers : stored)
-                    for (Parameter<T>& number : numbers) number.set(row, 0);
-                columns.kinds.set(row, kinds_of_row(columns, row));
-                drop_if_unused(stored, columns.kinds, kind, columns.size);
-            });
-            columns.forces_changed(row);
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        for_each_index<force_count>([&](auto i) {
+            if (i != kind) return;
+            auto& stored = std::get<i>(columns.forces);
+            for (auto& numbers : stored)
+                for (Parameter<T>& number : numbers) number.set(row, 0);
+            columns.kinds.set(row, kinds_of_row(columns, row));
+            drop_if_unused(stored, columns.kinds, kind, columns.size);
+        });
+        columns.forces_changed(row);
+    });
 }
 
 void Bodies::remove(std::size_t row) {
     require_row(row);
-    std::visit(
-        [&](auto& columns) {
-            for (auto& column : columns.motion.x) column.swap_remove(row);
-            for (auto& column : columns.motion.v) column.swap_remove(row);
-            columns.mass.swap_remove(row);
-            columns.kinds.swap_remove(row);
-            const auto remove_from = [&](auto& stored) {
-                for (auto& numbers : stored)
-                    for (auto& parameter : numbers) parameter.swap_remove(row);
-            };
-            std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
-            columns.applied.swap_remove(row, --columns.size);
-            columns.contacts.swap_remove(row, columns.size);
-            const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
-            remove_links(columns.links, row, columns.size, release);
-            remove_links(columns.point_links, row, columns.size, release);
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        for (auto& column : columns.motion.x) column.swap_remove(row);
+        for (auto& column : columns.motion.v) column.swap_remove(row);
+        columns.mass.swap_remove(row);
+        columns.kinds.swap_remove(row);
+        const auto remove_from = [&](auto& stored) {
+            for (auto& numbers : stored)
+                for (auto& parameter : numbers) parameter.swap_remove(row);
+        };
+        std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
+        columns.applied.swap_remove(row, --columns.size);
+        columns.contacts.swap_remove(row, columns.size);
+        const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
+        remove_links(columns.links, row, columns.size, release);
+        remove_links(columns.point_links, row, columns.size, release);
+        columns.forces_changed();
+    });
 }
 
 void Bodies::set_gravity(const Vec3& acceleration) {
     Limits(precision(), axes()).check(acceleration, "gravity");
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            constexpr std::size_t at =
-                index_of<GravityForce<T, Axes>>(static_cast<ForceList<T, Axes>*>(nullptr));
-            auto& stored = std::get<at>(columns.forces);
-            make_room(stored, 1, columns.size);
-            const Vec<T, Axes> g = narrow<T, Axes>(acceleration);
-            for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
-            columns.contacts.wake_all();
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        constexpr std::size_t at =
+            index_of<GravityForce<T, Axes>>(static_cast<ForceList<T, Axes>*>(nullptr));
+        auto& stored = std::get<at>(columns.forces);
+        make_room(stored, 1, columns.size);
+        const Vec<T, Axes> g = converted<Vec<T, Axes>>(acceleration);
+        for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
+        columns.contacts.wake_all();
+        columns.forces_changed();
+    });
 }
 
 double Bodies::mass(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return columns.mass[row]; }, columns_->of);
+    return columns_->visit([&](const auto& columns) { return columns.mass[row]; });
 }
 
 Vec3 Bodies::position(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.x, row); },
-                      columns_->of);
+    return columns_->visit([&](const auto& columns) { return vector_of(columns.motion.x, row); });
 }
 
 Vec3 Bodies::velocity(std::size_t row) const {
     require_row(row);
-    return std::visit([&](const auto& columns) { return widen(columns.motion.v, row); },
-                      columns_->of);
+    return columns_->visit([&](const auto& columns) { return vector_of(columns.motion.v, row); });
 }
 
 void Bodies::set_state(std::size_t row, const State<long double, 3>& state) {
     require_row(row);
     const Limits limits(precision(), axes());
-    limits.check(narrow<double, 3>(state.x), "a position");
-    limits.check(narrow<double, 3>(state.v), "a velocity");
-    std::visit(
-        [&](auto& columns) {
-            assign(columns.motion.x, row, state.x);
-            assign(columns.motion.v, row, state.v);
-            columns.state_changed(row);
-        },
-        columns_->of);
+    limits.check(converted<Vec3>(state.x), "a position");
+    limits.check(converted<Vec3>(state.v), "a velocity");
+    columns_->visit([&](auto& columns) {
+        assign(columns.motion.x, row, state.x);
+        assign(columns.motion.v, row, state.v);
+        columns.state_changed(row);
+    });
 }
 
 void Bodies::set_position(std::size_t row, const Vec3& position) {
     require_row(row);
     Limits(precision(), axes()).check(position, "a position");
-    std::visit(
-        [&](auto& columns) {
-            assign(columns.motion.x, row, position);
-            columns.state_changed(row);
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        assign(columns.motion.x, row, position);
+        columns.state_changed(row);
+    });
 }
 
 void Bodies::set_velocity(std::size_t row, const Vec3& velocity) {
     require_row(row);
     Limits(precision(), axes()).check(velocity, "a velocity");
-    std::visit(
-        [&](auto& columns) {
-            assign(columns.motion.v, row, velocity);
-            columns.state_changed(row);
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        assign(columns.motion.v, row, velocity);
+        columns.state_changed(row);
+    });
 }
 
 void Bodies::apply_force(std::size_t row, const Vec3& force) {
@@ -335,20 +297,74 @@ void Bodies::apply_force(std::size_t row, const Vec3& force) {
     limits.check(force, "a force");
     const Vec3 acceleration = force / mass(row);
     limits.check(acceleration, "the acceleration by a force");
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            const Vec<T, Axes> change = narrow<T, Axes>(acceleration);
-            for (const T one : (columns.applied.sum(row) + change).axis)
-                limits.check(static_cast<double>(one), "the sum of the forces on a body");
-            columns.applied.add(row, change, columns.size);
-            columns.state_changed(row);
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        const Vec<T, Axes> change = converted<Vec<T, Axes>>(acceleration);
+        for (const T one : (columns.applied.sum(row) + change).axis)
+            limits.check(static_cast<double>(one), "the sum of the forces on a body");
+        columns.applied.add(row, change, columns.size);
+        columns.contacts.wake(row);
+        columns.applied_changed();
+    });
 }
 
 void Bodies::apply_impulse(std::size_t row, const Vec3& impulse) {
     Limits(precision(), axes()).check(impulse, "an impulse");
     set_velocity(row, velocity(row) + impulse / mass(row));
+}
+
+std::size_t Bodies::add_plane(const Plane& plane) {
+    Limits(precision(), axes()).check(plane);
+    require(planes_.size() < most_planes, "a world has at most 32 planes");
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        columns.contacts.planes.push_back(unit_plane<T, Axes>(plane));
+        columns.contacts.wake_all();
+    });
+    planes_.push_back(plane);
+    return planes_.size() - 1;
+}
+
+void Bodies::clear_planes() {
+    columns_->visit([](auto& columns) {
+        columns.contacts.planes.clear();
+        columns.contacts.wake_all();
+    });
+    planes_.clear();
+}
+
+void Bodies::set_contact(std::size_t row, const std::optional<Contact>& contact) {
+    require_row(row);
+    if (contact) Limits(precision(), axes()).check(*contact);
+    columns_->visit(
+        [&](auto& columns) { columns.contacts.set(row, columns.contacts.radius_of(contact)); });
+}
+
+std::optional<Contact> Bodies::contact(std::size_t row) const {
+    require_row(row);
+    return columns_->visit([&](const auto& columns) -> std::optional<Contact> {
+        const auto radius = columns.contacts.radius[row];
+        if (radius == columns.contacts.no_contact) return std::nullopt;
+        return Contact{static_cast<double>(radius)};
+    });
+}
+
+std::size_t Bodies::impact_count() const {
+    return columns_->visit([](const auto& columns) { return columns.contacts.impacts.size(); });
+}
+
+BodyImpact Bodies::impact_at(std::size_t i, const Rate& rate) const {
+    require(i < impact_count(), "there are fewer impacts");
+    return columns_->visit([&](const auto& columns) {
+        const auto& [tick, row, index, impact] = columns.contacts.impacts[i];
+        const auto radius = columns.contacts.radius[row];
+        return BodyImpact{
+            impact.kind,
+            row,
+            impact.plane,
+            rate.time(tick) + static_cast<double>(impact.after_start),
+            converted<Vec3>(impact.x - columns.contacts.planes[impact.plane].normal * radius),
+            converted<Vec3>(impact.before),
+            converted<Vec3>(impact.after)};
+    });
 }
 
 }  // namespace oiler

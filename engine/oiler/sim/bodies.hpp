@@ -178,7 +178,7 @@ public:
 private:
     void require_row(std::size_t row) const;
     void require_linkable(std::size_t row, const Link& link) const;
-    void require_forces_for(const Method& method) const;
+    void require_exact_flow(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
 
     std::unique_ptr<AnyColumns> columns_;

@@ -23,9 +23,7 @@ LinkEnds ends_of(const LinkRow<T>& link) {
 }
 template <class T, int Axes>
 LinkEnds ends_of(const PointLinkRow<T, Axes>& link) {
-    Vec3 point{};
-    for (std::size_t i = 0; i < Axes; ++i) point.axis[i] = static_cast<double>(link.point.axis[i]);
-    return {link.row, std::nullopt, point};
+    return {link.row, std::nullopt, converted<Vec3>(link.point)};
 }
 
 /// The indices of links to points in the order of their dampers.
@@ -45,15 +43,12 @@ LinkHandle Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     require_linkable(b, link);
     require(a != b, "a link is between two bodies");
     const LinkHandle handle = link_slots_.take<LinkHandle>();
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            columns.links.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                     handle.slot, static_cast<T>(link.stiffness),
-                                     static_cast<T>(link.damping),
-                                     static_cast<T>(link.rest_length)});
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        columns.links.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                 handle.slot, static_cast<T>(link.stiffness),
+                                 static_cast<T>(link.damping), static_cast<T>(link.rest_length)});
+        columns.forces_changed();
+    });
     return handle;
 }
 
@@ -61,30 +56,26 @@ LinkHandle Bodies::link_to_point(std::size_t row, const Vec3& point, const Link&
     require_linkable(row, link);
     Limits(precision(), axes()).check(point, "the point of a link");
     const LinkHandle handle = link_slots_.take<LinkHandle>();
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            columns.point_links.push_back(
-                {static_cast<std::uint32_t>(row), handle.slot, static_cast<T>(link.stiffness),
-                 static_cast<T>(link.damping), static_cast<T>(link.rest_length),
-                 narrow<T, Axes>(point)});
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        columns.point_links.push_back({static_cast<std::uint32_t>(row), handle.slot,
+                                       static_cast<T>(link.stiffness), static_cast<T>(link.damping),
+                                       static_cast<T>(link.rest_length),
+                                       converted<Vec<T, Axes>>(point)});
+        columns.forces_changed();
+    });
     return handle;
 }
 
 void Bodies::move_point(LinkHandle link, const Vec3& point) {
     require(alive(link), "the link is gone");
     Limits(precision(), axes()).check(point, "the point of a link");
-    std::visit(
-        [&]<class T, int Axes>(Columns<T, Axes>& columns) {
-            auto& links = columns.point_links;
-            const auto found = std::ranges::find(links, link.slot, &PointLinkRow<T, Axes>::slot);
-            require(found != links.end(), "the link is between two bodies and has no point");
-            found->point = narrow<T, Axes>(point);
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        auto& links = columns.point_links;
+        const auto found = std::ranges::find(links, link.slot, &PointLinkRow<T, Axes>::slot);
+        require(found != links.end(), "the link is between two bodies and has no point");
+        found->point = converted<Vec<T, Axes>>(point);
+        columns.forces_changed();
+    });
 }
 
 void Bodies::require_linkable(std::size_t row, const Link& link) const {
@@ -99,19 +90,16 @@ bool Bodies::alive(LinkHandle link) const { return link_slots_.holds(link.slot, 
 void Bodies::unlink(LinkHandle link) {
     require(alive(link), "the link is gone");
     const auto is_it = [&](const auto& stored) { return stored.slot == link.slot; };
-    std::visit(
-        [&](auto& columns) {
-            if (std::erase_if(columns.links, is_it) == 0) std::erase_if(columns.point_links, is_it);
-            columns.forces_changed();
-        },
-        columns_->of);
+    columns_->visit([&](auto& columns) {
+        if (std::erase_if(columns.links, is_it) == 0) std::erase_if(columns.point_links, is_it);
+        columns.forces_changed();
+    });
     link_slots_.release(link.slot);
 }
 
 std::size_t Bodies::link_count() const {
-    return std::visit(
-        [](const auto& columns) { return columns.links.size() + columns.point_links.size(); },
-        columns_->of);
+    return columns_->visit(
+        [](const auto& columns) { return columns.links.size() + columns.point_links.size(); });
 }
 
 Link Bodies::link_at(std::size_t i) const {
@@ -119,14 +107,12 @@ Link Bodies::link_at(std::size_t i) const {
         return Link{static_cast<double>(link.stiffness), static_cast<double>(link.damping),
                     static_cast<double>(link.rest_length)};
     };
-    return std::visit([&](const auto& columns) { return with_link(columns, i, numbers); },
-                      columns_->of);
+    return columns_->visit([&](const auto& columns) { return with_link(columns, i, numbers); });
 }
 
 LinkEnds Bodies::link_ends(std::size_t i) const {
     const auto ends = [](const auto& link) { return ends_of(link); };
-    return std::visit([&](const auto& columns) { return with_link(columns, i, ends); },
-                      columns_->of);
+    return columns_->visit([&](const auto& columns) { return with_link(columns, i, ends); });
 }
 
 std::vector<bool> Bodies::linked_rows() const {
@@ -140,14 +126,12 @@ std::vector<bool> Bodies::linked_rows() const {
 }
 
 std::vector<std::size_t> Bodies::damping_order() const {
-    return std::visit(
-        [](const auto& columns) {
-            std::vector<std::size_t> order = oiler::damping_order(columns.links);
-            for (const std::size_t i : damping_order_of(columns.point_links))
-                order.push_back(columns.links.size() + i);
-            return order;
-        },
-        columns_->of);
+    return columns_->visit([](const auto& columns) {
+        std::vector<std::size_t> order = oiler::damping_order(columns.links);
+        for (const std::size_t i : damping_order_of(columns.point_links))
+            order.push_back(columns.links.size() + i);
+        return order;
+    });
 }
 
 }  // namespace oiler

@@ -9,28 +9,6 @@
 namespace oiler {
 namespace {
 
-template <int Axes>
-double to_double(double number) {
-    return number;
-}
-template <int Axes>
-Vec3 to_double(const Vec<double, Axes>& vector) {
-    return widen<double>(vector);
-}
-
-/// The force with three axes, as in the public API.
-template <class To, int Axes, class From>
-To given_form(const From& from) {
-    To to;
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        constexpr auto target = To::fields();
-        constexpr auto source = From::fields();
-        ((to.*std::get<I>(target).member = to_double<Axes>(from.*std::get<I>(source).member)), ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
-    return to;
-}
-
 template <class T, std::size_t Count>
 Stored storage_of(std::string_view name, std::size_t index,
                   const std::array<Parameter<T>, Count>& numbers, std::size_t rows) {
@@ -62,136 +40,122 @@ void hash_column(const Column<long double>& column, StateHash& hash) {
 
 State<long double, 3> Bodies::state(std::size_t row) const {
     require_row(row);
-    return std::visit(
-        [&](const auto& columns) {
-            const auto state = state_of<long double>(columns, row);
-            return State<long double, 3>{widen<long double>(state.x), widen<long double>(state.v)};
-        },
-        columns_->of);
+    return columns_->visit([&](const auto& columns) {
+        const auto state = state_of<long double>(columns, row);
+        return State<long double, 3>{converted<Vec<long double, 3>>(state.x),
+                                     converted<Vec<long double, 3>>(state.v)};
+    });
 }
 
 GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t index) const {
     require_row(row);
-    return std::visit(
-        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            GivenForces given;
-            for_each_index<force_count>([&](auto i) {
-                using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
-                using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
-                if (index < std::get<i>(columns.forces).size())
-                    std::get<i>(given) =
-                        given_form<Given, Axes>(force_at<Force, double>(columns, index, row));
-            });
-            return given;
-        },
-        columns_->of);
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        GivenForces given;
+        for_each_index<force_count>([&](auto i) {
+            using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
+            using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
+            if (index < std::get<i>(columns.forces).size())
+                std::get<i>(given) =
+                    converted_force<Given>(force_at<Force, double>(columns, index, row));
+        });
+        return given;
+    });
 }
 
 std::size_t Bodies::most_forces_of_a_kind() const {
-    return std::visit(
-        [](const auto& columns) {
-            return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
-                              columns.forces);
-        },
-        columns_->of);
+    return columns_->visit([](const auto& columns) {
+        return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
+                          columns.forces);
+    });
 }
 
 double Bodies::link_potential(std::size_t i) const {
     const Link link = link_at(i);
     const LinkEnds ends = link_ends(i);
-    return std::visit(
-        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            State<double, Axes> between = state_of<double>(columns, ends.row);
-            if (ends.other) {
-                between.x -= state_of<double>(columns, *ends.other).x;
-            } else {
-                for (std::size_t axis = 0; axis < Axes; ++axis)
-                    between.x.axis[axis] -= ends.point.axis[axis];
-            }
-            return LinkForce<double, Axes>(link.stiffness, link.damping, link.rest_length,
-                                           link.rest_length == 0)
-                .potential(between);
-        },
-        columns_->of);
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        State<double, Axes> between = state_of<double>(columns, ends.row);
+        if (ends.other) {
+            between.x -= state_of<double>(columns, *ends.other).x;
+        } else {
+            for (std::size_t axis = 0; axis < Axes; ++axis)
+                between.x.axis[axis] -= ends.point.axis[axis];
+        }
+        return LinkForce<double, Axes>(link.stiffness, link.damping, link.rest_length,
+                                       link.rest_length == 0)
+            .potential(between);
+    });
 }
 
 std::vector<Stored> Bodies::stored() const {
-    return std::visit(
-        []<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const std::vector<bool> not_shared(Axes, false);
-            std::vector<Stored> all;
-            for (const std::string_view name : {"position", "velocity"})
-                all.push_back({name, 0, not_shared, Axes * sizeof(T), columns.size});
-            all.push_back(storage_of("mass", 0, std::array{columns.mass}, columns.size));
-            if (columns.contacts.rows > 0) {
-                all.push_back(
-                    storage_of("contact", 0, std::array{columns.contacts.radius}, columns.size));
-                all.back().rows = columns.contacts.rows;
-            }
-            for_each_index<force_count>([&](auto i) {
-                using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-                const auto& forces = std::get<i>(columns.forces);
-                for (std::size_t index = 0; index < forces.size(); ++index)
-                    all.push_back(storage_of(Force::name, index, forces[index], columns.size));
-            });
-            return all;
-        },
-        columns_->of);
+    return columns_->visit([]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        const std::vector<bool> not_shared(Axes, false);
+        std::vector<Stored> all;
+        for (const std::string_view name : {"position", "velocity"})
+            all.push_back({name, 0, not_shared, Axes * sizeof(T), columns.size});
+        all.push_back(storage_of("mass", 0, std::array{columns.mass}, columns.size));
+        if (columns.contacts.rows > 0) {
+            all.push_back(
+                storage_of("contact", 0, std::array{columns.contacts.radius}, columns.size));
+            all.back().rows = columns.contacts.rows;
+        }
+        for_each_index<force_count>([&](auto i) {
+            using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
+            const auto& forces = std::get<i>(columns.forces);
+            for (std::size_t index = 0; index < forces.size(); ++index)
+                all.push_back(storage_of(Force::name, index, forces[index], columns.size));
+        });
+        return all;
+    });
 }
 
 std::size_t Bodies::bytes_of_links() const {
     const auto bytes = []<class Row>(const std::vector<Row>& links) {
         return links.size() * sizeof(Row);
     };
-    return std::visit(
-        [&](const auto& columns) { return bytes(columns.links) + bytes(columns.point_links); },
-        columns_->of);
+    return columns_->visit(
+        [&](const auto& columns) { return bytes(columns.links) + bytes(columns.point_links); });
 }
 
 Deviation Bodies::deviation_from(const Bodies& other) const {
     require(size() == other.size() && columns_->of.index() == other.columns_->of.index(),
             "compared bodies have the same number, precision and axes");
-    return std::visit(
-        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            const auto& others = std::get<Columns<T, Axes>>(other.columns_->of);
-            Deviation largest;
-            for (std::size_t row = 0; row < columns.size; ++row) {
-                Vec3 d{};
-                for (std::size_t i = 0; i < Axes; ++i) {
-                    d.axis[i] = static_cast<double>(
-                        std::abs(columns.motion.x[i][row] - others.motion.x[i][row]));
-                    largest.along.axis[i] = larger(largest.along.axis[i], d.axis[i]);
-                }
-                // hypot, because the square of a small difference underflows to 0.
-                largest.distance = larger(largest.distance, std::hypot(d[0], d[1], d[2]));
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        const auto& others = std::get<Columns<T, Axes>>(other.columns_->of);
+        Deviation largest;
+        for (std::size_t row = 0; row < columns.size; ++row) {
+            Vec3 d{};
+            for (std::size_t i = 0; i < Axes; ++i) {
+                d.axis[i] = static_cast<double>(
+                    std::abs(columns.motion.x[i][row] - others.motion.x[i][row]));
+                largest.along.axis[i] = larger(largest.along.axis[i], d.axis[i]);
             }
-            return largest;
-        },
-        columns_->of);
+            // hypot, because the square of a small difference underflows to 0.
+            largest.distance = larger(largest.distance, std::hypot(d[0], d[1], d[2]));
+        }
+        return largest;
+    });
 }
 
 std::int64_t Bodies::evaluations() const {
-    return std::visit([](const auto& columns) { return columns.evaluations; }, columns_->of);
+    return columns_->visit([](const auto& columns) { return columns.evaluations; });
 }
 
 Energy Bodies::energy() const {
     constexpr std::size_t lanes = 8;
     std::array<double, lanes> kinetic{};
     std::array<double, lanes> potential{};
-    std::visit(
-        [&](const auto& columns) {
-            for (std::size_t row = 0; row < columns.size; ++row) {
-                const auto state = state_of<double>(columns, row);
-                const double mass = columns.mass[row];
-                kinetic[row % lanes] += 0.5 * mass * squared_length(state.v);
-                double specific = 0;
-                for_each_force<double>(columns, row, [&](const auto& force) {
-                    specific += oiler::potential(force, state);
-                });
-                potential[row % lanes] += mass * specific;
-            }
-        },
-        columns_->of);
+    columns_->visit([&](const auto& columns) {
+        for (std::size_t row = 0; row < columns.size; ++row) {
+            const auto state = state_of<double>(columns, row);
+            const double mass = columns.mass[row];
+            kinetic[row % lanes] += 0.5 * mass * squared_length(state.v);
+            double specific = 0;
+            for_each_force<double>(columns, row, [&](const auto& force) {
+                specific += oiler::potential(force, state);
+            });
+            potential[row % lanes] += mass * specific;
+        }
+    });
     for (std::size_t i = 0; i < link_count(); ++i) potential[i % lanes] += link_potential(i);
     Energy sum;
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -202,17 +166,15 @@ Energy Bodies::energy() const {
 }
 
 void Bodies::hash_into(StateHash& hash) const {
-    std::visit(
-        [&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-            hash.add(columns.size);
-            hash.add(static_cast<std::uint64_t>(Axes));
-            hash.add(static_cast<std::uint64_t>(sizeof(T)));
-            for (const auto* vector : {&columns.motion.x, &columns.motion.v})
-                for (const Column<T>& column : *vector) hash_column(column, hash);
-            if (columns.applied.empty()) return;
-            for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
-        },
-        columns_->of);
+    columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        hash.add(columns.size);
+        hash.add(static_cast<std::uint64_t>(Axes));
+        hash.add(static_cast<std::uint64_t>(sizeof(T)));
+        for (const auto* vector : {&columns.motion.x, &columns.motion.v})
+            for (const Column<T>& column : *vector) hash_column(column, hash);
+        if (columns.applied.empty()) return;
+        for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
+    });
 }
 
 }  // namespace oiler

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler {
 namespace {
 

@@ -4,10 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/body.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler {
+
+class Bodies;
 
 /// The oscillation of a body on its springs, or of two bodies on their link.
 struct BodyOscillation {

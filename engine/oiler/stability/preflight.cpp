@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "oiler/core/error.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/oscillations.hpp"
 #include "oiler/stability/risks.hpp"
 

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "oiler/sim/bodies.hpp"
+#include "oiler/physics/steps.hpp"
+#include "oiler/sim/body.hpp"
 #include "oiler/stability/stability.hpp"
 
 namespace oiler {
 
+class Bodies;
 struct Component;
 
 /// A body and an attractor that nothing else disturbs.

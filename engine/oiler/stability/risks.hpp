@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 
 namespace oiler {

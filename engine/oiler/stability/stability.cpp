@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {
@@ -13,8 +14,8 @@ namespace {
 constexpr long double round_off = 1e-14L;
 constexpr double farthest = 40;  // of max(ω, c)·dt, and of ω·dt/ζ beyond ζ = 1/2
 
-/// Of ω·dt, and of ω·dt/ζ of overdamped springs: outside the region of every conditionally stable
-/// method.
+/// The ω·dt, or ω·dt/ζ of overdamped springs, that is outside the region of every conditionally
+/// stable method.
 constexpr double outside_all = 1000;
 
 /// The distance of the trace from the point where an eigenvalue leaves the unit circle at 1 or −1.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/modes.hpp"
 
 namespace oiler {
@@ -14,14 +15,14 @@ bool splits_dampers(const Stepping& stepping) {
     return splits_dampers(*stepping.method, damping_of(stepping));
 }
 
-/// To three digits.
+/// A number in three digits.
 double rounded(double number) {
     if (number == 0) return 0;
     const double unit = std::pow(10, std::floor(std::log10(number)) - 2);
     return std::round(number / unit) * unit;
 }
 
-/// To its limit; without limits, the faster one.
+/// Whether `a` is closer to its limit than `b`; whether it is faster, if neither has a limit.
 bool is_closer(const Stiffest& a, const Stiffest& b) {
     if (a.limit == b.limit) return a.measure > b.measure;
     return a.measure * b.limit > b.measure * a.limit;

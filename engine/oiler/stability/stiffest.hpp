@@ -21,13 +21,13 @@ struct Stiffest {
     double limit = 0;                     ///< the largest stable measure; infinite: any is stable
 };
 
-/// Finds the stiffest spring or damper again and again while a run goes on. Of what links connect,
-/// it is the fastest oscillation at the present positions, which is at most 1 % slower than told.
-/// Limits take some tens of milliseconds, so they are kept, each for the damping ratios that agree
-/// in three digits.
+/// Finds the stiffest spring or damper, again and again in a run. Linked bodies count with their
+/// fastest oscillation at the present positions; it is at most 1 % slower than returned. A limit
+/// takes some tens of milliseconds to find. It is kept for all damping ratios that agree in three
+/// digits.
 class StiffestFinder {
 public:
-    /// What find() judges, of bodies as they are now.
+    /// The springs and dampers that find() compares, in the present state.
     struct Suspects {
         std::vector<BodyOscillation> alone{};
         std::vector<Component> linked{};

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/body.hpp"
 
 namespace oiler {
 

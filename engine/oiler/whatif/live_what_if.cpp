@@ -88,11 +88,11 @@ void LiveWhatIf::measure(std::int64_t first, MakeGame make) {
     play_.recording.events.clear();
     try {
         const std::unique_ptr<AnyGame> game = make_run_(play_.settings);
-        const Bodies& bodies = game->world().bodies();
-        begin_ = Begin{game->world().time(), bodies.energy().total()};
-        if (bodies.size() > most_bodies)
+        const World& world = game->world();
+        begin_ = Begin{world.time(), world.energy().total()};
+        if (world.body_count() > most_bodies)
             return stop(fmt::format("what the timestep costs is not measured for {} bodies",
-                                    bodies.size()));
+                                    world.body_count()));
         runs_.emplace(play_, other_settings(), make_run_);
     } catch (const Error& error) {
         stop(error.what());
@@ -132,7 +132,7 @@ void LiveWhatIf::play_until(std::int64_t step) {
         while (behind(step) > 0 && (!hurries || Clock::now() < end)) {
             const Clock::time_point begin = Clock::now();
             runs_->play_until(played_++);
-            energy_scale_.add(runs_->recorded_game().world().bodies().energy());
+            energy_scale_.add(runs_->recorded_game().world().energy());
             slow_ = Clock::now() - begin > time ? slow_ + 1 : 0;
             if (!runs_->certain()) continue;
             if (errors_.size() >= most_errors) errors_.erase(errors_.begin());
@@ -166,7 +166,7 @@ void LiveWhatIf::judge(WhatIf measured) {
     const AnyGame& game = runs_->recorded_game();
     verdict_ = judge_setting(*measured_, readings_, begin_->time,
                              [&](Entity body) { return game.name_of(body); });
-    if (std::isnan(measured_->runs.front().distance) && game.world().bodies().size() == 0)
+    if (std::isnan(measured_->runs.front().distance) && game.world().body_count() == 0)
         verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
     readings_ = measured_->runs.front().readings;
 }

@@ -6,8 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "oiler/sim/bodies.hpp"
-
 namespace oiler {
 namespace {
 
@@ -22,9 +20,9 @@ bool is_same_body(const Moment::Placed& one, const Moment::Placed& other) {
 Moment moment_of(const AnyGame& game) {
     const World& world = game.world();
     Moment moment{.cuts = game.cuts(), .quits = game.loop().quits()};
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+    for (std::size_t row = 0; row < world.body_count(); ++row) {
         const Entity entity = world.entity_of_row(row);
-        moment.bodies.push_back({entity, world.jumps(entity), world.bodies().position(row)});
+        moment.bodies.push_back({entity, world.jumps(entity), world.position_of_row(row)});
     }
     std::ranges::sort(moment.bodies, {},
                       [](const Moment::Placed& body) { return body.entity.id(); });

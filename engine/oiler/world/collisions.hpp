@@ -63,7 +63,7 @@ private:
         double radius;  ///< m
         std::uint32_t row;
     };
-    /// Where an entity was at an update.
+    /// The place of an entity at an update.
     struct Mark {
         Vec3 position{};
         std::uint64_t update = 0;  ///< from 1

@@ -23,7 +23,6 @@ public:
 
     [[nodiscard]] virtual std::unique_ptr<AnyTimers> clone() const = 0;
     virtual bool hash_into(StateHash& hash) const = 0;
-    [[nodiscard]] virtual bool empty() const = 0;
     /// Moves each message from its tick t to the tick `moved(t)`.
     virtual void move(const std::function<std::int64_t(std::int64_t)>& moved) = 0;
     [[nodiscard]] virtual std::string_view type() const = 0;
@@ -47,7 +46,6 @@ public:
             }
         return Hashed<T>;
     }
-    [[nodiscard]] bool empty() const override { return entries_.empty(); }
     void move(const std::function<std::int64_t(std::int64_t)>& moved) override {
         for (Entry& entry : entries_) entry.tick = moved(entry.tick);
     }

@@ -188,6 +188,7 @@ void World::refuse(const char* call, Entity entity, const Error& error) const {
 }
 
 Vec3 World::position(Entity entity) const { return bodies_->position(row(entity)); }
+Vec3 World::position_of_row(std::size_t row) const { return bodies_->position(row); }
 Vec3 World::velocity(Entity entity) const { return bodies_->velocity(row(entity)); }
 double World::mass(Entity entity) const { return bodies_->mass(row(entity)); }
 
@@ -242,6 +243,10 @@ std::vector<Entity> World::within(const Vec3& point, double radius) const {
     return entities;
 }
 
+std::size_t World::body_count() const { return bodies_->size(); }
+int World::axes() const { return bodies_->axes(); }
+Energy World::energy() const { return bodies_->energy(); }
+
 void World::step(std::int64_t count) {
     const Steps steps = next_steps(count);
     if (const auto at = try_step(count))
@@ -252,7 +257,12 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
     require(count >= 0, "the number of steps is not negative");
     require(visits_ == 0, "a world is not stepped inside its own each");
     const auto divergence = bodies_->try_step(*settings_.stepping.method, next_steps(count));
-    list_impacts();
+    impacts_.clear();
+    for (std::size_t i = 0; i < bodies_->impact_count(); ++i) {
+        const BodyImpact one = bodies_->impact_at(i, settings_.stepping.rate);
+        impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
+                            one.before, one.after});
+    }
     if (!divergence) {
         tick_ += count;
         age_ += count;
@@ -293,15 +303,6 @@ void World::unlink(LinkHandle link) { bodies_->unlink(link); }
 
 void World::move_point(LinkHandle link, const Vec3& point) {
     placed("move_point", [&] { bodies_->move_point(link, point); });
-}
-
-void World::list_impacts() {
-    impacts_.clear();
-    for (std::size_t i = 0; i < bodies_->impact_count(); ++i) {
-        const BodyImpact one = bodies_->impact_at(i, settings_.stepping.rate);
-        impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
-                            one.before, one.after});
-    }
 }
 
 std::optional<std::int64_t> World::tick_at(const Rate& rate) const {

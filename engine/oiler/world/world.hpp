@@ -188,6 +188,7 @@ public:
 
     [[nodiscard]] Vec3 position(Entity entity) const;
     [[nodiscard]] Vec3 velocity(Entity entity) const;
+    [[nodiscard]] Vec3 position_of_row(std::size_t row) const;
     [[nodiscard]] double mass(Entity entity) const;  ///< kg
 
     // Each of these throws Error{diverged} for a number that is not finite in the world's
@@ -223,7 +224,12 @@ public:
     /// all bodies; see Neighbours for many queries.
     [[nodiscard]] std::vector<Entity> within(const Vec3& point, double radius) const;
 
+    /// The columns of all bodies; oiler/sim/bodies.hpp has their functions.
     [[nodiscard]] const Bodies& bodies() const { return *bodies_; }
+    [[nodiscard]] std::size_t body_count() const;
+    [[nodiscard]] int axes() const;
+    /// See Bodies::energy.
+    [[nodiscard]] Energy energy() const;
     void set_gravity(const Vec3& acceleration);
 
     /// Hands a message to `due` of its type, `seconds` from now, rounded up to a tick.
@@ -355,7 +361,6 @@ private:
     void attach_given(const char* call, std::size_t index, Entity entity,
                       const GivenForces& forces);
     void detach_kind(Entity entity, std::size_t kind);
-    void list_impacts();
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
 

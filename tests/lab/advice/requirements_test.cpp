@@ -6,6 +6,7 @@
 
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {

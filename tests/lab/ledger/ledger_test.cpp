@@ -4,6 +4,7 @@
 #include "oiler/lab/ledger/ledger.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "scene/everything.hpp"
 #include "support/test.hpp"
 

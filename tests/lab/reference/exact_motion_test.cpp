@@ -4,6 +4,7 @@
 #include "lab/motions.hpp"
 #include "oiler/lab/reference/exact_motion.hpp"
 #include "oiler/lab/reference/landing_motion.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "lab/motions.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "support/test.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/lab/advice/search.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -158,7 +159,7 @@ private:
         constexpr int rounds = 5;
         const int cores = this_machine().cores;
         const World world = make_world(scene_, Settings{advice_.best->stepping});
-        if (cores < 2 || world.bodies().size() < many || world.bodies().link_count() > 0) return;
+        if (cores < 2 || world.body_count() < many || world.bodies().link_count() > 0) return;
         TradeoffRow threaded = *advice_.best;
         SweepWatch on_threads = watch;
         on_threads.progress = [](double) {};

@@ -12,6 +12,7 @@
 #include "oiler/core/require.hpp"
 #include "oiler/core/timing.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 namespace oiler::lab {
 namespace {
 

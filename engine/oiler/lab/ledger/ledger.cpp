@@ -12,6 +12,7 @@
 #include "oiler/core/timing.hpp"
 #include "oiler/lab/ledger/ablations.hpp"
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {

@@ -10,8 +10,12 @@
 #include <vector>
 
 #include "oiler/core/timing.hpp"
+#include "oiler/physics/steps.hpp"
 #include "oiler/scene/scene.hpp"
-#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+class Bodies;
+}
 
 namespace oiler::lab {
 

@@ -11,6 +11,7 @@
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/sweep/judge.hpp"
 #include "oiler/physics/contacts/plane.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -259,13 +260,13 @@ std::optional<Paths> run(const Scene& scene, const Stepping& choice, const Refer
                          std::size_t row, const std::function<bool()>& stopped) try {
     World world = make_world(scene, Settings{choice});
     world.require_applicable();
-    const Vec3 start = world.bodies().position(row);
+    const Vec3 start = world.position_of_row(row);
     Paths paths;
     const auto steps = static_cast<std::int64_t>(
         std::ceil(reference.meaningful_until * static_cast<double>(choice.rate.steps)));
     for (std::int64_t tick = 0; tick <= steps; ++tick) {
         if (stopped() || (tick > 0 && world.try_step())) return std::nullopt;
-        const Vec3 at = world.bodies().position(row);
+        const Vec3 at = world.position_of_row(row);
         if (largest(at - start) > 10 * reference.extent) return std::nullopt;
         for (int axis = 0; axis < 3; ++axis) {
             paths[static_cast<std::size_t>(axis)].t.push_back(world.time());

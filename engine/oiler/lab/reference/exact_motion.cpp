@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler::lab {
 namespace {
 

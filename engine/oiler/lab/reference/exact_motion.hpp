@@ -9,7 +9,10 @@
 #include "oiler/lab/reference/landing_motion.hpp"
 #include "oiler/lab/reference/motion.hpp"
 #include "oiler/physics/closed_forms.hpp"
-#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+class Bodies;
+}
 
 namespace oiler::lab {
 

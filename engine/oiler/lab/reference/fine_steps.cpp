@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/sim/bodies.hpp"
+
 namespace oiler::lab {
 namespace {
 

@@ -11,6 +11,7 @@
 #include "oiler/lab/reference/fine_steps.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/scales.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -330,9 +331,11 @@ Reference make_reference(const Scene& scene, const ReferenceEffort& effort,
 
 TrueEnergy::TrueEnergy(const Scene& scene, const Reference& reference)
     : reference_(reference),
-      bodies_(make_exact_bodies(scene, reference.start)),
-      states_(bodies_.size()),
-      at_start_(bodies_.energy().total()) {}
+      bodies_(std::make_unique<Bodies>(make_exact_bodies(scene, reference.start))),
+      states_(bodies_->size()),
+      at_start_(bodies_->energy().total()) {}
+
+TrueEnergy::~TrueEnergy() = default;
 
 double TrueEnergy::at(Real t) {
     if (reference_.conservative) return at_start_;
@@ -342,8 +345,8 @@ double TrueEnergy::at(Real t) {
 
 double TrueEnergy::of(std::span<const State3> states) {
     if (reference_.conservative) return at_start_;
-    for (std::size_t row = 0; row < states.size(); ++row) bodies_.set_state(row, states[row]);
-    return bodies_.energy().total();
+    for (std::size_t row = 0; row < states.size(); ++row) bodies_->set_state(row, states[row]);
+    return bodies_->energy().total();
 }
 
 }  // namespace oiler::lab

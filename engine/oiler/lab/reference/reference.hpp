@@ -90,6 +90,7 @@ using ClosedForm =
 class TrueEnergy {
 public:
     TrueEnergy(const Scene& scene, const Reference& reference);
+    ~TrueEnergy();
 
     /// The energy at a time (s), J.
     [[nodiscard]] double at(Real t);
@@ -98,7 +99,7 @@ public:
 
 private:
     const Reference& reference_;
-    Bodies bodies_;
+    std::unique_ptr<Bodies> bodies_;
     std::vector<State3> states_;
     double at_start_;  ///< J
 };

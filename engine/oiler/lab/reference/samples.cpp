@@ -8,6 +8,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/core/random.hpp"
 #include "oiler/lab/reference/scales.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -30,7 +31,7 @@ World make_world(const Scene& scene, const Settings& settings, const Perturbatio
             vector[axis] += most * (2 * random.fraction() - 1);
         return vector;
     };
-    for (std::size_t row = 0; row < world.bodies().size(); ++row) {
+    for (std::size_t row = 0; row < world.body_count(); ++row) {
         const Entity entity = world.entity_of_row(row);
         world.teleport(entity, moved(world.position(entity), perturbation.position));
         world.set_velocity(entity, moved(world.velocity(entity), perturbation.velocity));

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "oiler/scene/make_world.hpp"
-#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 

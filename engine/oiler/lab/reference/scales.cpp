@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/oscillations.hpp"
 
 namespace oiler::lab {

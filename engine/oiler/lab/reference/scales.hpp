@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "oiler/lab/reference/motion.hpp"
-#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+class Bodies;
+}
 
 namespace oiler::lab {
 

@@ -7,6 +7,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/sweep/drawn_error.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -63,7 +64,7 @@ public:
           floor_(reference.floor()),
           drawn_(*reference.motion, floor_.position, options.display),
           crossings_(reference.oscillation),
-          run_(world_.bodies().size()),
+          run_(world_.body_count()),
           true_(run_.size()) {
         world_.require_applicable();
         read();
@@ -134,8 +135,7 @@ private:
             position_ = larger(position_, distance(run_[row].x, true_[row].x));
             velocity_ = larger(velocity_, distance(run_[row].v, true_[row].v));
         }
-        energy_ =
-            larger(energy_, std::abs(world_.bodies().energy().total() - true_energy_.of(true_)));
+        energy_ = larger(energy_, std::abs(world_.energy().total() - true_energy_.of(true_)));
         if (reference_.oscillation && world_.tick() > 0)
             crossings_.add(world_.time(), run_[reference_.oscillation->row]);
     }

@@ -50,7 +50,7 @@ double seconds_of_frame(World& world, std::int64_t steps) {
     const Clock::time_point begin = Clock::now();
     for (std::int64_t step = 0; step < steps; ++step) {
         if (world.try_step()) return unknown;
-        seen += world.bodies().position(0)[0];
+        seen += world.position_of_row(0)[0];
     }
     asm volatile("" : : "g"(seen));  // the compiler must not drop the readings
     return std::max(0.0, seconds_since(begin) - clock_time());
@@ -85,7 +85,7 @@ void repeat_scene(const World& start, double duration, std::int64_t steps, Measu
 
 double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t per_frame) try {
     World start = make_world(scene, settings);
-    if (start.bodies().size() == 0 || start.try_step()) return unknown;
+    if (start.body_count() == 0 || start.try_step()) return unknown;
     FrameWork between;
     std::vector<double> frames;
     repeat_scene(start, scene.duration, per_frame, [&](World& world) {
@@ -101,7 +101,7 @@ double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t pe
 
 double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
     World start = make_world(scene, Settings{choice});
-    if (start.bodies().size() == 0 || start.try_step()) return unknown;
+    if (start.body_count() == 0 || start.try_step()) return unknown;
     World probe = start;
     const double first = seconds_of_frame(probe, 1);
     const std::int64_t steps = std::clamp<std::int64_t>(

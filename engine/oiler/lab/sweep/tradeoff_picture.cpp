@@ -255,7 +255,7 @@ std::vector<DataPoint> drift_over_time(const Scene& scene, const Reference& refe
     const auto stride = 1 + static_cast<std::int64_t>(steps / most_points);
     double most = 0;
     while (world.time() <= reference.meaningful_until) {
-        const double off = world.bodies().energy().total() - true_energy.at(world.time());
+        const double off = world.energy().total() - true_energy.at(world.time());
         most = std::max(most, reference.share_of_energy(std::abs(off)));
         if (!std::isfinite(most) || most > unstable) break;
         if (most >= reference.floor().energy) points.push_back({world.time(), most});

@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "oiler/physics/contacts/lift.hpp"
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/contacts/root.hpp"
 #include "oiler/physics/contacts/support.hpp"
@@ -60,7 +59,7 @@ public:
                 fly(state);
             } else {
                 report_rests(state, support);
-                glide(state, support);
+                stay_on(state, support);
                 if (settled_) return Landed::settled;
             }
         }
@@ -233,8 +232,8 @@ private:
             State sliding{state.x, along};
             const auto carried = Support::against(a, planes_, bearing_planes(sliding, a));
             if (!carried.has(plane) || enters_other(sliding, along, carried)) return;
-            T tau = glide(sliding, carried);
-            if (sliding.v == Vec{} && left_ > 0) tau += glide(sliding, carried);
+            T tau = stay_on(sliding, carried);
+            if (sliding.v == Vec{} && left_ > 0) tau += stay_on(sliding, carried);
             state = {sliding.x, pushed_off(plane, sliding.v, kept * (1 - tau * lost / flight))};
             settled_ = false;
         }
@@ -271,7 +270,7 @@ private:
     }
 
     /// Steps a body on the planes that bear it, and returns the time until that ends, s.
-    T glide(State& state, const Support& support) {
+    T stay_on(State& state, const Support& support) {
         rest_on(support, state);
         const Vec a = body_.accelerate(state, start_);
         return sticks(support, state, a) ? stick(state, support) : slide(state, support, a);
@@ -397,7 +396,7 @@ private:
         };
         if (end < 0) {
             if (start > noise) return between(0, start, leg.tau, end);
-            // It glides along the plane.
+            // It moves along the plane.
             if (u_start <= speed_noise(state) && end >= -noise) return std::nullopt;
             const T turn = u_end < 0 ? turning_time(1) : leg.tau / 2;
             T top = turn;
@@ -428,7 +427,7 @@ private:
     bool settled_ = false;
     PlaneSet resting_ = 0;  ///< the planes that the body has not left since its last rest on them
     std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before
-    /// What round-off hides in a step from rest.
+    /// The speed and the distance that round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s
         T distance = 0;  ///< m

@@ -29,7 +29,7 @@ using Plane = PlaneOf<double, 3>;
 using PlaneSet = std::uint32_t;
 inline constexpr std::size_t most_planes = 32;
 
-/// What makes a body meet planes.
+/// The shape of a body that meets planes.
 struct Contact {
     double radius = 0;  ///< m, 0 for a point
 };
@@ -70,7 +70,7 @@ template <std::floating_point T, int Axes>
     return braked(plane, along, kept) + plane.normal * kept;
 }
 
-/// What happened between a body and a plane.
+/// The kinds of meetings of a body with a plane.
 enum class Meeting {
     bounce,
     rest,   ///< the bounces have ended
@@ -110,8 +110,9 @@ template <std::floating_point T>
            (h_start + u_start * duration < 0 || h_end - u_end * duration < 0);
 }
 
-/// Whether a body may have met a plane in a step of `duration` s that ignored it: the body ends
-/// below the plane, may have dipped below it, or began on or below it and did not leave it.
+/// Whether a body may have met a plane in a step of `duration` s that ignored the plane. It may
+/// have if it ends below the plane, if it may have been below it between (see may_dip), or if it
+/// starts on or below the plane without leaving it.
 template <std::floating_point T, int Axes>
 [[nodiscard]] bool may_meet(const PlaneOf<T, Axes>& plane, T radius, const State<T, Axes>& start,
                             const State<T, Axes>& end, T duration) {

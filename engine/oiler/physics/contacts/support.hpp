@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -11,15 +13,43 @@
 
 namespace oiler {
 
+/// Up to as many planes as axes, and sums of their normals.
+template <std::floating_point T, int Axes>
+class Normals {
+protected:
+    using Vector = Vec<T, Axes>;
+
+    /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
+    template <class Excess>
+    [[nodiscard]] Vector weights(Excess excess) const {
+        auto gram = Matrix<T, Axes>::scalar(T(1));
+        Vector opposed{};
+        for (std::size_t i = 0; i < count_; ++i) {
+            opposed.axis[i] = -excess(*planes_[i]);
+            for (std::size_t j = 0; j < count_; ++j)
+                gram.row[i].axis[j] = dot(planes_[i]->normal, planes_[j]->normal);
+        }
+        return solve(gram, opposed);
+    }
+    [[nodiscard]] Vector sum_of_normals(const Vector& weight) const {
+        Vector sum{};
+        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->normal * weight.axis[i];
+        return sum;
+    }
+
+    std::array<const PlaneOf<T, Axes>*, Axes> planes_{};
+    std::size_t count_ = 0;
+};
+
 /// The planes that bear a body: they take away what pushes into them.
 template <std::floating_point T, int Axes>
-class Support {
+class Support : Normals<T, Axes> {
 public:
     using Vector = Vec<T, Axes>;
     using Surface = PlaneOf<T, Axes>;
 
-    /// Those of the touched planes into which `push` (an acceleration or a velocity) presses, also
-    /// after the others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
+    /// The touched planes into which `push` (an acceleration or a velocity) presses, also after the
+    /// others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
     [[nodiscard]] static Support against(const Vector& push, std::span<const Surface> planes,
                                          PlaneSet touched) {
         Support support;
@@ -67,23 +97,6 @@ public:
     }
 
 private:
-    /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
-    template <class Excess>
-    [[nodiscard]] Vector weights(Excess excess) const {
-        auto gram = Matrix<T, Axes>::scalar(T(1));
-        Vector opposed{};
-        for (std::size_t i = 0; i < count_; ++i) {
-            opposed.axis[i] = -excess(*planes_[i]);
-            for (std::size_t j = 0; j < count_; ++j)
-                gram.row[i].axis[j] = dot(planes_[i]->normal, planes_[j]->normal);
-        }
-        return solve(gram, opposed);
-    }
-    [[nodiscard]] Vector sum_of_normals(const Vector& weight) const {
-        Vector sum{};
-        for (std::size_t i = 0; i < count_; ++i) sum += planes_[i]->normal * weight.axis[i];
-        return sum;
-    }
     /// Removes the plane with the smallest reaction if it is not positive.
     bool drop_pulled(const Vector& push) {
         if (count_ == 0) return false;
@@ -109,8 +122,10 @@ private:
         return most;
     }
 
-    std::array<const Surface*, Axes> planes_{};
-    std::size_t count_ = 0;
+    using Normals<T, Axes>::count_;
+    using Normals<T, Axes>::planes_;
+    using Normals<T, Axes>::sum_of_normals;
+    using Normals<T, Axes>::weights;
 };
 
 /// The direction of a slide, against which friction acts.
@@ -142,6 +157,78 @@ template <std::floating_point T, int Axes>
     const T both = (2 * grip * speed + along) / (4 * grip * grip - dot(pull, pull));
     return {(grip * speed + along) / surplus,
             v * both + pull * ((3 * along * both + speed * speed) / (4 * surplus))};
+}
+
+/// The moves of a point from below planes onto them: onto the lowest one, then onto that and the
+/// lowest of the others, so that a narrow wedge takes few moves.
+template <std::floating_point T, int Axes>
+class Lift : Normals<T, Axes> {
+public:
+    using Surface = PlaneOf<T, Axes>;
+
+    /// The least move onto a plane and, where they would be left, those of the moves before.
+    /// `gap_of(plane)` is the gap before the move, m.
+    template <class Gap>
+    [[nodiscard]] Vec<T, Axes> onto(const Surface& plane, Gap gap_of) {
+        keep(plane);
+        for (;;) {
+            const Vec<T, Axes> ways = this->weights(gap_of);
+            const T* const first = ways.axis.data();
+            const T* const least = std::min_element(first, first + count_ - 1);
+            // Not finite where normals depend on each other.
+            const bool needs_all = *least > 0 && std::isfinite(largest(ways));
+            if (count_ == 1 || needs_all) return this->sum_of_normals(ways);
+            drop(static_cast<std::size_t>(least - first));
+        }
+    }
+
+private:
+    /// Makes the plane the last one.
+    void keep(const Surface& plane) {
+        const auto end = planes_.begin() + count_;
+        const auto found = std::find(planes_.begin(), end, &plane);
+        if (found != end)
+            drop(static_cast<std::size_t>(found - planes_.begin()));
+        else if (count_ == Axes)
+            drop(0);
+        planes_[count_++] = &plane;
+    }
+    void drop(std::size_t i) {
+        std::copy(planes_.begin() + i + 1, planes_.begin() + count_, planes_.begin() + i);
+        --count_;
+    }
+
+    using Normals<T, Axes>::count_;
+    using Normals<T, Axes>::planes_;
+};
+
+/// Moves a point at `x` onto the planes that it is below, and calls moved(plane) after each move.
+/// `gap_of(plane, x)` is the gap (m), and noise_of(plane) what round-off hides of it.
+template <std::floating_point T, int Axes, class Gap, class Noise, class Moved>
+void lift_onto(std::span<const PlaneOf<T, Axes>> planes, Vec<T, Axes>& x, Gap gap_of,
+               Noise noise_of, Moved moved) {
+    constexpr int most_moves = 64;
+    using Surface = PlaneOf<T, Axes>;
+    const auto lowest = [&] {
+        const Surface* farthest = nullptr;
+        T least = 0;
+        for (const Surface& plane : planes) {
+            const T one = gap_of(plane, x);
+            if (one >= least || one >= -noise_of(plane)) continue;
+            farthest = &plane;
+            least = one;
+        }
+        return farthest;
+    };
+    Lift<T, Axes> lift;
+    for (int move = 0; move < most_moves; ++move) {
+        const Surface* const plane = lowest();
+        if (!plane) break;
+        x += lift.onto(*plane, [&](const Surface& one) { return gap_of(one, x); });
+        moved(*plane);
+    }
+    for (const Surface& plane : planes)
+        if (const T below = -gap_of(plane, x); below > 0) x += plane.normal * below;
 }
 
 }  // namespace oiler

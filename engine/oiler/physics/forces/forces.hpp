@@ -169,14 +169,20 @@ template <class Force, Number V, int Axes>
         return force.potential(state);
 }
 
-/// The Others of a body with linear forces only.
-struct NoOthers {
-    template <class Force>
-    static std::size_t count();
-    template <class Force>
-    static Force get(std::size_t index);
-    template <class Force>
-    static auto damping_number(std::size_t index);
+/// The forces on one body or a batch of bodies along one axis, if all of them are linear.
+template <Number V, class Parts>
+struct AxisForces {
+    LinearForce<V, 1> linear;
+    [[no_unique_address]] Parts parts;
+
+    [[gnu::always_inline]] Vec<V, 1> accelerate(const State<V, 1>& state, double) const {
+        return linear.accelerate(state, parts);
+    }
+    [[gnu::always_inline]] Vec<V, 1> field(const Vec<V, 1>& x, double) const {
+        return linear.field(x, parts);
+    }
+    /// See Forces::squares_speeds.
+    [[nodiscard]] V squares_speeds() const { return V(Scalar<V>(0)); }
 };
 
 /// The forces on one body or a batch of bodies: the sum of the linear ones, and the others.
@@ -185,22 +191,24 @@ struct NoOthers {
 template <Number V, int Axes, class Parts, class Others>
 struct Forces {
     LinearForce<V, Axes> linear;
-    [[no_unique_address]] Parts parts;
-    [[no_unique_address]] Others others;
+    Parts parts;
+    Others others;
 
     /// The sum over the forces, m/s².
     [[gnu::always_inline]] Vec<V, Axes> accelerate(const State<V, Axes>& state, double t) const {
-        return plus_others(
-            linear.accelerate(state, parts), [&](const auto& force) __attribute__((always_inline)) {
-                return force.accelerate(state, t);
-            });
+        Vec<V, Axes> total = linear.accelerate(state, parts);
+        for_each_other([&](const auto& force) __attribute__((always_inline)) {
+            total = total + force.accelerate(state, t);
+        });
+        return total;
     }
     /// The part of the acceleration that depends on position and time alone, m/s².
     [[gnu::always_inline]] Vec<V, Axes> field(const Vec<V, Axes>& x, double t) const {
-        return plus_others(
-            linear.field(x, parts), [&](const auto& force) __attribute__((always_inline)) {
-                if constexpr (requires { force.field(x, t); }) return force.field(x, t);
-            });
+        Vec<V, Axes> total = linear.field(x, parts);
+        for_each_other([&](const auto& force) __attribute__((always_inline)) {
+            if constexpr (requires { force.field(x, t); }) total = total + force.field(x, t);
+        });
+        return total;
     }
     /// Half-steps of damping at a fixed position, one force after the other.
     [[gnu::always_inline]] void damp(State<V, Axes>& state) const {
@@ -248,11 +256,10 @@ private:
     /// Calls f(kind) for each kind of force that is not linear, from the first or from the last.
     template <bool Reverse = false, class F>
     [[gnu::always_inline]] void for_each_kind(F f) const {
-        if constexpr (!std::is_same_v<Others, NoOthers>)
-            for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
-                constexpr std::size_t kind = Reverse ? force_count - 1 - i : i;
-                if constexpr (!Linear<Force<kind>>) f(std::integral_constant<std::size_t, kind>{});
-            });
+        for_each_index<force_count>([&](auto i) __attribute__((always_inline)) {
+            constexpr std::size_t kind = Reverse ? force_count - 1 - i : i;
+            if constexpr (!Linear<Force<kind>>) f(std::integral_constant<std::size_t, kind>{});
+        });
     }
     template <std::size_t kind>
     [[gnu::always_inline]] std::size_t count() const {
@@ -269,14 +276,6 @@ private:
         for_each_kind([&](auto kind) __attribute__((always_inline)) {
             for (std::size_t i = 0; i < count<kind>(); ++i) f(others.template get<Force<kind>>(i));
         });
-    }
-    /// Adds the results of `f` for each force that is not linear; void counts as zero.
-    template <class F>
-    [[gnu::always_inline]] Vec<V, Axes> plus_others(Vec<V, Axes> total, F f) const {
-        for_each_other([&](const auto& force) __attribute__((always_inline)) {
-            if constexpr (!std::is_void_v<decltype(f(force))>) total = total + f(force);
-        });
-        return total;
     }
 };
 

@@ -47,6 +47,49 @@ using Wide = Batch<Register<T>, most_packs<T, Axes>()>;
 template <class T, int Axes>
 using Narrow = Batch<Register<T>, (most_packs<T, Axes>() + 1) / 2>;
 
+/// A splitting whose stages are compile-time constants, so that they all stay in registers.
+template <std::floating_point T, Damping Treatment, Move... Moves>
+struct FixedSplittingPlan {
+    [[nodiscard]] static bool fits(const SplittingPlan<T>& plan) {
+        std::size_t i = 0;
+        return plan.count == count && plan.damping == Treatment &&
+               ((plan.stages[i++].move == Moves) && ...);
+    }
+    [[gnu::always_inline]] explicit FixedSplittingPlan(const SplittingPlan<T>& plan)
+        : half_step(plan.half_step) {
+        std::size_t i = 0;
+        stages = {ScaledStage<T>{Moves, plan.stages[i].tau, plan.stages[i++].flow}...};
+    }
+
+    static constexpr Damping damping = Treatment;
+    static constexpr std::integral_constant<std::size_t, sizeof...(Moves)> count{};
+    T half_step;
+    std::array<ScaledStage<T>, count> stages;
+};
+
+/// The most common methods: the article's, with damping in the kick, and velocity Verlet.
+template <std::floating_point T>
+using KickDriftPlan = FixedSplittingPlan<T, Damping::in_kick, Move::kick, Move::drift>;
+template <std::floating_point T>
+using KickDriftKickPlan =
+    FixedSplittingPlan<T, Damping::in_drift, Move::kick, Move::drift, Move::kick>;
+
+/// A tableau with a compile-time number of stages, where each stage uses only the one before it.
+template <std::floating_point T, std::size_t Stages>
+struct ChainTableauPlan : TableauPlan<T> {
+    [[nodiscard]] static bool fits(const TableauPlan<T>& plan) {
+        bool chain = plan.count == Stages;
+        for (std::size_t i = 0; i < plan.count; ++i)
+            for (std::size_t j = 0; j + 1 < i; ++j) chain = chain && !plan.uses(i, j);
+        return chain;
+    }
+    [[gnu::always_inline]] explicit ChainTableauPlan(const TableauPlan<T>& plan)
+        : TableauPlan<T>(plan) {}
+
+    [[nodiscard]] static constexpr bool uses(std::size_t i, std::size_t j) { return i == j + 1; }
+    static constexpr std::integral_constant<std::size_t, Stages> count{};
+};
+
 template <class V, int Axes>
 [[gnu::always_inline]] inline bool may_be_infinite(const State<V, Axes>& state) {
     V total = state.x.axis[0] + state.v.axis[0];
@@ -56,15 +99,15 @@ template <class V, int Axes>
     return !is_finite(total);
 }
 
-/// See StepAxis. `Fixed` is the rule, or the same with constants of compile time.
-template <bool OneStep, class Parts, class Fixed, class T, class Rule>
-[[gnu::flatten]] std::size_t step_axis(const AxisRows<T>& given, const Rule& rule,
+/// See StepAxis. `Fixed` is the Rule of the plan, or the same with constants of compile time.
+template <bool OneStep, class Parts, class Fixed, class Rule, class T>
+[[gnu::flatten]] std::size_t step_axis(const AxisRows<T>& given, const Plan<T>& plan,
                                        const Steps& steps, std::size_t begin, std::size_t end) {
     using V = std::conditional_t<OneStep, AxisBatchOfOneStep<T>, AxisBatch<T, Parts>>;
-    const Fixed fixed(rule);
+    const Fixed fixed(*std::get_if<Rule>(&plan));
     const AxisRows<T> rows = given;  // no store changes a local value
     for (std::size_t row = begin; row < end; row += V::lanes) {
-        auto physics = physics_of<V>(rows, row, Parts{}, damping_of(fixed));
+        auto physics = physics_of<V>(rows, row, Parts{}, damping_of_rule(fixed));
         State<V, 1> state{{V::load(rows.x + row)}, {V::load(rows.v + row)}};
         if constexpr (OneStep)
             take_one_step(fixed, state, physics, steps);
@@ -79,13 +122,12 @@ template <bool OneStep, class Parts, class Fixed, class T, class Rule>
 }
 
 /// See StepAllAxes.
-template <class V, class T, int Axes, class Rule>
-[[gnu::flatten]] std::size_t step_all_axes(Columns<T, Axes>& columns,
-                                           const RowViews<T, Axes>& views, Kinds kinds,
-                                           const Rule& rule, const Steps& steps, std::size_t begin,
-                                           std::size_t end) {
+template <class V, class Rule, class T, int Axes>
+[[gnu::flatten]] std::size_t step_all_axes(Columns<T, Axes>& columns, Kinds kinds,
+                                           const Steps& steps, std::size_t begin, std::size_t end) {
+    const Rule& rule = *std::get_if<Rule>(&columns.plan_cache.plan);
     for (std::size_t row = begin; row < end; row += V::lanes) {
-        auto physics = physics_of<V>(views, row, kinds, damping_of(rule));
+        auto physics = physics_of<V>(columns.views, row, kinds, damping_of_rule(rule));
         State<V, Axes> state = load<V>(columns.motion, row);
         take_steps(rule, state, physics, steps);
         if (may_be_infinite(state)) return row;
@@ -100,44 +142,40 @@ template <class V, class T, int Axes, class Rule>
 template <std::size_t I>
 using PartsOf = FixedLinearParts<I == 0 || (I & 1U) != 0, (I & 2U) != 0, (I & 4U) != 0>;
 
-template <class Fixed, class T, class Rule>
-StepAxis<T, Rule> step_axis_of(const LinearParts& parts, bool one_step) {
-    static constexpr auto all = []<std::size_t... I>(std::index_sequence<I...>) {
-        return std::array<StepAxis<T, Rule>, sizeof...(I)>{
-            step_axis<(I & 8U) != 0, PartsOf<(I & 7U)>, Fixed, T, Rule>...};
-    }
-    (std::make_index_sequence<16>{});
-    return all[std::size_t{parts.constant} + 2 * std::size_t{parts.spring} +
-               4 * std::size_t{parts.damping} + 8 * std::size_t{one_step}];
+/// See RowKernels::axis.
+template <class T, class Rule, class Fixed = Rule>
+constexpr auto along_axis = []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array<StepAxis<T>, sizeof...(I)>{
+        step_axis<(I & 8U) != 0, PartsOf<(I & 7U)>, Fixed, Rule, T>...};
 }
+(std::make_index_sequence<16>{});
 
-template <class T, class Rule>
-StepAxis<T, Rule> choose_step_axis(const Rule& rule, const LinearParts& parts, bool one_step) {
-    if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) {
-        if (KickDriftPlan<T>::fits(rule))
-            return step_axis_of<KickDriftPlan<T>, T, Rule>(parts, one_step);
-        if (KickDriftKickPlan<T>::fits(rule))
-            return step_axis_of<KickDriftKickPlan<T>, T, Rule>(parts, one_step);
+template <class T, int Axes>
+[[gnu::flatten]] RowKernels<T, Axes> kernels_for(const Plan<T>& plan) {
+    using S = SplittingPlan<T>;
+    using R = TableauPlan<T>;
+    if (const auto* const rule = std::get_if<S>(&plan)) {
+        const auto* axis = &along_axis<T, S>;
+        if (KickDriftPlan<T>::fits(*rule)) axis = &along_axis<T, S, KickDriftPlan<T>>;
+        if (KickDriftKickPlan<T>::fits(*rule)) axis = &along_axis<T, S, KickDriftKickPlan<T>>;
+        return {axis, step_all_axes<Wide<T, Axes>, S, T, Axes>};
     }
-    if constexpr (std::is_same_v<Rule, TableauPlan<T>>) {
-        if (ChainTableauPlan<T, 4>::fits(rule))
-            return step_axis_of<ChainTableauPlan<T, 4>, T, Rule>(parts, one_step);
-        if (ChainTableauPlan<T, 2>::fits(rule))
-            return step_axis_of<ChainTableauPlan<T, 2>, T, Rule>(parts, one_step);
+    if (const auto* const rule = std::get_if<R>(&plan)) {
+        const auto* axis = &along_axis<T, R>;
+        if (ChainTableauPlan<T, 4>::fits(*rule)) axis = &along_axis<T, R, ChainTableauPlan<T, 4>>;
+        if (ChainTableauPlan<T, 2>::fits(*rule)) axis = &along_axis<T, R, ChainTableauPlan<T, 2>>;
+        return {axis, step_all_axes<Narrow<T, Axes>, R, T, Axes>};
     }
-    return step_axis_of<Rule, T, Rule>(parts, one_step);
+    if (std::get_if<ImplicitPlan<T>>(&plan)) return {&along_axis<T, ImplicitPlan<T>>, nullptr};
+    return {&along_axis<T, ExactPlan<T>>, nullptr};
 }
 
 }  // namespace
 
 template <class T, int Axes>
 const Kernels<T, Axes>& kernels() {
-    static constexpr Kernels<T, Axes> all{
-        {choose_step_axis<T, SplittingPlan<T>>, choose_step_axis<T, TableauPlan<T>>,
-         choose_step_axis<T, ImplicitPlan<T>>, choose_step_axis<T, ExactPlan<T>>},
-        {step_all_axes<Wide<T, Axes>, T, Axes, SplittingPlan<T>>,
-         step_all_axes<Narrow<T, Axes>, T, Axes, TableauPlan<T>>, nullptr, nullptr},
-        linked_kernels<Narrow<T, Axes>, T, Axes>()};
+    static constexpr Kernels<T, Axes> all{kernels_for<T, Axes>,
+                                          linked_kernels<Narrow<T, Axes>, T, Axes>()};
     return all;
 }
 

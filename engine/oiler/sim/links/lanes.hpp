@@ -13,21 +13,6 @@ constexpr std::size_t lanes_of = 1;
 template <class Pack, std::size_t Packs>
 constexpr std::size_t lanes_of<Batch<Pack, Packs>> = Batch<Pack, Packs>::lanes;
 
-template <class V, class T>
-[[gnu::always_inline]] inline V load_from(const T* from) {
-    if constexpr (std::is_same_v<V, T>)
-        return *from;
-    else
-        return V::load(from);
-}
-template <class V, class T>
-[[gnu::always_inline]] inline void store_to(const V& value, T* to) {
-    if constexpr (std::is_same_v<V, T>)
-        *to = value;
-    else
-        value.store(to);
-}
-
 /// The number with the most lanes below those of V, for what remains after whole batches of V.
 template <class V>
 struct NarrowerOf {

@@ -7,45 +7,39 @@
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <limits>
+#include <memory>
 
 namespace oiler {
 
 template <class T>
-struct LinkSolver<T>::Impl {
+std::function<std::vector<T>(const std::vector<T>&)> factorised(
+    std::size_t size, const std::vector<MatrixEntry<T>>& entries) {
     using Matrix = Eigen::SparseMatrix<T, Eigen::ColMajor>;
-    Eigen::SparseLU<Matrix> factors;
-    bool singular = false;
-};
-
-template <class T>
-LinkSolver<T>::LinkSolver(std::size_t size, const std::vector<MatrixEntry<T>>& entries)
-    : impl_(std::make_unique<Impl>()) {
+    using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
     std::vector<Eigen::Triplet<T>> triplets;
     triplets.reserve(entries.size());
     for (const MatrixEntry<T>& entry : entries)
         triplets.emplace_back(static_cast<int>(entry.row), static_cast<int>(entry.column),
                               entry.value);
     const auto side = static_cast<Eigen::Index>(size);
-    typename Impl::Matrix matrix(side, side);
+    Matrix matrix(side, side);
     matrix.setFromTriplets(triplets.begin(), triplets.end());
-    impl_->factors.compute(matrix);
-    impl_->singular = impl_->factors.info() != Eigen::Success;
+    const auto factors = std::make_shared<Eigen::SparseLU<Matrix>>();
+    factors->compute(matrix);
+    const bool singular = factors->info() != Eigen::Success;
+    return [factors, singular](const std::vector<T>& right) {
+        if (singular) return std::vector<T>(right.size(), std::numeric_limits<T>::quiet_NaN());
+        const Eigen::Map<const Vector> b(right.data(), static_cast<Eigen::Index>(right.size()));
+        const Vector x = factors->solve(b);
+        return std::vector<T>(x.data(), x.data() + x.size());
+    };
 }
 
 template <class T>
-LinkSolver<T>::~LinkSolver() = default;
+using Solve = std::function<std::vector<T>(const std::vector<T>&)>;
 
-template <class T>
-std::vector<T> LinkSolver<T>::solve(const std::vector<T>& right) const {
-    if (impl_->singular) return std::vector<T>(right.size(), std::numeric_limits<T>::quiet_NaN());
-    using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-    const Eigen::Map<const Vector> b(right.data(), static_cast<Eigen::Index>(right.size()));
-    const Vector x = impl_->factors.solve(b);
-    return {x.data(), x.data() + x.size()};
-}
-
-template class LinkSolver<float>;
-template class LinkSolver<double>;
-template class LinkSolver<long double>;
+template Solve<float> factorised(std::size_t, const std::vector<MatrixEntry<float>>&);
+template Solve<double> factorised(std::size_t, const std::vector<MatrixEntry<double>>&);
+template Solve<long double> factorised(std::size_t, const std::vector<MatrixEntry<long double>>&);
 
 }  // namespace oiler

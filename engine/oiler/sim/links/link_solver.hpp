@@ -3,7 +3,7 @@
 
 #include <concepts>
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <vector>
 
 namespace oiler {
@@ -16,21 +16,10 @@ struct MatrixEntry {
     T value;
 };
 
-/// A square sparse matrix, factorised once for many solutions.
+/// Factorises a square sparse matrix once. Returns a function of the right side of its equations
+/// that returns their solution, which is not finite if the matrix is singular.
 template <class T>
-class LinkSolver {
-public:
-    LinkSolver(std::size_t size, const std::vector<MatrixEntry<T>>& entries);
-    ~LinkSolver();
-    LinkSolver(const LinkSolver&) = delete;
-    LinkSolver& operator=(const LinkSolver&) = delete;
-
-    /// The solution is not finite if the matrix is singular.
-    [[nodiscard]] std::vector<T> solve(const std::vector<T>& right) const;
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
-};
+[[nodiscard]] std::function<std::vector<T>(const std::vector<T>& right)> factorised(
+    std::size_t size, const std::vector<MatrixEntry<T>>& entries);
 
 }  // namespace oiler

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "oiler/math/batch.hpp"
 #include "oiler/physics/advance.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/steps.hpp"
-#include "oiler/sim/rows/row_views.hpp"
+#include "oiler/sim/store/columns.hpp"
 
 namespace oiler {
 
@@ -33,6 +35,19 @@ template <std::floating_point T>
     constexpr T of_squares = power_of_two<T>(smallest / 2 + 3);
     constexpr T of_speeds = power_of_two<T>(smallest + 26);
     return squared ? of_squares : of_speeds;
+}
+
+/// The first number of a state that is not finite; `axis` is that of its first coordinate.
+template <std::floating_point T, int Axes>
+[[nodiscard]] std::optional<Divergence> find_divergence(const State<T, Axes>& state,
+                                                        std::size_t row, std::int64_t tick,
+                                                        int axis) {
+    using Of = Divergence::Of;
+    for (const Of of : {Of::position, Of::velocity})
+        for (int i = 0; i < Axes; ++i)
+            if (!std::isfinite((of == Of::velocity ? state.v : state.x)[i]))
+                return Divergence{tick, row, axis + i, of};
+    return std::nullopt;
 }
 
 /// m·1 − τ·(τ·∂a/∂x + ∂a/∂v), for accelerations (m = 1) or forces.
@@ -87,11 +102,22 @@ template <Number V, int Axes, class RowForces>
     return true;
 }
 
-/// Where a plan applies forces that depend on velocity.
-template <class Plan>
-[[gnu::always_inline]] constexpr Damping damping_of(const Plan& plan) {
-    if constexpr (SplitsSteps<Plan>)
-        return plan.damping;
+/// The kinds of force on the rows of the block of row_padding rows from `row` on.
+template <std::floating_point T, int Axes>
+[[nodiscard]] [[gnu::always_inline]] inline Kinds kinds_of_block(const Columns<T, Axes>& columns,
+                                                                 std::size_t row) {
+    if (columns.kinds.shared()) return columns.kinds[row];
+    Kinds all = 0;
+    for (std::size_t i = row; i < std::min(row + row_padding, columns.size); ++i)
+        all = static_cast<Kinds>(all | columns.kinds[i]);
+    return all;
+}
+
+/// The part of a rule's steps that applies forces that depend on velocity.
+template <class Rule>
+[[gnu::always_inline]] constexpr Damping damping_of_rule(const Rule& rule) {
+    if constexpr (SplitsSteps<Rule>)
+        return rule.damping;
     else
         return Damping::in_kick;
 }
@@ -137,7 +163,7 @@ public:
 private:
     template <class Force>
     [[gnu::always_inline]] const auto& views() const {
-        return views_.template others<kind_index<Force, V, Axes>>();
+        return std::get<kind_index<Force, V, Axes>>(views_.others);
     }
 
     const RowViews<T, Axes>& views_;
@@ -149,10 +175,6 @@ private:
 template <Number V, int Axes>
 using RowForces = Forces<V, Axes, LinearParts, OtherForces<V, Axes>>;
 
-/// The forces on a row or a batch of rows along one axis, if all of them are linear.
-template <Number V, class Parts>
-using AxisForces = Forces<V, 1, Parts, NoOthers>;
-
 /// The physics that a method steps: one row or a batch of rows from `row` on, along one axis or
 /// all.
 template <Number V, int Axes, class ForcesOfRow>
@@ -160,8 +182,7 @@ class RowPhysics {
 public:
     using T = Scalar<V>;
     /// Whether all forces are linear.
-    static constexpr bool is_linear =
-        Axes == 1 && std::is_same_v<decltype(ForcesOfRow::others), NoOthers>;
+    static constexpr bool is_linear = !requires(ForcesOfRow forces) { forces.others; };
 
     /// `load_forces` returns the forces of the row; they are large and constructed in place.
     template <class LoadForces>
@@ -196,12 +217,12 @@ public:
 
     /// Half-steps of the damping that is not linear, before the stages and, in reverse order, after
     /// them.
-    [[gnu::always_inline]] void damp_before(State<V, Axes>& state) {
+    [[gnu::always_inline]] void damp_before(State<V, Axes>& state) requires(!is_linear) {
         // The times of the last kick of a step and of the first of the next may differ in a bit.
         if (forces_.depend_on_time()) field_valid_ = false;
         if (damping_ == Damping::in_drift) forces_.damp(state);
     }
-    [[gnu::always_inline]] void damp_after(State<V, Axes>& state) {
+    [[gnu::always_inline]] void damp_after(State<V, Axes>& state) requires(!is_linear) {
         if (damping_ == Damping::in_drift) forces_.damp_in_reverse(state);
     }
 
@@ -259,23 +280,13 @@ private:
     std::int64_t evaluations_ = 0;
 };
 
-/// The rows along one axis.
-template <std::floating_point T>
-struct AxisRows {
-    T* x;
-    T* v;
-    LinearAxis<T> forces;
-    const FlowView<T>* flows;
-    std::int64_t* evaluations;  ///< of the first row; null if another axis counts them
-};
-
 template <Number V, class Parts>
 [[nodiscard]] [[gnu::always_inline]] inline auto physics_of(const AxisRows<Scalar<V>>& rows,
                                                             std::size_t row, const Parts& parts,
                                                             Damping damping) {
     return RowPhysics<V, 1, AxisForces<V, Parts>>(
         [&]() __attribute__((always_inline)) {
-            return AxisForces<V, Parts>{rows.forces.template load_at<V>(row, parts), parts, {}};
+            return AxisForces<V, Parts>{rows.forces.template load_at<V>(row, parts), parts};
         },
         rows.flows, row, damping);
 }
@@ -284,13 +295,13 @@ template <Number V, std::floating_point T, int Axes>
 [[nodiscard]] [[gnu::always_inline]] inline auto physics_of(const RowViews<T, Axes>& views,
                                                             std::size_t row, Kinds kinds,
                                                             Damping damping) {
-    const LinearParts parts = views.linear().parts(kinds);
+    const LinearParts parts = views.parts(kinds);
     return RowPhysics<V, Axes, RowForces<V, Axes>>(
         [&]() __attribute__((always_inline)) {
-            return RowForces<V, Axes>{views.linear().template load_at<V>(row, parts), parts,
+            return RowForces<V, Axes>{views.template load_at<V>(row, parts), parts,
                                       OtherForces<V, Axes>(views, row, kinds)};
         },
-        views.flows(), row, damping);
+        views.flows.data(), row, damping);
 }
 
 /// Whether bodies are put to sleep after tick `tick`. It depends on the tick alone, so that results

@@ -1,13 +1,217 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "oiler/physics/advance.hpp"
 #include "oiler/physics/contacts/landing.hpp"
-#include "oiler/sim/landing/short_steps.hpp"
-#include "oiler/sim/steps/row_parts.hpp"
+#include "oiler/physics/contacts/support.hpp"
+#include "oiler/physics/response.hpp"
+#include "oiler/sim/rows/row_physics.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 
 namespace oiler {
 namespace {
+
+/// How friction acts in a step.
+template <std::floating_point T>
+struct Braking {
+    T half_step;  ///< s; 0 if friction that turns is a force, as in stages
+    double t;     ///< s, at the start of the step
+};
+
+/// The physics of one row that slides on planes. Accelerations have no part into the planes, and
+/// friction brakes. Friction that turns with the velocity has a flow of its own in the first and
+/// the last half of the step, except in Runge–Kutta methods. As a force in kicks it would have
+/// order 1; near a stop, where it turns at any rate, an implicit method would find no solution.
+template <std::floating_point T, int Axes, class Physics>
+class SlidingPhysics {
+public:
+    using Vector = Vec<T, Axes>;
+    using Motion = State<T, Axes>;
+    static constexpr bool is_linear = false;
+
+    SlidingPhysics(Physics& physics, const Support<T, Axes>& support,
+                   const Friction<T, Axes>& friction, const Braking<T>& braking)
+        : physics_(physics),
+          support_(support),
+          friction_(friction),
+          braking_(braking),
+          by_flow_(friction.turns && braking.half_step > 0) {}
+
+    [[nodiscard]] Vector accelerate(const Motion& state, double t) {
+        return along(physics_.accelerate(state, t), state.v);
+    }
+    [[nodiscard]] Vector kick(const Motion& state, double t) {
+        return along(physics_.kick(state, t), state.v);
+    }
+    void drift(Motion& state, std::size_t flow, T tau) { physics_.drift(state, flow, tau); }
+    void brake_before(Motion& state) { brake(state, braking_.t); }
+    void brake_after(Motion& state) {
+        brake(state, braking_.t + 2 * static_cast<double>(braking_.half_step));
+    }
+    void damp_before(Motion& state) {
+        brake_before(state);
+        physics_.damp_before(state);
+        state.v = support_.without_push(state.v);
+    }
+    void damp_after(Motion& state) {
+        physics_.damp_after(state);
+        state.v = support_.without_push(state.v);
+        brake_after(state);
+    }
+    [[nodiscard]] Vector solve(const Motion& at, T tau, const Vector& residual) {
+        const Jacobian<T, Axes> jacobian = physics_.forces().jacobian(at);
+        const Matrix<T, Axes> rates = (jacobian.dx * tau + jacobian.dv) * tau;
+        auto matrix = Matrix<T, Axes>::scalar(T(1));
+        for (std::size_t j = 0; j < Axes; ++j) {
+            Vector column;
+            for (std::size_t i = 0; i < Axes; ++i) column.axis[i] = rates.row[i].axis[j];
+            column = support_.without_push(column);
+            for (std::size_t i = 0; i < Axes; ++i) matrix.row[i].axis[j] -= column.axis[i];
+        }
+        return oiler::solve(matrix, residual);
+    }
+    void respond(Motion& state, double t) {
+        brake_before(state);
+        physics_.respond_to(state, along(physics_.field(state.x, t), state.v));
+        brake_after(state);
+    }
+
+private:
+    /// The exact flow of friction over half a step.
+    void brake(Motion& state, double t) {
+        if (!by_flow_) return;
+        const T lost = support_.grip(physics_.accelerate(state, t)) * braking_.half_step;
+        const T speed = length(state.v);
+        state.v = lost < speed ? state.v * (1 - lost / speed) : Vector{};
+    }
+    [[nodiscard]] Vector along(const Vector& a, const Vector& v) const {
+        const T grip = support_.grip(a);
+        const Vector free = support_.without_push(a);
+        return grip == 0 || by_flow_ ? free : free + friction_.against(v) * grip;
+    }
+
+    Physics& physics_;
+    const Support<T, Axes>& support_;
+    const Friction<T, Axes>& friction_;
+    Braking<T> braking_;
+    bool by_flow_;
+};
+
+/// The forces on one row that are not linear, with damping over half of a shorter step.
+template <std::floating_point T, int Axes>
+class ShortStepOthers : public OtherForces<T, Axes> {
+public:
+    ShortStepOthers(const OtherForces<T, Axes>& others, T half_step)
+        : OtherForces<T, Axes>(others), half_step_(half_step) {}
+
+    template <class Force>
+    [[nodiscard]] T damping_number(std::size_t index) const {
+        return this->template get<Force>(index).prepare_damping(half_step_);
+    }
+
+private:
+    T half_step_;
+};
+
+/// Steps of one row that are shorter than dt, within the step that begins at `t` s.
+template <std::floating_point T, int Axes>
+class ShortSteps {
+public:
+    using Vector = Vec<T, Axes>;
+    using Motion = State<T, Axes>;
+
+    ShortSteps(const Columns<T, Axes>& columns, std::size_t row, const Method& method,
+               Damping damping, double t)
+        : others_(columns.views, row, columns.kinds[row]),
+          parts_(columns.views.parts(columns.kinds[row])),
+          linear_(columns.views.template load_at<T>(row, parts_)),
+          method_(method),
+          damping_(damping),
+          t_(t) {}
+
+    [[nodiscard]] Motion fly(const Motion& from, T start, T tau) {
+        return step(from, start, tau,
+                    [](auto& physics, const Braking<T>&, auto take) { take(physics); });
+    }
+    [[nodiscard]] Motion slide(const Motion& from, T start, T tau, const Support<T, Axes>& support,
+                               const Friction<T, Axes>& friction) {
+        return step(from, start, tau,
+                    [&]<class Physics>(Physics& physics, const Braking<T>& braking, auto take) {
+                        SlidingPhysics<T, Axes, Physics> sliding(physics, support, friction,
+                                                                 braking);
+                        take(sliding);
+                    });
+    }
+    [[nodiscard]] Vector accelerate(const Motion& at, T start) {
+        ++evaluations_;
+        return forces(T(0)).accelerate(at, t_ + static_cast<double>(start));
+    }
+    [[nodiscard]] bool forces_change() const { return forces(T(0)).depend_on_time(); }
+
+    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+    /// Whether an implicit method found the solution of every step.
+    [[nodiscard]] bool solved() const { return solved_; }
+
+private:
+    using ForcesOfRow = Forces<T, Axes, LinearParts, ShortStepOthers<T, Axes>>;
+
+    [[nodiscard]] ForcesOfRow forces(T half_step) const {
+        return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
+    }
+
+    /// One step of `tau` s; `with(physics, braking, take)` calls take with the physics to step.
+    template <class With>
+    Motion step(const Motion& from, T start, T tau, With with) {
+        const Plan<T> plan = make_plan<T>(method_, tau, damping_);
+        Motion state = from;
+        std::visit([&](const auto& rule) { step_by(rule, state, start, tau, with); }, plan);
+        return state;
+    }
+    template <class Rule, class With>
+    void step_by(const Rule& rule, Motion& state, T start, T tau, With with) {
+        prepare_flows(rule);
+        RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows_.data(), 0,
+                                                 damping_of_rule(rule));
+        constexpr bool by_flows = !std::is_same_v<Rule, TableauPlan<T>>;
+        const double t = t_ + static_cast<double>(start);
+        with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t}, [&](auto& stepped) {
+            constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
+                stepped.brake_before(state);
+            };
+            if constexpr (brakes) stepped.brake_before(state);
+            solved_ &= advance(rule, state, stepped, t);
+            if constexpr (brakes) stepped.brake_after(state);
+        });
+        evaluations_ += physics.evaluations();
+    }
+
+    template <class Rule>
+    void prepare_flows(const Rule& rule) {
+        if constexpr (std::is_same_v<Rule, ExactPlan<T>>) {
+            set_flow(0, oscillator_response(linear_.stiffness, linear_.damping, rule.dt));
+        } else if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) {
+            if (rule.damping == Damping::in_kick || !parts_.damping) return;
+            for (std::size_t i = 0; i < rule.drift_count; ++i)
+                set_flow(i, oscillator_response(T(0), linear_.damping, rule.drifts[i]));
+        }
+    }
+    void set_flow(std::size_t i, const Response<T>& response) {
+        responses_[i] = response;
+        flows_[i] = {NumberView<T>(responses_[i].reach), NumberView<T>(responses_[i].sway),
+                     NumberView<T>(responses_[i].decay)};
+    }
+
+    OtherForces<T, Axes> others_;
+    LinearParts parts_;
+    LinearForce<T, Axes> linear_;
+    const Method& method_;
+    Damping damping_;
+    double t_;
+    std::array<Response<T>, Splitting::most_stages> responses_;
+    std::array<FlowView<T>, Splitting::most_stages> flows_;
+    std::int64_t evaluations_ = 0;
+    bool solved_ = true;
+};
 
 /// Steps blocks with contacts one step at a time: first as if there were no planes, then the rows
 /// that may have met one again.
@@ -50,8 +254,7 @@ private:
     std::optional<Divergence> step_block(std::size_t begin, std::size_t end) {
         Steps one = steps_;
         one.count = 1;
-        const StepCall<T, Axes> step{columns_, call_.views,   call_.method, call_.plan,
-                                     one,      call_.kernels, call_.team};
+        const StepCall<T, Axes> step{columns_, call_.method, one, call_.team};
         for (; one.first < steps_.first + steps_.count; ++one.first) {
             if (settled(begin, end)) return std::nullopt;
             save(begin, end);
@@ -77,8 +280,7 @@ private:
         }
     }
 
-    /// Marks the rows that the last step brought below a plane or turned near it, and those that it
-    /// started on or below a plane and not away from it.
+    /// Marks the rows that may have met a plane in the last step, see may_meet.
     void find_meetings(std::size_t begin, std::size_t end) {
         meets_ = {};
         const auto x = generate<Axes>([&](auto i) { return columns_.motion.x[i].data() + begin; });
@@ -100,7 +302,7 @@ private:
         State<T, Axes> state = this->state(x_, v_, saved);
         auto& settled = columns_.contacts.settled[row];
         if (!settled) {
-            ShortSteps<T, Axes> body(columns_, call_.views, row, call_.method, damping(),
+            ShortSteps<T, Axes> body(columns_, row, call_.method, damping(),
                                      step.rate.time(step.first));
             std::size_t index = 0;
             const auto report = [&](const ImpactOf<T, Axes>& impact) {
@@ -122,7 +324,7 @@ private:
     [[nodiscard]] Damping damping() const { return steps_.damping.value_or(call_.method.damping); }
     void put_to_sleep(State<T, Axes>& state, std::size_t row, std::int64_t tick) {
         if (!is_sleep_tick(tick)) return;
-        auto physics = physics_of<T>(call_.views, row, columns_.kinds[row], damping());
+        auto physics = physics_of<T>(columns_.views, row, columns_.kinds[row], damping());
         physics.put_to_sleep(state, steps_.rate.time(tick));
     }
 
@@ -143,7 +345,7 @@ std::optional<Divergence> step_landing_rows(const StepCall<T, Axes>& call) {
     contacts.settled.resize(call.columns.size);
     contacts.impacts_of_parts.resize(call.team ? call.team->size() : 1);
     const auto diverged =
-        in_parts(call.columns.size, call.steps, call.team,
+        in_parts(call.columns.size, call.steps.count, call.team,
                  [&](std::size_t begin, std::size_t end, std::size_t part) {
                      return BlockStepper(call, contacts.impacts_of_parts[part]).step(begin, end);
                  });

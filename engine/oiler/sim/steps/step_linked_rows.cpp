@@ -7,17 +7,78 @@
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
+#include "oiler/physics/contacts/landing.hpp"
 #include "oiler/physics/response.hpp"
-#include "oiler/sim/landing/linked_landing.hpp"
+#include "oiler/sim/kernels/kernels.hpp"
 #include "oiler/sim/links/link_rows.hpp"
 #include "oiler/sim/links/link_solver.hpp"
 #include "oiler/sim/links/point_links.hpp"
-#include "oiler/sim/steps/row_parts.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
+#include "oiler/sim/store/columns.hpp"
 #include "oiler/sim/store/links.hpp"
 
 namespace oiler {
 namespace {
+
+/// The landing of a linked row at the end of a step of `dt` s from tick `tick`: a row below a plane
+/// is moved onto it, and bounces with the normal speed that it had at the start of the step.
+/// `before` is the state at the start of the step. Returns whether the state changed.
+template <std::floating_point T, int Axes>
+bool land_linked_row(Columns<T, Axes>& columns, const State<T, Axes>& before, std::size_t row,
+                     std::int64_t tick, T dt) {
+    using Surface = PlaneOf<T, Axes>;
+    auto& contacts = columns.contacts;
+    const std::span<const Surface> planes(contacts.planes);
+    const T radius = contacts.radius[row];
+    const auto gap_of = [&](const Surface& plane, const Vec<T, Axes>& x) {
+        return gap(plane, x, radius);
+    };
+    State<T, Axes> state = load<T>(columns.motion, row);
+    PlaneSet met = 0;
+    std::size_t index = 0;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Surface& plane = planes[i];
+        const T below = -gap_of(plane, state.x);
+        if (!(below > 0)) continue;
+        met |= PlaneSet{1} << i;
+        state.x += plane.normal * below;
+        const Vec<T, Axes> v = state.v;
+        const T speed = -leaving_speed(plane, v);
+        if (!(speed > 0)) continue;
+        const T fallen = -leaving_speed(plane, before.v);
+        const T kept = plane.restitution * std::max(fallen, T(0));
+        // Whether all later flights would end within a step.
+        const bool rests = 2 * kept <= (1 - plane.restitution) * (speed - fallen);
+        state.v = pushed_off(plane, landed(plane, v, speed), rests ? T(0) : kept);
+        if (fallen > hidden_speed(v))
+            contacts.impacts.push_back(
+                {tick, row, index++, {Meeting::bounce, i, dt, state.x, v, state.v}});
+    }
+    if (met == 0) return false;
+    if (planes.size() > 1) {
+        // A bounce or a move off one plane may go into another.
+        state.v = Support<T, Axes>::against(state.v, planes, met).without_push(state.v);
+        lift_onto(
+            planes, state.x, gap_of,
+            [&](const Surface& plane) { return hidden_distance(plane, state, radius, dt); },
+            [](const Surface&) {});
+    }
+    // Friction holds a body at rest where it is.
+    if (before.v == Vec<T, Axes>{} && state.v == Vec<T, Axes>{}) state.x = before.x;
+    store(state, columns.motion, row);
+    return true;
+}
+
+/// Lets linked rows land at the end of a step, because their motions depend on each other. This has
+/// order 1 with every method. Returns whether any state changed.
+template <std::floating_point T, int Axes>
+bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& before,
+                      std::int64_t tick, T dt) {
+    bool any = false;
+    for (std::size_t row = 0; row < columns.size; ++row)
+        any |= land_linked_row(columns, load<T>(before, row), row, tick, dt);
+    return any;
+}
 
 /// The physics that a method steps: all rows and the links between them.
 template <std::floating_point T, int Axes>
@@ -26,13 +87,13 @@ public:
     using Vectors = VecColumns<T, Axes>;
 
     explicit LinkedRows(const StepCall<T, Axes>& call)
-        : kernels_(call.kernels ? call.kernels->linked : one_by_one),
+        : kernels_(kernels<T, Axes>() ? kernels<T, Axes>()->linked : one_by_one),
           columns_(call.columns),
-          views_(call.views),
-          cache_(call.columns.link_cache),
-          team_(call.team) {
-        const auto* const splitting = std::get_if<SplittingPlan<T>>(&call.plan);
-        if (splitting) damping_ = splitting->damping;
+          views_(columns_.views),
+          cache_(columns_.link_cache),
+          team_(call.team),
+          damping_(damping_of(call.plan())) {
+        const auto* const splitting = std::get_if<SplittingPlan<T>>(&call.plan());
         if (damping_ == Damping::in_kick) cache_.field_valid = false;
         prepare(splitting ? splitting->half_step : T(0));
         // Dampers are stepped one after the other, and threads that read each other's rows are
@@ -112,7 +173,6 @@ public:
     }
 
     [[nodiscard]] std::optional<Divergence> find_divergence(std::int64_t tick) {
-        using Of = Divergence::Of;
         const MotionColumns<T, Axes>& motion = columns_.motion;
         std::atomic<bool> possible = false;
         in_ranges([&](const RowRange& rows) {
@@ -120,24 +180,21 @@ public:
         });
         if (!possible) return std::nullopt;
         for (std::size_t row = 0; row < columns_.size; ++row)
-            for (const Of of : {Of::position, Of::velocity})
-                for (std::size_t axis = 0; axis < Axes; ++axis)
-                    if (!std::isfinite((of == Of::velocity ? motion.v : motion.x)[axis][row]))
-                        return Divergence{tick, row, static_cast<int>(axis), of};
+            if (const auto found = oiler::find_divergence(load<T>(motion, row), row, tick, 0))
+                return found;
         return std::nullopt;
     }
 
     /// Newton's changes of w for the residual of w − v − τ·a(x + τ·w, w). The matrix is kept while
     /// all forces are linear.
     [[nodiscard]] Vectors solve(const MotionColumns<T, Axes>& at, T tau, const Vectors& residual) {
-        if (!cache_.solver || cache_.solver_tau != tau || !linear()) {
-            cache_.solver =
-                std::make_shared<LinkSolver<T>>(columns_.size * Axes, velocity_entries(at, tau));
+        if (!cache_.solve || cache_.solver_tau != tau || !linear()) {
+            cache_.solve = factorised(columns_.size * Axes, velocity_entries(at, tau));
             cache_.solver_tau = tau;
         }
         std::vector<T> right(columns_.size * Axes);
         for (std::size_t i = 0; i < right.size(); ++i) right[i] = residual[i % Axes][i / Axes];
-        const std::vector<T> solution = cache_.solver->solve(right);
+        const std::vector<T> solution = cache_.solve(right);
         Vectors change = residual;
         for (std::size_t i = 0; i < right.size(); ++i) change[i % Axes][i / Axes] = solution[i];
         return change;
@@ -181,8 +238,9 @@ private:
 
     template <class F>
     void in_ranges(F f) {
-        for_parts(columns_.size, 1, team_, [&](std::size_t begin, std::size_t end, std::size_t) {
+        in_parts(columns_.size, 1, team_, [&](std::size_t begin, std::size_t end, std::size_t) {
             f({begin, end});
+            return std::optional<Divergence>();
         });
     }
     void evaluate(const MotionColumns<T, Axes>& motion, Evaluate what, double t, Vectors& out) {
@@ -264,7 +322,7 @@ private:
     const RowViews<T, Axes>& views_;
     LinkCache<T, Axes>& cache_;
     Team* team_;
-    Damping damping_ = Damping::in_kick;
+    Damping damping_;
 };
 
 }  // namespace
@@ -290,7 +348,7 @@ std::optional<Divergence> step_linked_rows(const StepCall<T, Axes>& call) {
             }
             return std::nullopt;
         },
-        call.plan);
+        call.plan());
 }
 
 template std::optional<Divergence> step_linked_rows(const StepCall<float, 1>&);

@@ -48,6 +48,22 @@ struct AlignedAllocator {
     std::size_t skipped;
 };
 
+/// The number at an address, or a batch of the numbers from there on.
+template <class V, class T>
+[[gnu::always_inline]] inline V load_from(const T* from) {
+    if constexpr (std::is_same_v<V, T>)
+        return *from;
+    else
+        return V::load(from);
+}
+template <class V, class T>
+[[gnu::always_inline]] inline void store_to(const V& value, T* to) {
+    if constexpr (std::is_same_v<V, T>)
+        *to = value;
+    else
+        value.store(to);
+}
+
 /// One number for each row, aligned and padded.
 template <class T>
 class Column {
@@ -141,7 +157,7 @@ private:
     bool shared_ = true;
 };
 
-/// Where the rows of one number are, for the inner loops: they read no Parameter, whose fields the
+/// The place of one number of all rows. The inner loops read no Parameter, whose fields the
 /// compiler would read again after every store. Valid until the number changes. A default view is
 /// of a number that is 0 for all rows.
 template <class T>

@@ -6,18 +6,22 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
+#include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
 #include "oiler/physics/state.hpp"
 #include "oiler/sim/store/column.hpp"
-#include "oiler/sim/store/contacts.hpp"
 #include "oiler/sim/store/links.hpp"
+#include "oiler/sim/store/row_views.hpp"
 
 namespace oiler {
 
@@ -49,17 +53,11 @@ void clear_padding(MotionColumns<T, Axes>& motion) {
 
 template <Number V, std::floating_point T>
 [[gnu::always_inline]] inline V load(const Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        return column[row];
-    else
-        return V::load(column.data() + row);
+    return load_from<V>(column.data() + row);
 }
 template <Number V, std::floating_point T>
 [[gnu::always_inline]] inline void store(const V& value, Column<T>& column, std::size_t row) {
-    if constexpr (std::is_same_v<V, T>)
-        column[row] = value;
-    else
-        value.store(column.data() + row);
+    store_to<V>(value, column.data() + row);
 }
 
 template <Number V, class T, std::size_t Axes>
@@ -121,6 +119,70 @@ struct AppliedForces {
     }
 };
 
+/// An impact of the body in a row.
+template <std::floating_point T, int Axes>
+struct RowImpact {
+    std::int64_t tick;  ///< at the start of the step
+    std::size_t row;
+    std::size_t index;  ///< among the impacts of the row in the step
+    ImpactOf<T, Axes> impact;
+
+    [[nodiscard]] friend bool operator<(const RowImpact& a, const RowImpact& b) {
+        return std::tie(a.tick, a.impact.after_start, a.row, a.index) <
+               std::tie(b.tick, b.impact.after_start, b.row, b.index);
+    }
+};
+
+/// The planes of a world and the rows that meet them.
+template <std::floating_point T, int Axes>
+struct Contacts {
+    static constexpr T no_contact = -std::numeric_limits<T>::infinity();
+
+    std::vector<PlaneOf<T, Axes>> planes;
+    Parameter<T> radius;                ///< m; no_contact for rows that pass through planes
+    std::size_t rows = 0;               ///< the number of rows with a contact
+    std::vector<std::uint8_t> settled;  ///< per row, see Landed; rows at the end may be missing
+    std::vector<RowImpact<T, Axes>> impacts;                        ///< of the last call, in order
+    std::vector<std::vector<RowImpact<T, Axes>>> impacts_of_parts;  ///< memory of a step
+
+    /// Whether any body may meet a plane.
+    [[nodiscard]] bool possible() const { return rows > 0 && !planes.empty(); }
+
+    [[nodiscard]] static T radius_of(const std::optional<Contact>& contact) {
+        return contact ? static_cast<T>(contact->radius) : no_contact;
+    }
+    void push_row(T of) {
+        radius.push(of);
+        rows += of != no_contact;
+    }
+    void set(std::size_t row, T to) {
+        rows -= radius[row] != no_contact;
+        rows += to != no_contact;
+        radius.set(row, to);
+        wake(row);
+    }
+    /// Removes `row`, to whose place row `last` moves.
+    void swap_remove(std::size_t row, std::size_t last) {
+        rows -= radius[row] != no_contact;
+        radius.swap_remove(row);
+        if (row < settled.size()) settled[row] = last < settled.size() ? settled[last] : 0;
+        settled.resize(std::min(settled.size(), last));
+    }
+    void wake(std::size_t row) {
+        if (row < settled.size()) settled[row] = 0;
+    }
+    void wake_all() { settled.clear(); }
+
+    /// Gathers the impacts of all parts of a call.
+    void gather_impacts() {
+        for (auto& of_part : impacts_of_parts) {
+            impacts.insert(impacts.end(), of_part.begin(), of_part.end());
+            of_part.clear();
+        }
+        std::sort(impacts.begin(), impacts.end());
+    }
+};
+
 /// The numbers of one force for all rows.
 template <class Force, class T>
 using ForceColumns = std::array<Parameter<T>, number_count<Force>()>;
@@ -130,20 +192,6 @@ struct ForceColumnsOf;
 template <class... Force, class T>
 struct ForceColumnsOf<std::tuple<Force...>, T> {
     using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
-};
-
-/// Where the numbers of one force are, and its number of prepare_damping.
-template <class Force, class T>
-struct ForceView {
-    std::array<NumberView<T>, number_count<Force>()> numbers;
-    NumberView<T> damping_number;
-};
-
-template <class List, class T>
-struct ForceViewsOf;
-template <class... Force, class T>
-struct ForceViewsOf<std::tuple<Force...>, T> {
-    using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
 
 /// The Response of each row over one duration.
@@ -175,41 +223,31 @@ struct LinearSums {
     Parameter<T> damping;
 };
 
-/// A set of kinds of force: a bit for each type in ForceList.
-using Kinds = std::uint16_t;
-static_assert(force_count <= 16);
-
-template <class Force, Number V, int Axes>
-inline constexpr std::size_t kind_index =
-    index_of<Force>(static_cast<ForceList<V, Axes>*>(nullptr));
-template <class Force, Number V, int Axes>
-inline constexpr Kinds kind_bit = static_cast<Kinds>(1U << kind_index<Force, V, Axes>);
-
-template <class T>
-class LinkSolver;
-
 /// The data that steps of linked rows reuse in the next step.
 template <class T, int Axes>
 struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
     PreparedLinks<T> links;
     PointLinks<T, Axes> point_links;
-    Stages<MotionColumns<T, Axes>> stages;        ///< scratch
-    VecColumns<T, Axes> acceleration;             ///< m/s², scratch
-    VecColumns<T, Axes> field;                    ///< m/s², at the positions of the last kick
-    MotionColumns<T, Axes> before;                ///< at the start of a step that may land
-    bool field_valid = false;                     ///< also false after a change of positions
-    std::shared_ptr<const LinkSolver<T>> solver;  ///< kept while the equations are linear
-    T solver_tau = 0;                             ///< s
+    Stages<MotionColumns<T, Axes>> stages;  ///< scratch
+    VecColumns<T, Axes> acceleration;       ///< m/s², scratch
+    VecColumns<T, Axes> field;              ///< m/s², at the positions of the last kick
+    MotionColumns<T, Axes> before;          ///< at the start of a step that may land
+    bool field_valid = false;               ///< also false after a change of positions
+    /// Solves the equations of implicit steps; kept while they are linear, else empty.
+    std::function<std::vector<T>(const std::vector<T>&)> solve;
+    T solver_tau = 0;  ///< s
 };
 
-/// The plan of the last step with a method of the list; most steps reuse it.
-template <class T>
+/// The plan of the last step with a method of the list, and the kernels for it; most steps reuse
+/// both.
+template <class T, int Axes>
 struct PlanCache {
     const Method* method = nullptr;
     Rate rate{};
     Damping damping = Damping::in_kick;
     Plan<T> plan = ExactPlan<T>{0};
+    RowKernels<T, Axes> kernels{};
 };
 
 /// All bodies of a world. Numbers that every step needs are in separate columns from those that it
@@ -228,22 +266,27 @@ struct Columns {
     std::vector<PointLinkRow<T, Axes>> point_links;
     /// The number of evaluations of the forces on the first row.
     std::int64_t evaluations = 0;
-    PlanCache<T> plan_cache;
+    PlanCache<T, Axes> plan_cache;
     /// Caches that are valid until the forces change.
     Flows<T> flows;
     LinearSums<T, Axes> linear_sums;
-    /// Memory of RowViews, which every call fills.
-    typename ForceViewsOf<ForceList<T, Axes>, T>::type views;
+    RowViews<T, Axes> views;
     LinkCache<T, Axes> link_cache;
 
     [[nodiscard]] bool has_links() const { return !links.empty() || !point_links.empty(); }
+    /// To be called after a change of bodies, masses, forces or links.
     void forces_changed() {
+        views.valid = false;
         flows.valid = false;
         linear_sums.valid = false;
         link_cache.valid = false;
-        link_cache.field_valid = false;
+        state_changed();
     }
     void state_changed() { link_cache.field_valid = false; }
+    void applied_changed() {
+        views.valid = false;
+        state_changed();
+    }
     void forces_changed(std::size_t row) {
         contacts.wake(row);
         forces_changed();
@@ -253,17 +296,6 @@ struct Columns {
         state_changed();
     }
 };
-
-/// The kinds of force on the rows of the block of row_padding rows from `row` on.
-template <std::floating_point T, int Axes>
-[[nodiscard]] [[gnu::always_inline]] inline Kinds kinds_of_block(const Columns<T, Axes>& columns,
-                                                                 std::size_t row) {
-    if (columns.kinds.shared()) return columns.kinds[row];
-    Kinds all = 0;
-    for (std::size_t i = row; i < std::min(row + row_padding, columns.size); ++i)
-        all = static_cast<Kinds>(all | columns.kinds[i]);
-    return all;
-}
 
 /// The state of row `row` in the Number `V`.
 template <Number V, std::floating_point T, int Axes>

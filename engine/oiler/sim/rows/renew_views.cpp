@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/sim/rows/row_views.hpp"
+#include "oiler/sim/rows/renew_views.hpp"
 
 #include <algorithm>
 #include <map>
@@ -14,19 +14,15 @@ namespace {
 
 /// The index of a field's first number among the numbers of its force.
 template <class Force, class Field>
-constexpr std::size_t offset_of(Field field) {
+std::size_t offset_of(Field field) {
+    Force force{};
+    const void* first = &(force.*field);
     std::size_t offset = 0;
-    bool found = false;
-    const auto visit = [&]<class Other>(Other other) {
-        if constexpr (std::is_same_v<Field, Other>) found = found || other == field;
-        if (found) return;
-        Force force{};
-        if constexpr (requires { (force.*other).axis; })
-            offset += (force.*other).axis.size();
-        else
-            ++offset;
-    };
-    for_each_field<Force>([&](const auto& other) { visit(other.member); });
+    std::size_t index = 0;
+    for_each_number(force, [&](auto& number) {
+        if (&number == first) offset = index;
+        ++index;
+    });
     return offset;
 }
 
@@ -35,59 +31,47 @@ bool is_zero(const Parameter<T>& number) {
     return number.shared() && number[0] == 0;
 }
 
-/// Collects which columns hold the numbers of the linear forces.
-template <class T, int Axes>
-class Collector {
-public:
-    explicit Collector(const Columns<T, Axes>& columns) {
-        for_each_index<force_count>([&](auto kind) {
-            using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
-            if constexpr (Linear<Force>)
-                for (const auto& numbers : std::get<kind>(columns.forces))
-                    add<Force>(numbers, kind_bit<Force, T, Axes>);
-        });
-    }
-
-    [[nodiscard]] const LinearColumns<T, Axes>& columns() const { return columns_; }
-    /// Whether a number is the sum of several columns.
-    [[nodiscard]] bool needs_sums() const { return needs_sums_; }
-
-private:
-    template <class Force, class Numbers>
-    void add(const Numbers& numbers, Kinds kind) {
-        constexpr auto fields = Force::linear_fields();
-        using Parts = typename decltype(fields)::Parts;
-        for (std::size_t i = 0; i < Axes; ++i) {
-            if constexpr (Parts::constant)
-                add(numbers[offset_of<Force>(fields.constant) + i], columns_.axis[i].constant);
-            if constexpr (Parts::spring) {
-                const bool acts =
-                    add(numbers[offset_of<Force>(fields.stiffness)], columns_.axis[i].stiffness);
-                if (acts)
-                    columns_.axis[i].centre =
-                        NumberView<T>(numbers[offset_of<Force>(fields.centre) + i]);
-                columns_.axis[i].spring_kinds |= kind;
-            }
-            if constexpr (Parts::damping) {
-                add(numbers[offset_of<Force>(fields.damping)], columns_.axis[i].damping);
-                columns_.axis[i].damping_kinds |= kind;
-            }
-        }
-    }
-    bool add(const Parameter<T>& number, NumberView<T>& to) {
-        if (is_zero(number)) return false;
-        needs_sums_ = needs_sums_ || to;
-        to = NumberView<T>(number);
-        return true;
-    }
-
-    LinearColumns<T, Axes> columns_;
-    bool needs_sums_ = false;
-};
-
 template <class T>
 NumberView<T> view_of(const Parameter<T>& number) {
     return is_zero(number) ? NumberView<T>() : NumberView<T>(number);
+}
+
+template <class T, int Axes>
+using LinearAxes = std::array<LinearAxis<T>, Axes>;
+
+/// Views a number that is not 0 for all rows. Returns whether `view` was that of another one.
+template <class T>
+bool replace_view(NumberView<T>& view, const Parameter<T>& number) {
+    if (is_zero(number)) return false;
+    const bool replaced{view};
+    view = NumberView<T>(number);
+    return replaced;
+}
+
+/// Views the numbers of a linear force. Returns whether another force has one of them, too.
+template <class Force, class T, int Axes>
+bool view_force(const ForceColumns<Force, T>& numbers, LinearAxes<T, Axes>& axes) {
+    constexpr auto fields = Force::linear_fields();
+    using Parts = typename decltype(fields)::Parts;
+    constexpr Kinds kind = kind_bit<Force, T, Axes>;
+    bool shares = false;
+    for (std::size_t i = 0; i < Axes; ++i) {
+        LinearAxis<T>& axis = axes[i];
+        if constexpr (Parts::constant)
+            shares |= replace_view(axis.constant, numbers[offset_of<Force>(fields.constant) + i]);
+        if constexpr (Parts::spring) {
+            const Parameter<T>& stiffness = numbers[offset_of<Force>(fields.stiffness)];
+            shares |= replace_view(axis.stiffness, stiffness);
+            if (!is_zero(stiffness))
+                axis.centre = NumberView<T>(numbers[offset_of<Force>(fields.centre) + i]);
+            axis.spring_kinds |= kind;
+        }
+        if constexpr (Parts::damping) {
+            shares |= replace_view(axis.damping, numbers[offset_of<Force>(fields.damping)]);
+            axis.damping_kinds |= kind;
+        }
+    }
+    return shares;
 }
 
 /// Sums are rounded to T once.
@@ -116,15 +100,21 @@ void fill_sums(LinearSums<T, Axes>& sums, const Columns<T, Axes>& columns) {
 /// The linear forces of the columns. Numbers that several forces share are the sums of the columns
 /// or, if those are not valid, `sums`, which are filled then.
 template <class T, int Axes>
-LinearColumns<T, Axes> linear_columns(const Columns<T, Axes>& columns, LinearSums<T, Axes>& sums) {
-    const Collector<T, Axes> collected(columns);
-    LinearColumns<T, Axes> linear = collected.columns();
+LinearAxes<T, Axes> linear_axes(const Columns<T, Axes>& columns, LinearSums<T, Axes>& sums) {
+    LinearAxes<T, Axes> axes{};
+    bool needs_sums = false;
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
+        if constexpr (Linear<Force>)
+            for (const auto& numbers : std::get<kind>(columns.forces))
+                needs_sums |= view_force<Force, T, Axes>(numbers, axes);
+    });
     const bool valid = columns.linear_sums.valid;
-    if (collected.needs_sums() && !valid) fill_sums(sums, columns);
+    if (needs_sums && !valid) fill_sums(sums, columns);
     const LinearSums<T, Axes>& of = valid ? columns.linear_sums : sums;
     for (std::size_t i = 0; i < Axes; ++i) {
-        LinearAxis<T>& axis = linear.axis[i];
-        if (collected.needs_sums()) {
+        LinearAxis<T>& axis = axes[i];
+        if (needs_sums) {
             axis.constant = view_of(of.constant[i]);
             axis.centre = NumberView<T>(of.centre[i]);
             axis.stiffness = view_of(of.stiffness);
@@ -132,7 +122,7 @@ LinearColumns<T, Axes> linear_columns(const Columns<T, Axes>& columns, LinearSum
         }
         if (!columns.applied.empty()) axis.applied = NumberView<T>(columns.applied.acceleration[i]);
     }
-    return linear;
+    return axes;
 }
 
 template <class T>
@@ -157,18 +147,12 @@ bool rows_agree(const LinearAxis<T>& forces, bool with_springs) {
 }
 
 template <class T>
-void require_finite(const Response<T>& response, const Oscillator<T>& of, T duration) {
-    if (std::isfinite(response.reach) && std::isfinite(response.decay)) return;
-    fail(Exit::usage,
-         "damping of {} 1/s overflows over {} s{}; take a higher rate, or implicit_euler", of.c,
-         duration, duration < 0 ? ", a backward drift of the method" : "");
-}
-
-template <class T>
 Response<T> response_of(const Oscillator<T>& oscillator, T duration) {
     const auto response = oscillator_response(oscillator.k, oscillator.c, duration);
-    require_finite(response, oscillator, duration);
-    return response;
+    if (std::isfinite(response.reach) && std::isfinite(response.decay)) return response;
+    fail(Exit::usage,
+         "damping of {} 1/s overflows over {} s{}; take a higher rate, or implicit_euler",
+         oscillator.c, duration, duration < 0 ? ", a backward drift of the method" : "");
 }
 
 /// The responses of `rows` rows; each distinct one is computed once.
@@ -271,20 +255,25 @@ void view_others(const Stored& stored, const std::vector<Parameter<T>>& damping_
 }  // namespace
 
 template <std::floating_point T, int Axes>
-RowViews<T, Axes>::RowViews(Columns<T, Axes>& columns, const Plan<T>& plan)
-    : linear_(linear_columns(columns, columns.linear_sums)), others_(columns.views) {
-    fill_flows(columns, linear_.axis[0], plan);
-    for (std::size_t i = 0; i < columns.flows.of.size(); ++i) {
-        const FlowColumns<T>& flow = columns.flows.of[i];
-        flows_[i] = {NumberView<T>(flow.reach), NumberView<T>(flow.sway),
-                     NumberView<T>(flow.decay)};
-    }
+void renew_views(Columns<T, Axes>& columns, const Plan<T>& plan) {
+    RowViews<T, Axes>& views = columns.views;
+    const LinearAxes<T, Axes> linear = linear_axes(columns, columns.linear_sums);
+    fill_flows(columns, linear[0], plan);
+    views.flows.clear();
+    for (const FlowColumns<T>& flow : columns.flows.of)
+        views.flows.push_back(
+            {NumberView<T>(flow.reach), NumberView<T>(flow.sway), NumberView<T>(flow.decay)});
+    for (std::size_t axis = 0; axis < Axes; ++axis)
+        views.axis[axis] = {columns.motion.x[axis].data(), columns.motion.v[axis].data(),
+                            linear[axis], views.flows.data(),
+                            axis == 0 ? &columns.evaluations : nullptr};
     for_each_index<force_count>([&](auto kind) {
         using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
         if constexpr (!Linear<Force>)
             view_others(std::get<kind>(columns.forces), columns.flows.damping_numbers[kind],
-                        std::get<kind>(columns.views));
+                        std::get<kind>(views.others));
     });
+    views.valid = true;
 }
 
 template <std::floating_point T, int Axes>
@@ -292,7 +281,7 @@ void require_flows(const Columns<T, Axes>& columns, const Plan<T>& plan) {
     const std::span<const T> durations = durations_of(plan);
     if (durations.empty()) return;
     LinearSums<T, Axes> sums;
-    const LinearAxis<T> forces = linear_columns(columns, sums).axis[0];
+    const LinearAxis<T> forces = linear_axes(columns, sums)[0];
     const bool with_springs = has_springs_in_flows(plan);
     if (!with_springs && !forces.damping) return;
     const std::size_t rows = rows_agree(forces, with_springs) ? 1 : columns.size;
@@ -303,15 +292,15 @@ void require_flows(const Columns<T, Axes>& columns, const Plan<T>& plan) {
         }
 }
 
-template class RowViews<float, 1>;
-template class RowViews<float, 2>;
-template class RowViews<float, 3>;
-template class RowViews<double, 1>;
-template class RowViews<double, 2>;
-template class RowViews<double, 3>;
-template class RowViews<long double, 1>;
-template class RowViews<long double, 2>;
-template class RowViews<long double, 3>;
+template void renew_views(Columns<float, 1>&, const Plan<float>&);
+template void renew_views(Columns<float, 2>&, const Plan<float>&);
+template void renew_views(Columns<float, 3>&, const Plan<float>&);
+template void renew_views(Columns<double, 1>&, const Plan<double>&);
+template void renew_views(Columns<double, 2>&, const Plan<double>&);
+template void renew_views(Columns<double, 3>&, const Plan<double>&);
+template void renew_views(Columns<long double, 1>&, const Plan<long double>&);
+template void renew_views(Columns<long double, 2>&, const Plan<long double>&);
+template void renew_views(Columns<long double, 3>&, const Plan<long double>&);
 
 template void require_flows(const Columns<float, 1>&, const Plan<float>&);
 template void require_flows(const Columns<float, 2>&, const Plan<float>&);
