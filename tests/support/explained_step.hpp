@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 #include "support/test.hpp"
 
