@@ -26,6 +26,17 @@ TEST(WorldSettings, Threads) {
     EXPECT_EQ(threads_of_this_process(), before + 3);
 }
 
+// A spring and a drag share the damping, whose sums have no row then.
+TEST(WorldSettings, ChangeAlsoWhenAllBodiesAreGone) {
+    for (const char* method : {"velocity_verlet", "exact"}) {
+        World world(1);
+        world.destroy(world.spawn(Body{}, Spring{.stiffness = 1, .damping = 1}, LinearDrag{1}));
+        world.set_stepping({.method = &find_method(method)});
+        world.step();
+        EXPECT_EQ(world.settings().stepping.method->name, method);
+    }
+}
+
 TEST(WorldSettings, AnotherNumberOfThreads) {
     const std::ptrdiff_t before = threads_of_this_process();
     World world(1, {.threads = 4});

@@ -279,7 +279,7 @@ void renew_views(Columns<T, Axes>& columns, const Plan<T>& plan) {
 template <std::floating_point T, int Axes>
 void require_flows(const Columns<T, Axes>& columns, const Plan<T>& plan) {
     const std::span<const T> durations = durations_of(plan);
-    if (durations.empty()) return;
+    if (durations.empty() || columns.size == 0) return;
     LinearSums<T, Axes> sums;
     const LinearAxis<T> forces = linear_axes(columns, sums)[0];
     const bool with_springs = has_springs_in_flows(plan);
