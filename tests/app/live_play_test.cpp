@@ -95,14 +95,15 @@ TEST_F(PendingSettingTest, ForgetsWhatIsImpossible) {
     EXPECT_EQ(game.world().settings().stepping.precision, Precision::double_);
 }
 
-/// A body at 1 m/s. The game ends with an error in its step `last`.
+/// A body at 1 m/s with a drag too small to see, which has no exact flow. The game ends with an
+/// error in its step `last`.
 struct Walk {
     static constexpr About about{.name = "walk", .title = "Walk", .rate = 10};
     static constexpr std::int64_t last = 30;
     World world;
     Entity body;
     explicit Walk(const Settings& settings)
-        : world(1, settings), body(world.spawn(Body{.velocity = {1}})) {}
+        : world(1, settings), body(world.spawn(Body{.velocity = {1}}, QuadraticDrag{1e-12})) {}
     void update(const Input&) {
         if (world.tick() == last) fail(Exit::diverged, "too far");
     }
@@ -122,11 +123,11 @@ protected:
         options.quiet = true;
         return options;
     }
-    /// Shows a frame 0.1 s after the last one. Returns where the body is drawn, m.
+    /// Shows a frame `period` after the last one. Returns where the body is drawn, m.
     float frame(const Requests& requests = {}) {
         play.set_pace(requests);
         play.control(requests, false);
-        time += std::chrono::milliseconds(100);
+        time += period;
         return play.play(time).discs.at(0).centre.x;
     }
     void play_steps(int count) {
@@ -149,6 +150,7 @@ protected:
                 .inputs = live};
     LivePlay play{run};
     std::chrono::nanoseconds time{0};
+    std::chrono::milliseconds period{100};
 };
 using State = LivePlay::State;
 
@@ -170,6 +172,17 @@ TEST_F(LivePlayTest, APauseHoldsTheGameAndSingleStepsGoBothWays) {
     EXPECT_EQ(play.past()->last, 4) << "later steps are forgotten";
     frame({.pauses = true});
     EXPECT_NEAR(frame(), 0.5F, 1e-6F);
+}
+
+// A frame at 0.24 s is drawn between two steps.
+TEST_F(LivePlayTest, AfterGoingBackAPauseShowsAWholeStep) {
+    play_steps(2);
+    period = std::chrono::milliseconds(40);
+    frame();
+    frame({.pauses = true});
+    const float back = frame({.goes_back = true});
+    EXPECT_NEAR(back, 0.2F, 1e-6F);
+    EXPECT_EQ(frame(), back);
 }
 
 TEST_F(LivePlayTest, GoesBackAsLongAsTheKeyIsHeldAndPlaysOnFromThere) {
@@ -221,17 +234,47 @@ TEST_F(LivePlayTest, WaitsForTheSettingAndGoesOnWithIt) {
     EXPECT_EQ(game.world().settings().stepping.rate, Rate{15});
     EXPECT_EQ(play.past()->first, 2) << "no step at the old rate can be gone to";
     EXPECT_TRUE(play.complaint().empty());
+    const std::int64_t steps = playback.steps();
+    play_steps(2);
+    EXPECT_EQ(playback.steps(), steps + 3) << "0.2 s at 15 Hz";
+}
+
+TEST_F(LivePlayTest, AStartWithAnotherSettingKeepsThePauseAndDropsAnEarlierRequest) {
+    play_steps(1);
+    frame({.pauses = true});
+    frame({.stepping = Stepping{.rate = {15}}});
+    frame({.stepping = Stepping{.rate = {20}}, .changes_from_start = true});
+    EXPECT_EQ(play.state(), State::paused);
+    EXPECT_EQ(game.world().time(), 0);
+    frame({.pauses = true});
+    play_steps(5);
+    EXPECT_EQ(game.world().settings().stepping.rate, Rate{20});
+}
+
+TEST_F(LivePlayTest, AnotherSettingEndsTheStopOfADivergence) {
+    play_steps(40);
+    ASSERT_EQ(play.state(), State::stopped);
+    frame({.stepping = Stepping{.rate = {20}}});
+    EXPECT_EQ(play.state(), State::playing);
+    EXPECT_FALSE(play.divergence());
 }
 
 TEST_F(LivePlayTest, TellsWhyASettingIsImpossible) {
     play_steps(3);
     frame({.stepping = Stepping{.method = &find_method("exact")}});
     play_steps(3);
-    EXPECT_FALSE(play.complaint().empty() &&
-                 game.world().settings().stepping.method->name != "exact");
-    frame({.stepping = Stepping{.rate = {20}}, .changes_from_start = true});
-    EXPECT_EQ(game.world().time(), 0);
-    EXPECT_EQ(game.world().settings().stepping.rate, Rate{20});
+    EXPECT_TRUE(holds(play.complaint(), "no exact flow"));
+    EXPECT_NE(game.world().settings().stepping.method->name, "exact");
+    EXPECT_EQ(playback.steps(), 7) << "the game goes on";
+}
+
+// Before any step was timed, a frame that took long may be followed by no more than two steps.
+TEST(GameClocks, CatchUpTwoStepsUntilStepsAreTimed) {
+    GameClock clock(Rate{60});
+    EXPECT_EQ(clock.advance(std::chrono::seconds(0)), 0);
+    EXPECT_EQ(clock.advance(std::chrono::seconds(1)), 2);
+    clock.limit_steps(2, std::chrono::microseconds(1));
+    EXPECT_EQ(clock.advance(std::chrono::seconds(2)), 15) << "0.25 s";
 }
 
 TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {
