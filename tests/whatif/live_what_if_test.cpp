@@ -40,6 +40,21 @@ struct OnePress final : InputSource {
     }
 };
 
+const Stepping euler{.method = &find_method("semi_implicit_euler"), .rate = {60}};
+
+/// A game that is played while what it costs is measured, in the time that this needs.
+template <class G = Fall, class Player = OnePress>
+struct Measured {
+    explicit Measured(const Stepping& stepping = euler) : settings{.stepping = stepping} {}
+
+    Settings settings;
+    AnyGameOf<G> game{settings};
+    Player player;
+    MakeGame make = [](const Settings& own) { return std::make_unique<AnyGameOf<G>>(own); };
+    LiveWhatIf along{{settings}, make, LiveWhatIf::Pace::own};
+    InputTap tap{player, along};
+};
+
 // Semi-implicit Euler falls g·dt·t/2 too deep: 20/60·2/2 = 33 cm in 2 s, of which the push at 0.5 s
 // takes nothing back.
 TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
@@ -95,12 +110,8 @@ TEST(LiveWhatIf, MeasuresTheGameThatItNeverTouches) {
 // s with velocity Verlet's state is off by the second after it only. The reference rounds positions
 // below 64 m, to 2⁻⁴⁷ m at most, 1920 times: 14 pm.
 TEST(LiveWhatIf, BeginsAgainWithTheGameAsItIs) {
-    const Settings settings{.stepping = {.method = &find_method("velocity_verlet"), .rate = {60}}};
-    AnyGameOf<Fall> game(settings);
-    OnePress player;
-    const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<> measured({.method = &find_method("velocity_verlet"), .rate = {60}});
+    auto& [settings, game, player, make, along, tap] = measured;
     EXPECT_EQ(along.begin()->time, 0);
     game.step(0, 60, tap);
     game.set_stepping({.method = &find_method("semi_implicit_euler"), .rate = {120}});
@@ -121,13 +132,8 @@ TEST(LiveWhatIf, BeginsAgainWithTheGameAsItIs) {
 // Euler at 60 Hz falls 20/60·0.2/2 = 3.3 cm too deep in 0.2 s, and half of it at 120 Hz. Half of a
 // pixel of 1 cm needs 120·1.67/0.5 = 400 Hz, and the next multiple of 60 that is offered is 480.
 TEST(LiveWhatIf, ProvesTheAdvisedRateInTheNextRun) {
-    const Settings settings{
-        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
-    AnyGameOf<Fall> game(settings);
-    OnePress player;
-    const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<> measured;
+    auto& [settings, game, player, make, along, tap] = measured;
     const std::size_t usual = along.result().runs.size();
     game.step(0, 12, tap);
     along.play_until(12);
@@ -156,13 +162,8 @@ struct MovesTheMouse final : InputSource {
 };
 
 TEST(LiveWhatIf, AMouseThatMovesAndTheRestartMakeNoOtherRound) {
-    const Settings settings{
-        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
-    AnyGameOf<Fall> game(settings);
-    MovesTheMouse player;
-    const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<Fall, MovesTheMouse> measured;
+    auto& [settings, game, player, make, along, tap] = measured;
     for (const std::int64_t from : {0, 12}) {
         game.step(from, 12 - from / 2, tap);
         along.play_until(12 + from / 2);
@@ -183,15 +184,10 @@ TEST(LiveWhatIf, AMouseThatMovesAndTheRestartMakeNoOtherRound) {
 
 // What a round of 12 steps found stands in the next one until that has found as much.
 TEST(LiveWhatIf, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
-    const Settings settings{
-        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
-    AnyGameOf<Fall> game(settings);
-    OnePress player;  // in step 30
-    const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<> measured;
+    LiveWhatIf& along = measured.along;
     const auto play = [&](std::int64_t from, std::int64_t count) {
-        game.step(from, count, tap);
+        measured.game.step(from, count, measured.tap);
         along.play_until(from + count);
         (void)along.verdict();
         return along.measured() ? along.measured()->runs.front().distance : -1;
@@ -213,7 +209,7 @@ TEST(LiveWhatIf, ARoundWithoutInputStandsUntilTheNextOneHasBeenMeasured) {
     EXPECT_NEAR(play(34, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "a release is input, too";
     along.start(36);
     EXPECT_NEAR(play(36, 1), 20 * (1 / 60.0) / 60 / 2, 1e-12);
-    along.start_from(game, 37);
+    along.start_from(measured.game, 37);
     EXPECT_NEAR(play(37, 3), 20 * (3 / 60.0) / 60 / 2, 1e-12);
     along.repeat(40);
     EXPECT_NEAR(play(40, 2), 20 * (2 / 60.0) / 60 / 2, 1e-12) << "another beginning";
@@ -229,15 +225,8 @@ struct FallAgain : Fall {
 
 // Semi-implicit Euler falls g·dt·t/2 too deep in the time t since the body was put back.
 TEST(LiveWhatIf, ForgetsTheErrorAndTheWayOfABodyThatIsPutBack) {
-    const Settings settings{
-        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
-    AnyGameOf<FallAgain> game(settings);
-    OnePress player;  // in step 30
-    const MakeGame make = [](const Settings& own) {
-        return std::make_unique<AnyGameOf<FallAgain>>(own);
-    };
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<FallAgain> measured;
+    auto& [settings, game, player, make, along, tap] = measured;
     game.step(0, 31, tap);
     along.play_until(31);
     EXPECT_NEAR(along.errors().at(30), 20 * 0.5 / 60 / 2, 1e-6);
@@ -250,13 +239,8 @@ TEST(LiveWhatIf, ForgetsTheErrorAndTheWayOfABodyThatIsPutBack) {
 
 // Euler evaluates the forces once a step, rk4 four times.
 TEST(LiveWhatIf, CountsTheForcesOfEachSetting) {
-    const Settings settings{
-        .stepping = {.method = &find_method("semi_implicit_euler"), .rate = {60}}};
-    AnyGameOf<Fall> game(settings);
-    OnePress player;
-    const MakeGame make = make_fall;
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<> measured;
+    auto& [settings, game, player, make, along, tap] = measured;
     game.step(0, 60, tap);
     along.play_until(60);
     for (const WhatIfRun& run : along.result().runs) {
@@ -297,14 +281,8 @@ struct Empty {
 };
 
 TEST(LiveWhatIf, ClaimsNoErrorOfAGameWithoutBodies) {
-    const Settings settings{.stepping = {.rate = {60}}};
-    AnyGameOf<Empty> game(settings);
-    OnePress player;
-    const MakeGame make = [](const Settings& own) {
-        return std::make_unique<AnyGameOf<Empty>>(own);
-    };
-    LiveWhatIf along({settings}, make, LiveWhatIf::Pace::own);
-    InputTap tap(player, along);
+    Measured<Empty> measured({.rate = {60}});
+    auto& [settings, game, player, make, along, tap] = measured;
     game.step(0, 60, tap);
     along.play_until(60);
     EXPECT_EQ(along.verdict().text, "what the timestep costs is not measured: there are no bodies");
