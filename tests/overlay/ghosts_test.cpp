@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rings that show where bodies truly are.
-#include "oiler/overlay/drawn_bodies.hpp"
+#include "oiler/overlay/ghosts.hpp"
 
 #include "oiler/game/look.hpp"
 #include "oiler/world/world.hpp"

@@ -2,6 +2,7 @@
 #include "oiler/core/markup.hpp"
 
 #include <fmt/core.h>
+
 #include <cstdint>
 
 #include "oiler/core/utf8.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/button.hpp"
+#include "oiler/input/control.hpp"
 #include "oiler/picture/picture.hpp"
 
 namespace oiler {

@@ -3,10 +3,8 @@
 
 #include <cstdint>
 #include <unordered_map>
-#include <vector>
 
 #include "oiler/picture/picture.hpp"
-#include "oiler/whatif/moment.hpp"
 #include "oiler/world/entity.hpp"
 
 namespace oiler {
@@ -29,10 +27,5 @@ public:
 private:
     std::unordered_map<std::uint64_t, Body> bodies_;
 };
-
-/// Adds a ring where each body truly is, relative to its disc in the picture if that has one, and
-/// as large; and the distances of the five that are furthest off, if they can be seen. With a
-/// factor, the distances are drawn so many times as long.
-void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor);
 
 }  // namespace oiler

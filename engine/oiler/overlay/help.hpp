@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/button.hpp"
+#include "oiler/input/control.hpp"
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/picture/picture.hpp"
 

@@ -8,6 +8,7 @@
 #include "oiler/inspector/inspector.hpp"
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/overlay/trails.hpp"
+#include "oiler/whatif/moment.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

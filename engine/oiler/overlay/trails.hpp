@@ -8,6 +8,7 @@
 
 #include "oiler/overlay/drawn_bodies.hpp"
 #include "oiler/picture/picture.hpp"
+#include "oiler/whatif/moment.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

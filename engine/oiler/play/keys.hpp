@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "oiler/input/button.hpp"
+#include "oiler/input/control.hpp"
 
 namespace oiler {
 
