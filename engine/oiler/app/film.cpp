@@ -85,7 +85,7 @@ Film::Film(Renderer& renderer, const Manifest& header, const Options& options, P
     : renderer_(renderer), header_(header), options_(options), profile_(profile) {}
 
 void Film::open() {
-    // First, because it may fail: an earlier capture is then still there.
+    // The video comes first: if it fails, an earlier capture is still there.
     if (!options_.video.empty()) video_.emplace(options_.video, header_.size, header_.fps);
     capture_.emplace(options_.out, header_, profile_);
     if (!capture_->dead_owner().empty())

@@ -34,23 +34,23 @@ private:
     std::vector<Pixels> tiles_;
 };
 
-/// The outputs of a headless run: a capture and, on request, a video and a sheet. They are made
-/// with the first frame, so that a failure to draw leaves no folder.
+/// The outputs of a headless run: a capture and, on request, a video and a sheet. They are opened
+/// with the first frame, so a failure to draw leaves no folder.
 class Film {
 public:
     /// `header` is the manifest without frames.
     Film(Renderer& renderer, const Manifest& header, const Options& options, Profile* profile);
 
-    /// Draws the picture as the next frame, in a part of it under an overlay. Throws Error{io}.
+    /// Draws the picture as the next frame, in the part `view`, under an overlay. Throws Error{io}.
     void add(const Picture& picture, const HeadlessFrame& at, const Playback& playback,
              const Overlay& overlay, Size view);
-    /// The game has quit: a capture of fewer frames than were planned is complete.
+    /// Marks a capture with fewer frames than planned as complete: the game has quit.
     void end_here() {
         if (capture_) capture_->end_here();
     }
     /// Completes the files with the frames so far. Throws Error{io}.
     void finish();
-    /// Completes the capture after an error, which matters more than a second one of the same disk.
+    /// Completes the capture after an error and ignores further errors: the first one is reported.
     void finish_capture_ignoring_errors();
 
     [[nodiscard]] std::int64_t frames() const { return frames_; }

@@ -47,7 +47,7 @@ std::int64_t GameClock::advance(std::chrono::nanoseconds now) {
 }
 
 void GameClock::limit_steps(std::int64_t steps, std::chrono::nanoseconds time) {
-    constexpr double most = 0.1;  // s, of a frame's steps
+    constexpr double most = 0.1;  // s, for the steps of a frame
     if (!std::exchange(has_timed_steps_, true)) dropped_ -= clock_.dropped_time();
     const double took = std::chrono::duration<double>(time).count();
     const double step = duration_of_step();
@@ -59,7 +59,7 @@ void GameClock::end_frame(std::chrono::nanoseconds work, std::chrono::nanosecond
     if (has_timed_steps_) kept_pace_.add(work, period, late_);
 }
 
-/// s of real time
+/// The real time of a step, s.
 double GameClock::duration_of_step() const {
     return static_cast<double>(pace_.denominator()) /
            (static_cast<double>(clock_.rate()) * pace_.numerator());

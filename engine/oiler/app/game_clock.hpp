@@ -24,14 +24,14 @@ private:
     int exponent_ = 0;
 };
 
-/// The pace that a computer keeps in a window, as means over about 16 frames.
+/// The pace that this computer keeps in a window, as means over about 16 frames.
 class KeptPace {
 public:
-    /// A frame that took `work` to make, `period` after the one before, and dropped `late` of the
-    /// simulated time because it came too late.
+    /// Adds a frame that took `work`, came `period` after the one before, and dropped `late` of
+    /// simulated time because it was late.
     void add(std::chrono::duration<double> work, std::chrono::duration<double> period,
              std::chrono::duration<double> late);
-    /// Tells that the pace or the frame rate is too low, and what helps; empty if both are kept.
+    /// A warning with a remedy if the pace or the frame rate is too low; else empty.
     [[nodiscard]] std::string text() const;
 
 private:
@@ -39,16 +39,15 @@ private:
     double late_ = 0;  ///< share of the period
 };
 
-/// The clock of a game in a window: when its steps are due at the player's pace, and how many of
-/// them a late frame catches up. It counts the steps as the game does, also after the game went
-/// back.
+/// The clock of a game in a window: the steps due at the player's pace, and how many of them a late
+/// frame catches up. It counts steps as the game does, also after going back.
 class GameClock {
 public:
     explicit GameClock(const Rate& rate) : clock_(static_cast<int>(rate.steps)) {}
 
-    /// Begins anew with another rate after the game's step `step`. A pause lasts if it is `kept`.
+    /// Restarts with another rate after the game's step `step`. `keeps_pause`: a pause continues.
     void begin(const Rate& rate, std::int64_t step, bool keeps_pause);
-    /// The game was put to where it was after `step` steps.
+    /// Moves the clock to the game's step `step`, after going back or forward.
     void set_step(std::int64_t step) { first_ = step - clock_.ticks(); }
     /// The step of the game that is due, and the fraction of the next one.
     [[nodiscard]] std::int64_t step() const { return first_ + clock_.ticks(); }
@@ -56,17 +55,17 @@ public:
 
     /// Begins a frame. Returns the number of steps that became due since the last one.
     std::int64_t advance(std::chrono::nanoseconds now);
-    /// The steps of the frame took `time`. Steps that take longer than the time they simulate would
-    /// hold the next frame for seconds, so their number is limited.
+    /// Limits the steps of the next frames, given that `steps` took `time`. Without the limit,
+    /// steps slower than real time would hold a frame for seconds.
     void limit_steps(std::int64_t steps, std::chrono::nanoseconds time);
-    /// The frame took `work` to make, and came `period` after the one before.
+    /// Adds a frame that took `work` and came `period` after the one before to the kept pace.
     void end_frame(std::chrono::nanoseconds work, std::chrono::nanoseconds period);
 
     [[nodiscard]] bool is_paused() const { return clock_.paused(); }
     void pause() { clock_.pause(); }
     void resume() { clock_.resume(); }
     void toggle_pause() { is_paused() ? resume() : pause(); }
-    /// In a pause: the next frame owes one step.
+    /// Makes one step due in the next frame of a pause.
     void single_step() { clock_.single_step(); }
 
     void set_pace(const Pace& pace) { pace_ = pace; }

@@ -11,21 +11,21 @@
 
 namespace oiler {
 
-/// Compares the frames in `options.out` with the golden and says what changed. Writes the page of
-/// differences and, if it is asked for, JUnit XML with the budget, too. Throws Error.
+/// Compares the frames in `options.out` with the golden and prints the differences. Writes the page
+/// of differences and, on request, JUnit XML with the budget. Throws Error.
 [[nodiscard]] Exit compare_with_golden(const Options& options,
                                        const std::vector<BudgetEntry>& budget);
 
 /// The hidden folder beside the golden into which --update-golden captures.
 [[nodiscard]] std::filesystem::path folder_of_new_golden(const std::filesystem::path& golden);
 
-/// Replaces the golden by a new capture when that is complete, so that a run that fails leaves the
-/// old one. The golden belongs to this object meanwhile.
+/// Replaces the golden by a complete new capture. A run that fails leaves the old one. The golden
+/// is locked meanwhile.
 class GoldenUpdate {
 public:
     /// Throws Error{io}, see CaptureFolder.
     GoldenUpdate(const std::filesystem::path& golden, const std::string& scene);
-    /// Removes what was captured and not committed.
+    /// Removes an uncommitted capture.
     ~GoldenUpdate();
     GoldenUpdate(const GoldenUpdate&) = delete;
     GoldenUpdate& operator=(const GoldenUpdate&) = delete;

@@ -56,8 +56,7 @@ Manifest describe(const Options& options, const About& about, const Surface& sur
             .planned_frames = options.frames ? *options.frames : frames_in(duration, fps)};
 }
 
-/// The inspector of a run without a window: nobody clicks, and the runs that play along are never
-/// late.
+/// The inspector of a headless run. It gets no mouse input and waits for the runs that play along.
 class FilmedInspector {
 public:
     explicit FilmedInspector(const GameRun& run)
@@ -69,7 +68,7 @@ public:
     /// The input of the game's steps.
     [[nodiscard]] InputSource& inputs() { return inputs_; }
 
-    /// Adds what it draws over the picture, and lays out the panel.
+    /// Draws the inspector's overlays over the picture and lays out the panel.
     void show(Picture& picture, const HeadlessFrame& at, std::int64_t steps,
               const Manifest& header) {
         {

@@ -9,9 +9,9 @@
 
 namespace oiler {
 
-/// The size of a new window: the one that is given, else that of the last time.
+/// The size of a new window: from the command line, else that of the last window.
 [[nodiscard]] Size first_size(const Options& options, const About& about);
-/// Keeps a size that the user gave to a window for the next time. Tells if that is not possible.
+/// Stores the size that the user gave to a window. Prints a remark if that fails.
 void keep_size(const Options& options, const About& about, Size size);
 
 /// The file with the size that a user gave to the window of a program, in the folder for states of

@@ -12,7 +12,7 @@ namespace {
 
 std::chrono::nanoseconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-/// Whether a world can go on at another rate now, and half of that rate, which plays along, too.
+/// Whether the rate and half of it, which plays along, both have a tick at the world's time.
 bool has_common_tick(const World& world, const Rate& rate) {
     const std::optional<std::int64_t> tick = world.tick_at(rate);
     return tick && (*tick % 2 == 0 || rate.steps % 2 != 0);
@@ -128,7 +128,7 @@ bool LivePlay::is_possible(F f) {
     }
 }
 
-/// Makes the game anew with another setting. The game's own state is gone.
+/// Makes the game anew with another setting. Its state is lost.
 void LivePlay::restart_with(const Stepping& stepping) {
     Settings settings = playback_.world().settings();
     settings.stepping = stepping;
@@ -142,7 +142,7 @@ void LivePlay::restart_with(const Stepping& stepping) {
     if (what_if_) what_if_->start(playback_.steps(), stepping);
 }
 
-/// Goes on with the wanted setting, if that has a tick until `step`.
+/// Changes to the wanted setting if that has a tick until `step`.
 void LivePlay::change_until(std::int64_t step) {
     bool has_changed = false;
     if (!is_possible([&] { has_changed = change_.make(playback_, step, past_.inputs()); })) return;
@@ -151,7 +151,7 @@ void LivePlay::change_until(std::int64_t step) {
     if (what_if_) what_if_->start_from(playback_.game(), playback_.steps());
 }
 
-/// The clock begins anew at the game's rate; no earlier step can be gone to.
+/// Restarts the clock at the game's rate and forgets all earlier steps.
 void LivePlay::begin_setting() {
     const std::int64_t step = playback_.steps();
     clock_.begin(playback_.world().settings().stepping.rate, step, !divergence_);
@@ -205,8 +205,8 @@ Picture& LivePlay::next_picture() {
     return playback_.show_last();
 }
 
-/// Shows a step of the past, or the last one again. The runs that play along stay where they are
-/// until the game takes another step.
+/// Shows a step of the past, or the last one again. The runs that play along wait until the game
+/// takes another step.
 void LivePlay::go_back_to(std::int64_t step) {
     step = std::clamp(step, past_.first(), past_.last());
     const std::optional<Input> last = past_.go_to(step, playback_.steps(), divergence_.has_value());
@@ -260,7 +260,7 @@ std::optional<Inspected::Past> LivePlay::past() const {
 }
 
 double LivePlay::alpha() const {
-    // A frame at the time of a step shows that step, others the way to it.
+    // A frame at the time of a step shows that step; other frames interpolate.
     return playback_.steps() == clock_.step() ? 1 : clock_.alpha();
 }
 

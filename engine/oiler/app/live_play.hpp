@@ -16,15 +16,15 @@
 
 namespace oiler {
 
-/// A setting that a game is to go on with, from the next step at which both rates have a tick.
+/// A requested setting. It takes effect at the next step at which both rates have a tick.
 class PendingSetting {
 public:
     void want(const Stepping& stepping) { wanted_ = stepping; }
     void forget() { wanted_.reset(); }
     [[nodiscard]] const std::optional<Stepping>& wanted() const { return wanted_; }
 
-    /// Steps the game to the setting's first tick, but not beyond `step`. Returns whether the game
-    /// has the setting from there on. Throws Error{usage} if it cannot have it, and forgets it.
+    /// Steps the game to the setting's first tick, but not beyond `step`. Returns whether the
+    /// setting took effect. If the game cannot have it, drops it and throws Error{usage}.
     [[nodiscard]] bool make(Playback& playback, std::int64_t step, InputSource& inputs);
 
 private:
@@ -34,7 +34,7 @@ private:
 /// The past of a game, and whether a frame shows a step of it.
 class WayBack {
 public:
-    /// Without a way, no step is kept.
+    /// Without `has_way`, no step is kept.
     WayBack(AnyGame& game, InputSource& inputs, bool has_way);
 
     /// The input of the game's steps.
@@ -48,15 +48,15 @@ public:
     void keep(std::int64_t step);
     /// Begins a frame that goes back or forward.
     void begin_frame(bool goes_back, bool is_paused);
-    /// Puts the game, which has taken `step` steps and maybe diverged then, to the step `target`.
-    /// Returns the input that its last step saw; empty if the game was there already.
+    /// Moves the game from `step`, where it may have diverged, to `target`. Returns the input that
+    /// its last step saw; empty if the game was there already.
     std::optional<Input> go_to(std::int64_t target, std::int64_t step, bool diverged);
-    /// The game plays on from where it is: later steps are forgotten.
+    /// Plays on from the current step: later steps are forgotten.
     void leave() { place_ = Place::present; }
-    /// The game was replaced after `step` steps: all steps before are forgotten.
+    /// Forgets all steps before `step`, after which the game was replaced.
     void forget(std::int64_t step);
 
-    /// Whether the game took later steps than the one it is at.
+    /// Whether the game is at an earlier step than its last.
     [[nodiscard]] bool is_in_past() const { return place_ != Place::present; }
     /// Whether this frame goes back.
     [[nodiscard]] bool goes_back() const { return goes_back_; }
@@ -64,7 +64,7 @@ public:
     [[nodiscard]] bool shows_whole_step() const { return shows_whole_step_; }
 
 private:
-    /// After a divergence, no step is the last one that was taken.
+    /// `before_divergence` lasts even at the last step, because the step after it diverged.
     enum class Place { present, past, before_divergence };
 
     std::optional<Rewind> rewind_;
@@ -83,7 +83,7 @@ public:
         paused,
         going_back,          ///< in the past
         stopped,             ///< by a divergence
-        waiting_for_change,  ///< until both rates have a step
+        waiting_for_change,  ///< until both rates have a tick
     };
 
     /// The run must outlive it.
@@ -93,8 +93,8 @@ public:
     void set_pace(const Requests& requests);
     /// Goes on with another setting, or makes the game anew with it.
     void change_to(const Stepping& stepping, bool from_start);
-    /// Changes the setting, restarts the game or takes a single step, as is asked for. `restarts`:
-    /// the player presses the game's own button for that.
+    /// Changes the setting, restarts the game or takes a single step, as requested. `restarts`: the
+    /// player presses the game's restart button.
     void control(const Requests& requests, bool restarts);
     /// Takes the steps that are due, forward or back. Returns the picture to show, which lasts
     /// until the next call; after a divergence, that of the last step before.
@@ -104,7 +104,7 @@ public:
     /// The state as a text for the player; empty while the game plays at its pace.
     [[nodiscard]] std::string status() const;
     [[nodiscard]] const std::optional<Error>& divergence() const { return divergence_; }
-    /// Why the player cannot have what was asked for; empty: there is no reason.
+    /// Why the last request was refused; empty: it was not.
     [[nodiscard]] const std::string& complaint() const { return complaint_; }
     void complain(std::string reason) { complaint_ = std::move(reason); }
     [[nodiscard]] GameClock& clock() { return clock_; }
@@ -114,15 +114,15 @@ public:
     [[nodiscard]] std::optional<Inspected::Past> past() const;
     /// The time that the last steps and their picture took.
     [[nodiscard]] std::chrono::nanoseconds show_time() const { return show_time_; }
-    /// How far the last picture is on the way to the game's last step.
+    /// The position of the last picture within the game's last step, 0 to 1.
     [[nodiscard]] double alpha() const;
 
-    /// Null in a quiet run, which measures no cost of the timestep.
+    /// Null in a quiet run, which measures no errors of the timestep.
     [[nodiscard]] LiveWhatIf* what_if() { return what_if_ ? &*what_if_ : nullptr; }
-    /// Why the verdict does not tell of the step that is shown; empty: it does.
+    /// Why there is no verdict on the shown step; empty: there is one.
     [[nodiscard]] std::string no_verdict() const;
     [[nodiscard]] Verdict verdict();
-    /// The true places of the bodies in the last picture; empty if they are not known.
+    /// The true positions of the bodies in the last picture; empty if unknown.
     [[nodiscard]] std::vector<Ghost> ghosts() const;
 
 private:

@@ -12,15 +12,15 @@
 
 namespace oiler {
 
-/// What a window shows besides the game. The player switches each on and off.
+/// The panels of a window, which the player switches on and off.
 struct Panels {
     bool inspector = false;
     bool help = false;
-    bool large_errors = false;  ///< those that the inspector shows
+    bool large_errors = false;  ///< the inspector draws errors enlarged
     bool full_screen = false;
 };
 
-/// What the player did with a key since the last frame, and what that can change.
+/// The use of a key since the last frame, and the state that it can change.
 struct KeyUse {
     Requests& requests;
     Panels& panels;
@@ -43,7 +43,7 @@ struct LoopKey {
 /// remark at the start and the loop itself follow from it.
 [[nodiscard]] std::span<const LoopKey> loop_keys();
 
-/// Adds what the player asks for with the keys of the loop.
+/// Adds the requests that the player makes with the keys of the loop.
 void add_requests(Requests& requests, Panels& panels, const Input& keys);
 
 /// The rows of the help, with Escape if it quits.

@@ -67,7 +67,7 @@ enum Trait : unsigned {
     compared = 1U << 8U,        ///< needs --golden
     not_updated = 1U << 9U,     ///< excluded by --update-golden
     recorded = 1U << 10U,       ///< a recording has it: excluded by --replay
-    of_many_runs = 1U << 11U,   ///< goes with --what-if
+    of_many_runs = 1U << 11U,   ///< allowed with --what-if
     keeps_setting = 1U << 12U,  ///< the setting of the run cannot be changed
     keeps_steps = 1U << 13U,    ///< needs each step as it was first taken; keeps the setting, too
 };
@@ -79,7 +79,7 @@ struct Row {
     Target target;
     unsigned traits = 0;
     const char* shown = "";  ///< the default in --help, see fill_in
-    const char* type = "";   ///< in --help, or the allowed words; one in [] may be missing
+    const char* type = "";   ///< in --help, or the allowed words; one in [] is optional
 };
 
 /// In the order of --help.
@@ -257,7 +257,7 @@ void check_conflicts(const CLI::App& app, const Given& given) {
     if (given.frame) refuse_all(app, several, "", ": draws more frames than --frame; give one");
 }
 
-/// Only options that mean something for many runs.
+/// Refuses options that mean nothing for many runs.
 void check_what_if(const CLI::App& app, const Given& given) {
     for (const Row& row : rows())
         if ((row.traits & of_many_runs) == 0 && is_given(app, row.name))
@@ -272,7 +272,7 @@ void check_what_if(const CLI::App& app, const Given& given) {
         fail(Exit::usage, "--what-if: plays a recording; add --replay FILE");
 }
 
-/// A golden that is not there is named before the run.
+/// Refuses a missing golden before the run.
 void check_golden(const Options& options) {
     std::error_code error;
     if (!options.golden.empty() && !options.update_golden &&
@@ -281,7 +281,7 @@ void check_golden(const Options& options) {
              options.golden.string());
 }
 
-/// Jenkins sets another variable than all others.
+/// Jenkins sets JENKINS_URL, all others set CI.
 bool runs_in_ci() {
     const char* const ci = std::getenv("CI");
     const std::string_view value = ci == nullptr ? "" : ci;
@@ -289,7 +289,7 @@ bool runs_in_ci() {
            std::getenv("JENKINS_URL") != nullptr;
 }
 
-/// The golden is replaced on purpose only: a CI job that updates it would always pass.
+/// Refuses --update-golden in CI, where a job that updates its golden always passes.
 void check_update(const CLI::App& app, const Given& given) {
     if (given.force && !given.update_golden)
         fail(Exit::usage, "--force: lets --update-golden run in CI; add --update-golden");
@@ -345,7 +345,7 @@ void take_defaults(const CLI::App& app, Given& given, const About& about) {
         given.size_words = fmt::format("{}x{}", from->size.width, from->size.height);
 }
 
-/// The options of a run, from words that are filled in.
+/// The options of a run from words to which the defaults were added.
 Options collect(const CLI::App& app, Given given, const About& about) {
     check_conflicts(app, given);
     check_update(app, given);

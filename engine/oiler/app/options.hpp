@@ -55,10 +55,10 @@ struct Options {
     bool quiet = false;
 };
 
-/// The option that needs each step as it was first taken, such as "--record"; empty: none does, so
-/// that the player may go back.
+/// The given option that needs each step as it was first taken, such as "--record"; empty: none, so
+/// the player may go back.
 [[nodiscard]] std::string_view no_way_back(const Options& options);
-/// The option with which the setting of a run stays as it is, such as "--json"; empty: none does.
+/// The given option that fixes the setting of a run, such as "--json"; empty: none does.
 [[nodiscard]] std::string_view fixing_option(const Options& options);
 /// Why a player cannot change the setting of a run; empty: it can be changed.
 [[nodiscard]] std::string why_fixed(const Options& options, const About& about);

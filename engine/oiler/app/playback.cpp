@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t most_steps_per_call = 4096;
-// Between two polls of the interrupt, unless a single step takes longer.
+// Limits of a call between two polls of the interrupt, unless one step takes longer.
 constexpr std::chrono::milliseconds shortest_call{5};
 constexpr std::chrono::milliseconds longest_call{20};
 constexpr std::size_t most_bodies_kept = 1000;

@@ -13,34 +13,33 @@
 
 namespace oiler {
 
-/// What a playback keeps for a capture, besides the picture.
+/// The data that a playback keeps for a capture, besides the picture.
 enum class Keep {
     nothing,
     hashes,  ///< of each frame, and of each step of a world with up to 1000 bodies
 };
 
-/// Steps a game to the times of its frames. A frame between two ticks interpolates both, so the
-/// game is stepped to the later one.
+/// Steps a game to the times of its frames. A frame between two ticks is interpolated, so the game
+/// is stepped to the later tick.
 class Playback {
 public:
     Playback(AnyGame& game, TraceWriter& trace, Keep keep, Profile* profile = nullptr);
 
-    /// Steps until the loop has taken `step` steps. Takes many steps per call unless they
-    /// are written or hashed, but no more than a short time's, because it stops early if
-    /// interrupted.
+    /// Steps until the loop has taken `step` steps. Takes many steps per call unless they are
+    /// written or hashed. Calls are short, so that an interrupt stops it early.
     void step_to(std::int64_t step, InputSource& inputs);
 
-    /// The picture at `alpha` in [0, 1) between the states after `step` steps and the next. `step`
-    /// must not decrease. Where the game replaced its world between them, it is the former. It
-    /// lasts until the next call; the caller may draw over it.
+    /// The picture at `alpha` in [0, 1) between the states after `step` steps and the next; if the
+    /// game replaced its world between them, the former state's. `step` must not decrease. The
+    /// picture lasts until the next call; the caller may draw over it.
     [[nodiscard]] Picture& show(std::int64_t step, double alpha, InputSource& inputs);
     /// The picture of the last whole step that was shown.
     [[nodiscard]] Picture& show_last() { return shown_ = before_.picture; }
-    /// Whether the picture is of a step before a restart or rewind, and the game after it.
+    /// Whether the picture shows a step before a restart or rewind that the game has already made.
     [[nodiscard]] bool shows_before_cut() const {
         return after_.step >= 0 && before_.cuts != after_.cuts;
     }
-    /// Shows the game as it is now: it was put to where it was after `step` steps.
+    /// Shows the game after it was moved to its state after `step` steps.
     void go_to(std::int64_t step);
     [[nodiscard]] AnyGame& game() { return game_; }
     [[nodiscard]] const AnyGame& game() const { return game_; }

@@ -64,8 +64,8 @@ public:
         if (tape_) playback.watch(*tape_);
         if (replay_) playback.watch(*replay_);
     }
-    /// Completes the recording. Throws Error{comparison_failed} if the end of a replay is another
-    /// one, or if nothing was compared; returns it for a difference after which the game played on.
+    /// Completes the recording. Throws Error{comparison_failed} if the replay ends differently or
+    /// no step was compared. Returns it if a difference was found and the game played on.
     Exit finish(Playback& playback, const Options& options, bool diverged) {
         finish_recording(playback, diverged);
         if (tape_ && playback.steps() == 0)
@@ -93,7 +93,7 @@ private:
     Exit finish_replay(Playback& playback, const Options& options, bool diverged) {
         const std::int64_t steps = std::min(playback.steps(), replay_->steps());
         const bool whole = steps == replay_->steps();
-        // A game that quits does it in the update of a step that it does not take.
+        // A game quits in the update of a step that it does not take.
         if (replay_->quits() && whole && !diverged) playback.step_to(steps + 1, *replay_);
         replay_->compare_end(playback.steps(), playback.loop().quits());
         if (steps > 0 && replay_->compared() == 0)
@@ -169,7 +169,7 @@ std::unique_ptr<DrawTimer> open_timer(const Options& options) {
     }
 }
 
-/// Measures what other settings would have shown, prints the table and writes --json.
+/// Measures the errors of other settings, prints the table and writes --json.
 Exit run_what_if(const Options& options, const About& about, const MakeGame& make) {
     const std::vector<Stepping> steppings = options.what_if_settings.empty()
                                                 ? usual_what_if(options.settings, make)

@@ -18,7 +18,7 @@ namespace oiler {
 struct GameRun {
     const Options& options;
     const About& about;
-    const MakeGame& make;  ///< makes the game anew, and those that play along
+    const MakeGame& make;  ///< makes the game, and the runs that play along, anew
     Playback& playback;
     LiveInput& live;      ///< the player in a window
     InputSource& inputs;  ///< of the steps; it may be `live`
@@ -38,7 +38,7 @@ struct RunEnd {
 /// frame of a manifest, returns Exit::comparison_failed if the frame differs from it.
 Exit run_headless(GameRun& run);
 
-/// Measures the budget of a run of so many seconds without a window; empty if it has none.
+/// Measures the budget of a headless run of that length; empty if it has none.
 using MeasureBudget = std::function<std::vector<BudgetEntry>(double seconds)>;
 
 /// Plays a game with the given options and writes its files. With --headless or --json it checks

@@ -9,7 +9,7 @@
 namespace oiler {
 
 /// Other games that a window can show instead, such as the scenes of a folder. MakeGame makes the
-/// one that was taken last.
+/// game taken last.
 class Shelf {
 public:
     /// A game that was taken from the shelf.

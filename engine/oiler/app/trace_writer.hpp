@@ -23,7 +23,7 @@ public:
 
     /// Whether every step is written.
     [[nodiscard]] bool active() const { return trace_ || energy_; }
-    /// Writes the state after `step` steps of the loop: a game may restart its world meanwhile.
+    /// Writes the state after `step` steps of the loop; a restarted world counts its own anew.
     void write(std::int64_t step, const World& world);
     /// Renames the temporary files to their final names. Without this call they are deleted.
     void commit();

@@ -149,7 +149,7 @@ void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::
     last_frame_ = now;
 }
 
-/// The body that the view follows, true places and what else the inspector draws in the picture.
+/// Follows the chosen body and adds the inspector's overlays to the picture.
 void GameWindow::add_game_overlays(Picture& picture, const Input& keys,
                                    std::chrono::nanoseconds now) {
     const Span span(run_.profile, "inspector");
@@ -237,7 +237,7 @@ float GameWindow::Layout::share(int Size::*side) const {
     return is_minimised() ? 1 : static_cast<float>(view().*side) / static_cast<float>(window.*side);
 }
 
-/// Keys with a letter or a sign have the name of the user's keyboard.
+/// Keys with a letter or a sign are named as on the user's keyboard.
 NameButton GameWindow::key_names() const {
     return [this](Button button) {
         const bool has_sign =

@@ -15,8 +15,8 @@
 
 namespace oiler {
 
-/// A game in a window with the keys of the loop. Each call of frame() is a frame; whoever calls it
-/// waits between the frames.
+/// A game in a window with the keys of the loop. frame() makes one frame; its caller waits between
+/// the frames.
 class GameWindow {
 public:
     /// Opens the window. The run must outlive it.

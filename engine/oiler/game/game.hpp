@@ -131,8 +131,8 @@ consteval bool check_game() {
 /// Throws the Error of an update that made a world with another rate.
 [[noreturn]] void throw_other_rate(const std::string& place);
 
-/// Calls f(). An exception of a game becomes an Error{diverged} with the text of place(). So does
-/// a wrong number that it gave, unless it is `in_setup`, where options can be the reason.
+/// Calls f(). An exception of a game becomes an Error that starts with place(), mostly
+/// Error{diverged}. Error{usage} does so, too, unless `in_setup`, where options can be the reason.
 template <class Place, class F>
 auto guarded(Place place, F f, bool in_setup = false) {
     try {
@@ -304,7 +304,7 @@ private:
         });
         if (game_.world.settings().stepping.rate != rate) throw_other_rate(place());
     }
-    /// A world that was replaced is younger than it would have become.
+    /// A new world is younger than the old one would have become.
     void find_cut() {
         const std::int64_t age = game_.world.age();
         if (age < age_ || (age == age_ && !loop_.holds())) ++cuts_;

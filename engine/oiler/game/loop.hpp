@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a game and the loop that runs it exchange: requests, input, readings and times.
+// The requests, input, readings and times that a game and its loop exchange.
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ namespace oiler {
 /// The requests of a game to the loop that runs it: `void update(const Input& input, Loop& loop)`.
 class Loop {
 public:
-    /// Makes the game anew after this update, with the settings of its world. The picture jumps.
+    /// Makes the game anew after this update, with its world's settings. Pictures jump.
     void restart() { restarts_ = true; }
     /// Takes no step of the world after this update, as in a menu: its tick and hash stay.
     void hold() { holds_ = true; }
@@ -28,7 +28,7 @@ public:
     [[nodiscard]] bool holds() const { return holds_; }
     [[nodiscard]] bool takes_text() const { return takes_text_; }
     [[nodiscard]] bool quits() const { return quits_; }
-    /// Forgets what was asked for the last step only.
+    /// Clears the requests that hold for one step.
     void begin_step() { restarts_ = holds_ = false; }
 
 private:

@@ -12,8 +12,8 @@
 
 namespace oiler {
 
-/// The body that is nearest to a point, m, within the mouse's reach in a picture of that height.
-/// `place_of(row)` is the place of a body, m; empty if it is not to be seen.
+/// The body nearest to a point, m, within the mouse's reach in a picture of that height.
+/// `place_of(row)` is the position of a body, m; empty if the body is not visible.
 template <class PlaceOf>
 [[nodiscard]] std::optional<Entity> body_at(Point at, float height, const World& world,
                                             PlaceOf place_of) {
@@ -31,14 +31,13 @@ template <class PlaceOf>
     return nearest;
 }
 
-/// Keeps a body in the middle of the view. A double click on a body begins that; one on the same
+/// Keeps a body in the middle of the view. A double click on a body starts this; one on the same
 /// body or beside all bodies ends it. The first click chooses the body, which may move away before
-/// the second. The right mouse button moves the view meanwhile, and the camera's height stays that
-/// of the game, so that a game may zoom.
+/// the second. The right mouse button shifts the view. The camera's height stays the game's.
 class Follower {
 public:
-    /// Sees what the mouse did since the last frame, at `time`, s. `shown` is the camera of the
-    /// last picture, in which the mouse pointed.
+    /// Takes the mouse input of a frame at `time`, s. `shown` is the camera of the last picture, in
+    /// which the mouse pointed.
     void look(const Input& mouse, const Camera& shown, const Picture& picture, const World& world,
               double time);
     /// Moves the camera of the picture with the body, if that is drawn.
@@ -56,7 +55,7 @@ private:
     [[nodiscard]] bool is_double(const Click& click) const;
 
     std::optional<Entity> followed_;
-    Point aside_{};  ///< m, of the middle of the view from the body
+    Point aside_{};  ///< from the body to the middle of the view, m
     std::optional<Click> last_click_;
     std::optional<Point> held_;  ///< where the right button was, canvas
 };

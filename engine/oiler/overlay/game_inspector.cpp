@@ -52,7 +52,7 @@ Inspector::Mouse mouse_in_pixels(const Input& input, Size view) {
     return mouse;
 }
 
-/// Whether a body or a reading was compared, or the run ended otherwise.
+/// Whether the played run has an error, a reading or a failure to show.
 bool has_figures(const WhatIf& measured) {
     const WhatIfRun& played = measured.runs.front();
     return !std::isnan(played.distance) || !played.readings.empty() || !played.failure.empty() ||
@@ -82,7 +82,7 @@ void GameInspector::begin_game() {
     follower_.end();
 }
 
-/// Limits take too long for a frame, so they are found aside.
+/// Finding the limits takes longer than a frame, so another thread does it.
 void GameInspector::find_stiffest(bool waits) {
     constexpr std::size_t most_bodies = 2000;
     constexpr std::chrono::milliseconds period{250};
@@ -188,7 +188,7 @@ Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size,
     if (is_measured) run.errors = what_if->errors();
     if (is_measured && what_if->measured() && has_figures(*what_if->measured())) {
         const WhatIf& measured = *what_if->measured();
-        // The errors are newer.
+        // The errors are newer than the result.
         WhatIfRun played = measured.runs.front();
         if (!run.errors.empty())
             played.distance = std::max(played.distance, double{run.errors.back()});

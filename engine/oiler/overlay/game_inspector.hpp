@@ -16,37 +16,37 @@
 
 namespace oiler {
 
-/// Gathers what the inspector shows of a game.
+/// Gathers the contents of the inspector from a game.
 class GameInspector {
 public:
-    /// What the loop knows of a frame.
+    /// The loop's data on a frame.
     struct Frame {
         double seconds = 0;  ///< since the last one
         double dropped = 0;  ///< s, since the start
         bool is_paused = false;
         std::optional<Inspected::Past> past{};
-        /// Why the verdict does not tell of the step that is shown; empty: it does.
+        /// Why there is no verdict on the shown step; empty: there is one.
         std::string no_verdict{};
         std::string pace{};
-        bool waits = false;  ///< until all that it shows is known
+        bool waits = false;  ///< waits until all values are known
     };
 
     /// `fixed` tells why the setting cannot be changed; empty: it can.
     GameInspector(AnyGame& game, std::string fixed, std::span<const char> font);
 
-    /// The game was replaced: it has other bodies.
+    /// Forgets the methods and the followed body of the last game.
     void begin_game();
     /// Counts the times of a frame. `show` is the time of steps and picture.
     void add_times(const StepTimes& steps, std::chrono::nanoseconds show,
                    std::chrono::nanoseconds draw);
     /// Follows the body that the user double-clicks, see Follower.
     void follow(Picture& picture, const Input& mouse, const Camera& shown, double time);
-    /// Adds the true places of the bodies, and what else the user wants to see, to a picture of the
-    /// game `alpha` of the way to its last step. Distances are drawn `factor` times as long.
+    /// Adds the bodies' true positions and the overlays that the user chose to a picture at `alpha`
+    /// between the game's last two steps. Errors are drawn `factor` times as long.
     void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                       double factor);
-    /// Lays out the panel, and returns what the user asks for. `what_if` is null if the costs of
-    /// the timestep are not measured.
+    /// Lays out the panel and returns the user's requests. `what_if` is null if the error of the
+    /// timestep is not measured.
     [[nodiscard]] Requests show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
                                 const Frame& frame);
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
@@ -61,7 +61,7 @@ private:
     AnyGame& game_;
     std::string fixed_;
     Inspector inspector_;
-    StiffestFinder finder_;  ///< of the thread that finds
+    StiffestFinder finder_;  ///< used by the thread of finding_
     std::future<std::optional<Stiffest>> finding_;
     Stepping found_for_;  ///< the setting that finding_ judges
     std::optional<Inspected::Gauge> stiffest_;
@@ -70,7 +70,7 @@ private:
     Shown shown_;
     MotionOverlay motion_;
     FrameCosts costs_;
-    std::vector<const Method*> methods_;  ///< that the bodies can have; empty: not yet listed
+    std::vector<const Method*> methods_;  ///< that can step the bodies; empty: not yet listed
 };
 
 }  // namespace oiler

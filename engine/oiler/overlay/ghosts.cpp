@@ -48,7 +48,7 @@ void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double facto
         if (seen < least_seen) continue;
         add_line({at, truth});
         if (ghost.distance() < least_labelled) continue;
-        // Beside the ring, where the line to the body is not.
+        // Beside the ring, on the side away from the body.
         const bool is_right = truth.x >= at.x;
         picture.labels.push_back({.at = {truth.x + (is_right ? ring + 2 : -ring - 2), truth.y},
                                   .text = length_text(ghost.distance()),

@@ -8,9 +8,8 @@
 
 namespace oiler {
 
-/// Adds a ring where each body truly is, relative to its disc in the picture if that has one, and
-/// as large; and the distances of the five that are furthest off, if they can be seen. With a
-/// factor, the distances are drawn so many times as long.
+/// Adds a ring at the true position of each body, relative to its disc in the picture and as large.
+/// Labels the five largest errors if they are visible. Errors are drawn `factor` times as long.
 void add_ghosts(Picture& picture, const std::vector<Ghost>& ghosts, double factor);
 
 }  // namespace oiler

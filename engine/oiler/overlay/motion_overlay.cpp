@@ -65,7 +65,7 @@ void add_anchored(const World& world, std::size_t row, std::vector<DrawnSpring>&
     }
 }
 
-/// The largest value of those added, but at most twice their root mean square.
+/// The largest added value, but at most twice the root mean square.
 class Spread {
 public:
     void add(double value) {

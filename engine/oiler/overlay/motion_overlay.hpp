@@ -57,8 +57,8 @@ struct DrawnSpring {
 [[nodiscard]] std::vector<DrawnSpring> between(const std::vector<DrawnSpring>& before,
                                                const std::vector<DrawnSpring>& after, double alpha);
 
-/// The strain (a fraction) or, of springs without a rest length, the stretch (m) that has the full
-/// colour. 0: there are no such springs, or they are relaxed.
+/// The strain (a fraction), or for springs without a rest length the stretch (m), that gets the
+/// full colour. 0: there are no such springs, or they are relaxed.
 struct FullColour {
     double strain = 0;
     double stretch = 0;
@@ -75,8 +75,8 @@ struct FullColour {
 void add_springs(Picture& picture, const DrawnBodies& bodies,
                  const std::vector<DrawnSpring>& springs, const FullColour& full);
 
-/// Draws over the picture of a game how its bodies move and its springs are strained. It reads the
-/// game and never changes it.
+/// Draws the motion of the bodies and the strain of the springs over the picture of a game. It
+/// never changes the game.
 class MotionOverlay {
 public:
     /// A picture of the game, which is shown at `time`, s, on the way to its last step.
@@ -87,8 +87,8 @@ public:
         std::optional<Entity> followed{};
     };
 
-    /// Adds what is `shown`. Of many bodies, the first hundred and the followed one have trails and
-    /// arrows.
+    /// Adds the overlays in `shown`. Trails and arrows are limited to the first hundred bodies and
+    /// the followed one.
     void add(Picture& picture, const World& world, const Shown& shown, const Frame& frame);
     /// The scales of the last frame.
     [[nodiscard]] const Inspected::Scales& scales() const { return scales_; }

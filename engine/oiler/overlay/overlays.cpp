@@ -47,7 +47,7 @@ float room_of(const Label& label, const OverlayArea& area) {
     return label.align == Align::right ? left : 2 * std::min(left, right);
 }
 
-/// The lines at the top of an area that a verdict has. The last one ends with a hint.
+/// The lines of a verdict at the top of an area. The last one ends with a hint.
 struct Band {
     static constexpr float margin = 8;
     static constexpr float usual_letters = 130;  ///< of a verdict
@@ -66,7 +66,7 @@ struct Band {
     static float letter(float size) { return overlay_letter_width * size; }
     [[nodiscard]] float line() const { return 1.43F * size; }
     [[nodiscard]] float height() const { return static_cast<float>(lines) * line(); }
-    /// Lines of text that keep from the mark, and the last one from the hint.
+    /// Lines of text with room for the mark and, in the last line, for the hint.
     [[nodiscard]] std::vector<std::string> broken(const std::string& text, float text_size) const {
         const auto most = [&](float room) {
             return static_cast<std::size_t>(std::max(1.0F, room / letter(text_size)));
@@ -74,7 +74,7 @@ struct Band {
         const float beside_hint = width - letter(size) * static_cast<float>(hint.size() + 2);
         std::vector<std::string> found = wrapped(text, most(lines > 1 ? width : beside_hint));
         if (found.size() == lines && lines > 1 && found.back().size() > most(beside_hint))
-            found.emplace_back();  // one too many
+            found.emplace_back();  // one too many: the text does not fit
         return found;
     }
 

@@ -10,7 +10,7 @@
 
 namespace oiler {
 
-/// The layer of what the loop draws: over all that games draw.
+/// The layer of the loop's own elements: above all layers of games.
 inline constexpr int overlay_layer = std::numeric_limits<int>::max();
 
 /// A part of a window that the loop draws over. Points are in units of the canvas; the part reaches
@@ -26,7 +26,7 @@ struct OverlayArea {
     float pixels;  ///< of a unit
 };
 
-/// Adds what the loop does at the moment, such as a pause, at the lower right; nothing if empty.
+/// Adds the state of the loop, such as a pause, at the lower right; nothing if empty.
 void add_status(Picture& overlay, const OverlayArea& area, std::string status);
 
 [[nodiscard]] Colour colour_of(Verdict::Grade grade);
@@ -39,11 +39,11 @@ void add_status(Picture& overlay, const OverlayArea& area, std::string status);
 /// fit into it.
 void add_verdict(Picture& overlay, const OverlayArea& area, const Verdict& verdict);
 
-/// Adds a sheet that says what happened, and what is left to do.
+/// Adds a sheet with an event and its remedy.
 void add_notice(Picture& overlay, const OverlayArea& area, const std::string& text,
                 const std::string& remedy);
 
-/// Enlarges the labels of a game that nobody could read in an area of that size, at most twice and
+/// Enlarges the illegible labels of a game in an area of that size, to at most twice their size and
 /// not beyond its edges.
 void keep_legible(Picture& picture, const OverlayArea& area);
 

@@ -81,7 +81,7 @@ void Trails::add(const DrawnBodies& drawn, const World& world, const std::vector
         if (!look) continue;
         Trail& trail = trail_of(body);
         trail.look = *look;
-        // The last sample moves with the body until it is far enough from the one before.
+        // The last sample is replaced until it is late enough after the one before.
         if (trail.samples.size() > 1 &&
             trail.samples.back().time - std::prev(trail.samples.end(), 2)->time <
                 duration / most_samples)

@@ -13,18 +13,18 @@
 
 namespace oiler {
 
-/// The paths that bodies took as drawn, and those that they truly take. A path that was undone is
-/// forgotten: time has gone back.
+/// The paths of bodies as drawn, and their true paths. When time goes back, later samples are
+/// removed.
 class Trails {
 public:
     static constexpr double duration = 2;         ///< s of simulated time
-    static constexpr double longest_frame = 0.5;  ///< s; a longer one is a leap, not a path
+    static constexpr double longest_frame = 0.5;  ///< s; a longer one interrupts the path
 
-    /// Keeps where the bodies are drawn at `time`, s. `ghosts` are at the same time.
+    /// Samples the drawn positions of bodies at `time`, s. `ghosts` are at the same time.
     void add(const DrawnBodies& drawn, const World& world, const std::vector<Entity>& bodies,
              const std::vector<Ghost>& ghosts, double time);
-    /// Adds them under the bodies, the true ones thin. With a factor, their distances are drawn so
-    /// many times as long.
+    /// Adds the paths under the bodies, the true ones thin. Errors are drawn `factor` times as
+    /// long.
     void draw(Picture& picture, double factor) const;
     void clear() { trails_.clear(); }
 
@@ -33,7 +33,7 @@ private:
         double time;
         std::uint32_t jumps;
         Point at;
-        std::optional<Point> off;  ///< to where the body truly is
+        std::optional<Point> off;  ///< from the drawn to the true position
     };
     struct Trail {
         Entity body{};

@@ -109,7 +109,7 @@ std::vector<std::string> kinds_of(const RecordingHeader& header) {
     return kinds;
 }
 
-/// Reads the records of a chunk. Returns what is wrong with them; empty: nothing.
+/// Reads the records of a chunk. Returns an error in them; empty: none.
 std::string read_records(std::string_view bytes, Recording& recording, std::int64_t& step) {
     while (!bytes.empty()) {
         if (recording.complete) return "it goes on after its end";
@@ -156,7 +156,7 @@ void require_recordable(const std::filesystem::path& path) {
     if (!is_old) std::filesystem::remove(path);
 }
 
-/// A file that is read from its begin, with the hash of what was read.
+/// Reads a file from its start and hashes the bytes read.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -168,7 +168,7 @@ public:
         read_.add(std::as_bytes(std::span(bytes)));
         return bytes;
     }
-    /// Whether a seal is that of all before it.
+    /// Takes a seal. Returns whether it is the hash of all bytes before it.
     bool take_seal() {
         const std::uint64_t hash = read_.value();
         std::string_view seal = take(seal_size);
@@ -256,7 +256,7 @@ void RecordingWriter::add_hashes(std::int64_t step, const AnyGame& game) {
 void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diverged) {
     if (steps == 0) return;
     const bool quits = game.loop().quits();
-    // A game that quits has changed in the update that did it.
+    // The update that quits has changed the game since its last step.
     if (!quits && !diverged && hashed_step_ < steps - 1) add_hashes(steps - 1, game);
     begin_record(std::max(steps, last_step_));
     records_.push_back(static_cast<char>(quits ? quit_record : end_record));

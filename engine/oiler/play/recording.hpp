@@ -61,8 +61,8 @@ public:
 
     /// Records the input of a step, before it.
     void add(std::int64_t step, const Input& input);
-    /// Records the hashes after that step, or after fewer steps of a world with more than 1000
-    /// bodies: 1000 bodies per step are hashed, and all at the end of each second.
+    /// Records the hashes after that step. With more than 1000 bodies, only some steps are hashed:
+    /// about 1000 bodies per step, and the last step of each second.
     void add_state(std::int64_t step, const AnyGame& game);
     /// Completes the file, or leaves it alone if no step was taken. The game is in its state after
     /// `steps` steps, unless it diverged.

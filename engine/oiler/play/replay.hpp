@@ -19,7 +19,7 @@ public:
     virtual void after(std::int64_t step, const AnyGame& game) = 0;
 };
 
-/// Records what a source of input hands out.
+/// Records the input of another source, and the states of the game.
 class InputRecorder final : public InputSource, public StepWatcher {
 public:
     InputRecorder(InputSource& inputs, const std::filesystem::path& path,
@@ -44,7 +44,7 @@ private:
 /// Plays a recording, and compares the game with it after each step.
 class Replay final : public InputSource, public StepWatcher {
 public:
-    /// With `plays_on`, differences are remembered and not thrown.
+    /// With `plays_on`, a difference is kept and does not throw.
     Replay(const Recording& recording, std::string name, ChosenControls controls = {},
            bool plays_on = false)
         : recording_(recording),
@@ -53,10 +53,10 @@ public:
           plays_on_(plays_on) {}
 
     [[nodiscard]] Input next(std::int64_t step) override;
-    /// Throws Error{comparison_failed} with the first step that differs, and in which part.
+    /// Throws Error{comparison_failed} with the first step that differs, and the part.
     void after(std::int64_t step, const AnyGame& game) override;
-    /// Throws Error{comparison_failed} if a game that has taken `steps` steps quits before it did
-    /// in the recording, or goes on where it quit there.
+    /// Throws Error{comparison_failed} if a game quits after `steps` steps, but later in the
+    /// recording, or continues although it quit there.
     void compare_end(std::int64_t steps, bool quits);
     /// The first difference; empty if there is none.
     [[nodiscard]] const std::string& difference() const { return difference_; }

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Between two copies, at least.
+/// The least number of steps between two copies.
 constexpr std::int64_t least_steps = 16;
 
 }  // namespace
@@ -59,7 +59,7 @@ void Rewind::forget_oldest(std::int64_t step) {
 }
 
 void Rewind::keep(std::int64_t step) {
-    if (step > at_ && at_ < last_) forget_after(at_);  // a game without input asks for none
+    if (step > at_ && at_ < last_) forget_after(at_);  // a game without input never calls next()
     at_ = step;
     last_ = std::max(last_, step);
     if (game_.world().body_count() > limits_.bodies) {
@@ -106,7 +106,7 @@ Input Rewind::go_to(std::int64_t step) {
     game_.assign(*start.game);
     Past past(spans_);
     while (at < step) {
-        // The next step back finds a copy close by, and the later ones find others.
+        // Copies at half the distance: later steps back start close to their target.
         const std::int64_t left = step - at;
         const std::int64_t count = left > least_steps ? left / 2 : left;
         game_.step(at, count, past);

@@ -26,8 +26,8 @@ public:
         std::size_t copies = 128;
         std::size_t bodies = 200'000;    ///< of a game
         std::size_t inputs = 250'000;    ///< about 50 MB
-        std::size_t copied = 4'000'000;  ///< bodies in all copies together; two copies are kept
-        int time_per_copy = 400;         ///< ratio of the time between copies to that of a copy
+        std::size_t copied = 4'000'000;  ///< bodies in all copies, at least two, together
+        int time_per_copy = 400;         ///< the time between copies over the time of a copy
     };
 
     /// The game has taken no step. It and the inputs must outlive this.
@@ -45,10 +45,10 @@ public:
     [[nodiscard]] std::int64_t first() const { return copies_.front().step; }
     /// The last step that the game is known to have taken.
     [[nodiscard]] std::int64_t last() const { return last_; }
-    /// Makes the game as it was after `step` steps, from `first` to `last`. What came then is
-    /// forgotten once the game takes another step. Returns the input that its last step saw.
+    /// Restores the game after `step` steps, from `first` to `last`. Later steps are forgotten once
+    /// the game takes another step. Returns the input that its last step saw.
     Input go_to(std::int64_t step);
-    /// Forgets all that was before: the game was replaced after `step` steps.
+    /// Forgets all steps before `step`, after which the game was replaced.
     void forget(std::int64_t step);
 
 private:
@@ -72,8 +72,8 @@ private:
     AnyGame& game_;
     InputSource& inputs_;
     Limits limits_;
-    std::int64_t at_ = 0;    ///< the step at which the game was seen
-    std::int64_t last_ = 0;  ///< that was taken
+    std::int64_t at_ = 0;    ///< the number of steps that the game has taken
+    std::int64_t last_ = 0;  ///< the largest number that it has taken
     std::vector<Copy> copies_;
     std::deque<Span> spans_;
     std::chrono::steady_clock::time_point next_copy_{};

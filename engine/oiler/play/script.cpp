@@ -157,7 +157,7 @@ InputEvent edge(Button button, bool down) {
 
 using Controls = std::span<const Control>;
 
-/// A thing that a player can do, by its word in a script.
+/// A kind of input, by its word in a script.
 struct Deed {
     std::string_view word;
     void (*take)(LineWords& words, Controls controls, ScriptLine& line);

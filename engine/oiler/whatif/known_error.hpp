@@ -21,8 +21,8 @@ enum class Grade {
 /// "30 nm", "2 mm", "7.5 cm", "3.1 m".
 [[nodiscard]] std::string length_text(double metres);
 
-/// A measured error and what is known of it. The reference has an uncertainty: errors below ten
-/// times that are only known to be below that limit.
+/// A measured error and its limit: 10 × the uncertainty of the reference. Errors below the limit
+/// are only known to be below it.
 class KnownError {
 public:
     enum class State {
@@ -41,9 +41,9 @@ public:
     [[nodiscard]] bool is_certain() const { return state() == State::certain; }
     [[nodiscard]] double value() const { return error_; }
     [[nodiscard]] double limit() const { return limit_; }
-    /// The largest size that it may have; NaN if it is unknown.
+    /// The largest value that the error may have; NaN if it is unknown.
     [[nodiscard]] double most() const { return std::max(std::abs(error_), limit_); }
-    /// Whether it is known to be below a hundredth of a pixel, though not to a digit.
+    /// Whether the error is below its limit, and that is at most a hundredth of a pixel.
     [[nodiscard]] bool is_exact(double pixel) const {
         return state() == State::below_limit && limit_ <= 0.01 * pixel;
     }

@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto time_of_frame = 1ms;
-constexpr int part_of_slow_frame = 16;  // playing along may take that part of a slow frame
+constexpr int part_of_slow_frame = 16;  // playing along may take 1/16 of a slow frame
 constexpr auto time_of_verdict = 100ms;
 constexpr std::int64_t longest_delay = 2;  // s
 constexpr std::int64_t longest_delay_in_steps = 60;

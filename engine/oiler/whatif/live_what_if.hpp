@@ -11,24 +11,24 @@
 
 namespace oiler {
 
-/// Measures what the timestep costs while a game is played: the reference and the usual other
-/// settings play along with the player's input, in the time that is left. The game never sees them.
+/// Measures the error of the timestep while a game is played. The reference and the usual other
+/// settings play along with the player's input, in spare time. The game never sees them.
 class LiveWhatIf {
 public:
-    /// Whether it plays in the time that a frame leaves, or takes the time that it needs.
+    /// of_frames: plays along in the spare time of frames; own: takes all the time it needs.
     enum class Pace { of_frames, own };
 
-    /// The game is played with `play`, whose recording is that of the inputs.
+    /// `play` has the game's settings and controls. The inputs are added to its recording.
     LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace = Pace::of_frames);
     LiveWhatIf(const LiveWhatIf&) = delete;
     LiveWhatIf& operator=(const LiveWhatIf&) = delete;
 
-    /// Begins with the game as it is made, before its step `first`.
+    /// Begins with a new game, before its step `first`.
     void start(std::int64_t first);
-    /// Begins in the same way with another setting of the game.
+    /// Begins with a new game and another setting.
     void start(std::int64_t first, const Stepping& stepping);
-    /// Begins again with the game as it is made. The last result stays until as much is measured
-    /// anew, unless there is input. The rate that it advises plays along, too.
+    /// Begins again with a new game; the rate that the last result advises plays along, too. Unless
+    /// there is input, the last result stays until as much is measured again.
     void repeat(std::int64_t first);
     /// Begins with the game as it is now, before its step `first`.
     void start_from(const AnyGame& game, std::int64_t first);
@@ -36,7 +36,7 @@ public:
     void add(std::int64_t step, const Input& input);
     /// Plays along until that step of the game begins, or for a short time at the pace of frames.
     void play_until(std::int64_t step);
-    /// Ends it: the game is no longer what the input made of it.
+    /// Stops measuring. The verdict becomes `reason`.
     void stop(std::string reason);
     /// The number of steps until the game's step `step` that are still to be played.
     [[nodiscard]] std::int64_t behind(std::int64_t step) const {
@@ -55,12 +55,12 @@ public:
     [[nodiscard]] WhatIf result() const { return runs_->result(); }
     /// The result so far as a sentence, which is renewed ten times a second at the pace of frames.
     [[nodiscard]] const Verdict& verdict();
-    /// Whether the result is that of the round that this one repeats.
+    /// Whether the result is still that of the last round, which this one repeats.
     [[nodiscard]] bool repeats() const { return repeats_; }
     /// The result that the last verdict judges; empty if there is none.
     [[nodiscard]] const std::optional<WhatIf>& measured() const { return measured_; }
-    /// The bodies and their true places, `alpha` between the last step and that before; empty if
-    /// these are not known, or not yet those of the game's step `step`.
+    /// The bodies and their true positions, at `alpha` between the last two steps; empty if those
+    /// are unknown or the game's step `step` is still to be played along.
     [[nodiscard]] std::vector<Ghost> ghosts(std::int64_t step, double alpha) const;
     /// The largest error of a body as it is drawn, in each of the last steps, m.
     [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
@@ -81,7 +81,7 @@ private:
     Input before_{};
     std::optional<WhatIfRuns> runs_;  ///< empty: no run plays along
     std::int64_t played_ = 0;
-    int slow_ = 0;              ///< the number of last steps that each took too long
+    int slow_ = 0;              ///< the number of steps in a row that took too long
     Clock::time_point last_{};  ///< when it last played along
     bool repeats_ = false;
     bool began_at_start_ = false;

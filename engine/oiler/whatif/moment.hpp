@@ -29,15 +29,15 @@ struct Moment {
 /// Whether bodies, teleports, restarts and whole-number readings are the same.
 [[nodiscard]] bool is_same_play(const Moment& a, const Moment& b);
 
-/// The bodies that both have and that were teleported in neither or in both, in pairs.
+/// Pairs of the bodies that both have and that were teleported equally often.
 [[nodiscard]] std::vector<std::pair<const Moment::Placed*, const Moment::Placed*>> same_bodies(
     const Moment& a, const Moment& b);
 
-/// The bodies as they are drawn at `alpha` between two moments, those that neither appeared nor
-/// were teleported meanwhile; the rest as it is after them.
+/// The bodies as drawn at `alpha` between two moments, without those that appeared or were
+/// teleported meanwhile. All else is as in `after`.
 [[nodiscard]] Moment between(const Moment& before, const Moment& after, double alpha);
 
-/// A body that is away from where it is in another play.
+/// The distance between the positions of a body in two plays.
 struct Apart {
     double distance = 0;  ///< m
     Entity body{};
@@ -46,7 +46,7 @@ struct Apart {
 /// play.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
 
-/// A body where a run has it, and where the reference has it at the same time, m.
+/// The positions of a body in a run and in the reference at the same time, m.
 struct Ghost {
     Entity body{};
     Vec3 at{};
@@ -57,11 +57,11 @@ struct Ghost {
 
 inline constexpr std::size_t most_ghosts = 100;
 
-/// The bodies of a run that the reference has, too, unless they were teleported in one of the two.
-/// If there are more than `most_ghosts`, those with the largest errors are kept.
+/// Ghosts of the bodies that both have and that were teleported equally often: at most
+/// `most_ghosts`, those with the largest errors.
 [[nodiscard]] std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference);
 
-/// The ghosts with the largest errors, at most so many.
+/// The ghosts with the largest errors, at most `most`.
 [[nodiscard]] std::vector<Ghost> furthest(std::vector<Ghost> ghosts, std::size_t most);
 
 }  // namespace oiler

@@ -17,11 +17,11 @@ constexpr double most_pixels = 99'999;
 
 double cost(const WhatIfRun& run) { return run.costs.of_steps(); }
 
-/// A cure has no larger error than the height of a picture, in pixels.
+/// The largest error of a cure, pixels: the height of a picture.
 constexpr double most_cured = 720;
 
-/// The other run with the smallest error, if that is at most half of the played one and in the
-/// picture; else null.
+/// The other run with the smallest error; null if that is above half of the played run's error or
+/// above the height of the picture.
 const WhatIfRun* best(const WhatIf& measured) {
     const WhatIfRun* best = nullptr;
     double least = std::min(measured.runs.front().distance / 2, most_cured * measured.pixel);
@@ -41,7 +41,7 @@ bool is_cheaper(const WhatIfRun& a, const WhatIfRun& b) {
     return certain ? cost(a) < cost(b) : a.evaluations < b.evaluations;
 }
 
-/// The cheapest other run whose errors no player sees, or else the best; null if there is none.
+/// The cheapest other run with errors below a pixel, else the best; null if there is none.
 const WhatIfRun* cure(const WhatIf& measured) {
     const WhatIfRun* cheapest = nullptr;
     for (const WhatIfRun& run : std::span(measured.runs).subspan(1)) {
@@ -77,7 +77,7 @@ std::string cure_text(const WhatIf& measured) {
                        error_text(*run, measured), price_text(*run, measured));
 }
 
-/// The reading with the largest relative error, of those that do not change; null if none is wrong.
+/// The unchanging reading with the largest relative error; null if none is wrong.
 const Reading* worst_reading(const WhatIf& measured, const std::vector<Reading>& before) {
     const std::vector<Reading>& played = measured.runs.front().readings;
     const std::vector<Reading>& truth = measured.reference.readings;
@@ -112,7 +112,7 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
                        short_text(measured.runs.front().stepping));
 }
 
-/// With two digits.
+/// Rounds to two digits.
 std::int64_t to_two_digits(double rate) {
     const double unit = std::pow(10, std::floor(std::log10(rate)) - 1);
     return std::llround(std::round(rate / unit) * unit);
@@ -149,8 +149,8 @@ struct Trend {
     double order;       ///< of the error, between half the rate and the rate
 };
 
-/// The trend up to the highest rate whose half and quarter are measured, too; empty if the two
-/// orders on the way there differ.
+/// The trend up to the highest rate whose half and quarter are measured, too; empty if the order is
+/// low or not the same at both halvings.
 std::optional<Trend> trend_of(const WhatIf& measured) {
     constexpr double least_order = 0.7;
     constexpr double most_apart = 0.3;  // of orders
@@ -230,7 +230,7 @@ std::optional<RateAdvice> advise_rate(const WhatIf& measured) {
     const auto found = std::ranges::find_if(offered_rates, [&](std::int64_t rate) {
         return rate % played == 0 && static_cast<double>(rate) >= *promised;
     });
-    // A rate that is measured and beyond a pixel refutes the promise.
+    // A measured rate with an error beyond a pixel refutes the extrapolation.
     if (found == offered_rates.end() || run_at(*found, measured)) return std::nullopt;
     return RateAdvice{*found, false};
 }

@@ -11,8 +11,8 @@
 
 namespace oiler {
 
-/// One sentence on what the timestep costs: the largest error that a player could see, and what
-/// mends it.
+/// One sentence on the error of the timestep: the largest error that a player could see, and its
+/// cure.
 struct Verdict {
     using Grade = oiler::Grade;
 
@@ -25,21 +25,20 @@ struct Verdict {
 /// Then it names the cure: the cheapest other run with an error below a pixel, or else the most
 /// accurate one.
 ///
-/// A reading in m is wrong by more than a pixel, one in another unit by more than a hundredth. It
-/// must be what it was `before`: a reading that still changes may differ by a step, which is no
-/// error. Only certain errors are named, see KnownError. Prices below 10 µs a frame are not
-/// compared.
+/// A reading in m is wrong from an error of a pixel on, in another unit from a hundredth on.
+/// Readings that changed since `before` are not judged: they may be a step late, which is no error.
+/// Only certain errors are named, see KnownError. Prices below 10 µs a frame are not compared.
 [[nodiscard]] Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before,
                                     double begin,
                                     const std::function<std::string(Entity)>& name_of);
 
-/// Shorter times are not certain beside a game, ns a frame.
+/// The least time that can be measured reliably beside a game, ns a frame.
 inline constexpr double least_cost = 10'000;
 
 /// A rate at which the played method, the first of the runs, is within a pixel.
 struct RateAdvice {
     std::int64_t rate;  ///< Hz
-    bool is_measured;   ///< a run has that rate; else it is what the runs at other rates promise
+    bool is_measured;   ///< a run has that rate; else it is extrapolated
 };
 
 /// The lowest measured rate with errors below a pixel. If there is none, and if the errors converge
@@ -47,12 +46,12 @@ struct RateAdvice {
 /// expected. Empty if neither is known.
 [[nodiscard]] std::optional<RateAdvice> advise_rate(const WhatIf& measured);
 
-/// The rates of the played method to measure next: the advised one, else rates so high that their
-/// errors shrink as those of the method's order do. None if they took too much of a frame's time.
+/// The rates of the played method to measure next: the advised one, else rates high enough to show
+/// the method's order. None if they would take too much of a frame's time.
 [[nodiscard]] std::vector<std::int64_t> rates_to_try(const WhatIf& measured);
 
-/// "120 Hz of this method is within a pixel so far.", or what it takes; empty if nothing is
-/// measured.
+/// "120 Hz of this method is within a pixel so far.", or the rate it would need; empty if nothing
+/// is measured.
 [[nodiscard]] std::string rate_advice_text(const WhatIf& measured);
 
 }  // namespace oiler

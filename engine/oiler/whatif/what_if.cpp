@@ -96,7 +96,7 @@ ns per frame: at 60 frames per second, means without the fastest and the slowest
    in its own updates is late by up to a step of the reference in both, and may be missing there.
 )";
 
-/// Formats a time that may not come, s.
+/// Formats a time in s; "-" if there is none.
 std::string time_cell(const std::optional<double>& time) {
     return time ? fmt::format("{:.3f}", *time) : "-";
 }
@@ -119,7 +119,7 @@ double error_of(const Reading& reading, const WhatIfRun& run) {
     const Reading* const truth = find_reading(run.true_readings, reading.name);
     return reading.value - (truth ? truth->value : std::numeric_limits<double>::quiet_NaN());
 }
-/// The uncertainty of a reading of the reference; infinite if the run that checks it lacks it.
+/// The uncertainty of a reading of the reference; infinite if the check run lacks the reading.
 double uncertainty_of(const std::string& reading, const WhatIf& result) {
     const Reading* const check = find_reading(result.check.readings, reading);
     return check ? std::abs(error_of(*check, result.check))

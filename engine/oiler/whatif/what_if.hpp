@@ -17,13 +17,13 @@ namespace oiler {
 
 class DrawTimer;
 
-/// A recording, and what else decides how its game is played.
+/// A recording, with the settings and controls to play it.
 struct RecordedPlay {
     Settings settings;          ///< those that were recorded
     ChosenControls controls{};  ///< the player's
     Recording recording{};
     std::string name{};     ///< of its file, for messages
-    bool plays_on = false;  ///< also where it differs from the recording
+    bool plays_on = false;  ///< differences from the recording do not end it
 };
 
 /// A recording played with another setting, compared with the reference.
@@ -36,13 +36,13 @@ struct WhatIfRun {
     /// The largest distance at steps alone, m.
     double distance_at_steps = std::numeric_limits<double>::quiet_NaN();
     double distance_now = 0;  ///< m, as drawn, the largest in the last recorded step
-    /// The time from which a body is further away than a pixel and the uncertainty, s.
+    /// The time from which a body is further away than a pixel plus the uncertainty, s.
     std::optional<double> visible_from{};
     /// The time from which the play is another one, s. No distance is counted from there on.
     std::optional<double> other_play_from{};
     std::string failure{};  ///< the error that ended the run; empty: none
-    /// The readings at the end of the last recorded step that the run has, too, and those of the
-    /// reference then.
+    /// The readings at the last recorded step that coincides with a step of the run, and the
+    /// reference's readings then.
     std::vector<Reading> readings{};
     std::vector<Reading> true_readings{};
     double read_at = 0;  ///< s
@@ -51,7 +51,7 @@ struct WhatIfRun {
     /// Evaluations of the forces on a body per second of play; 0: none were counted.
     double evaluations = 0;
 
-    /// Whether it is the same play to its end.
+    /// Whether the run never failed and stayed the same play.
     [[nodiscard]] bool is_sound() const { return failure.empty() && !other_play_from; }
 };
 
@@ -72,8 +72,8 @@ struct WhatIf {
 };
 
 /// Reads settings such as "30,rk4,velocity_verlet@120,float". The words of a setting, with @
-/// between them, are a rate in Hz, a method, a precision and a damping. The recording's hold where
-/// a setting names none. Throws Error{usage}.
+/// between them, are a rate in Hz, a method, a precision and a damping. Omitted words are those of
+/// the recording. Throws Error{usage}.
 [[nodiscard]] std::vector<Stepping> parse_what_if(const std::string& words,
                                                   const Stepping& recorded);
 
@@ -91,9 +91,9 @@ struct WhatIf {
 /// restarts or whole-number readings have differed for 0.25 s: a shorter difference is a delay.
 /// While they differ, no body is compared.
 ///
-/// A run at 7/16 of the reference's rate checks the reference, which is uncertain once that run is
-/// another play, or further away than a pixel. A pixel is 1/720 of the height that the reference's
-/// camera shows then.
+/// A run at slightly less than half of the reference's rate checks the reference, which is
+/// uncertain once that run is another play, or further away than a pixel. A pixel is 1/720 of the
+/// height that the reference's camera shows then.
 ///
 /// Empty if interrupted. Without `draw`, drawing is not timed. Throws Error{comparison_failed} if
 /// the recorded setting does not reproduce the recording, and Error{diverged} if the reference

@@ -31,7 +31,7 @@ std::optional<Apart> largest_drawn(const Moment& before, const Moment& after, do
     return largest_distance(truth, between(before, after, alpha));
 }
 
-/// Keeps a time, of many the last ones.
+/// Keeps the last 4096 times.
 void keep(Times& times, std::chrono::nanoseconds time, std::int64_t step) {
     constexpr std::size_t most = 4096;
     if (times.size() < most)
@@ -51,7 +51,7 @@ double middle_mean(Times times) {
     return static_cast<double>(sum.count()) / static_cast<double>(std::ssize(times) - 2 * quarter);
 }
 
-/// The time that a stopwatch measures of itself, ns.
+/// The time that an empty Stopwatch measures, ns.
 double time_of_stopwatch() {
     Times times(101);
     for (std::chrono::nanoseconds& time : times) {
@@ -77,9 +77,9 @@ Stepping reference_stepping(const RecordedPlay& play) {
     rate.steps *= reference_factor(play);
     return {.method = &find_method("rk4"), .rate = rate};
 }
-/// A little less than half the rate of the reference: both begin a step at the same time only
-/// where a recorded one begins, so that what a game does in its updates, such as a bounce, is late
-/// by different times.
+/// Slightly less than half the rate of the reference: both begin a step at the same time only where
+/// a recorded step begins. So events in a game's updates, such as bounces, are late by different
+/// times.
 Stepping check_stepping(const RecordedPlay& play) {
     Stepping stepping = reference_stepping(play);
     stepping.rate = play.recording.header.stepping.rate;
@@ -253,7 +253,7 @@ void WhatIfRuns::play_until(std::int64_t step) {
 void WhatIfRuns::compare_end() {
     SettingRun& recorded = *runs_.front();
     if (!recording_.quits || recorded.failed()) return;
-    // A game that quits does it in the update of a step that it does not take.
+    // A game quits in the update of a step that it does not take.
     recorded.play_until(recording_.steps + 1);
     replay_.compare_end(recorded.steps(), recorded.game().loop().quits());
 }

@@ -26,7 +26,7 @@ public:
           renderer_([this](const char* name) { return surface_->procedure(name); }),
           size_(size) {}
 
-    /// The time to draw a picture and to read its pixels: only then drawing has surely ended.
+    /// The time to draw a picture and to read its pixels. Drawing may only end with the reading.
     [[nodiscard]] std::chrono::nanoseconds time(const Picture& picture) {
         const auto start = std::chrono::steady_clock::now();
         renderer_.draw(picture, size_);
@@ -60,8 +60,8 @@ public:
 
     /// Takes all steps until a recorded one begins, unless one fails.
     void play_until(std::int64_t recorded);
-    /// Takes them, and compares the bodies as they are drawn between these steps and at their ends
-    /// with the moments of the reference. A player sees larger distances than `visible`, m.
+    /// Takes these steps, and compares the bodies as drawn, between the steps and at them, with the
+    /// moments of the reference. Distances above `visible`, m, are visible to a player.
     void play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth, double visible);
     /// Takes all steps until an instant.
     void play_until_instant(std::int64_t index);
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] const Moment& moment();
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const WhatIfRun& result() const { return result_; }
-    /// Whether the play was another one at the last time of comparison.
+    /// Whether the play was another one when it was last compared.
     [[nodiscard]] bool differs() const { return differs_from_.has_value(); }
     [[nodiscard]] bool failed() const { return !result_.failure.empty(); }
     /// The result with costs and readings.
@@ -99,7 +99,7 @@ private:
     std::unique_ptr<AnyGame> game_;
     std::int64_t steps_ = 0;
     std::int64_t evaluations_ = 0;
-    std::optional<Moment> moment_;  ///< empty: a step was taken since
+    std::optional<Moment> moment_;  ///< empty if a step was taken since
     std::optional<double> differs_from_;
     std::vector<std::chrono::nanoseconds> updates_;
     std::vector<std::chrono::nanoseconds> world_steps_;
@@ -133,24 +133,23 @@ public:
         Moment run;
         Moment truth;
     };
-    /// At `alpha` between the last step and that before; empty if the true motion is not known, or
-    /// another play.
+    /// At `alpha` between the last two steps; empty if the true motion is unknown or another play.
     [[nodiscard]] std::optional<Drawn> drawn(double alpha) const;
     /// Whether later steps are compared, too.
     [[nodiscard]] bool certain() const { return certain_; }
 
 private:
-    /// Plays the reference and the run that checks it, and keeps its moments while it is certain.
-    /// Returns whether it is as that recorded step begins.
+    /// Plays the reference and the check run, and keeps the reference's moments while it is
+    /// certain. Returns whether it is certain when that recorded step begins.
     bool play_reference(std::int64_t step);
-    /// Compares the reference with the run that checks it.
+    /// Compares the reference with the check run.
     bool check(std::int64_t step, const Moment& moment);
     [[nodiscard]] double visible() const { return pixel_ + uncertainty_; }
 
     const Recording& recording_;
     Replay replay_;
     SettingRun reference_;
-    SettingRun check_;  ///< the reference at another rate
+    SettingRun check_;  ///< the check run: the reference at another rate
     std::vector<std::unique_ptr<SettingRun>> runs_;
     Moment before_;                 ///< of the recorded setting, one step ago
     std::deque<TrueMoment> truth_;  ///< since the slowest run's last step
