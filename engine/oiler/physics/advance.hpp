@@ -85,7 +85,7 @@ struct Stages {
 
 /// One step of a Runge–Kutta method from time `t` (s): the article's evaluate and integrate, for
 /// any tableau. Each stage starts from the initial state plus the weighted rates of the stages
-/// before it. The states are not in one Stages with k, whose indices would keep them in memory.
+/// before it. The states are separate from k, whose indices would keep them in memory.
 template <IsTableau Plan, class State, class Physics>
 [[gnu::always_inline]] inline void advance(const Plan& plan, State& state, Physics& physics,
                                            double t, Derivatives<State>& k, State& initial,
@@ -177,8 +177,8 @@ template <std::floating_point T, class State, class Physics>
     return false;
 }
 
-/// The same for linear forces. The first iteration is exact but for round-off, which the second
-/// removes.
+/// An implicit step under linear forces. The first iteration is exact but for round-off, which the
+/// second removes.
 template <std::floating_point T, class State, IsLinear Physics>
 [[gnu::always_inline]] inline bool advance(const ImplicitPlan<T>& plan, State& state,
                                            Physics& physics, double t) {

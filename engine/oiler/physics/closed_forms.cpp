@@ -138,8 +138,8 @@ State<T, 3> Ellipse<T>::at(T t, Solution& solution) const {
     return {x, start_.x * f_rate + start_.v * (1 - a_ / now * versine)};
 }
 
-// Halley's iteration, with bisection where a step leaves the bracket: the two changes are within 3
-// of each other. The iteration is cubic.
+// Halley's cubic iteration, with bisection where a step leaves the bracket: the changes of the mean
+// and the eccentric anomaly are within 3 of each other.
 template <class T>
 std::pair<T, T> Ellipse<T>::solve(T mean, Solution& solution) const {
     constexpr T last_step = 1e-7L;

@@ -68,7 +68,7 @@ public:
     [[nodiscard]] T period() const { return 2 * std::numbers::pi_v<T> / n_; }  ///< s
     /// The state `t` s after the start.
     [[nodiscard]] State<T, 3> at(T t) const;
-    /// The same, with Newton's iteration from a solution, which becomes that of `t`.
+    /// Like at(t), with Newton's iteration from a solution, which becomes that of `t`.
     State<T, 3> at(T t, Solution& solution) const;
 
 private:
@@ -83,7 +83,7 @@ private:
     T root_;           ///< √(gm·a), m²/s
 };
 
-/// The motion on such an orbit `t` s after any of its points `start`.
+/// The state on an elliptic orbit `t` s after any of its points `start`, see Ellipse.
 template <class T>
 [[nodiscard]] State<T, 3> kepler(T gm, const State<T, 3>& start, T t) {
     return Ellipse<T>(gm, start).at(t);

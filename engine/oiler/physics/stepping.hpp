@@ -20,7 +20,7 @@ enum class Precision {
 
 /// "float" or "double", as in options and files, or "long double".
 [[nodiscard]] std::string_view name_of(Precision precision);
-/// The precision of a game that has such a name; empty if there is none.
+/// The precision of that name, for games; empty if there is none.
 [[nodiscard]] std::optional<Precision> find_precision(std::string_view name);
 
 /// The setting of a run (method, rate, precision, damping), in games, scenes, options, manifests

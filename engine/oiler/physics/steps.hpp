@@ -36,7 +36,7 @@ struct Divergence {
     Of of;
 };
 
-/// Keeps the divergence with the smaller tick, then row; of one row that of a position, then axis.
+/// Keeps the earlier divergence: by tick, row, position before velocity, then axis.
 void keep_earlier(std::optional<Divergence>& first, const std::optional<Divergence>& other);
 
 /// Returns the number by which messages name the body in a row.

@@ -85,9 +85,8 @@ public:
     /// Adds a spring between two rows. Throws Error{usage} for a number that is not finite in the
     /// columns' precision.
     LinkHandle link(std::size_t a, std::size_t b, const Link& link);
-    /// Adds a spring between a row and a fixed point. Other rows pay nothing for it; the numbers of
-    /// a Spring or CoilSpring take columns with a number for each row. The row is then stepped as a
-    /// linked one.
+    /// Adds a spring between a row and a fixed point. It costs other rows nothing, while a Spring
+    /// or CoilSpring takes columns with a number per row. The row is then stepped as a linked one.
     LinkHandle link_to_point(std::size_t row, const Vec3& point, const Link& link);
     /// Moves the point of a link to a point, m. A damper takes the point as still.
     void move_point(LinkHandle link, const Vec3& point);
@@ -113,8 +112,8 @@ public:
     /// Lets the body meet planes, or pass through them. Throws Error{usage} for a negative radius.
     void set_contact(std::size_t row, const std::optional<Contact>& contact);
     [[nodiscard]] std::optional<Contact> contact(std::size_t row) const;
-    /// The meetings with planes in the last call of step, in the order of time, then row; until
-    /// bodies or planes change.
+    /// The meetings with planes in the last call of step, in the order of time, then row. Valid
+    /// until bodies or planes change.
     [[nodiscard]] std::size_t impact_count() const;
     [[nodiscard]] BodyImpact impact_at(std::size_t i, const Rate& rate) const;
 
@@ -130,9 +129,8 @@ public:
     void set_position(std::size_t row, const Vec3& position);
     void set_velocity(std::size_t row, const Vec3& velocity);
 
-    /// Adds a force, N, over the whole next step, at every stage of the method; then it is gone. Of
-    /// several steps in a call it acts on the first. Throws Error{usage} if the acceleration is not
-    /// finite.
+    /// Applies a force, N, at every stage of the next step only, which is the first step of the
+    /// next call. Throws Error{usage} if the acceleration is not finite.
     void apply_force(std::size_t row, const Vec3& force);
     /// Changes the velocity by impulse/mass, impulse in N·s. Throws Error{usage} if the velocity is
     /// then not finite.

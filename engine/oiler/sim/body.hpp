@@ -40,7 +40,7 @@ struct Link {
     double rest_length = 0;  ///< L, m
 };
 
-/// A handle of a link. It knows when the link is gone, with either of its bodies or by unlink.
+/// A handle of a link. It becomes stale when the link is removed, by unlink or with either body.
 struct LinkHandle {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;  ///< 0 for no link

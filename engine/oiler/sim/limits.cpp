@@ -7,7 +7,7 @@
 namespace oiler {
 namespace {
 
-/// Apart from the checks, so that they are inlined.
+/// Separate from the checks, so that those are inlined.
 [[noreturn, gnu::cold]] void refuse(double number, std::string_view what, double largest) {
     throw NotFinite(Exit::usage,
                     fmt::format("{} of {}: give a number that is finite and at most {:g}", what,

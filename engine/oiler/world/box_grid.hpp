@@ -15,7 +15,7 @@ struct Bounds {
     Vec3 high;
 };
 
-/// It has no branches, because a processor cannot predict them.
+/// Has no branches, because a processor could not predict them.
 [[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
     unsigned common = 1;
     for_each_index<3>([&](auto i) {

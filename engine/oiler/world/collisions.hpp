@@ -9,12 +9,12 @@
 
 namespace oiler {
 
-/// Two bodies that touch, or touched on their ways since the update before.
+/// Two bodies that touch, or touched on their paths since the last update.
 struct Collision {
     Entity a;  ///< its row is before that of b
     Entity b;
-    /// The part of the way from the update before at which they first touch; 0 if they touched
-    /// then.
+    /// The fraction of the path since the last update at which they first touch; 0 if they touched
+    /// at that update.
     double fraction;
     bool touching;  ///< at the update
 };
@@ -26,11 +26,10 @@ struct Collision {
 /// It is a value that a game keeps and updates after each step, so other games do not pay for it.
 class Collisions {
 public:
-    /// Finds the collisions since the update before, of the same world. A body that was created or
-    /// teleported in between, or without a contact at the update before, stays at its present
-    /// place, and so do all bodies at the first update. What an entity's body does between two
-    /// updates, also if it is removed and added again, is one motion. Positions that overflow
-    /// double are left out.
+    /// Finds the collisions since the last update, of the same world. Bodies stay at their present
+    /// place if they were created or teleported since, or had no contact at that update; at the
+    /// first update, all do. All that an entity's body does between two updates is one motion, even
+    /// if it is removed and added again. Positions that overflow double are left out.
     ///
     /// The time is proportional to the number of bodies and of pairs whose paths have overlapping
     /// bounds: nearly n² for n bodies in one place, or n long paths across a crowd. Bodies of any
@@ -40,9 +39,9 @@ public:
     /// Each pair once, in the order of the rows of a, then of b. A distance that equals the sum of
     /// the radii is a touch.
     [[nodiscard]] const std::vector<Collision>& pairs() const { return pairs_; }
-    /// Calls f(a, A&, b, B&) for each pair of an entity that has A and one that has B, whichever
-    /// has the earlier row. It is a visit: see World::each. Of a pair that both have both, a is the
-    /// earlier.
+    /// Calls f(a, A&, b, B&) for each pair of an entity that has A and one that has B, in either
+    /// order of their rows. If both have both, a has the earlier row. It is a visit: see
+    /// World::each.
     template <class A, class B, class F>
     void each(World& world, F&& f) const {
         for (const Collision& pair : pairs_)
@@ -56,14 +55,14 @@ public:
     }
 
 private:
-    /// The way of a body since the update before.
+    /// The path of a body since the last update.
     struct Path {
         Vec3 start;     ///< m
         Vec3 end;       ///< m
         double radius;  ///< m
         std::uint32_t row;
     };
-    /// The place of an entity at an update.
+    /// The position of an entity at an update.
     struct Mark {
         Vec3 position{};
         std::uint64_t update = 0;  ///< from 1

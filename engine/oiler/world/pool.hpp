@@ -27,8 +27,8 @@ template <class T>
     return text.substr(begin, text.find_first_of(";]", begin) - begin);
 }
 
-/// A list in pages of equal size. Adding an item moves no other, and items of a page are walked as
-/// fast as an array.
+/// A list in pages of equal size. Adding an item moves no other, and iterating over a page is as
+/// fast as over an array.
 template <class T>
 class Pages {
 public:
@@ -141,7 +141,7 @@ protected:
     std::vector<std::uint32_t> holes_;  ///< since the last fill_holes
 };
 
-/// Places of holes in the order in which they are filled: each time, the last item is none.
+/// Places of holes, the last first: each is filled by an item that is no hole.
 inline std::vector<std::uint32_t> last_first(std::vector<std::uint32_t>& holes) {
     std::sort(holes.begin(), holes.end(), std::greater<>());
     return std::exchange(holes, {});

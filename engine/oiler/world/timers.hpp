@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::string_view type() const override { return type_name<T>(); }
 
     void add(std::int64_t tick, T message) { entries_.push_back({tick, std::move(message)}); }
-    /// Takes out what is due at a tick: the earliest first, then in the order of adding.
+    /// Removes and returns the messages due at a tick: earliest first, then in order of adding.
     [[nodiscard]] std::vector<T> take_due(std::int64_t tick) {
         const auto due =
             std::stable_partition(entries_.begin(), entries_.end(),

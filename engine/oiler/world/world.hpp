@@ -91,9 +91,9 @@ public:
 
     /// Calls f(entity, first, rest...) for each entity that has all of these components, in the
     /// order in which `First` was added, except that the last one moves to the place of a removed
-    /// one. `f` may create and destroy any entities and components: what is destroyed is gone at
-    /// once and not visited, what is new exists at once and is not visited either. References stay
-    /// valid until the outermost `each` ends. Meanwhile the world is neither stepped nor copied.
+    /// one. `f` may create and destroy any entities and components. Both take effect at once;
+    /// neither new nor destroyed ones are visited. References stay valid until the outermost `each`
+    /// ends. Until then, the world is neither stepped nor copied.
     template <class First, class... Rest, class F>
     void each(F&& f) {
         Pool<First>* const first = find_pool<First>();
@@ -198,8 +198,8 @@ public:
     void set_velocity(Entity entity, const Vec3& velocity);
     /// Moves the body to a position, m; pictures show a motion. See also teleport.
     void set_position(Entity entity, const Vec3& position);
-    /// Pushes the body with a force, N, over the whole next step; then it is gone. Forces of
-    /// several calls add up. Of several steps in a call of `step`, it acts on the first.
+    /// Applies a force, N, over the whole next step only, which is the first step of the next call
+    /// of `step`. Forces of several calls add up.
     void apply_force(Entity entity, const Vec3& force);
     /// Changes the velocity at once by impulse/mass, impulse in N·s.
     void apply_impulse(Entity entity, const Vec3& impulse);
@@ -256,9 +256,9 @@ public:
 
     /// The tick of `rate` at the present time; empty if that rate has none then.
     [[nodiscard]] std::optional<std::int64_t> tick_at(const Rate& rate) const;
-    /// Goes on from here with another method, rate or damping. What is scheduled keeps its time,
-    /// rounded up to a tick. Throws Error{usage}, and changes nothing, if the new rate has no tick
-    /// now, for another precision, and if the method cannot step these bodies.
+    /// Continues with another method, rate or damping. Scheduled messages keep their times, rounded
+    /// up to a tick. Throws Error{usage}, and changes nothing, if the new rate has no tick now, for
+    /// another precision, and if the method cannot step these bodies.
     void set_stepping(const Stepping& stepping);
     /// Steps with another number of threads from here on. Throws Error{usage} if the machine gives
     /// fewer.
@@ -324,7 +324,7 @@ private:
     }
     [[nodiscard]] std::int64_t ticks_in(double seconds) const;
 
-    /// While one lives, what is erased leaves holes; the last one fills them.
+    /// While a Visit lives, erasing leaves holes. The last Visit fills them.
     class Visit {
     public:
         explicit Visit(World& world) : world_(world) { ++world_.visits_; }

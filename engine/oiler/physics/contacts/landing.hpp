@@ -17,7 +17,7 @@ namespace oiler {
 /// How a step of a body that meets planes ended.
 enum class Landed {
     moving,
-    settled,    ///< the body stays where it is while the forces stay as they are
+    settled,    ///< the body stays in place until the forces change
     unresolved  ///< too many impacts
 };
 
@@ -72,9 +72,9 @@ private:
     static constexpr int most_events = 4096;
     /// After this many impacts at one instant, a body between planes loses all speed into them.
     static constexpr int most_bounces_at_once = 16;
-    /// Flights shorter than this part of what is left of a step are not followed one by one.
+    /// Flights shorter than this fraction of the rest of a step are not followed one by one.
     static constexpr T shortest_flight = T(1) / 64;
-    /// So many are followed nevertheless, where friction stops the body between them.
+    /// At most so many are followed nevertheless, where friction stops the body between them.
     static constexpr int most_followed = 64;
 
     [[nodiscard]] T gap_noise(const Plane& plane, const State& state) const {
@@ -129,7 +129,7 @@ private:
         lift(state);
         return leg.tau;
     }
-    /// A rest that was to come does not.
+    /// Forgets the rests on planes that the body leaves, and a rest that was to come.
     void take_off(PlaneSet from) {
         if (rest_) from |= PlaneSet{1} << rest_->plane;
         resting_ &= ~from;
@@ -144,7 +144,7 @@ private:
     }
 
     /// The planes that may bear the body: those that it touches without leaving them, or leaves for
-    /// flights lower than round-off shows.
+    /// flights that round-off hides.
     [[nodiscard]] PlaneSet bearing_planes(const State& state, const Vec& a) const {
         PlaneSet set = 0;
         PlaneSet left = 0;
@@ -204,12 +204,12 @@ private:
             if (touches(plane, state)) set |= bit_of(plane);
         return set;
     }
-    /// Ends bounces whose flights are all over within the step, or are lower than round-off shows:
-    /// with acceleration a towards the plane, all flights after a bounce to speed u last
-    /// 2u/(a·(1 − e)). Passes over flights that are much shorter than the step. In both cases the
-    /// body slides with the velocity `along` that it had between landing and being pushed off:
-    /// under constant forces, this gives the same velocity and place as all the flights, unless
-    /// friction stops it in an impact.
+    /// Ends bounces if all further flights are over within the step or hidden by round-off: with
+    /// acceleration a towards the plane, all flights after a bounce to speed u last 2u/(a·(1 − e)).
+    /// Skips flights that are much shorter than the step. In both cases the body slides with the
+    /// velocity `along` that it had between landing and being pushed off. Under constant forces,
+    /// this gives the same velocity and place as all the flights, unless friction stops it in an
+    /// impact.
     void follow_bounce(const Plane& plane, State& state, const Vec& along, T kept) {
         const Vec a = body_.accelerate(state, start_);
         const PlaneSet others = bearing_planes(state, a) & ~bit_of(plane);
@@ -246,7 +246,7 @@ private:
         const T pushes = (1 + plane.restitution) * kept;
         return (1 - plane.restitution) * length(along) <= plane.friction * pushes;
     }
-    /// The bounces of a body that slides end `after` s from now.
+    /// Predicts the rest of a sliding body whose bounces end `after` s from now.
     void report_rest(const Plane& plane, const State& state, const Support& bearing, const Vec& a,
                      T after) {
         const T speed = length(state.v);
@@ -281,8 +281,7 @@ private:
         if (largest(state.v) <= noise) state.v = {};
         state.x = support.onto(state.x, [&](const Plane& plane) { return gap_of(plane, state.x); });
     }
-    /// How much more than the pull along the planes friction could hold, m/s²; negative if it does
-    /// not hold.
+    /// Grip minus the pull along the planes, m/s²; negative if friction does not hold the body.
     [[nodiscard]] static T surplus_of_grip(const Support& support, const Vec& a) {
         return support.grip(a) + 4 * epsilon * largest(a) - length(support.without_push(a));
     }
@@ -426,7 +425,7 @@ private:
     PlaneSet met_ = 0;  ///< the planes on which the body bounced in the step
     bool settled_ = false;
     PlaneSet resting_ = 0;  ///< the planes that the body has not left since its last rest on them
-    std::optional<ImpactOf<T, Axes>> rest_;  ///< to come, if nothing happens before
+    std::optional<ImpactOf<T, Axes>> rest_;  ///< predicted, unless an event comes before
     /// The speed and the distance that round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s

@@ -41,7 +41,7 @@ protected:
     std::size_t count_ = 0;
 };
 
-/// The planes that bear a body: they take away what pushes into them.
+/// The planes that bear a body. They cancel pushes into them.
 template <std::floating_point T, int Axes>
 class Support : Normals<T, Axes> {
 public:
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] Vector reactions(const Vector& push) const {
         return weights([&](const Surface& plane) { return dot(plane.normal, push); });
     }
-    /// The part of a push along all planes: nothing, where they bear every direction.
+    /// The part of a push along all planes; 0 if they bear every direction.
     [[nodiscard]] Vector without_push(const Vector& push) const {
         return count_ == Axes ? Vector{} : push + sum_of_normals(reactions(push));
     }
@@ -166,7 +166,7 @@ class Lift : Normals<T, Axes> {
 public:
     using Surface = PlaneOf<T, Axes>;
 
-    /// The least move onto a plane and, where they would be left, those of the moves before.
+    /// The least move onto a plane, and onto planes of earlier moves that it would leave.
     /// `gap_of(plane)` is the gap before the move, m.
     template <class Gap>
     [[nodiscard]] Vec<T, Axes> onto(const Surface& plane, Gap gap_of) {
@@ -175,7 +175,7 @@ public:
             const Vec<T, Axes> ways = this->weights(gap_of);
             const T* const first = ways.axis.data();
             const T* const least = std::min_element(first, first + count_ - 1);
-            // Not finite where normals depend on each other.
+            // Not finite if the normals are linearly dependent.
             const bool needs_all = *least > 0 && std::isfinite(largest(ways));
             if (count_ == 1 || needs_all) return this->sum_of_normals(ways);
             drop(static_cast<std::size_t>(least - first));
@@ -203,7 +203,7 @@ private:
 };
 
 /// Moves a point at `x` onto the planes that it is below, and calls moved(plane) after each move.
-/// `gap_of(plane, x)` is the gap (m), and noise_of(plane) what round-off hides of it.
+/// `gap_of(plane, x)` is the gap (m), and noise_of(plane) its round-off.
 template <std::floating_point T, int Axes, class Gap, class Noise, class Moved>
 void lift_onto(std::span<const PlaneOf<T, Axes>> planes, Vec<T, Axes>& x, Gap gap_of,
                Noise noise_of, Moved moved) {

@@ -187,7 +187,7 @@ struct AxisForces {
 
 /// The forces on one body or a batch of bodies: the sum of the linear ones, and the others.
 /// `Others` has `count<Force>()`, the number of forces of a kind; `get<Force>(index)`; and
-/// `damping_number<Force>(index)`, what prepare_damping returned for a half-step.
+/// `damping_number<Force>(index)`, the result of prepare_damping for a half-step.
 template <Number V, int Axes, class Parts, class Others>
 struct Forces {
     LinearForce<V, Axes> linear;

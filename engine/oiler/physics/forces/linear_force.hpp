@@ -14,7 +14,7 @@ struct LinearParts {
     bool damping = false;
 };
 
-/// The same as compile-time constants.
+/// LinearParts as compile-time constants.
 template <bool Constant, bool Spring, bool Damping>
 struct FixedLinearParts {
     static constexpr bool constant = Constant;

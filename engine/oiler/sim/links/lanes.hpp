@@ -13,7 +13,7 @@ constexpr std::size_t lanes_of = 1;
 template <class Pack, std::size_t Packs>
 constexpr std::size_t lanes_of<Batch<Pack, Packs>> = Batch<Pack, Packs>::lanes;
 
-/// The number with the most lanes below those of V, for what remains after whole batches of V.
+/// The number with the most lanes below those of V, for the rest after whole batches of V.
 template <class V>
 struct NarrowerOf {
     using type = V;
@@ -55,7 +55,7 @@ template <class V, class F>
     f(V(Scalar<V>(0)), count - lanes_of<V>);
 }
 
-/// Calls f(N{}) for the N with the most lanes, V or narrower, that has at most `most`.
+/// Calls f(N{}) for the N, V or narrower, with the most lanes up to `most`.
 template <class V, class F>
 [[gnu::always_inline]] inline void with_lanes(std::size_t most, F f) {
     if constexpr (lanes_of < V >> 1)

@@ -81,7 +81,7 @@ void damp_point_links(const PointLinks<T, Axes>& points, MotionColumns<T, Axes>&
 }
 
 /// Moves a row that has just been put to sleep onto the point of a link without length, axis by
-/// axis, if it is as close to it as sleep demands of springs. `before` is its velocity before that.
+/// axis, if it is within the sleep distance. `before` is its velocity before that.
 template <std::floating_point T, int Axes>
 void settle_on_points(const PointLinks<T, Axes>& points, std::size_t row,
                       const Vec<T, Axes>& before, State<T, Axes>& state) {

@@ -39,7 +39,7 @@ NumberView<T> view_of(const Parameter<T>& number) {
 template <class T, int Axes>
 using LinearAxes = std::array<LinearAxis<T>, Axes>;
 
-/// Views a number that is not 0 for all rows. Returns whether `view` was that of another one.
+/// Views a number that is not 0 for all rows. Returns whether `view` had another number before.
 template <class T>
 bool replace_view(NumberView<T>& view, const Parameter<T>& number) {
     if (is_zero(number)) return false;
@@ -97,8 +97,8 @@ void fill_sums(LinearSums<T, Axes>& sums, const Columns<T, Axes>& columns) {
     sums.valid = true;
 }
 
-/// The linear forces of the columns. Numbers that several forces share are the sums of the columns
-/// or, if those are not valid, `sums`, which are filled then.
+/// The linear forces of the columns. Numbers that several forces share are viewed in the sums of
+/// the columns or, if those are not valid, in `sums`, which are then filled.
 template <class T, int Axes>
 LinearAxes<T, Axes> linear_axes(const Columns<T, Axes>& columns, LinearSums<T, Axes>& sums) {
     LinearAxes<T, Axes> axes{};

@@ -260,7 +260,7 @@ public:
     [[gnu::always_inline]] void respond(State<V, Axes>& state, double t) {
         respond_to(state, field(state.x, t));
     }
-    /// The same with another acceleration `a` at the start, m/s².
+    /// Like respond, with another acceleration `a` at the start, m/s².
     [[gnu::always_inline]] void respond_to(State<V, Axes>& state, const Vec<V, Axes>& a) const {
         const V reach = flows_->reach.template at<V>(row_);
         state.x = state.x + state.v * reach + a * flows_->sway.template at<V>(row_);

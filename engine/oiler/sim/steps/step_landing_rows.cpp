@@ -213,8 +213,8 @@ private:
     bool solved_ = true;
 };
 
-/// Steps blocks with contacts one step at a time: first as if there were no planes, then the rows
-/// that may have met one again.
+/// Steps blocks with contacts one step at a time: first without planes, then again the rows that
+/// may have met one.
 template <std::floating_point T, int Axes>
 class BlockStepper {
 public:

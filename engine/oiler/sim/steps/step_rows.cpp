@@ -35,8 +35,8 @@ bool are_linear(Kinds kinds) {
     return (kinds & ~linear_kinds<T, Axes>) == 0;
 }
 
-/// Rows whose numbers along one axis stay in the cache while the other axes are stepped, few enough
-/// that memory is read in as many streams as there are columns.
+/// Rows that are stepped along one axis before the next. Their numbers stay in the cache, and
+/// memory is read in as many streams as there are columns.
 constexpr std::size_t rows_per_axis = 8 * row_padding;
 
 /// Steps ranges of whole blocks with the same kinds of force, and keeps the earliest divergence.

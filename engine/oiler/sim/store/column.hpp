@@ -157,8 +157,8 @@ private:
     bool shared_ = true;
 };
 
-/// The place of one number of all rows. The inner loops read no Parameter, whose fields the
-/// compiler would read again after every store. Valid until the number changes. A default view is
+/// The place of one number of all rows. Inner loops read views, because the compiler would reload
+/// the fields of a Parameter after every store. Valid until the number changes. A default view is
 /// of a number that is 0 for all rows.
 template <class T>
 class NumberView {

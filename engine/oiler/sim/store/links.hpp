@@ -50,7 +50,7 @@ struct LinkGroup {
     }
 };
 
-/// Links between any two rows. Those of a group have rest lengths, or none has.
+/// Links between any two rows. In a group, all have rest lengths or none has.
 template <class T>
 struct ScatteredLinks {
     std::vector<std::uint32_t> a;

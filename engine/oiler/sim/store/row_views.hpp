@@ -99,7 +99,7 @@ struct RowViews {
 
     RowViews() = default;
     ~RowViews() = default;
-    /// A copy of columns is in other memory.
+    /// A copy of columns is in other memory, so its views are not valid.
     RowViews(const RowViews&) : RowViews() {}
     RowViews& operator=(const RowViews&) {
         valid = false;
@@ -142,7 +142,7 @@ struct Columns;
 template <std::floating_point T>
 using StepAxis = std::size_t (*)(const AxisRows<T>&, const Plan<T>&, const Steps&,
                                  std::size_t begin, std::size_t end);
-/// The same along all axes, for rows with forces of these kinds.
+/// Like StepAxis, but along all axes, for rows with forces of these kinds.
 template <std::floating_point T, int Axes>
 using StepAllAxes = std::size_t (*)(Columns<T, Axes>&, Kinds, const Steps&, std::size_t begin,
                                     std::size_t end);
