@@ -35,8 +35,8 @@ struct Shot {
 
 /// Writes the frames of one run into a folder that it owns meanwhile. Other threads hash, encode
 /// and write, while the caller draws the next frame. The manifest exists from the start and says
-/// that the capture is not finished, so that a killed run leaves no lie. A capture without frames
-/// leaves no files.
+/// that the capture is not finished, which stays true if the run is killed. A capture without
+/// frames leaves no files.
 class Capture {
 public:
     /// `header` is a manifest without frames. Throws Error{io}, see CaptureFolder.
@@ -51,7 +51,7 @@ public:
     /// Returns a buffer of pixels that is no longer in use, to be filled again.
     [[nodiscard]] std::vector<std::uint8_t> spare_buffer();
 
-    /// The run ends with the frames that it has: no more were planned.
+    /// Ends the run with its frames so far, as if no more had been planned.
     void end_here() { manifest_.planned_frames = std::int64_t(manifest_.frames.size()); }
     /// Waits for all frames and writes the manifest with them. Throws Error{io}; the failed frame
     /// and those after it are then removed, and all records.

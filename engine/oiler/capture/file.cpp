@@ -110,7 +110,7 @@ int open_without_name(const fs::path& folder) {
 
 namespace fs = std::filesystem;
 
-/// What a path names: a file, or the place where one would be made.
+/// The target of a path: a file, or the place where one would be made.
 class Place {
 public:
     explicit Place(const fs::path& path) : path_(path) {

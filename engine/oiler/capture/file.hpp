@@ -91,9 +91,9 @@ struct NamedPath {
     bool (*uses)(std::string_view name) = nullptr;
 };
 
-/// Throws Error{usage} if an output is an input, or if two outputs are one file. Compares files and
-/// not names, so that links and relative paths are seen through. The null device may be given
-/// several times.
+/// Throws Error{usage} if an output is an input, or if two outputs are one file. Compares files,
+/// not names, so that links and relative paths are resolved. The null device may be given several
+/// times.
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs);
 
 /// Throws Error{io} if the file of an output cannot be made in its folder, so that a command fails

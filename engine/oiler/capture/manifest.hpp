@@ -12,7 +12,7 @@
 namespace oiler {
 
 /// The settings, tools and hashes of a capture. The hashes of a frame tell the cause if two
-/// captures differ: the simulation (state), what is to be seen (picture) or how it is drawn
+/// captures differ: the simulation (state), the contents of the picture (picture) or its drawing
 /// (pixels). It has neither times nor paths, so that the same command writes the same bytes. It is
 /// enough to reproduce each frame.
 struct Manifest {

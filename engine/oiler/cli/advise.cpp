@@ -100,7 +100,7 @@ struct AdviseCommand {
         return requirements;
     }
 
-    /// Options that only change the meaning of another one need that one.
+    /// Refuses options that only modify another option, if that one is missing.
     void refuse_without_effect(const Requirements& requirements) const {
         constexpr const char* line = "{} has no effect {} (see oiler advise --help)";
         const bool is_sized = size_words != default_size;

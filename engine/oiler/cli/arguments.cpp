@@ -12,7 +12,7 @@
 namespace oiler::cli {
 namespace {
 
-/// What a number counts, by the placeholder of its option.
+/// The unit of a number, by the placeholder of its option.
 std::string_view unit_of(std::string_view type) {
     if (type == "M") return "in m, ";
     if (type == "S") return "in s, ";

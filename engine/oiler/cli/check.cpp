@@ -110,7 +110,7 @@ CheckResult check(const std::filesystem::path& path) {
     return result;
 }
 
-/// `quiet`: only what fails.
+/// `quiet`: failures only.
 std::string text_of(const std::vector<CheckResult>& all, bool quiet) {
     std::string text;
     for (const CheckResult& result : all) {

@@ -75,7 +75,7 @@ struct Finding {
     std::string text;
 };
 
-/// In the order of their ticks. At the same tick the likely cause comes first.
+/// The findings in the order of their ticks. At the same tick the likely cause comes first.
 std::vector<Finding> findings_of(const DivergeResult& result) {
     const RunDivergence& found = result.divergence;
     std::vector<Finding> findings;

@@ -22,8 +22,8 @@ using AllCommands = CommandList<
 
 namespace {
 
-/// `oiler` alone chooses in a window where there is a display that opens one; else it is refused
-/// with the list of commands.
+/// `oiler` alone opens the menu of demos if a window can be opened; else it is refused with the
+/// list of commands.
 Exit run_alone(const std::vector<Command>& commands, int argc, char** argv) {
     std::string name = "oiler", demos = "demos", window = "--window";
     char* const words[] = {name.data(), demos.data(), window.data(), nullptr};

@@ -153,7 +153,7 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
     return std::nullopt;
 }
 
-/// A scene keeps the setting that the player chose, unless its file now says another one.
+/// A scene keeps the setting that the player chose, unless its file now has another one.
 Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping>& kept) {
     Scene scene = read_scene(file.string());
     const bool keeps =

@@ -38,7 +38,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A thing that a player does, with the buttons that do it unless the player chooses others:
+/// An action of a player, with its buttons unless the player chooses others:
 /// `static constexpr Action fire{"fire", Key::space, Mouse::left, Pad::south};`
 struct Action {
     std::string_view name;

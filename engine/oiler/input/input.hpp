@@ -43,7 +43,7 @@ using ChosenControls = std::shared_ptr<const std::vector<Control>>;
 /// sees a press also sees the button held, even if it is up again: the next step sees the release.
 class Input {
 public:
-    /// Whether a button is down; of an action, whether any of its buttons is.
+    /// Whether a button, or any button of an action, is down.
     [[nodiscard]] bool held(Button button) const { return held_[button.id()]; }
     [[nodiscard]] bool held(const Action& action) const;
     /// Whether it went down since the last step. An action goes down with the first of its buttons,
@@ -66,11 +66,11 @@ public:
         return count(buttons_of(action), false);
     }
 
-    /// From -1 to 1: the sum of buttons and stick, no further.
+    /// The sum of buttons and stick, limited to -1 to 1.
     [[nodiscard]] float axis(const Axis& axis) const;
     /// The direction of two axes, no longer than 1.
     [[nodiscard]] Point direction(const Axis& x, const Axis& y) const;
-    /// From -1 to 1, of triggers from 0; without the dead zone.
+    /// From -1 to 1, of triggers from 0 to 1. The dead zone is removed.
     [[nodiscard]] float stick(Stick stick) const {
         return static_cast<float>(sticks_[static_cast<std::size_t>(stick)]) / 127;
     }
@@ -80,8 +80,8 @@ public:
     [[nodiscard]] std::optional<Point> pointer() const;
     /// The place of the mouse in units of the canvas.
     [[nodiscard]] std::optional<Point> pointer_canvas() const;
-    /// Whether the mouse moved since the last step, or came into the window: a mouse at rest need
-    /// not win over keys.
+    /// Whether the mouse moved since the last step, or came into the window. A mouse at rest should
+    /// not override keys.
     [[nodiscard]] bool pointer_moved() const { return pointer_moved_; }
     /// Notches that the wheel was turned since the last step, away from the user.
     [[nodiscard]] int wheel() const { return wheel_; }
@@ -112,8 +112,8 @@ private:
     ChosenControls controls_;
 };
 
-/// Hands what a player does to fixed steps. Events may come at any time, many or none between two
-/// steps. All events since the last step go to the next one.
+/// Hands the input of a player to fixed steps. Events may come at any time, many or none between
+/// two steps. All events since the last step go to the next one.
 class InputQueue {
 public:
     InputQueue() = default;
@@ -140,8 +140,8 @@ public:
     /// it is still down.
     void set_paused(bool paused);
 
-    /// The next step comes after the one that saw `last`: the buttons that are held change from
-    /// there, and what else was done since is dropped.
+    /// Continues after the step that saw `last`: held buttons change from there, and all other
+    /// input since is dropped.
     void continue_after(const Input& last);
 
     /// The input of the next step. `shown` is the camera of the picture on screen.

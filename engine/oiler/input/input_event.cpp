@@ -21,7 +21,7 @@ std::int64_t unzigzag(std::uint64_t number) {
 }
 
 /// Writes the numbers of an event, or reads them, so that each kind of event lists them once.
-/// `good` ends false if the bytes are not an event.
+/// `good` becomes false if the bytes are not an event.
 class Payload {
 public:
     explicit Payload(std::string& written) : written_(&written) {}

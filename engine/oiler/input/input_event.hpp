@@ -41,7 +41,7 @@ struct InputEvent {
 /// The events that lead from the input of a step to that of the next.
 [[nodiscard]] std::vector<InputEvent> events_between(const Input& before, const Input& now);
 
-/// Plays events: a queue that is fed with those of a step hands out the same input again.
+/// Feeds the events of a step to a queue, which then returns the same input again.
 class EventPlayer {
 public:
     explicit EventPlayer(ChosenControls controls = {}) : queue_(std::move(controls)) {}

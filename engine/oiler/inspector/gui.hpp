@@ -10,7 +10,7 @@
 
 namespace oiler {
 
-/// Dear ImGui without a window of its own: it is fed with the mouse, and leaves triangles.
+/// Dear ImGui without a window: it takes mouse input and returns triangles.
 class Gui {
 public:
     explicit Gui(std::span<const char> font);

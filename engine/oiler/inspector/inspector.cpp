@@ -220,7 +220,7 @@ struct Inspector::Impl {
         for (const float error : run.errors)
             logarithms.push_back(std::log10(std::max(error, smallest_error)));
         text(fmt::format("this run: up to {:.2g} m in the last step", run.errors.back()));
-        // The mouse over the curve would show logarithms.
+        // Disabled, because the mouse over the curve would show logarithms.
         ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 1);
         ImGui::BeginDisabled();
         ImGui::PlotLines("##errors", logarithms.data(), static_cast<int>(logarithms.size()), 0,
@@ -231,7 +231,7 @@ struct Inspector::Impl {
         coloured(palette::grey, "from 1 µm to 1 km, logarithmic");
     }
 
-    /// What is drawn over the picture, with its scale.
+    /// The overlays over the picture, with their scales.
     void show_overlays(const Inspected& run) {
         const Inspected::Scales& scales = run.scales;
         if (run.bodies == 0) return;
@@ -270,7 +270,7 @@ struct Inspector::Impl {
         if (!scales.stretch.empty()) row(scales.stretch + ", without a rest length", false);
     }
 
-    /// How far the stiffest spring or damper is from breaking.
+    /// The distance of the stiffest spring or damper from its limit.
     static void show_gauge(const Inspected& run) {
         if (!run.stiffest) return;
         constexpr double near = 0.8;

@@ -23,7 +23,7 @@ namespace oiler {
 /// "850 ns", "12.3 µs", "4.5 ms".
 [[nodiscard]] std::string time_text(double nanoseconds);
 
-/// What is drawn over the picture while the inspector is open.
+/// The overlays over the picture while the inspector is open.
 struct Shown {
     bool trails = false;
     bool springs = false;  ///< coloured by their strain
@@ -32,14 +32,14 @@ struct Shown {
     friend bool operator==(const Shown&, const Shown&) = default;
 };
 
-/// What the inspector shows of a run that is played.
+/// The contents of the inspector on a run that is played.
 struct Inspected {
     /// A setting that plays along.
     struct Setting {
         Stepping stepping{};
         std::string error{};  ///< the largest distance from the true motion, such as "7.5 cm"
         Colour grade{};       ///< of that error
-        /// Of update and step per frame at 60 frames per second, such as "< 10 µs".
+        /// The time of update and step per frame at 60 frames per second, such as "< 10 µs".
         std::string cost{};
         std::string forces{};  ///< their evaluations, such as "×4"; empty: not counted
     };
@@ -47,11 +47,11 @@ struct Inspected {
     struct Gauge {
         std::string name{};
         bool is_damper = false;
-        double measure = 0;  ///< ω·dt, of a damper c·dt
+        double measure = 0;  ///< ω·dt; for a damper, c·dt
         double limit = 0;    ///< the largest stable measure; infinite: any is stable
     };
 
-    /// The scales of what is drawn over the picture.
+    /// The scales of the overlays.
     struct Scales {
         static constexpr Colour colour_of_velocity = palette::green;
         static constexpr Colour colour_of_acceleration = palette::ink;
@@ -59,7 +59,7 @@ struct Inspected {
         double velocity = 0;      ///< m/s that are drawn as 1 m
         double acceleration = 0;  ///< m/s² that are drawn as 1 m
         double strain = 0;        ///< of springs with the full colour; 0: none has a strain
-        std::string stretch{};    ///< the same of springs without a rest length, such as "2 cm"
+        std::string stretch{};    ///< full-colour stretch of springs without a rest length, such as "2 cm"
         std::size_t springs = 0;  ///< that are drawn
         std::size_t bodies = 0;   ///< that have trails and arrows; 0: all
     };
@@ -74,18 +74,18 @@ struct Inspected {
     Stepping stepping{};
     std::span<const Method* const> methods{};  ///< those that can step the bodies
     std::string fixed{};                       ///< why the setting cannot be changed; empty: it can
-    std::string verdict{};                     ///< what the timestep costs
+    std::string verdict{};                     ///< on the error of the timestep
     Colour grade{};                            ///< of the verdict
-    std::vector<Setting> settings{};           ///< that of the run first; none: nothing is known
-    bool is_of_round = false;                  ///< they are of the whole last round
-    std::string rate_advice{};                 ///< which rate would be right
+    std::vector<Setting> settings{};           ///< the run's own first; empty: nothing is known
+    bool is_of_round = false;                  ///< `settings` are of the whole last round
+    std::string rate_advice{};                 ///< the rate that would be within a pixel
     std::vector<float> errors{};               ///< of the run over time, m
     std::optional<Gauge> stiffest{};
     FrameCosts costs{};                    ///< all 0: not measured
     double energy = 0;                     ///< J
-    double begin = 0;                      ///< s, since when errors and energies are compared
-    std::optional<double> first_energy{};  ///< J, then; empty: it is not known
-    double energy_scale = 0;               ///< J, of which changes are a share; 0: none
+    double begin = 0;                      ///< s, the start of the comparison of errors and energies
+    std::optional<double> first_energy{};  ///< J, at `begin`; empty: unknown
+    double energy_scale = 0;               ///< J, the unit of relative changes; 0: none
     double time = 0;                       ///< s
     double dropped = 0;                    ///< s
     std::size_t bodies = 0;
@@ -98,11 +98,11 @@ struct Inspected {
     Scales scales{};
 };
 
-/// What the user asks of the loop in a frame, through the inspector or with keys.
+/// The user's requests to the loop in a frame, through the inspector or with keys.
 struct Requests {
-    std::optional<Stepping> stepping{};  ///< the setting to have
+    std::optional<Stepping> stepping{};  ///< the wanted setting
     std::optional<int> threads{};
-    bool changes_from_start = false;     ///< restart with it; else go on with it
+    bool changes_from_start = false;     ///< restart with the setting; else continue with it
     bool pauses = false;                 ///< or resumes
     bool steps = false;                  ///< one step in a pause
     bool goes_back = false;              ///< one step back in a pause
@@ -136,7 +136,8 @@ public:
     Inspector(const Inspector&) = delete;
     Inspector& operator=(const Inspector&) = delete;
 
-    /// Lays out a frame, and returns what the user did in it. `seconds` have passed since the last.
+    /// Lays out a frame and returns the user's requests. `seconds` have passed since the last
+    /// frame.
     [[nodiscard]] Requests show(const Inspected& run, const Mouse& mouse, Size frame,
                                 double seconds);
     /// The triangles of the last frame.

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_contenders = 8;
 constexpr int timing_rounds = 9;
 
-/// The number with two digits that is not above it.
+/// Rounds down to two digits.
 double rounded_down(double number) {
     const double digit = std::pow(10, std::floor(std::log10(std::abs(number))) - 1);
     return std::floor(number / digit) * digit;
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// Adds a method where it meets the tolerance, as far as the search has found that, else at the
+    /// Adds a method at a rate at which the search found that it meets the tolerance, else at the
     /// highest rate that costs no more than the best.
     void consider(const Method& method) {
         const auto& asked = requirements_.methods;
@@ -147,7 +147,7 @@ private:
         if (advice_.current) rows.push_back(&*advice_.current);
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) rows.push_back(&*alternative.row);
-        // The search alone shows its progress.
+        // Only the search reports progress.
         SweepWatch watch = whole;
         watch.progress = [](double) {};
         time_rows(scene_, rows, timing_rounds, watch);

@@ -53,7 +53,7 @@ struct Advice {
     std::int64_t runs = 0;                 ///< number of runs that the search took
 };
 
-/// Whether two costs cannot be told apart: their spreads overlap.
+/// Whether two costs tie: their spreads overlap.
 [[nodiscard]] bool is_tie(const TradeoffRow& a, const TradeoffRow& b);
 
 /// "1.25 ms"; `ns` in ns.

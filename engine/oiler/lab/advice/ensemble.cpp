@@ -46,7 +46,7 @@ std::string Ensemble::warning(Stepping choice) const {
 
 void Ensemble::make_members() {
     is_made_ = true;
-    // Many independent bodies are many starts already; a reference of fine steps takes as much work
+    // Many independent bodies are many starts already. A reference of fine steps takes as much work
     // as all else.
     constexpr std::size_t many = 1000;
     const bool shows_many = reference_.closed_form && reference_.motion->bodies() >= many;

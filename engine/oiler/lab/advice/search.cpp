@@ -96,7 +96,7 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
       watch_(watch),
       work_(scene),
       ensemble_(scene, reference, requirements, watch.stopped) {
-    // A run has a step at least.
+    // A run has at least one step.
     const double least = (1 - 1e-12) / reference.meaningful_until;
     for (const std::int64_t rate : lab::sweep_rates(scene, requirements.max_rate))
         if (rate >= requirements.min_rate && rate <= requirements.max_rate &&

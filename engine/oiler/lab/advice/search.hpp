@@ -90,8 +90,8 @@ public:
     /// Without tolerances: the most accurate setting within the time.
     void run();
 
-    /// Judges a setting, once however often it is asked for. An error far above the tolerance ends
-    /// its run early.
+    /// Judges a setting; further calls return the first result. An error far above the tolerance
+    /// ends its run early.
     TradeoffRow try_choice(const Stepping& choice);
     /// Judges a setting to the end of its run.
     TradeoffRow measure(const Stepping& choice);
@@ -100,8 +100,8 @@ public:
     [[nodiscard]] Stepping within_cost(const Method& method, double cost) const;
     /// The estimated computing time for a second of the scene, ns.
     [[nodiscard]] double cost_of(const Stepping& choice) const;
-    /// Whether a row is within 98 % of the tolerances, as errors between cubics are known to 1 %,
-    /// and holds for perturbed starts.
+    /// Whether a row is within 98 % of the tolerances, because errors between cubics are known to 1
+    /// %, and holds for perturbed starts.
     [[nodiscard]] bool meets_tolerance(const TradeoffRow& row);
     /// Why a row that is within the tolerances does not hold; empty if it does.
     [[nodiscard]] std::string objection(const TradeoffRow& row) {

@@ -182,8 +182,8 @@ constexpr int most_rounds = 1000;
 /// Quartiles of fewer rounds say little.
 constexpr int fewest_rounds = 9;
 
-/// Steps of unlinked bodies share a load of the columns, so that their number in a call changes
-/// their time. This limit does not depend on the load of the machine.
+/// Steps of unlinked bodies share a load of the columns, so their time depends on the steps per
+/// call. This limit does not depend on the load of the machine.
 constexpr double most_body_steps_per_turn = 1e6;
 /// Limits turns of links and of implicit methods.
 constexpr double most_seconds_per_turn = 5e-3;
@@ -200,7 +200,7 @@ void copy_state(const Bodies& from, Bodies& to) {
 }
 
 /// Calls f with another offset of the stack in each of 256 rounds. The offset from the columns
-/// changes the time of a few bodies by a tenth, and without this from run to run.
+/// changes the time of a few bodies by a tenth, which would otherwise vary from run to run.
 template <class F>
 [[gnu::noinline]] double call_with_shifted_stack(std::size_t round, F f) {
     constexpr std::size_t alignment = 16;

@@ -9,9 +9,8 @@
 namespace oiler::lab {
 
 /// Runs the scene with the given settings and compares its errors with its budget. Returns nothing
-/// for a scene without a budget or for a stopped run. Floors are 100 × the reference's own error.
-/// Throws Error{usage} for a limit below 100 ×
-/// the reference's own error.
+/// for a scene without a budget or for a stopped run. Throws Error{usage} for a limit below the
+/// floor: 100 × the reference's own error.
 [[nodiscard]] std::vector<BudgetEntry> check_budget(
     const Scene& scene, const Settings& settings,
     const std::function<bool()>& stopped = [] { return false; });

@@ -16,7 +16,7 @@
 namespace oiler::lab {
 namespace {
 
-/// What a player notices of one run of a body; `unknown` where the run does not show it.
+/// The quantities that a player notices in one run of a body; `unknown` if the run lacks one.
 struct Observed {
     double apex = unknown;
     double apex_time = unknown;
@@ -57,7 +57,7 @@ struct Observer {
 using Paths = std::array<Path, 3>;
 
 constexpr double settled = 0.05;  ///< of the distance from rest at the start
-/// Bounces of this part of the largest height are finished.
+/// Bounces up to this fraction of the largest height count as rest.
 constexpr double finished = 0.01;
 /// Largest ratio of the longest to the shortest cycle of a motion that has a period.
 constexpr double most_uneven = 1.1;

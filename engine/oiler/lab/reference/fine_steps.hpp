@@ -19,7 +19,7 @@ struct FineSteps {
     Stepping stepping{};      ///< of the finest run
     bool sufficient = false;  ///< whether the error at the end is no more than the wanted one
     bool affordable = false;  ///< whether the coarsest run was within the work limit
-    /// They do with order 1, so that the error falls slowly.
+    /// With order 1, so that the error falls slowly.
     bool linked_bodies_land = false;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 constexpr std::size_t most_pieces = 20'000;
-/// So many short flights in a row do not end, as in a corner.
+/// More short flights in a row than this do not end, as in a corner.
 constexpr int most_short_flights = 64;
 /// Bounces with shorter flights, s, are at an end: they are less than 10⁻¹⁸ m high.
 constexpr Real shortest_flight = 1e-9L;

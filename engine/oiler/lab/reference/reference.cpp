@@ -120,7 +120,7 @@ private:
             uncertainties_of(scales_of(*reference_.motion, probes(scene_.duration), start_),
                              reference_.samples, rounding_of(start_));
         reference_.words = "the closed form of the motion";
-        // A perturbed start has the forces of the scene's own.
+        // A perturbed start has the same forces as the scene's start, which is checked.
         if (reference_.start.seed == 0) check();
     }
     void take_fine_steps() {
@@ -232,7 +232,7 @@ private:
         return std::ranges::count_if(round_off_, [&](double error) { return error <= most; });
     }
 
-    /// Shortens the meaningful time until the scales of what remains do not shorten it further.
+    /// Shortens the meaningful time until the scales of the remaining time shorten it no further.
     void find_meaningful() {
         std::int64_t count = reference_.samples.count;
         reference_.meaningful_until = scene_.duration;

@@ -251,7 +251,7 @@ std::vector<double> interpolation_errors(const Trajectory& trajectory, std::int6
     const Hermite wide = middle_of(2);
     std::vector<double> errors;
     double most = 0;
-    // Near the ends, where the wider interpolation has no samples, that of the nearest holds.
+    // Near the ends, the wide interpolation has no samples: the nearest convergence is used.
     double falls = first_convergence(trajectory, per_second, narrow, wide);
     for (std::int64_t sample = 0; sample < trajectory.samples(); ++sample) {
         const double at_twice = left_out(trajectory, per_second, narrow, sample, 1);

@@ -21,9 +21,9 @@ struct Kink {
 /// Positions and velocities of all bodies at every sample.
 struct Trajectory {
     std::size_t bodies = 0;
-    /// Of all bodies at the first sample, then at the next.
+    /// All bodies at the first sample, then at the next.
     std::vector<State3> states{};
-    /// Per body, in the order of time; empty if no body has any.
+    /// For each body, in the order of time; empty if no body has any.
     std::vector<std::vector<Kink>> kinks{};
 
     [[nodiscard]] const State3& at(std::int64_t sample, std::size_t row) const {
@@ -63,8 +63,8 @@ private:
 };
 
 /// The estimated largest error of a SampledMotion between its samples, m, up to each sample. It
-/// compares samples with interpolations that leave them out, at two spacings, and continues the
-/// convergence to the spacing of all samples. It leaves out what is near kinks.
+/// compares samples with interpolations that leave them out, at two spacings, and extrapolates to
+/// the spacing of all samples. Samples near kinks are left out.
 [[nodiscard]] std::vector<double> interpolation_errors(const Trajectory& trajectory,
                                                        std::int64_t per_second);
 

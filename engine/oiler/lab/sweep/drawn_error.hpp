@@ -54,8 +54,8 @@ private:
     double most_ = 0;
 };
 
-/// A lower bound of the error as drawn of any method at a rate, m: in each step, one of the line's
-/// two ends and its middle is off by at least half of the motion's distance from its chord there.
+/// A lower bound of the error as drawn of any method at a rate, m. In each step, the error at an
+/// end or at the middle of the line is at least half of the motion's distance from its chord there.
 /// The search ends at a bound above `enough`.
 [[nodiscard]] double least_drawn_error(const Motion& motion, std::int64_t rate, double until,
                                        double enough);

@@ -44,7 +44,7 @@ bool is_same_series(const RateSeries& a, const RateSeries& b) {
     return a.method == b.method && a.precision == b.precision;
 }
 
-/// All of its numbers, of which unknown ones are equal here.
+/// All of its numbers, as a text in which unknown ones are equal.
 std::string text_of(const ReferenceSummary& reference) { return to_json(reference).dump(1); }
 
 void require_same_sweep(const Tradeoff& part, const Tradeoff& first) {
@@ -60,7 +60,7 @@ void require_same_sweep(const Tradeoff& part, const Tradeoff& first) {
              part.file, first.file);
 }
 
-/// Adds what `part` has measured to `whole`. `files` are those that measured the series of
+/// Adds the measurements of `part` to `whole`. `files` are the files of the measured series of
 /// `whole`.
 void add(const Tradeoff& part, Tradeoff& whole, std::vector<std::string>& files) {
     for (const Machine& machine : part.machines)
@@ -115,7 +115,7 @@ public:
         return json_.get<bool>();
     }
     [[nodiscard]] std::int64_t whole(std::uint64_t low, std::uint64_t high) const {
-        // Negative numbers are no unsigned ones.
+        // Negative numbers are not unsigned.
         if (!json_.is_number_unsigned() || json_.get<std::uint64_t>() < low ||
             json_.get<std::uint64_t>() > high)
             refuse(fmt::format("a whole number from {} to {}", low, high));
