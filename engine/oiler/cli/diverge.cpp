@@ -23,7 +23,7 @@ struct DivergeResult {
     StateLog a;
     StateLog b;
     RunDivergence divergence;
-    /// Of two captures: the first tick whose hashes differ.
+    /// The first tick whose hashes differ, in two captures.
     std::optional<std::int64_t> first_hash{};
 
     [[nodiscard]] bool same() const { return divergence.same() && !first_hash; }

@@ -7,9 +7,9 @@
 
 namespace oiler {
 
-/// Slots for things that handles name. Each use of a slot has its own generation, so that handles
-/// of things that are gone are known as such. Generations are odd while a slot is used, even while
-/// it is free: no handle matches a free slot, not even one from a copy.
+/// Slots that handles refer to. Each use of a slot has its own generation, so that stale handles
+/// are recognised. Generations are odd while a slot is used, even while it is free: no handle
+/// matches a free slot, not even one from a copy.
 class HandleSlots {
 public:
     /// Takes a slot, for Handle{slot, generation}.

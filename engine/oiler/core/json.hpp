@@ -32,14 +32,14 @@ public:
     Json(const char* value);
     template <class Item>
     Json(const std::vector<Item>& items) : kind_(Kind::array), items_(items.begin(), items.end()) {}
-    /// Null for nothing.
+    /// Null if the optional is empty.
     template <class Value>
     Json(const std::optional<Value>& value) : Json(value ? Json(*value) : Json()) {}
     /// An object.
     Json(std::initializer_list<Member> members);
 
     [[nodiscard]] static Json array(std::initializer_list<Json> items = {});
-    /// An array of what `to_item` makes of each of the items.
+    /// An array of to_item(item) for each of the items.
     template <class Items, class ToItem>
     [[nodiscard]] static Json list(const Items& items, ToItem to_item) {
         Json json = array();

@@ -9,7 +9,7 @@
 
 namespace oiler {
 
-/// A median and half the interquartile range. NaN of no values.
+/// A median and half the interquartile range. NaN for no values.
 struct Median {
     double value = std::numeric_limits<double>::quiet_NaN();
     double spread = std::numeric_limits<double>::quiet_NaN();

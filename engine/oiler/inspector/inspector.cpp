@@ -70,7 +70,7 @@ struct Inspector::Impl {
     explicit Impl(std::span<const char> font) : gui(font) {}
 
     static void show_verdict(const Inspected& run) {
-        // Of one height, so that nothing moves under the mouse.
+        // The height is fixed, so that nothing moves under the mouse.
         ImGui::BeginChild("verdict", {0, lines_of_verdict * ImGui::GetTextLineHeightWithSpacing()});
         ImGui::PushStyleColor(ImGuiCol_Text, gui_colour(run.grade));
         wrapped(run.verdict);

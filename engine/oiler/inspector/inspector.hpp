@@ -59,7 +59,7 @@ struct Inspected {
         double velocity = 0;      ///< m/s that are drawn as 1 m
         double acceleration = 0;  ///< m/s² that are drawn as 1 m
         double strain = 0;        ///< of springs with the full colour; 0: none has a strain
-        std::string stretch{};    ///< full-colour stretch of springs without a rest length, such as "2 cm"
+        std::string stretch{};    ///< likewise, of springs without a rest length, such as "2 cm"
         std::size_t springs = 0;  ///< that are drawn
         std::size_t bodies = 0;   ///< that have trails and arrows; 0: all
     };
@@ -83,7 +83,7 @@ struct Inspected {
     std::optional<Gauge> stiffest{};
     FrameCosts costs{};                    ///< all 0: not measured
     double energy = 0;                     ///< J
-    double begin = 0;                      ///< s, the start of the comparison of errors and energies
+    double begin = 0;                      ///< s, the start of comparing errors and energies
     std::optional<double> first_energy{};  ///< J, at `begin`; empty: unknown
     double energy_scale = 0;               ///< J, the unit of relative changes; 0: none
     double time = 0;                       ///< s
@@ -136,8 +136,7 @@ public:
     Inspector(const Inspector&) = delete;
     Inspector& operator=(const Inspector&) = delete;
 
-    /// Lays out a frame and returns the user's requests. `seconds` have passed since the last
-    /// frame.
+    /// Lays out a frame and returns the user's requests. `seconds`: since the last frame.
     [[nodiscard]] Requests show(const Inspected& run, const Mouse& mouse, Size frame,
                                 double seconds);
     /// The triangles of the last frame.

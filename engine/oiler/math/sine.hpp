@@ -10,7 +10,7 @@ namespace oiler {
 // The sine for forces that depend on time. The C library's last bit may differ between machines;
 // these functions use + − × only.
 
-/// The nearest whole number, for |a| < 2^(digits − 2). Of a larger a that is whole, it gives some
+/// The nearest whole number, for |a| < 2^(digits − 2). For a larger a that is whole, it gives some
 /// whole number.
 template <Number V>
 [[gnu::always_inline]] constexpr V nearest_whole(const V& a) {

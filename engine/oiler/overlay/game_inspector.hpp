@@ -28,7 +28,7 @@ public:
         /// Why there is no verdict on the shown step; empty: there is one.
         std::string no_verdict{};
         std::string pace{};
-        bool waits = false;  ///< waits until all values are known
+        bool waits = false;  ///< until all values are known
     };
 
     /// `fixed` tells why the setting cannot be changed; empty: it can.

@@ -30,8 +30,8 @@ struct Colour {
 };
 
 /// The canvas is a box of 640 × 360 units, origin at its lower left, y up. It is centred in the
-/// frame, always wholly visible, and as large as possible. One unit is a pixel at 640 × 360. What
-/// a frame of another shape shows beside it, `Picture::has_bars` decides.
+/// frame, always wholly visible, and as large as possible. One unit is a pixel at 640 × 360.
+/// `Picture::has_bars` decides what frames of another shape show beside it.
 inline constexpr float canvas_width = 640;
 inline constexpr float canvas_height = 360;
 
@@ -119,7 +119,7 @@ struct Camera {
     /// Moves the centre towards a target: to half of the distance within `half_life` s, whatever
     /// the timestep `dt`, s, is. A half-life of 0 moves it there at once.
     void follow(Point target, double half_life, double dt);
-    /// Multiplies the height by a factor; `fixed`, a point of the world, stays where it is seen.
+    /// Multiplies the height by a factor; the point `fixed` of the world keeps its place in view.
     void zoom(float factor, Point fixed);
     friend bool operator==(const Camera&, const Camera&) = default;
 };
@@ -144,7 +144,7 @@ struct Picture {
 /// elements change when alpha reaches 1. A polyline with new points at its end (a trail) grows out
 /// of its last point; a polygon with another number of points changes at 1.
 [[nodiscard]] Picture between(const Picture& before, const Picture& after, float alpha);
-/// The same into a picture, whose memory is used again.
+/// Interpolates into a picture and reuses its memory.
 void between(const Picture& before, const Picture& after, float alpha, Picture& picture);
 
 /// Throws Error{usage} for a camera whose height is not a positive number, for a negative radius,

@@ -23,7 +23,7 @@ std::optional<Button> pad_button(std::uint8_t button) {
     return static_cast<Pad>(button);
 }
 
-/// What a key does while text is entered.
+/// Whether a key acts as a key while text is entered.
 bool edits_text(Button key) {
     constexpr Button keys[]{Key::enter, Key::escape, Key::backspace, Key::tab,
                             Key::left,  Key::right,  Key::up,        Key::down};

@@ -42,23 +42,23 @@ public:
         closed,  ///< by the user
         lost,    ///< the display has ended
     };
-    /// What of the window the game has.
+    /// The parts of the window that belong to the game.
     struct OfGame {
-        float width = 1;   ///< the canvas is in this share, at the left
-        float height = 1;  ///< and in this one, at the bottom
+        float width = 1;   ///< the share with the canvas, at the left
+        float height = 1;  ///< the share with the canvas, at the bottom
         bool mouse = true;
     };
     /// Hands events since the last call to the loop, and all but F1 to F12 to the game. A mouse
     /// that is not the game's only releases buttons there.
     [[nodiscard]] virtual State poll(InputQueue& game, InputQueue& loop, const OfGame& of_game) = 0;
-    /// The file that was dropped on the window since the last call; of several the last one.
+    /// The file that was dropped on the window since the last call, the last one of several.
     [[nodiscard]] virtual std::optional<std::string> take_dropped() = 0;
     virtual void set_title(const std::string& title) = 0;
     /// Fills the screen, or goes back to a window.
     virtual void fill_screen(bool on) = 0;
     /// The name of a key on the user's keyboard; empty if it has none.
     [[nodiscard]] virtual std::string name_on_layout(Key key) const = 0;
-    /// Whether keys enter text, but for those that edit it.
+    /// Lets keys enter text, except those that edit it.
     virtual void take_text(bool on) = 0;
     /// Shows framebuffer 0.
     virtual void present() = 0;

@@ -51,8 +51,8 @@ Polygon polygon_of(Mark mark) {
     return {.corners = 3, .radius = 3.8F, .first = 0.25F};
 }
 
-/// Fills the polygon with a wide outline at half its size, because pictures have no filled
-/// polygons.
+/// Fills the polygon with a wide outline at half its size: a filled polygon would be drawn below
+/// all polylines of its layer.
 void draw_filled(const Polygon& polygon, Point at, Colour colour, Picture& picture) {
     picture.polylines.push_back(polygon.scaled(0.5F, at, picture.background, polygon.inradius()));
     picture.polylines.push_back(polygon.scaled(1, at, colour, outline));

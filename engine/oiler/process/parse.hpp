@@ -32,7 +32,7 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Target& target, W
     return app.add_option_function<std::string>(name, parse, help)->type_name("N");
 }
 
-/// Of `--damping`, which is "kick" or "drift".
+/// The help of `--damping`, which is "kick" or "drift".
 inline constexpr const char* help_of_damping =
     "where a splitting method puts damping: explicitly into its kicks or exactly into its drifts; "
     "the method's default if not given";

@@ -13,7 +13,7 @@
 namespace oiler {
 namespace plane {
 
-/// In double, because the other end of a clipped line may be 1e30 pixels away.
+/// A vector in double, because the other end of a clipped line may be 1e30 pixels away.
 struct Vec {
     double x = 0;
     double y = 0;

@@ -58,12 +58,12 @@ public:
 
     /// Throws Error{usage} if the provider cannot draw frames of that size.
     void draw(const Picture& picture, Size size) { draw(picture, size, size); }
-    /// The same, with the picture in `view`, the part at the lower left. The rest has the colour of
-    /// its background.
+    /// Draws the picture in `view`, the part at the lower left. The rest has the colour of its
+    /// background.
     void draw(const Picture& picture, Size size, Size view);
     /// Draws over the last frame.
     void draw_over(const Overlay& overlay);
-    /// The same in `view`, without background, bars and sprites.
+    /// Draws a picture over the last frame in `view`, without background, bars and sprites.
     void draw_over(const Picture& picture, Size view);
     /// Reads the last frame. The memory of `pixels` is reused.
     void read(Pixels& pixels) const;

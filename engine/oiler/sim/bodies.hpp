@@ -88,7 +88,7 @@ public:
     /// Adds a spring between a row and a fixed point. It costs other rows nothing, while a Spring
     /// or CoilSpring takes columns with a number per row. The row is then stepped as a linked one.
     LinkHandle link_to_point(std::size_t row, const Vec3& point, const Link& link);
-    /// Moves the point of a link to a point, m. A damper takes the point as still.
+    /// Moves the point of a link to a point, m. Dampers regard the point as at rest.
     void move_point(LinkHandle link, const Vec3& point);
     [[nodiscard]] bool alive(LinkHandle link) const;
     /// Removes the spring, which must be alive.

@@ -277,7 +277,7 @@ RitzPair highest_ritz_pair(const Component& component, const MatrixSum& sum) {
         recurrence.multiply();
         diagonal.push_back(recurrence.diagonal());
         beside.push_back(recurrence.beside());
-        // The vectors so far are all that the matrix makes of the start.
+        // The vectors so far span all that the matrix can reach from the start.
         const bool is_whole = !(beside.back() > breakdown * std::abs(diagonal.front()));
         const bool is_last = diagonal.size() == most || is_whole;
         if (!is_last && diagonal.size() % fewest_iterations != 0) continue;

@@ -58,9 +58,9 @@ struct Risk {
     std::optional<Orbit> orbit{};           ///< an orbit that was tried
 };
 
-/// Finds what the method cannot follow at the rate, the worst first: springs, dampers and drag
-/// outside its region of stability, at the step or at one of four shorter steps; attraction that is
-/// too fast; and bodies in float whose motion in a step is less than half of their position's last
+/// Finds the risks of the method at the rate, the worst first: springs, dampers and drag outside
+/// its region of stability, at the step or at one of four shorter steps; attraction that is too
+/// fast; and bodies in float whose motion in a step is less than half of their position's last
 /// place. It linearises at the present positions, see Component, and after 128 and 512 steps of up
 /// to 3000 bodies. It changes no state.
 [[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,

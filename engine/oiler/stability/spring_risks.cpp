@@ -11,12 +11,12 @@ namespace {
 
 /// Up to this number of freedoms, the step matrix of unevenly damped bodies is computed.
 constexpr std::size_t most_dense_freedoms = 30;
-/// Up to this number, all oscillations of evenly damped bodies are.
+/// Up to this number, all oscillations of evenly damped bodies are computed.
 constexpr std::size_t most_modes = 100;
 /// Up to this number, a warning of damped bodies is confirmed with the step matrix, in 0.2 s at
 /// most.
 constexpr std::size_t most_confirmed_freedoms = 100;
-/// Growth per step that is not told from round-off, see spectral_radius_of_step.
+/// Growth per step that is not distinguished from round-off, see spectral_radius_of_step.
 constexpr double radius_round_off = 1e-6;
 
 bool is_stable_step(const Component& component, const Method& method, Damping damping, double dt) {
@@ -199,7 +199,7 @@ ScaledOscillation scaled(const Oscillation& of, double dt) {
     return {std::sqrt(of.k) * dt, of.c * dt};
 }
 
-/// The largest ω·dt and c·dt of what acts in all directions.
+/// The largest ω·dt and c·dt of the springs and dampers that act in all directions.
 ScaledOscillation largest_of(const std::vector<OwnMotion>& own, double dt) {
     ScaledOscillation largest;
     for (const auto& [of, all, has_lines] : own) {

@@ -17,14 +17,13 @@ struct Stiffest {
     std::size_t row = 0;
     std::optional<std::size_t> linked{};  ///< the other row of a link
     bool is_damper = false;               ///< without a spring
-    double measure = 0;                   ///< ω·dt, of a damper c·dt
+    double measure = 0;                   ///< ω·dt; for a damper, c·dt
     double limit = 0;                     ///< the largest stable measure; infinite: any is stable
 };
 
-/// Finds the stiffest spring or damper, again and again in a run. Linked bodies count with their
-/// fastest oscillation at the present positions; it is at most 1 % slower than returned. A limit
-/// takes some tens of milliseconds to find. It is kept for all damping ratios that agree in three
-/// digits.
+/// Finds the stiffest spring or damper, repeatedly in a run. Linked bodies count with their fastest
+/// oscillation at the present positions; it is at most 1 % slower than returned. A limit takes some
+/// tens of milliseconds to find. It is kept for all damping ratios that agree in three digits.
 class StiffestFinder {
 public:
     /// The springs and dampers that find() compares, in the present state.

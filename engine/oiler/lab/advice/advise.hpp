@@ -61,7 +61,7 @@ struct Advice {
 
 /// Finds the cheapest setting within the tolerances or, without tolerances, the most accurate
 /// within the time. A setting must also meet the tolerances from perturbed starts, and raise no
-/// warning before the run, also at a rate 5 % lower. Of settings that cost the same, the most
+/// warning before the run, also at a rate 5 % lower. Among settings of equal cost, the most
 /// accurate wins, then the one of the higher rate. Tries settings from the cheapest up and skips
 /// rates that the method's order rules out. Throws Error{usage} for a tolerance that the reference
 /// cannot judge. The result of a stopped call is empty.

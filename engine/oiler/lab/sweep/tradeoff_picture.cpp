@@ -172,8 +172,7 @@ private:
                                 .points = std::move(curve),
                                 .mark = style.mark});
     }
-    /// Marks the settings on the front and on no curve, so that each corner of the front has a
-    /// mark.
+    /// Marks the rows on the front and on no curve, so that each corner of the front has a mark.
     void add_others() {
         Series series{.name = "other settings on the front",
                       .colour = palette::grey,
