@@ -72,8 +72,8 @@ private:
     AnyGame& game_;
     InputSource& inputs_;
     Limits limits_;
-    std::int64_t at_ = 0;    ///< the number of steps that the game has taken
-    std::int64_t last_ = 0;  ///< the largest number that it has taken
+    std::int64_t at_ = 0;    ///< the steps that the game had taken when last seen
+    std::int64_t last_ = 0;  ///< the last step that it is known to have taken
     std::vector<Copy> copies_;
     std::deque<Span> spans_;
     std::chrono::steady_clock::time_point next_copy_{};

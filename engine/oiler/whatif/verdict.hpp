@@ -25,7 +25,7 @@ struct Verdict {
 /// Then it names the cure: the cheapest other run with an error below a pixel, or else the most
 /// accurate one.
 ///
-/// A reading in m is wrong from an error of a pixel on, in another unit from a hundredth on.
+/// A reading in m is wrong if its error exceeds a pixel, in another unit if it exceeds 1 %.
 /// Readings that changed since `before` are not judged: they may be a step late, which is no error.
 /// Only certain errors are named, see KnownError. Prices below 10 µs a frame are not compared.
 [[nodiscard]] Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before,
