@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <functional>
+#include <set>
 
 #include "oiler/certify/certify.hpp"
 #include "oiler/certify/region.hpp"
@@ -21,6 +22,12 @@ TEST_P(EachMethod, IsWhatItsTableClaims) {
     const Certificate certificate = certificate_of(GetParam());
     for (const std::string& failure : certificate.failures) ADD_FAILURE() << failure;
     EXPECT_GE(certificate.orders.size(), 4U);
+    // A step alone shares no kick with the next one.
+    if (const auto* splitting = std::get_if<Splitting>(&GetParam().rule)) {
+        EXPECT_EQ(
+            certificate.single_evaluations,
+            static_cast<double>(std::ranges::count(splitting->stages(), Move::kick, &Stage::move)));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Certificate, EachMethod,
@@ -276,6 +283,18 @@ TEST(Atlas, HasPanelsAndLabelsThatDoNotMeetOnTheCanvas) {
                 EXPECT_FALSE(areas[i].meets(areas[k]))
                     << panels << " panels, " << i << " and " << k;
         }
+    }
+}
+
+// The lowest panel has 0, 1, 2 and 3 below it.
+TEST(Atlas, HasTheNumbersOfOmegaOnceInEachColumn) {
+    for (std::size_t panels = 1; panels <= methods().size(); ++panels) {
+        const Picture picture = atlas_of(panels);
+        std::set<float> columns;
+        for (const auto& sprite : picture.sprites) columns.insert(sprite.centre.x);
+        EXPECT_EQ(std::ranges::count(picture.labels, Align::centre, &Label::align),
+                  4 * std::ssize(columns))
+            << panels;
     }
 }
 

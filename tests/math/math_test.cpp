@@ -120,6 +120,8 @@ TYPED_TEST(Sine, HasThePeriodOfOneTurn) {
             EXPECT_EQ(sine_of_turns(T(whole) + fraction), sine_of_turns(fraction)) << whole;
 }
 
+using Matrix2 = Matrix<double, 2>;
+using Vector2 = Vec<double, 2>;
 using Matrix3 = Matrix<double, 3>;
 using Vector3 = Vec<double, 3>;
 
@@ -162,14 +164,22 @@ TEST(Solve, ExchangesRowsOfBothSides) {
     EXPECT_EQ(solve(m, b), x);
 }
 
+// x = y = 1/(1 + 1e-20), which rounds to 1. With 1e-20 as the pivot, x would be 0.
+TEST(Solve, TakesTheLargestPivotHoweverSigned) {
+    const Vector2 large{-1, 1};
+    const Vector2 small{1e-20, 1};
+    EXPECT_EQ(solve(Matrix2{{large, small}}, Vector2{0, 1}), (Vector2{1, 1}));
+    EXPECT_EQ(solve(Matrix2{{small, large}}, Vector2{1, 0}), (Vector2{1, 1}));
+}
+
 TEST(Solve, IsNotFiniteIfTheMatrixIsSingular) {
-    const Matrix<double, 2> m{{Vec<double, 2>{1, 2}, Vec<double, 2>{2, 4}}};
-    const Vec<double, 2> x = solve(m, Vec<double, 2>{1, 1});
+    const Matrix2 m{{Vector2{1, 2}, Vector2{2, 4}}};
+    const Vector2 x = solve(m, Vector2{1, 1});
     EXPECT_FALSE(std::isfinite(x[0]) && std::isfinite(x[1]));
 }
 
 TEST(Matrix, OuterProductHasItsFirstFactorDownTheRows) {
-    const Matrix<double, 2> m = Matrix<double, 2>::outer({2, 3}, {5, 7});
+    const Matrix2 m = Matrix2::outer({2, 3}, {5, 7});
     EXPECT_EQ(m(0, 1), 14);
     EXPECT_EQ(m(1, 0), 15);
 }

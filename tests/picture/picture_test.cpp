@@ -77,6 +77,17 @@ TEST(Shapes, ABarReachesFromPointToPoint) {
     }
 }
 
+// An arrow shorter than its head, 4 widths, has a smaller head. Coordinates below 10 are rounded a
+// few times.
+TEST(Shapes, AnArrowStaysBetweenItsEndsHoweverWide) {
+    for (const float width : {0.1F, 1.0F, 2.0F, 100.0F})
+        for (const Point at : arrow({1, 2}, {4, 6}, width)) {
+            const float along = (at.x - 1) * 0.6F + (at.y - 2) * 0.8F;
+            EXPECT_GE(along, -1e-5F) << width;
+            EXPECT_LE(along, 5 + 1e-5F) << width;
+        }
+}
+
 TEST(Palette, MixesEachPart) {
     constexpr Colour from{0, 100, 200, 255}, to{10, 0, 255, 55};
     EXPECT_EQ(palette::mix(from, to, 0), from);

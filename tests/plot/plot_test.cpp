@@ -374,6 +374,20 @@ TEST(Plot, ListsItsNamesBesideTheBoxFromTheTop) {
     }
 }
 
+// Twelve lines at 13 units are higher than the box.
+TEST(Plot, ListsNamesOfSeveralLinesDownToTheBottomOfTheBox) {
+    Plot plot = square;
+    plot.legend_beside = true;
+    plot.series.assign(6, {.name = "one\ntwo", .points = {{5, 0}}});
+    int lines = 0;
+    for (const Label& label : drawn(plot).labels) {
+        if (label.text != "one" && label.text != "two") continue;
+        EXPECT_GT(label.at.y, plot.box.low.y);
+        ++lines;
+    }
+    EXPECT_EQ(lines, 12);
+}
+
 // The first curve has no point, the second none within the ranges, the third only crosses them.
 TEST(Plot, NamesOnlyCurvesThatAreDrawn) {
     for (const bool beside : {false, true}) {

@@ -57,6 +57,10 @@ const Values neither_number_nor_text{{"true", "true"},
 const Values no_number =
     neither_number_nor_text + texts({"", "1 kg", "0.0"}) +
     Values{{"nan", "nan"}, {"-nan", "nan"}, {"inf", "inf"}, {"+inf", "inf"}, {"-inf", "-inf"}};
+/// Messages show up to 60 characters of a text.
+const Values long_texts =
+    texts({std::string(60, 'm')}) +
+    Values{{"\"" + std::string(61, 'm') + "\"", "the text \"" + std::string(60, 'm') + "...\""}};
 const Values below_0{{"-0.1", "-0.1"}, {"-2", "-2"}, {"-1e-300", "-1e-300"}};
 const Values to_0 = below_0 + Values{{"0", "0"}, {"0.0", "0"}, {"-0.0", "-0"}};
 const Values no_whole = no_number + Values{{"3.0", "3"}, {"-1", "-1"}};
@@ -134,7 +138,7 @@ const std::vector<Refusal> refusals{
     {"a list of 2 numbers, for the 2 axes, in m/s²", "gravity.acceleration", no_vector},
     {"a list of 2 numbers, for the 2 axes, in N", "drive.amplitude", no_vector},
     {"a list of 2 numbers, for the 2 axes", "plane.normal", no_vector},
-    {"a number, in m", "plane.offset", no_number},
+    {"a number, in m", "plane.offset", no_number + long_texts},
     {"a number, in rad", "drive.phase", no_number},
     {"a number above 0, in kg", "body.mass grid.mass scatter.mass", no_number + to_0},
     {"a number above 0, in m",

@@ -90,6 +90,20 @@ TEST(CrossedCoils, ThatAreStretchedPullAcross) {
     EXPECT_GE(quiet, std::sqrt(1 / 1.9)) << "warned below the sum of all stiffness";
 }
 
+// At right angles they have k. Far away both pull along one line, with 2·k: √2·1.8 is above the
+// limit of 2.
+TEST(CrossedCoils, OfAThrownBodyAreWarnedOfBeforeTheyAlign) {
+    const Method& verlet = find_method("velocity_verlet");
+    const double dt = 1.8 / std::sqrt(4000);
+    for (const bool links_to_points : {false, true}) {
+        Bodies bodies = crossed_coils(std::acos(0.0), links_to_points).bodies();
+        EXPECT_FALSE(is_warned(bodies, verlet, dt));
+        bodies.set_velocity(0, {-1000, -1000});
+        EXPECT_TRUE(is_warned(bodies, verlet, dt)) << links_to_points;
+        EXPECT_TRUE(bodies.try_step(verlet, {rate_of(dt), 0, 20'000}));
+    }
+}
+
 /// A net in which neighbours are linked, with diagonals or without.
 SpringScene net(int columns, int rows, double stretch, bool diagonals, double damping) {
     SpringScene scene;
@@ -186,6 +200,8 @@ TEST(UnevenDamping, IsWarnedOfFromTheRunsLimitOn) {
         {"rk3_kutta", unevenly_damped(0.5, 10, 1000), 1 / 30.0},
         {"blanes_moan_srkn6b", damped_at_the_anchor(), 1 / 20.0},
         {"semi_implicit_euler", unevenly_damped(0.5, 10, 1000), 1 / 30.0},
+        // Its drag alone needs 300·dt < 2.
+        {"semi_implicit_euler", unevenly_damped(1, 300, 1), 2 / 300.0},
     };
     for (const auto& [name, bodies, around] : pairs) {
         const Method& method = find_method(name);

@@ -172,6 +172,8 @@ TEST(SampledMotion, KeepsApartWhatAKinkParts) {
     EXPECT_EQ(motion.cubic_error(0, {}, {}, 0.9L, 1), 0);
     EXPECT_GE(motion.cubic_error(1, {}, {}, 0.9L, 1), 0.3 * 3 * 0.94 * 0.94);
     EXPECT_EQ(motion.cubic_error(1, {}, {}, 0.8L, 0.9L), 0);
+    EXPECT_EQ(motion.cubic_error(1, {}, {}, 0.9L, kink), 0);
+    EXPECT_EQ(motion.cubic_error(1, {}, {}, kink, 1), 0);
     // Leaving a sample out shows no kink.
     EXPECT_LE(
         interpolation_errors({1, one_row(trajectory, 1), {trajectory.kinks[1]}}, per_second).back(),
@@ -227,6 +229,16 @@ TEST(InterpolationErrors, BoundTheErrorsBetweenSamples) {
 // Two samples per period resolve nothing; the estimate must be of the size of the oscillation.
 TEST(InterpolationErrors, AreLargeIfNothingIsResolved) {
     EXPECT_GT(interpolation_errors(sampled(33, 4), per_second).back(), 0.5);
+}
+
+// Straight lines, a second each. The body dips into the band but not below it after its first
+// crossing of 0.
+TEST(UpwardCrossings, AreFromBelowTheBand) {
+    const Path path{.t = {0, 1, 2, 3, 4, 5}, .x = {-1, 1, -0.0625, 1, -1, 1}};
+    const std::vector<double> crossings = upward_crossings(path, 0, 0.125);
+    ASSERT_EQ(crossings.size(), 2U);
+    EXPECT_NEAR(crossings[0], 0.5, 1e-15);
+    EXPECT_NEAR(crossings[1], 4.5, 1e-15);
 }
 
 /// A reference of these motions that is meaningful up to its last sample.
