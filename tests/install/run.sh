@@ -6,7 +6,9 @@ set -Eeuo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
-folder=$(mktemp -d)
+folder=$build/install_test
+rm -rf "$folder"
+mkdir "$folder"
 log=$folder/log
 trap 'rm -rf "$folder"' EXIT
 trap 'echo "failed in line $LINENO, after:"; tail -n 40 "$log"' ERR
@@ -14,10 +16,8 @@ unset OILER_INSTRUCTIONS PKG_CONFIG_PATH CMAKE_PREFIX_PATH DISPLAY WAYLAND_DISPL
 unset CI JENKINS_URL  # where they are set, no new project writes its golden frames
 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 export CMAKE_BUILD_PARALLEL_LEVEL
-# Builds of the engine that compile little: one set of kernels, and what the package's build has left
-# in the compiler's cache.
-quick=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -DOILER_ROOMS=world
-       -DOILER_KERNELS=baseline)
+# Builds of the engine that compile little.
+quick=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -DOILER_KERNELS=none)
 if command -v ccache > /dev/null; then
     quick+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
 fi
@@ -109,60 +109,64 @@ quietly cmake -G Ninja -S "$folder/my games/compiled" -B "$folder/compiled"
 quietly ninja -C "$folder/compiled" -n
 grep -q liboiler_app.a "$log" || fail "ninja -n does not build the engine"
 
-mkdir "$folder/game"
-cp "$here/game/CMakeLists.txt" "$folder/game"
-cp "$source/demos/hello.cpp" "$folder/game/game.cpp"
-configure_game() {
-    rm -rf "$folder/game/build"
-    cmake -S "$folder/game" -B "$folder/game/build" -DCMAKE_BUILD_TYPE=Release "$@"
+cp -r "$here/program" "$here/subproject" "$here/simulation.cpp" "$here/version.cpp" "$folder"
+cp "$source/demos/hello.cpp" "$folder/game.cpp"
+program=$folder/program/build/program
+# configure NAME...: the project of the program NAME.cpp
+configure() {
+    local name=$1
+    shift
+    rm -rf "$folder/program/build"
+    cmake -S "$folder/program" -B "$folder/program/build" -DCMAKE_BUILD_TYPE=Release \
+        -DSOURCE="$folder/$name.cpp" "$@"
+}
+make_program() {
+    quietly configure "$@"
+    quietly cmake --build "$folder/program/build"
 }
 
 echo "a game by oiler_DIR, all components"
-quietly configure_game -Doiler_DIR="$config"
-quietly cmake --build "$folder/game/build"
-draws "$folder/game/build/game"
+make_program game -Doiler_DIR="$config"
+draws "$program"
 
 echo "requests that cannot be met"
 expect_failure "oiler has no component wurld; its components are: core math" \
-    configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_COMPONENTS=wurld
+    configure game -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=wurld
 expect_failure "compatible with requested version \"0.2\"" \
-    configure_game -DCMAKE_PREFIX_PATH="$prefix" -DGAME_OILER=0.2
+    configure game -DCMAKE_PREFIX_PATH="$prefix" -DOILER_VERSION=0.2
 expect_failure "oiler::core needs libxxhash" \
-    env PKG_CONFIG_LIBDIR="$folder" cmake -S "$folder/game" -B "$folder/game/without" \
+    env PKG_CONFIG_LIBDIR="$folder" cmake -S "$folder/program" -B "$folder/program/without" \
     -DCMAKE_PREFIX_PATH="$prefix"
 
 echo "a simulation by component world"
-cp -r "$here/simulation" "$folder"
-simulation=$folder/simulation/build
-quietly cmake -S "$folder/simulation" -B "$simulation" -DCMAKE_PREFIX_PATH="$prefix"
-not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|Eigen|deflate|toml' "$simulation"
-quietly cmake --build "$simulation"
-no_window "$simulation/simulation"
-position=$("$simulation/simulation")
+make_program simulation -DCMAKE_PREFIX_PATH="$prefix" -DCOMPONENTS=world
+not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|Eigen|deflate|toml' "$folder/program/build"
+no_window "$program"
+position=$("$program")
 
 echo "pkg-config"
-# compile OUTPUT MODULE SOURCE: with flags in which pkg-config has escaped the space.
+# compile NAME MODULE: with flags in which pkg-config has escaped the space.
 compile() {
     local flags
     flags=$(PKG_CONFIG_PATH="$libraries/pkgconfig" pkg-config --cflags --libs "$2")
-    eval "g++ -std=c++20 -O1 -o '$1' '$3' $flags"
+    eval "g++ -std=c++20 -O1 -o '$folder/$1' '$folder/$1.cpp' $flags"
 }
-quietly compile "$folder/game/by_pkg_config" oiler "$folder/game/game.cpp"
-draws "$folder/game/by_pkg_config"
-quietly compile "$folder/simulation/by_pkg_config" oiler-world "$folder/simulation/simulation.cpp"
-no_window "$folder/simulation/by_pkg_config"
-[ "$("$folder/simulation/by_pkg_config")" = "$position" ]
+quietly compile game oiler
+draws "$folder/game"
+quietly compile simulation oiler-world
+no_window "$folder/simulation"
+[ "$("$folder/simulation")" = "$position" ]
 
 echo "the installed headers"
 (cd "$prefix/include" && find oiler -name '*.hpp') | sed 's/.*/#include <&>/' > "$folder/headers.cpp"
 [ "$(wc -l < "$folder/headers.cpp")" -gt 80 ] || fail "few headers are installed"
 echo 'int main() {}' >> "$folder/headers.cpp"
-quietly compile "$folder/headers" oiler "$folder/headers.cpp"
+quietly compile headers oiler
 
 echo "a subproject that only simulates"
-cp -r "$here/subproject" "$folder"
 subproject=$folder/subproject/build
-quietly cmake -S "$folder/subproject" -B "$subproject" -DOILER_SOURCE="$source" "${quick[@]}"
+quietly cmake -S "$folder/subproject" -B "$subproject" -DOILER_SOURCE="$source" \
+    -DOILER_ROOMS=world "${quick[@]}"
 not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|deflate|toml|^CPACK_|GTest' "$subproject"
 quietly cmake --build "$subproject"
 no_window "$subproject/simulation"
@@ -180,15 +184,14 @@ fi
 
 echo "an absolute folder of libraries"
 absolute=$folder/absolute
-quietly cmake -S "$source" -B "$folder/world" "${quick[@]}" -DOILER_BUILD_DEMOS=OFF \
-    -DCMAKE_INSTALL_PREFIX="$absolute" -DCMAKE_INSTALL_LIBDIR="$absolute/lib"
-quietly cmake --build "$folder/world"
-quietly cmake --install "$folder/world"
-rm -rf "$simulation"
-quietly cmake -S "$folder/simulation" -B "$simulation" -DCMAKE_PREFIX_PATH="$absolute"
-quietly cmake --build "$simulation"
-[ "$("$simulation/simulation")" = "$position" ]
+quietly cmake -S "$source" -B "$folder/core" -DOILER_ROOMS=core "${quick[@]}" \
+    -DOILER_BUILD_DEMOS=OFF -DCMAKE_INSTALL_PREFIX="$absolute" -DCMAKE_INSTALL_LIBDIR="$absolute/lib"
+quietly cmake --build "$folder/core"
+quietly cmake --install "$folder/core"
+make_program version -DCMAKE_PREFIX_PATH="$absolute" -DCOMPONENTS=core
+version=$("$program")
+[[ "$("$prefix/bin/oiler" --version)" == *"$version"* ]] || fail "the version is $version"
 mv "$absolute" "$folder/moved here/absolute"
 libraries="$folder/moved here/absolute/lib"
-quietly compile "$folder/simulation/by_pkg_config" oiler-world "$folder/simulation/simulation.cpp"
-[ "$("$folder/simulation/by_pkg_config")" = "$position" ]
+quietly compile version oiler-core
+[ "$("$folder/version")" = "$version" ]

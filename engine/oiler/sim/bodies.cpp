@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
+#include <array>
+#include <span>
+
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
 #include "oiler/sim/any_columns.hpp"
@@ -9,30 +12,32 @@
 namespace oiler {
 namespace {
 
+/// The kinds of force that all rows share.
+constexpr Kinds kinds_everywhere = [] {
+    Kinds kinds = 0;
+    for_each_index<force_count>([&](auto i) {
+        if (std::tuple_element_t<i, ForceList<double, 3>>::everywhere)
+            kinds = static_cast<Kinds>(kinds | 1U << i);
+    });
+    return kinds;
+}();
+
 /// Adds columns up to `count` forces of a kind; new forces are zero for all rows.
-template <class Numbers>
-void make_room(std::vector<Numbers>& stored, std::size_t count, std::size_t rows) {
-    while (stored.size() < count)
-        for (auto& parameter : stored.emplace_back()) parameter = {0, rows};
+template <class T>
+void make_room(std::vector<ForceColumns<T>>& stored, std::size_t count, std::size_t numbers,
+               std::size_t rows) {
+    while (stored.size() < count) stored.emplace_back(numbers, Parameter<T>(0, rows));
 }
 
-template <class Numbers, class Force>
-void set_force(Numbers& stored, std::size_t row, Force force) {
-    std::size_t next = 0;
-    for_each_number(force, [&](auto number) { stored[next++].set(row, number); });
-}
-
-/// Adds a force's numbers for a new row: those that all rows share, the given ones, or zeros.
-template <class Numbers, class Force>
-void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given) {
-    for (std::size_t index = 0; index < stored.size(); ++index) {
-        Force force = index == 0 ? given.value_or(Force{}) : Force{};
-        std::size_t next = 0;
-        for_each_number(force, [&](auto number) {
-            auto& parameter = stored[index][next++];
-            parameter.push(Force::everywhere ? parameter[0] : number);
-        });
-    }
+/// Adds the numbers of a new row to all forces of a kind: those that all rows share; else the given
+/// ones to the first force and zeros to the others.
+template <class T>
+void push_row(std::vector<ForceColumns<T>>& stored, std::span<const T> given, bool everywhere) {
+    for (std::size_t index = 0; index < stored.size(); ++index)
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            Parameter<T>& number = stored[index][i];
+            number.push(everywhere ? number[0] : index == 0 ? given[i] : T(0));
+        }
 }
 
 /// The kinds of force of which row `row` has any number other than 0, but for those that all rows
@@ -40,25 +45,27 @@ void push_force(std::vector<Numbers>& stored, const std::optional<Force>& given)
 template <class T, int Axes>
 Kinds kinds_of_row(const Columns<T, Axes>& columns, std::size_t row) {
     Kinds kinds = 0;
-    for_each_index<force_count>([&](auto i) {
-        if constexpr (!std::tuple_element_t<i, ForceList<T, Axes>>::everywhere)
-            for (const auto& numbers : std::get<i>(columns.forces))
-                for (const Parameter<T>& number : numbers)
-                    if (number[row] != 0) kinds = static_cast<Kinds>(kinds | 1U << i);
-    });
-    return kinds;
+    for (std::size_t kind = 0; kind < force_count; ++kind)
+        for (const ForceColumns<T>& numbers : columns.forces[kind])
+            for (const Parameter<T>& number : numbers)
+                if (number[row] != 0) kinds = static_cast<Kinds>(kinds | 1U << kind);
+    return static_cast<Kinds>(kinds & ~kinds_everywhere);
 }
 
-/// Calls f(stored columns, force in the form of the columns) for every kind of force. The force is
-/// empty if none is given.
+/// Calls f(kind, numbers, whether the force is given) for every kind of force. The numbers are per
+/// unit mass and in the order of the columns; zeros if no force is given.
 template <class T, int Axes, class F>
-void for_each_force(Columns<T, Axes>& columns, const GivenForces& forces, double mass, F f) {
-    for_each_index<force_count>([&](auto i) {
-        using Stored = std::tuple_element_t<i, ForceList<T, Axes>>;
-        std::optional<Stored> stored_force;
-        if (const auto& given = std::get<i>(forces))
-            stored_force = converted_force<Stored>(given->per_unit_mass(mass));
-        f(std::get<i>(columns.forces), stored_force);
+void for_each_kind(const GivenForces& forces, double mass, F f) {
+    for_each_index<force_count>([&](auto kind) {
+        using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
+        std::array<T, number_count<Force>()> numbers{};
+        const auto& given = std::get<kind>(forces);
+        if (given) {
+            auto force = converted_force<Force>(given->per_unit_mass(mass));
+            std::size_t next = 0;
+            for_each_number(force, [&](T number) { numbers[next++] = number; });
+        }
+        f(std::size_t{kind}, std::span<const T>(numbers), given.has_value());
     });
 }
 
@@ -93,13 +100,12 @@ void remove_links(std::vector<Row>& links, std::size_t row, std::size_t last, F 
 }
 
 /// Drops the columns of a kind of force that no row has any more.
-template <class Stored>
-void drop_if_unused(Stored& stored, const Parameter<Kinds>& kinds, std::size_t kind,
-                    std::size_t rows) {
-    if (stored.empty()) return;
-    for (std::size_t row = 0; row < (kinds.shared() ? 1 : rows); ++row)
-        if (kinds[row] >> kind & 1U) return;
-    stored.clear();
+template <class T, int Axes>
+void drop_if_unused(Columns<T, Axes>& columns, std::size_t kind) {
+    if (columns.forces[kind].empty()) return;
+    for (std::size_t row = 0; row < (columns.kinds.shared() ? 1 : columns.size); ++row)
+        if (columns.kinds[row] >> kind & 1U) return;
+    columns.forces[kind].clear();
 }
 
 template <class T, int Axes>
@@ -167,12 +173,13 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
     const Limits limits(precision(), axes());
     limits.check(body);
     limits.check(forces, body.mass);
-    return columns_->visit([&](auto& columns) {
+    return columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         const std::size_t row = columns.size;
-        for_each_force(columns, forces, body.mass, [&](auto& stored, const auto& force) {
-            if (force) make_room(stored, 1, row);
-            push_force(stored, force);
-        });
+        for_each_kind<T, Axes>(
+            forces, body.mass, [&](std::size_t kind, std::span<const T> numbers, bool is_given) {
+                if (is_given) make_room(columns.forces[kind], 1, numbers.size(), row);
+                push_row(columns.forces[kind], numbers, kinds_everywhere >> kind & 1U);
+            });
         push(columns.motion.x, body.position);
         push(columns.motion.v, body.velocity);
         columns.mass.push(body.mass);
@@ -186,12 +193,15 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
 
 void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& forces) {
     Limits(precision(), axes()).check(forces, mass(row));
-    columns_->visit([&](auto& columns) {
-        for_each_force(columns, forces, columns.mass[row], [&](auto& stored, const auto& force) {
-            if (!force) return;
-            make_room(stored, index + 1, columns.size);
-            set_force(stored[index], row, *force);
-        });
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        for_each_kind<T, Axes>(
+            forces, columns.mass[row],
+            [&](std::size_t kind, std::span<const T> numbers, bool is_given) {
+                if (!is_given) return;
+                make_room(columns.forces[kind], index + 1, numbers.size(), columns.size);
+                for (std::size_t i = 0; i < numbers.size(); ++i)
+                    columns.forces[kind][index][i].set(row, numbers[i]);
+            });
         columns.kinds.set(row, kinds_of_row(columns, row));
         columns.forces_changed(row);
     });
@@ -200,14 +210,10 @@ void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& fo
 void Bodies::detach_kind(std::size_t row, std::size_t kind) {
     require_row(row);
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        for_each_index<force_count>([&](auto i) {
-            if (i != kind) return;
-            auto& stored = std::get<i>(columns.forces);
-            for (auto& numbers : stored)
-                for (Parameter<T>& number : numbers) number.set(row, 0);
-            columns.kinds.set(row, kinds_of_row(columns, row));
-            drop_if_unused(stored, columns.kinds, kind, columns.size);
-        });
+        for (ForceColumns<T>& numbers : columns.forces[kind])
+            for (Parameter<T>& number : numbers) number.set(row, 0);
+        columns.kinds.set(row, kinds_of_row(columns, row));
+        drop_if_unused(columns, kind);
         columns.forces_changed(row);
     });
 }
@@ -219,11 +225,9 @@ void Bodies::remove(std::size_t row) {
         for (auto& column : columns.motion.v) column.swap_remove(row);
         columns.mass.swap_remove(row);
         columns.kinds.swap_remove(row);
-        const auto remove_from = [&](auto& stored) {
+        for (auto& stored : columns.forces)
             for (auto& numbers : stored)
-                for (auto& parameter : numbers) parameter.swap_remove(row);
-        };
-        std::apply([&](auto&... stored) { (remove_from(stored), ...); }, columns.forces);
+                for (auto& number : numbers) number.swap_remove(row);
         columns.applied.swap_remove(row, --columns.size);
         columns.contacts.swap_remove(row, columns.size);
         const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
@@ -236,10 +240,8 @@ void Bodies::remove(std::size_t row) {
 void Bodies::set_gravity(const Vec3& acceleration) {
     Limits(precision(), axes()).check(acceleration, "gravity");
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        constexpr std::size_t at =
-            index_of<GravityForce<T, Axes>>(static_cast<ForceList<T, Axes>*>(nullptr));
-        auto& stored = std::get<at>(columns.forces);
-        make_room(stored, 1, columns.size);
+        auto& stored = columns.forces[kind_index<GravityForce<T, Axes>, T, Axes>];
+        make_room(stored, 1, Axes, columns.size);
         const Vec<T, Axes> g = converted<Vec<T, Axes>>(acceleration);
         for (std::size_t i = 0; i < Axes; ++i) stored[0][i] = {g.axis[i], columns.size};
         columns.contacts.wake_all();

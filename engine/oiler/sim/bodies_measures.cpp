@@ -9,9 +9,9 @@
 namespace oiler {
 namespace {
 
-template <class T, std::size_t Count>
+template <class T>
 Stored storage_of(std::string_view name, std::size_t index,
-                  const std::array<Parameter<T>, Count>& numbers, std::size_t rows) {
+                  const std::vector<Parameter<T>>& numbers, std::size_t rows) {
     Stored stored{.of = name, .index = index};
     for (const Parameter<T>& number : numbers) {
         stored.shared.push_back(number.shared());
@@ -54,7 +54,7 @@ GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t index) const {
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<double, Axes>>;
             using Given = typename std::tuple_element_t<i, GivenForces>::value_type;
-            if (index < std::get<i>(columns.forces).size())
+            if (index < columns.forces[i].size())
                 std::get<i>(given) =
                     converted_force<Given>(force_at<Force, double>(columns, index, row));
         });
@@ -64,8 +64,9 @@ GivenForces Bodies::forces_per_mass(std::size_t row, std::size_t index) const {
 
 std::size_t Bodies::most_forces_of_a_kind() const {
     return columns_->visit([](const auto& columns) {
-        return std::apply([](const auto&... stored) { return std::max({stored.size()...}); },
-                          columns.forces);
+        std::size_t most = 0;
+        for (const auto& stored : columns.forces) most = std::max(most, stored.size());
+        return most;
     });
 }
 
@@ -92,17 +93,17 @@ std::vector<Stored> Bodies::stored() const {
         std::vector<Stored> all;
         for (const std::string_view name : {"position", "velocity"})
             all.push_back({name, 0, not_shared, Axes * sizeof(T), columns.size});
-        all.push_back(storage_of("mass", 0, std::array{columns.mass}, columns.size));
+        all.push_back(storage_of("mass", 0, std::vector{columns.mass}, columns.size));
         if (columns.contacts.rows > 0) {
             all.push_back(
-                storage_of("contact", 0, std::array{columns.contacts.radius}, columns.size));
+                storage_of("contact", 0, std::vector{columns.contacts.radius}, columns.size));
             all.back().rows = columns.contacts.rows;
         }
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            const auto& forces = std::get<i>(columns.forces);
-            for (std::size_t index = 0; index < forces.size(); ++index)
-                all.push_back(storage_of(Force::name, index, forces[index], columns.size));
+            for (std::size_t index = 0; index < columns.forces[i].size(); ++index)
+                all.push_back(
+                    storage_of(Force::name, index, columns.forces[i][index], columns.size));
         });
         return all;
     });

@@ -93,7 +93,7 @@ void Bodies::require_exact_flow(const Method& method) const {
     columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            if (!Linear<Force> && !std::get<i>(columns.forces).empty())
+            if (!Linear<Force> && !columns.forces[i].empty())
                 fail(Exit::usage, "method {}: {} has no exact flow; {}", method.name, Force::name,
                      remedy);
         });

@@ -89,6 +89,12 @@ constexpr std::size_t number_count() {
     return count;
 }
 
+/// The largest number of numbers in any force.
+inline constexpr std::size_t most_numbers =
+    []<class... Force>(std::type_identity<std::tuple<Force...>>) {
+        return std::max({number_count<Force>()...});
+    }(std::type_identity<ForceList<double, 3>>{});
+
 template <class Force>
 concept DependsOnTime = Force::depends_on_time;
 

@@ -50,7 +50,7 @@ bool replace_view(NumberView<T>& view, const Parameter<T>& number) {
 
 /// Views the numbers of a linear force. Returns whether another force has one of them, too.
 template <class Force, class T, int Axes>
-bool view_force(const ForceColumns<Force, T>& numbers, LinearAxes<T, Axes>& axes) {
+bool view_force(const ForceColumns<T>& numbers, LinearAxes<T, Axes>& axes) {
     constexpr auto fields = Force::linear_fields();
     using Parts = typename decltype(fields)::Parts;
     constexpr Kinds kind = kind_bit<Force, T, Axes>;
@@ -106,7 +106,7 @@ LinearAxes<T, Axes> linear_axes(const Columns<T, Axes>& columns, LinearSums<T, A
     for_each_index<force_count>([&](auto kind) {
         using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
         if constexpr (Linear<Force>)
-            for (const auto& numbers : std::get<kind>(columns.forces))
+            for (const ForceColumns<T>& numbers : columns.forces[kind])
                 needs_sums |= view_force<Force, T, Axes>(numbers, axes);
     });
     const bool valid = columns.linear_sums.valid;
@@ -185,7 +185,7 @@ auto damping_numbers(const Columns<T, Axes>& columns, T duration) {
     for_each_index<force_count>([&](auto kind) {
         using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
         if constexpr (Damps<Force, State<T, Axes>, T>)
-            for (std::size_t index = 0; index < std::get<kind>(columns.forces).size(); ++index) {
+            for (std::size_t index = 0; index < columns.forces[kind].size(); ++index) {
                 Parameter<T>& numbers = all[kind].emplace_back();
                 for (std::size_t row = 0; row < columns.size; ++row)
                     numbers.push(force_at<Force, T>(columns, index, row).prepare_damping(duration));
@@ -240,9 +240,10 @@ bool stays_finite(const Oscillator<T>& of, T duration) {
            std::abs(of.c * duration) < 1 && std::abs(of.k * duration * duration) < 1;
 }
 
-template <class Stored, class T, class Views>
-void view_others(const Stored& stored, const std::vector<Parameter<T>>& damping_numbers,
-                 Views& views) {
+template <class T>
+void view_others(const std::vector<ForceColumns<T>>& stored,
+                 const std::vector<Parameter<T>>& damping_numbers,
+                 std::vector<ForceView<T>>& views) {
     views.resize(stored.size());
     for (std::size_t index = 0; index < stored.size(); ++index) {
         for (std::size_t i = 0; i < stored[index].size(); ++i)
@@ -270,8 +271,8 @@ void renew_views(Columns<T, Axes>& columns, const Plan<T>& plan) {
     for_each_index<force_count>([&](auto kind) {
         using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
         if constexpr (!Linear<Force>)
-            view_others(std::get<kind>(columns.forces), columns.flows.damping_numbers[kind],
-                        std::get<kind>(views.others));
+            view_others(columns.forces[kind], columns.flows.damping_numbers[kind],
+                        views.others[kind]);
     });
     views.valid = true;
 }

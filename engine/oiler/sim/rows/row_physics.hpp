@@ -163,7 +163,7 @@ public:
 private:
     template <class Force>
     [[gnu::always_inline]] const auto& views() const {
-        return std::get<kind_index<Force, V, Axes>>(views_.others);
+        return views_.others[kind_index<Force, V, Axes>];
     }
 
     const RowViews<T, Axes>& views_;

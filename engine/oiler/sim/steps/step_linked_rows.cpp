@@ -272,7 +272,7 @@ private:
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
             if (holds.template operator()<Force>())
-                any = any || !std::get<i>(columns_.forces).empty();
+                any = any || !columns_.forces[i].empty();
         });
         return any;
     }

@@ -183,16 +183,9 @@ struct Contacts {
     }
 };
 
-/// The numbers of one force for all rows.
-template <class Force, class T>
-using ForceColumns = std::array<Parameter<T>, number_count<Force>()>;
-
-template <class List, class T>
-struct ForceColumnsOf;
-template <class... Force, class T>
-struct ForceColumnsOf<std::tuple<Force...>, T> {
-    using type = std::tuple<std::vector<ForceColumns<Force, T>>...>;
-};
+/// The numbers of one force for all rows, in the order of for_each_number.
+template <class T>
+using ForceColumns = std::vector<Parameter<T>>;
 
 /// The Response of each row over one duration.
 template <class T>
@@ -258,7 +251,7 @@ struct Columns {
     MotionColumns<T, Axes> motion;
     Parameter<double> mass;  ///< kg
     /// The number of forces of each kind is that of the body with the most.
-    typename ForceColumnsOf<ForceList<T, Axes>, T>::type forces;
+    std::array<std::vector<ForceColumns<T>>, force_count> forces;
     Parameter<Kinds> kinds;  ///< per row: those with any number other than 0
     AppliedForces<T, Axes> applied;
     Contacts<T, Axes> contacts;
@@ -307,7 +300,7 @@ template <Number V, std::floating_point T, int Axes>
 /// The columns of one kind of force.
 template <class Force, Number V, int Axes, std::floating_point T>
 [[nodiscard]] const auto& stored(const Columns<T, Axes>& columns) {
-    return std::get<kind_index<Force, V, Axes>>(columns.forces);
+    return columns.forces[kind_index<Force, V, Axes>];
 }
 
 /// A force per unit mass on row `row`.

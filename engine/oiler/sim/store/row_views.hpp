@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "oiler/physics/forces/forces.hpp"
@@ -76,17 +75,10 @@ struct AxisRows {
 };
 
 /// The places of the numbers of one force, and of its number of prepare_damping.
-template <class Force, class T>
+template <class T>
 struct ForceView {
-    std::array<NumberView<T>, number_count<Force>()> numbers;
+    std::array<NumberView<T>, most_numbers> numbers;
     NumberView<T> damping_number;
-};
-
-template <class List, class T>
-struct ForceViewsOf;
-template <class... Force, class T>
-struct ForceViewsOf<std::tuple<Force...>, T> {
-    using type = std::tuple<std::vector<ForceView<Force, T>>...>;
 };
 
 /// The places of all numbers that steps of rows read, kept from call to call.
@@ -94,8 +86,9 @@ template <std::floating_point T, int Axes>
 struct RowViews {
     bool valid = false;  ///< false after a change of forces, plan or memory
     std::array<AxisRows<T>, Axes> axis{};
-    std::vector<FlowView<T>> flows{};                             ///< of the plan's durations
-    typename ForceViewsOf<ForceList<T, Axes>, T>::type others{};  ///< forces that are not linear
+    std::vector<FlowView<T>> flows{};  ///< of the plan's durations
+    /// Per kind, without the linear kinds.
+    std::array<std::vector<ForceView<T>>, force_count> others{};
 
     RowViews() = default;
     ~RowViews() = default;
