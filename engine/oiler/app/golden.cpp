@@ -26,14 +26,6 @@ std::string junit_of(const Comparison& comparison, const std::vector<BudgetEntry
     return suite.xml();
 }
 
-void move_file(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::rename(from, to, error);
-    if (error)
-        fail(Exit::io, "cannot write {}: {}; run --update-golden again", to.string(),
-             error.message());
-}
-
 }  // namespace
 
 Exit compare_with_golden(const Options& options, const std::vector<BudgetEntry>& budget) {
@@ -50,32 +42,22 @@ Exit compare_with_golden(const Options& options, const std::vector<BudgetEntry>&
     return Exit::comparison_failed;
 }
 
-fs::path folder_of_new_golden(const fs::path& golden) {
-    fs::path folder = fs::absolute(golden).lexically_normal();
-    if (!folder.has_filename()) folder = folder.parent_path();
-    return folder.parent_path() / fmt::format(".{}.new", folder.filename().string());
-}
-
 GoldenUpdate::GoldenUpdate(const fs::path& golden, const std::string& scene)
-    : golden_(golden, scene), captured_(folder_of_new_golden(golden)) {}
-
-GoldenUpdate::~GoldenUpdate() {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(captured_, ignored))
-        if (is_capture_file(entry.path().filename().string())) fs::remove(entry.path(), ignored);
-    fs::remove(captured_, ignored);
-}
+    : golden_(golden, scene) {}
 
 void GoldenUpdate::commit() {
-    golden_.clear();
-    std::error_code error;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(captured_, error))
-        files.push_back(entry.path());
-    for (const fs::path& file : files)
-        if (is_capture_file(file.filename().string()) && file.filename() != manifest_name)
-            move_file(file, golden_.file(file.filename().string()));
-    move_file(captured_ / manifest_name, golden_.file(manifest_name));
+    commit_failed_ = true;
+    golden_.replace();
+    commit_failed_ = false;
+}
+
+GoldenUpdate::~GoldenUpdate() {
+    if (commit_failed_) return;
+    const fs::path captured = folder_of_new(golden_.path());
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(captured, ignored))
+        if (is_capture_file(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+    fs::remove(captured, ignored);
 }
 
 }  // namespace oiler

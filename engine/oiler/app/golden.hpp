@@ -16,26 +16,23 @@ namespace oiler {
 [[nodiscard]] Exit compare_with_golden(const Options& options,
                                        const std::vector<BudgetEntry>& budget);
 
-/// The hidden folder beside the golden into which --update-golden captures.
-[[nodiscard]] std::filesystem::path folder_of_new_golden(const std::filesystem::path& golden);
-
 /// Replaces the golden by a complete new capture. A run that fails leaves the old one. The golden
 /// is locked meanwhile.
 class GoldenUpdate {
 public:
     /// Throws Error{io}, see CaptureFolder.
     GoldenUpdate(const std::filesystem::path& golden, const std::string& scene);
-    /// Removes an uncommitted capture.
+    /// Removes the new capture, unless commit() failed.
     ~GoldenUpdate();
     GoldenUpdate(const GoldenUpdate&) = delete;
     GoldenUpdate& operator=(const GoldenUpdate&) = delete;
 
-    /// Moves the new files into the golden, the manifest last. Throws Error{io}.
+    /// Replaces the golden. Throws Error{io}.
     void commit();
 
 private:
     CaptureFolder golden_;
-    std::filesystem::path captured_;
+    bool commit_failed_ = false;
 };
 
 }  // namespace oiler

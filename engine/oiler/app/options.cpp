@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "oiler/app/golden.hpp"
 #include "oiler/app/loop_keys.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/capture/file.hpp"
@@ -367,7 +366,7 @@ Options collect(const CLI::App& app, Given given, const About& about) {
     given.has_png = given.png == "all";
     if (!is_given(app, "--out"))
         given.out =
-            given.update_golden ? folder_of_new_golden(given.golden) : Path("frames") / about.name;
+            given.update_golden ? folder_of_new(given.golden) : Path("frames") / about.name;
     check_paths(app, given);
     check_golden(given);
     return given;

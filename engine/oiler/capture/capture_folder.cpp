@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -28,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view lock_name = ".oiler-capture";
+/// Has the files of the earlier capture while they are replaced.
+constexpr std::string_view old_name = ".old";
 
 /// Returns whether a reader of frame_*.png would take the file for a frame.
 bool is_frame_like(std::string_view name) {
@@ -93,6 +96,43 @@ void remove_file(const fs::path& path) {
              path.string(), error.message());
 }
 
+/// The files of a capture in a folder, the manifest last; none if there is no folder. Throws
+/// Error{io}.
+std::vector<fs::path> capture_files(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> files;
+    for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+         at.increment(error))
+        if (is_capture_file(at->path().filename().string())) files.push_back(at->path());
+    if (error && error != std::errc::no_such_file_or_directory)
+        fail(Exit::io, "cannot read {}: {}", folder.string(), error.message());
+    std::ranges::partition(files, [](const fs::path& file) { return file.filename() != manifest_name; });
+    return files;
+}
+
+void move_capture(const fs::path& from, const fs::path& to) {
+    for (const fs::path& file : capture_files(from)) {
+        std::error_code error;
+        fs::rename(file, to / file.filename(), error);
+        if (error)
+            fail(Exit::io, "cannot write {}: {}", (to / file.filename()).string(), error.message());
+    }
+}
+
+/// Waits until everything written to the folder's file system is on the disk.
+void sync_to_disk(const fs::path& folder) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && syncfs(descriptor) == 0;
+    const int reason = errno;
+    if (descriptor >= 0) close(descriptor);
+    if (!synced) fail(Exit::io, "cannot write {}: {}", folder.string(), system_reason(reason));
+}
+
+bool has_manifest(const fs::path& folder) {
+    std::error_code none;
+    return fs::exists(fs::symlink_status(folder / manifest_name, none));
+}
+
 std::string host_name() {
     std::array<char, 256> name{};
     gethostname(name.data(), name.size() - 1);
@@ -128,6 +168,8 @@ bool is_capture_file(std::string_view name) {
     return is_frame_like(name) || name == records_name || name == manifest_name;
 }
 
+fs::path folder_of_new(const fs::path& folder) { return folder / ".new"; }
+
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
 CaptureFolder::CaptureFolder(fs::path path, const std::string& scene) : path_(std::move(path)) {
@@ -135,6 +177,7 @@ CaptureFolder::CaptureFolder(fs::path path, const std::string& scene) : path_(st
         made_ = make_folder(path_) || made_;
     } while (!lock());
     try {
+        undo_replacement();
         const Earlier earlier = find_earlier(path_);
         if (earlier.manifest && decode_utf8(earlier.manifest->scene) != decode_utf8(scene))
             fail(Exit::io, "{} has a capture of {}, not of {}; remove it or choose another folder",
@@ -190,6 +233,42 @@ void CaptureFolder::clear() {
     for (const fs::path& path : earlier.files) remove_file(path);
     remove_file(file(manifest_name));
     remove_abandoned_files(path_);
+}
+
+void CaptureFolder::replace() {
+    const fs::path old = file(old_name);
+    sync_to_disk(path_);
+    try {
+        make_folder(old);
+        move_capture(path_, old);
+        move_capture(folder_of_new(path_), path_);
+    } catch (const Error& error) {
+        try {
+            undo_replacement();
+        } catch (const Error&) {
+            fail(Exit::io, "{}; the earlier capture is in {} until the next one into {}",
+                 error.what(), old.string(), path_.string());
+        }
+        fail(Exit::io, "{}; the earlier capture is as it was, the new one is in {}", error.what(),
+             folder_of_new(path_).string());
+    }
+    undo_replacement();
+}
+
+/// Puts the earlier files back, or removes them if the replacement is complete. The manifest moves
+/// last in both directions, so it shows how far the replacement came.
+void CaptureFolder::undo_replacement() {
+    const fs::path old = file(old_name);
+    std::error_code none;
+    if (!fs::is_directory(fs::symlink_status(old, none))) return;
+    const bool has_any = has_manifest(path_);
+    if (has_any && has_manifest(old)) {
+        for (const fs::path& path : capture_files(old)) remove_file(path);
+    } else {
+        if (!has_any) move_capture(path_, folder_of_new(path_));
+        move_capture(old, path_);
+    }
+    remove_file(old);
 }
 
 void CaptureFolder::release() {

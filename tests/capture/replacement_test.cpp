@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <map>
+
+#include "capture/captures.hpp"
+#include "oiler/capture/capture_folder.hpp"
+#include "oiler/core/error.hpp"
+#include "support/folder.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+enum class Fault { one_rename_fails, all_renames_fail_from_there, process_is_killed };
+
+Fault fault;
+int renames_before_fault = -1;  // none if negative
+bool has_failed = false;
+
+}  // namespace
+
+/// Replaces the C library's function in this program.
+extern "C" int rename(const char* from, const char* to) noexcept {
+    if (renames_before_fault == 0) {
+        if (fault == Fault::process_is_killed) _exit(1);
+        if (fault == Fault::one_rename_fails) renames_before_fault = -1;
+        has_failed = true;
+        errno = EIO;
+        return -1;
+    }
+    if (renames_before_fault > 0) --renames_before_fault;
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+namespace oiler::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file()) files[entry.path().filename()] = text_of(entry.path());
+    return files;
+}
+
+/// Replaces the capture in the folder, with the fault after some renames. Returns whether it
+/// occurred.
+bool replace_with_fault(const fs::path& folder, int renames) {
+    const auto replace = [&] {
+        CaptureFolder owned(folder, "made up");
+        renames_before_fault = renames;
+        owned.replace();
+    };
+    if (fault == Fault::process_is_killed) {
+        const pid_t child = fork();
+        if (child == 0) {
+            replace();
+            _exit(0);
+        }
+        int status = -1;
+        waitpid(child, &status, 0);
+        return status != 0;
+    }
+    has_failed = false;
+    try {
+        replace();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::io);
+    }
+    renames_before_fault = -1;
+    return has_failed;
+}
+
+class Replacement : public testing::TestWithParam<Fault> {};
+
+TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
+    fault = GetParam();
+    int renames = 0;
+    for (bool occurred = true; occurred; ++renames) {
+        const Folder folder;
+        const fs::path golden = folder.path() / "golden";
+        write(film_of(3), golden);
+        const auto before = files_in(golden);
+        write(film_of(2), folder_of_new(golden));
+        const auto after = files_in(folder_of_new(golden));
+        occurred = replace_with_fault(golden, renames);
+        if (occurred && fault == Fault::one_rename_fails) {
+            EXPECT_EQ(files_in(golden), before);
+        }
+        const CaptureFolder next(golden, "made up");
+        auto files = files_in(golden);
+        files.erase(".oiler-capture");
+        EXPECT_EQ(files, occurred ? before : after) << renames;
+        if (occurred) {
+            EXPECT_EQ(files_in(folder_of_new(golden)), after) << renames;
+        }
+        EXPECT_FALSE(fs::exists(golden / ".old")) << renames;
+    }
+    EXPECT_EQ(renames, 5 + 4 + 1);  // each file once
+}
+
+TEST_P(Replacement, OfNothingIsMadeAgainWhereverItStopped) {
+    fault = GetParam();
+    for (int renames = 0; renames < 4; ++renames) {
+        const Folder folder;
+        const fs::path golden = folder.path() / "golden";
+        write(film_of(2), folder_of_new(golden));
+        const auto after = files_in(folder_of_new(golden));
+        EXPECT_TRUE(replace_with_fault(golden, renames));
+        CaptureFolder next(golden, "made up");
+        next.replace();
+        auto files = files_in(golden);
+        files.erase(".oiler-capture");
+        EXPECT_EQ(files, after) << renames;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, Replacement,
+                         testing::Values(Fault::one_rename_fails,
+                                         Fault::all_renames_fail_from_there,
+                                         Fault::process_is_killed));
+
+}  // namespace
+}  // namespace oiler::test
