@@ -2,6 +2,9 @@
 // Recordings of games: what is replayed is what was played, or the difference is named.
 #include "oiler/play/recording.hpp"
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <random>
 
 #include "oiler/app/playback.hpp"
@@ -256,6 +259,25 @@ TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
     fresh.add_state(0, game);
     fresh.finish(1, game);
     EXPECT_EQ(read_recording(folder / "b").steps, 1);
+}
+
+TEST(Recordings, ThatCannotBeWrittenLeaveTheOlderFile) {
+    const Folder folder;
+    put(folder / "a", "older");
+    AnyGameOf<Game> game{settings_of()};
+    RecordingWriter writer(folder / "a", header_of("game", settings_of(), Game::controls));
+    writer.add(0, {});
+    writer.add_state(0, game);
+    rlimit sizes{};
+    getrlimit(RLIMIT_FSIZE, &sizes);
+    const rlimit short_files{10, sizes.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &short_files);
+    const std::string line = line_of_error(Exit::io, [&] { writer.finish(1, game); });
+    setrlimit(RLIMIT_FSIZE, &sizes);
+    EXPECT_TRUE(holds(line, (folder / "a").string()));
+    EXPECT_EQ(text_of(folder / "a"), "older");
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
 }
 
 TEST(Recordings, OfAnotherGameAreRefused) {

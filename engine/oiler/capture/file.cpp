@@ -246,17 +246,32 @@ void File::close_descriptor() {
     if (close(descriptor) != 0 && errno != EINTR) fail_write(errno);
 }
 
-void File::commit(Sync sync) {
+/// Writes everything to a file that has its own name or a temporary one.
+void File::prepare_name(Sync sync) {
     assert(descriptor_ >= 0);
     flush();
-    if (in_place_) return close_descriptor();
+    if (in_place_ || is_named_) return;
     keep_permissions();
     if (sync == Sync::disk && fsync(descriptor_) != 0) fail_write(errno);
     if (temporary_.empty()) give_name();
-    close_descriptor();
+}
+
+void File::rename_temporary() {
+    is_named_ = true;
     if (temporary_.empty()) return;
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(errno);
     temporary_.clear();
+}
+
+void File::publish(Sync sync) {
+    prepare_name(sync);
+    rename_temporary();
+}
+
+void File::commit(Sync sync) {
+    prepare_name(sync);
+    close_descriptor();
+    rename_temporary();
 }
 
 std::string read_text(const fs::path& path) {

@@ -20,8 +20,8 @@ enum class Links {
 enum class Sync { none, disk };
 
 /// A file that is written completely or not at all, so that a failed, interrupted or killed run
-/// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() gives it
-/// its name; without commit() it disappears. A missing folder is made.
+/// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() or
+/// publish() gives it its name; without them it disappears. A missing folder is made.
 ///
 /// With Links::followed, "-" is the standard output. Devices, pipes and the targets of standard
 /// output and standard error (/dev/stdout) cannot be replaced and are written in place. With
@@ -40,23 +40,28 @@ public:
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    /// Flushes, names and closes the file. No write may follow.
+    /// Flushes and names the file. Later writes add to it; flush() makes them readable.
+    void publish(Sync sync = Sync::none);
+    void flush();
+    /// Publishes and closes the file. No write may follow.
     void commit(Sync sync = Sync::none);
 
 private:
     [[nodiscard]] int open_temporary();
     void keep_permissions() const;
+    void prepare_name(Sync sync);
     void give_name();
-    void flush();
+    void rename_temporary();
     void close_descriptor();
     [[noreturn]] void fail_write(int error_number) const;
 
     std::filesystem::path path_;       // as given by the user, for messages
     std::filesystem::path target_;     // path_, with symbolic links followed or not
-    std::filesystem::path temporary_;  // empty for a file without a name, and after commit()
+    std::filesystem::path temporary_;  // empty for a file without a name, and once it is named
     std::size_t largest_write_;        // bytes; pipes take these completely or not at all
     int descriptor_ = -1;
     bool in_place_ = false;
+    bool is_named_ = false;
     std::string buffer_;
 };
 

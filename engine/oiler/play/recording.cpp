@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 
-#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
@@ -139,23 +137,6 @@ std::string read_records(std::string_view bytes, Recording& recording, std::int6
     return "";
 }
 
-std::ofstream opened(const std::filesystem::path& path, std::ios::openmode mode) {
-    std::ofstream file(path, std::ios::binary | mode);
-    const int reason = errno;
-    if (!file)
-        fail(exit_of_open(reason), "--record {}: cannot be written: {}; give another file",
-             path.string(), system_reason(reason));
-    return file;
-}
-
-/// Makes the folder of a file. The file stays as it is.
-void require_recordable(const std::filesystem::path& path) {
-    if (path.has_parent_path()) make_folder(path.parent_path());
-    const bool is_old = std::filesystem::exists(path);
-    (void)opened(path, std::ios::app);
-    if (!is_old) std::filesystem::remove(path);
-}
-
 /// Reads a file from its start and hashes the bytes read.
 class Reader {
 public:
@@ -213,14 +194,11 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Record
       head_(fmt::format("{}{}{}\n", magic, format, to_json(header).dump(-1))),
       steps_per_second_(
           std::max<std::int64_t>(1, header.stepping.rate.steps / header.stepping.rate.seconds)) {
-    require_recordable(path);
-}
-
-void RecordingWriter::begin_file() {
-    if (file_.is_open()) return;
-    file_ = opened(path_, std::ios::trunc);
-    write(head_);
-    file_ << std::flush;
+    std::error_code none;
+    if (std::filesystem::is_directory(path, none))
+        fail(Exit::usage, "--record {}: it is a folder; give a file", path.string());
+    require_writable(path);
+    const File probe(path);
 }
 
 void RecordingWriter::begin_record(std::int64_t step) {
@@ -264,22 +242,26 @@ void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diver
 }
 
 void RecordingWriter::write_chunk() {
-    begin_file();
+    const bool is_first = !file_;
+    if (is_first) {
+        file_.emplace(path_);
+        write(head_);
+    }
     std::string size;
     append_bytes(size, records_.size(), 4);
     write(size);
     write_seal();
     write(records_);
     write_seal();
-    file_ << std::flush;
-    if (!file_)
-        fail(Exit::io, "--record {}: cannot be written; free disk space, or give another file",
-             path_.string());
+    if (is_first)
+        file_->publish();
+    else
+        file_->flush();
     records_.clear();
 }
 
 void RecordingWriter::write(std::string_view bytes) {
-    file_ << bytes;
+    file_->write(bytes);
     written_.add(std::as_bytes(std::span(bytes)));
 }
 

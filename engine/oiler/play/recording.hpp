@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/game/game.hpp"
 #include "oiler/input/input_event.hpp"
@@ -69,7 +69,6 @@ public:
     void finish(std::int64_t steps, const AnyGame& game, bool diverged = false);
 
 private:
-    void begin_file();
     void begin_record(std::int64_t step);
     void add_hashes(std::int64_t step, const AnyGame& game);
     void write_chunk();
@@ -78,7 +77,7 @@ private:
 
     std::filesystem::path path_;
     std::string head_;  ///< the first two lines
-    std::ofstream file_;
+    std::optional<File> file_;  ///< from the first chunk on
     StateHash written_;  ///< the hash of the file
     std::int64_t steps_per_second_;
     std::int64_t hashed_step_ = -1;
