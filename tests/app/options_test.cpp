@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/app/options.hpp"
 
+#include "capture/captures.hpp"
+#include "support/folder.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -110,6 +112,26 @@ TEST(Options, AreThoseOfTheSceneUnlessGiven) {
     EXPECT_EQ(given.stepping.precision, Precision::double_);
     EXPECT_EQ(given.stepping.damping, Damping::in_drift);
     EXPECT_TRUE(holds(parse_file({"demo", "--help"}).text, "SCENE"));
+}
+
+TEST(Options, AreThoseOfTheManifestUnlessGiven) {
+    const Folder folder;
+    Manifest manifest = Film{}.header;
+    manifest.scene = about.name;
+    manifest.planned_frames = 9;
+    put(folder / "m", to_json(manifest));
+    const std::string from = "--headless --from " + (folder / "m").string();
+    const Options all = parse(from).options;
+    EXPECT_EQ(all.frames, 9);
+    EXPECT_EQ(all.fps, 10);
+    EXPECT_EQ(all.size, (Size{10, 10}));
+    EXPECT_EQ(all.settings.stepping.rate, Rate{30});
+    EXPECT_EQ(all.settings.stepping.method->name, "rk4");
+    const Options given = parse(from + " --frames 8 --fps 7 --size 6x5 --rate 4").options;
+    EXPECT_EQ(given.frames, 8);
+    EXPECT_EQ(given.fps, 7);
+    EXPECT_EQ(given.size, (Size{6, 5}));
+    EXPECT_EQ(given.settings.stepping.rate, Rate{4});
 }
 
 TEST(Options, HelpAndVersionAreText) {

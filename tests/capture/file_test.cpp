@@ -6,6 +6,7 @@
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/sysmacros.h>
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <functional>
 
@@ -283,6 +285,23 @@ TEST(File, StandardOutputIsWrittenInPlaceEvenWhenItIsAFile) {
     fclose(redirected);
     EXPECT_TRUE(fs::is_symlink(folder / "stdout"));
     EXPECT_EQ(text_of(folder / "out"), "before data after");
+}
+
+// A signal ends the wait for a pipe only if the pipe has taken no byte of the write. It takes up to
+// PIPE_BUF bytes completely or not at all. A socket of packets shows the size of a write.
+TEST(File, WritesNoMoreThanAPipeTakesCompletely) {
+    int ends[2] = {};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
+    std::fflush(stdout);
+    const int saved = dup(STDOUT_FILENO);
+    dup2(ends[0], STDOUT_FILENO);
+    File file("-");
+    dup2(saved, STDOUT_FILENO);
+    file.write(std::string(3 * PIPE_BUF, 'x'));
+    file.commit();
+    std::string packet(4 * PIPE_BUF, ' ');
+    EXPECT_LE(read(ends[1], packet.data(), packet.size()), PIPE_BUF);
+    for (const int descriptor : {saved, ends[0], ends[1]}) close(descriptor);
 }
 
 // A reader that never comes, and one that never reads.

@@ -182,7 +182,10 @@ void put_program(const fs::path& path, const std::string& script) {
 TEST_F(Videos, WithoutTheirEndDoNotWaitForFfmpeg) {
     put_program(folder / "ffmpeg", "exec sleep infinity");
     const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
-    { const Video video(folder / "a.gif", size, 25); }
+    {
+        const Video video(folder / "a.gif", size, 25);
+        EXPECT_NE(getpgid(child()), getpgrp()) << "Ctrl-C signals the group of the terminal";
+    }
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
 }
 

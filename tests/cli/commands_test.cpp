@@ -8,6 +8,7 @@
 
 #include "cli/desk.hpp"
 #include "oiler/cli/ledger_text.hpp"
+#include "oiler/cli/shared_options.hpp"
 #include "oiler/physics/methods/methods.hpp"
 #include "oiler/scene/read.hpp"
 #include "support/program.hpp"
@@ -43,6 +44,12 @@ TEST(Oiler, ListsMethodsAsJson) {
     EXPECT_EQ(rk4->at("evaluations"), 4);
     EXPECT_EQ(rk4->at("symplectic"), false);
     EXPECT_NEAR(rk4->at("stability_limit").get<double>(), 2.828427124746, 1e-11);
+}
+
+TEST(Oiler, CountsSplittingsAsExplicitMethods) {
+    const auto chosen = cli::parse_methods("explicit");
+    EXPECT_EQ(cli::parse_methods("explicit,splitting,rk4"), chosen);
+    EXPECT_EQ(std::ranges::count(chosen, &find_method("implicit_midpoint")), 0);
 }
 
 /// The cells of a method's line, computed from its JSON, without the source.

@@ -268,7 +268,11 @@ TEST(Demos, StartsADemoWithItsOwnOptions) {
     const Installed desk;
     const Outcome run = desk.run("bin/oiler demos toy --help --rate 30 'two words' --window", 7);
     EXPECT_EQ(run.out, "demo|--help --rate 30 two words --window\n");
-    EXPECT_EQ(desk.run("bin/oiler demos toy").out, "demo|\n");
+    EXPECT_EQ(desk.run("mv share/oiler/scenes/spring.toml share/oiler/scenes/toy.toml; "
+                       "bin/oiler demos toy")
+                  .out,
+              "demo|\n")
+        << "a scene of its name is toy.toml";
 }
 
 TEST(Demos, StartsASceneByItsNameOrItsFile) {

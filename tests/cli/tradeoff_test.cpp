@@ -240,6 +240,7 @@ TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
     EXPECT_EQ(line_with(run.out, " 250 "),
               "* rk4 250 double <1.0e-09 <1.0e-09 - - 5000 45 25% 0.0045% -");
     EXPECT_EQ(line_with(run.out, " 10 "), "rk4 10 double unstable unstable - - - - - - -");
+    EXPECT_TRUE(Json::accept(desk.run("oiler merge part.json --out t --quiet --json -").out));
 }
 
 // Worker threads write the file; a write error is one line from any of them.

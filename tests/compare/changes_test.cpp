@@ -119,6 +119,11 @@ TEST(PictureChanges, NameTheCamera) {
                   p.camera.centre = {1, 2};
               }),
               "camera: centre (0, 0) → (1, 2)");
+    EXPECT_EQ(words_of([](Picture& p) {
+                  p.camera.centre = {1, 0};
+                  p.discs[1].centre.x += 3;
+              }),
+              "camera: centre (0, 0) → (1, 0); 1 disc moved by at most 40 px");
 }
 
 TEST(PictureChanges, NamePointsPlacesAndOrder) {

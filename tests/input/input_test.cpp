@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input as events, and events as bytes; and the view that a fixed step has of a keyboard, a mouse and
-// a controller.
+// Input as events, and events as bytes; and the view that a fixed step has of a keyboard, a mouse
+// and a controller.
 
 #include <chrono>
 #include <random>
@@ -80,6 +80,15 @@ TEST(InputEvents, AreRefusedIfTheirBytesAreDamaged) {
         std::string again;
         append(again, *event);
         EXPECT_EQ(again, bytes.substr(0, bytes.size() - rest.size())) << "one form only";
+    }
+}
+
+TEST(InputEvents, OfButtonsThatDoNotExistAreRefused) {
+    for (std::uint16_t id = 0; id < Button::count; ++id) {
+        std::string bytes;
+        append(bytes, {.what = InputEvent::What::edge, .button = id});
+        std::string_view rest(bytes);
+        EXPECT_EQ(take_event(rest).has_value(), Button::of_id(id).has_value()) << id;
     }
 }
 

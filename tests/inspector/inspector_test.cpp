@@ -52,7 +52,10 @@ bool any(const std::vector<Requests>& all, const std::function<bool(const Reques
     return std::ranges::any_of(all, is);
 }
 
-TEST(Inspector, WritesEnergiesWithUnits) {
+TEST(Inspector, WritesTimesAndEnergiesWithUnits) {
+    EXPECT_EQ(time_text(999), "999 ns");
+    EXPECT_EQ(time_text(123'400), "123 µs");
+    EXPECT_EQ(time_text(4.5e6), "4.5 ms");
     EXPECT_EQ(energy_text(0), "0 J");
     EXPECT_EQ(energy_text(-12.3456), "-12.35 J");
     EXPECT_EQ(energy_text(4.23537e6), "4.235 MJ");
@@ -221,12 +224,15 @@ TEST(Inspector, LeavesTheMouseBesideItToTheGame) {
 }
 
 TEST(Inspector, DrawsWithinTheFrame) {
+    Inspector resized(Renderer::font());
     for (const Size size : {Size{1280, 720}, Size{640, 360}, Size{3840, 2160}}) {
         Inspector inspector(Renderer::font());
         for (int i = 0; i < 3; ++i)
             (void)inspector.show(run_at_60_hz(), {Point{1, 1}, false}, size, 0.01);
         const Overlay& overlay = inspector.overlay();
         ASSERT_TRUE(overlay.bitmap);
+        (void)resized.show(run_at_60_hz(), {}, size, 0.01);
+        EXPECT_EQ(resized.overlay().bitmap->hash, overlay.bitmap->hash) << "its letters";
         std::size_t indices = 0;
         for (const Overlay::Part& part : overlay.parts) {
             EXPECT_EQ(part.first, indices);

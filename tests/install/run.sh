@@ -163,14 +163,15 @@ echo "the installed headers"
 echo 'int main() {}' >> "$folder/headers.cpp"
 quietly compile headers oiler
 
-echo "a subproject that only simulates"
+echo "a subproject of one room"
 subproject=$folder/subproject/build
 quietly cmake -S "$folder/subproject" -B "$subproject" -DOILER_SOURCE="$source" \
-    -DOILER_ROOMS=world "${quick[@]}"
+    -DOILER_ROOMS=core "${quick[@]}"
 not_in_cache 'SDL|OpenGL|GLAD|CLI11|nlohmann|deflate|toml|^CPACK_|GTest' "$subproject"
 quietly cmake --build "$subproject"
-no_window "$subproject/simulation"
-[ "$("$subproject/simulation")" = "$position" ]
+no_window "$subproject/core"
+version=$("$subproject/core")
+[[ "$("$prefix/bin/oiler" --version)" == *"$version"* ]] || fail "the version is $version"
 quietly cmake --install "$subproject" --prefix "$folder/nothing"
 [ ! -e "$folder/nothing" ] || fail "a subproject installs: $(find "$folder/nothing")"
 
@@ -184,14 +185,13 @@ fi
 
 echo "an absolute folder of libraries"
 absolute=$folder/absolute
-quietly cmake -S "$source" -B "$folder/core" -DOILER_ROOMS=core "${quick[@]}" \
+quietly cmake -S "$source" -B "$folder/world" -DOILER_ROOMS=world "${quick[@]}" \
     -DOILER_BUILD_DEMOS=OFF -DCMAKE_INSTALL_PREFIX="$absolute" -DCMAKE_INSTALL_LIBDIR="$absolute/lib"
-quietly cmake --build "$folder/core"
-quietly cmake --install "$folder/core"
-make_program version -DCMAKE_PREFIX_PATH="$absolute" -DCOMPONENTS=core
-version=$("$program")
-[[ "$("$prefix/bin/oiler" --version)" == *"$version"* ]] || fail "the version is $version"
+quietly cmake --build "$folder/world"
+quietly cmake --install "$folder/world"
+make_program simulation -DCMAKE_PREFIX_PATH="$absolute" -DCOMPONENTS=world
+[ "$("$program")" = "$position" ]
 mv "$absolute" "$folder/moved here/absolute"
 libraries="$folder/moved here/absolute/lib"
-quietly compile version oiler-core
-[ "$("$folder/version")" = "$version" ]
+quietly compile simulation oiler-world
+[ "$("$folder/simulation")" = "$position" ]

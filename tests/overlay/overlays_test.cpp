@@ -2,6 +2,10 @@
 // Where the loop writes over a window, and in which size.
 #include "oiler/overlay/overlays.hpp"
 
+#include <algorithm>
+
+#include "oiler/overlay/game_inspector.hpp"
+#include "oiler/render/renderer.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -119,6 +123,31 @@ TEST(Labels, OfAGameHave9PixelsAtLeast) {
     }
     keep_legible(large, OverlayArea({64, 36}));
     EXPECT_EQ(large.labels[0].size, 16) << "twice as large, or labels cover each other";
+}
+
+/// A game without bodies.
+struct Empty {
+    static constexpr About about{.name = "empty", .title = "Empty"};
+    World world;
+    explicit Empty(const Settings& settings) : world(1, settings) {}
+};
+
+// A frame counts as 1/32 of the mean. The time of steps and picture is 224 ms, of which 96 ms are
+// of update and step.
+TEST(GameInspector, ShowsThePartsOfAFrame) {
+    using namespace std::chrono_literals;
+    constexpr Size size{1280, 720};
+    AnyGameOf<Empty> game{Settings{}};
+    GameInspector inspector(game, "", Renderer::font());
+    inspector.add_times({.update = 32'000'000, .step = 64'000'000}, 224ms, 256ms);
+    (void)inspector.show(nullptr, {}, size, size, {});
+    Inspector expected(Renderer::font());
+    const Inspected run{.stepping = game.world().settings().stepping,
+                        .costs = {.update = 1e6, .step = 2e6, .picture = 4e6, .draw = 8e6}};
+    (void)expected.show(run, {}, size, 0);
+    EXPECT_TRUE(std::ranges::equal(inspector.overlay().vertices, expected.overlay().vertices, {},
+                                   &Overlay::Vertex::texel, &Overlay::Vertex::texel))
+        << "its letters";
 }
 
 }  // namespace

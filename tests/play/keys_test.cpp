@@ -162,9 +162,10 @@ TEST_F(PlayedKeys, AreRefusedWhereTheyHaveNoEffect) {
 TEST_F(PlayedKeys, OfADamagedHeaderAreRefused) {
     (void)play({"--steps", "1", "--record", path("a")});
     const std::string text = text_of(path("a"));
-    for (const auto& [from, to] : {std::pair{"\"Space\"", "\"Spice\""},
-                                   std::pair{"\"stick\":\"left_x\"", "\"stick\":\"left_z\""},
-                                   std::pair{"\"positive\":[", "\"positive\":3,\"x\":["}}) {
+    for (const auto& [from, to] :
+         {std::pair{"\"Space\"", "\"Spice\""}, std::pair{"\"rate\":100", "\"rate\":0"},
+          std::pair{"\"stick\":\"left_x\"", "\"stick\":\"left_z\""},
+          std::pair{"\"positive\":[", "\"positive\":3,\"x\":["}}) {
         std::string changed = text;
         const std::size_t at = changed.find(from);
         ASSERT_NE(at, std::string::npos) << text;

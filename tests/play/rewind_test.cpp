@@ -297,6 +297,24 @@ TEST(Rewind, HasNoPastWhileThereAreTooManyBodies) {
     EXPECT_EQ(game.picture().labels[0].text, "50 1");
 }
 
+// The first copy would be forgotten with the oldest of more than four inputs.
+TEST(Rewind, ForgetsTheInputOfAStepThatIsTakenAgain) {
+    AnyGameOf<Tiny> game{Settings{}};
+    LiveInput live;
+    Rewind rewind(game, live, {.inputs = 4, .time_per_copy = 0});
+    const auto step = [&](std::int64_t number) {
+        game.step(number, 1, rewind);
+        rewind.keep(number + 1);
+    };
+    for (std::int64_t number = 0; number < 40; ++number) step(number);
+    for (int notches = 1; notches < 9; ++notches) {
+        live.queue.turn_wheel(notches);
+        rewind.go_to(33);
+        step(33);
+    }
+    EXPECT_EQ(rewind.first(), 0);
+}
+
 /// A body on a spring, without `update`.
 struct Drifter {
     static constexpr About about{.name = "drifter", .title = "Drifter"};
@@ -376,14 +394,16 @@ TEST(Rewind, ShowsWholeStepsAndNothingStreaks) {
     for (std::int64_t step = 0; step < 50; ++step)
         heights.push_back(played.playback.show(step, 0, played.rewind).discs[0].centre.y);
     (void)played.playback.show(49, 0.5, played.rewind);
-    for (const std::int64_t step : {40, 20, 19}) {
+    for (const std::int64_t step : {40, 20, 19, 0}) {
         played.rewind.go_to(step);
         played.playback.go_to(step);
-        EXPECT_EQ(played.playback.show(step, 0, played.rewind).discs[0].centre.y,
-                  heights[static_cast<std::size_t>(step)]);
+        const float* const height = &heights[static_cast<std::size_t>(step)];
+        const auto shown = [&](double alpha) {
+            return played.playback.show(step, alpha, played.rewind).discs[0].centre.y;
+        };
+        EXPECT_EQ(shown(0), height[0]);
+        EXPECT_EQ(shown(0.5), height[0] + (height[1] - height[0]) * 0.5F);
     }
-    EXPECT_EQ(played.playback.show(19, 0.5, played.rewind).discs[0].centre.y,
-              heights[19] + (heights[20] - heights[19]) * 0.5F);
 }
 
 }  // namespace

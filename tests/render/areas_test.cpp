@@ -115,11 +115,12 @@ TEST_F(Drawing, ANarrowPolygonFades) {
 }
 
 TEST_F(Drawing, APolygonLargerThanTheFrameFillsIt) {
-    for (const float size : {1e4F, 1e9F, 1e30F}) {
-        const Pixels pixels =
-            draw(of_polygon({{-size, -size}, {size, -size}, {size, 180}, {-size, 180}}));
-        EXPECT_EQ(total_coverage(pixels), 640.0 * 180) << size;
-    }
+    for (const float size : {1e4F, 1e9F, 1e30F})
+        for (const float side : {-size, size}) {
+            const Pixels pixels =
+                draw(of_polygon({{-size, side}, {size, side}, {size, 180}, {-size, 180}}));
+            EXPECT_EQ(total_coverage(pixels), 640.0 * 180) << side;
+        }
 }
 
 TEST_F(Drawing, APolygonThatIsNotFiniteIsNotDrawn) {
@@ -250,12 +251,22 @@ TEST_F(Drawing, ASpriteThatIsNotDrawableIsLeftOut) {
 
 // A game that makes a new bitmap in each picture must not fill the memory or see an old one.
 TEST_F(Drawing, ANewBitmapReplacesTheOldOne) {
+    const auto is_texture =
+        reinterpret_cast<unsigned char (*)(unsigned)>(studio_->surface->procedure("glIsTexture"));
+    const auto textures = [&] {
+        int count = 0;
+        for (unsigned name = 1; name < 100; ++name) count += is_texture(name);
+        return count;
+    };
+    int first = 0;
     for (int i = 0; i < 20; ++i) {
         const auto shade = static_cast<std::uint8_t>(10 * i);
         const Pixels pixels = draw(of_sprite({.centre = {100, 100},
                                               .size = {20, 20},
                                               .bitmap = make_bitmap({1, 1}, {shade, 0, 0, 255})}));
         EXPECT_EQ(red(pixels, 100, 100), shade);
+        if (i == 0) first = textures();
+        EXPECT_EQ(textures(), first);
     }
 }
 

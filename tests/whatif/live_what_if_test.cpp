@@ -237,6 +237,24 @@ TEST(LiveWhatIf, ForgetsTheErrorAndTheWayOfABodyThatIsPutBack) {
     EXPECT_EQ(along.ghosts(32, 0.5).size(), 1U);
 }
 
+/// A body that is faster at longer steps, which no timestep makes right.
+struct Careless : Fall {
+    using Fall::Fall;
+    void update(const Input&) { world.set_velocity(body, {100 * world.dt()}); }
+};
+
+// In a step the body moves by (100 − 20/2)·dt². The reference and its check, whose dt is more than
+// twice as long, get apart by 90·dt m/s or more: by a pixel of 1 cm in 0.3 s at 2500 Hz.
+TEST(LiveWhatIf, ListsErrorsAsLongAsTheReferenceIsCertain) {
+    Measured<Careless> measured;
+    measured.game.step(0, 60, measured.tap);
+    measured.along.play_until(60);
+    const double until = measured.along.result().certain_until;
+    EXPECT_LT(until, 0.9);
+    EXPECT_EQ(measured.along.errors().size(), static_cast<std::size_t>(std::lround(60 * until)) + 1)
+        << "the beginning, and each certain step";
+}
+
 // Euler evaluates the forces once a step, rk4 four times.
 TEST(LiveWhatIf, CountsTheForcesOfEachSetting) {
     Measured<> measured;

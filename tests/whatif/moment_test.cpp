@@ -26,6 +26,11 @@ TEST(Moments, AreDrawnOnStraightLinesBetweenThem) {
     EXPECT_EQ(quarter.readings.at(0).value, 3);
 }
 
+TEST(Moments, OfAGameThatQuitAreOfAnotherPlay) {
+    EXPECT_TRUE(is_same_play({.quits = true}, {.quits = true}));
+    EXPECT_FALSE(is_same_play({.quits = true}, {.quits = false}));
+}
+
 TEST(Moments, PairTheirBodies) {
     const Moment a{.bodies = {{one, 0, {1}}, {two, 0, {2}}, {three, 4, {3}}}};
     const Moment b{.bodies = {{two, 0, {20}}, {three, 4, {30}}, {{4, 1}, 0, {40}}}};

@@ -29,10 +29,8 @@ Progress::~Progress() {
     if (shown_percent_ >= 0) std::fputc('\n', stderr);
 }
 
-std::string Progress::time_left(double share) const {
-    const double passed = seconds_since(start_);
+std::string time_left(double passed, double share) {
     const double left = passed * (1 - share) / share;
-    // Too short to be of interest, or too early for an estimate.
     if (share < 0.02 || passed < 1 || left < 1) return "";
     return left < 100 ? fmt::format(", {:.0f} s left", left)
                       : fmt::format(", {:.0f} min left", left / 60);
@@ -44,10 +42,10 @@ void Progress::show(std::int64_t done) {
     if (!visible_ || percent == shown_percent_) return;
     shown_percent_ = percent;
     const std::string filled(static_cast<std::size_t>(percent * 40 / 100), '#');
-    std::fputs(
-        fmt::format("\r[{:<40}] {}/{} {}{:<16}", filled, done, total_, what_, time_left(share))
-            .c_str(),
-        stderr);
+    std::fputs(fmt::format("\r[{:<40}] {}/{} {}{:<16}", filled, done, total_, what_,
+                           time_left(seconds_since(start_), share))
+                   .c_str(),
+               stderr);
     std::fflush(stderr);
 }
 

@@ -24,6 +24,10 @@ void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
     if (!quiet) say(fmt::format(line, std::forward<Args>(args)...));
 }
 
+/// The time left after `passed` seconds for this share of the work: ", 12 s left", ", 3 min left".
+/// Empty if it is too short to be of interest, or if it is too early for an estimate.
+[[nodiscard]] std::string time_left(double passed, double share);
+
 /// A progress bar with the time left, on standard error if that is a terminal, else invisible.
 class Progress {
 public:
@@ -35,8 +39,6 @@ public:
     void show(std::int64_t done);
 
 private:
-    [[nodiscard]] std::string time_left(double share) const;
-
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string what_;
     std::int64_t total_;

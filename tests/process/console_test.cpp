@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/process/console.hpp"
+
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+TEST(TimeLeft, IsInSecondsOrMinutes) {
+    EXPECT_EQ(time_left(33, 0.25), ", 99 s left");
+    EXPECT_EQ(time_left(60, 0.25), ", 3 min left");
+    EXPECT_EQ(time_left(2, 0.8), "") << "half a second";
+    EXPECT_EQ(time_left(0.5, 0.1), "") << "too early";
+    EXPECT_EQ(time_left(10, 0.01), "") << "too early";
+}
+
+}  // namespace
+}  // namespace oiler::test
