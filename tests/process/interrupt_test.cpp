@@ -56,6 +56,21 @@ TEST(Interrupt, WhateverTheProgramReturnsItWasInterrupted) {
                 ExitedWithCode(130), "^game: interrupted: cannot write f\n$");
 }
 
+TEST(GuardMain, TellsInALineWhatTheLibraryThrows) {
+    const std::string name(300, 'x');
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 [&] {
+                                     (void)std::filesystem::file_size(name);
+                                     return Exit::done;
+                                 })),
+                ExitedWithCode(4), "^game: cannot use x+: File name too long; choose another place\n$");
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 []() -> Exit {
+                                     throw std::system_error(EAGAIN, std::generic_category());
+                                 })),
+                ExitedWithCode(4), "^game: the machine refuses: Resource temporarily unavailable");
+}
+
 TEST(Interrupt, AProgramThatDoesNotPollIsEnded) {
     EXPECT_EXIT(guard_main("game",
                            []() -> Exit {

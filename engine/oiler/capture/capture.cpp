@@ -9,6 +9,7 @@
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/capture/png.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/team.hpp"
 
 namespace oiler {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// As many as there are cores: where encoding takes longest, the thread that draws waits. More than
-/// eight threads wait for the drawing.
+/// eight threads wait for the drawing. If the machine gives none, the thread that draws writes.
 unsigned worker_count() { return std::clamp(std::thread::hardware_concurrency(), 1U, 8U); }
 
 }  // namespace
@@ -26,7 +27,7 @@ Capture::Capture(fs::path folder, Manifest header, Profile* profile)
     assert(manifest_.frames.empty());
     folder_.clear();
     write_manifest();
-    for (unsigned i = 0; i < worker_count(); ++i) workers_.emplace_back([this] { work(); });
+    start_threads(workers_, worker_count(), [this](std::size_t) { work(); });
 }
 
 Capture::~Capture() {
@@ -40,7 +41,8 @@ void Capture::add(Shot shot) {
     const std::size_t index = manifest_.frames.size();
     if (shot.record) shot.record->index = static_cast<std::int64_t>(index);
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return error_ || jobs_.size() < workers_.size(); });
+    changed_.wait(lock,
+                  [&] { return error_ || jobs_.size() < std::max(workers_.size(), std::size_t{1}); });
     if (error_) std::rethrow_exception(error_);
     manifest_.frames.push_back({.index = static_cast<std::int64_t>(index),
                                 .file = shot.has_png ? frame_name(std::int64_t(index)) : "",
@@ -52,6 +54,7 @@ void Capture::add(Shot shot) {
     complete_.push_back(false);
     jobs_.push_back({index, std::move(shot)});
     changed_.notify_all();
+    if (workers_.empty()) write_next(lock);
 }
 
 std::vector<std::uint8_t> Capture::spare_buffer() {
@@ -67,17 +70,21 @@ void Capture::work() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return closed_ || !jobs_.empty(); });
         if (jobs_.empty()) return;
-        Job job = std::move(jobs_.front());
-        jobs_.pop_front();
-        lock.unlock();
+        write_next(lock);
+    }
+}
+
+void Capture::write_next(std::unique_lock<std::mutex>& lock) {
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    try {
+        write(job);
+    } catch (...) {
+        const std::lock_guard relock(mutex_);
+        if (!error_) error_ = std::current_exception();
         changed_.notify_all();
-        try {
-            write(job);
-        } catch (...) {
-            const std::lock_guard relock(mutex_);
-            if (!error_) error_ = std::current_exception();
-            changed_.notify_all();
-        }
     }
 }
 

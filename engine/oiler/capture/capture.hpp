@@ -69,6 +69,8 @@ private:
     };
 
     void work();
+    /// Writes the frame of the first job, without the lock.
+    void write_next(std::unique_lock<std::mutex>& lock);
     void write(Job& job);
     /// Appends the records that follow each other without a gap.
     void write_record(std::size_t index, std::vector<std::byte> record);

@@ -5,12 +5,12 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <climits>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -274,16 +274,28 @@ void File::commit(Sync sync) {
     rename_temporary();
 }
 
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::error_code error;
-    const int reason = errno;
-    if (fs::is_directory(path, error))
-        fail(Exit::usage, "{}: it is a folder; give a file", path.string());
-    if (!file)
-        fail(exit_of_open(reason), "{}: cannot be read: {}; give a file that you may read",
-             path.string(), system_reason(reason));
-    return {std::istreambuf_iterator<char>(file), {}};
+std::string read_text(const fs::path& path, std::size_t most) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    int reason = descriptor < 0 ? errno : 0;
+    const Exit exit = exit_of_open(reason);
+    std::string text;
+    if (descriptor >= 0) {
+        std::array<char, 1 << 16> part;
+        ssize_t count = 0;
+        while (text.size() <= most && (count = read(descriptor, part.data(), part.size())) > 0)
+            text.append(part.data(), static_cast<std::size_t>(count));
+        if (count < 0) reason = errno;
+        close(descriptor);
+    }
+    if (reason == EISDIR) fail(Exit::usage, "{}: it is a folder; give a file", path.string());
+    if (reason != 0)
+        fail(descriptor < 0 ? exit : Exit::io,
+             "{}: cannot be read: {}; give a file that you may read", path.string(),
+             system_reason(reason));
+    if (text.size() > most)
+        fail(Exit::usage, "{}: it has more than {} MB; give a smaller file", path.string(),
+             most / 1'000'000);
+    return text;
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes, Links links) {

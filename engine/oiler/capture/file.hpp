@@ -65,9 +65,10 @@ private:
     std::string buffer_;
 };
 
-/// The text of a file. Throws Error{usage} for a missing file or a folder, Error{io} if the machine
-/// refuses.
-[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+/// The text of a file. Throws Error{usage} for a missing file, a folder or more than `most` bytes,
+/// Error{io} if the machine refuses.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path,
+                                    std::size_t most = 256'000'000);
 /// Writes all of `bytes` to `path` through File.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
                 Links links = Links::followed);

@@ -2,13 +2,13 @@
 #include "oiler/capture/manifest.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <charconv>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/json.hpp"
 #include "oiler/core/state_hash.hpp"
@@ -218,12 +218,10 @@ Manifest read_manifest(const fs::path& folder_or_file) {
     std::error_code error;
     const fs::path path =
         fs::is_directory(folder_or_file, error) ? folder_or_file / "manifest.json" : folder_or_file;
-    std::ifstream file(path, std::ios::binary);
-    if (!file || !fs::is_regular_file(path, error))
+    if (access(path.c_str(), R_OK) != 0 || !fs::is_regular_file(path, error))
         fail(Exit::usage, "{}: no capture there: {} cannot be read; capture with --headless --out",
              folder_or_file.string(), path.string());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return parse_manifest(text, path.string());
+    return parse_manifest(read_text(path), path.string());
 }
 
 }  // namespace oiler

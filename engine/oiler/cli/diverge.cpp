@@ -227,9 +227,9 @@ Json to_json(const DivergeResult& result) {
     return json;
 }
 
-/// Reads both files at once, because a large trace takes seconds.
+/// Reads both files at once, if the machine gives another thread: a large trace takes seconds.
 DivergeResult read_traces(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::future<StateLog> log_b = std::async(std::launch::async, read_trace, b);
+    std::future<StateLog> log_b = std::async(read_trace, b);
     StateLog log_a = read_trace(a);
     return {std::move(log_a), log_b.get(), {}};
 }

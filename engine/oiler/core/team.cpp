@@ -29,16 +29,12 @@ std::uint32_t await_change(const std::atomic<std::uint32_t>& number, std::uint32
 
 }  // namespace
 
-Team::Team(std::size_t size) {
-    try {
-        for (std::size_t part = 1; part < size; ++part)
-            threads_.emplace_back([this, part] { wait_for_work(part); });
-    } catch (const std::system_error&) {
-        const std::size_t had = threads_.size() + 1;
-        run_parts(nullptr, nullptr);
-        for (std::thread& thread : threads_) thread.join();
-        fail(Exit::usage, "{} threads: this machine gives {}; take fewer", size, had);
-    }
+Team::Team(std::size_t size, bool required) {
+    start_threads(threads_, size - 1, [this](std::size_t i) { wait_for_work(i + 1); });
+    if (this->size() == size || !required) return;
+    run_parts(nullptr, nullptr);
+    for (std::thread& thread : threads_) thread.join();
+    fail(Exit::usage, "{} threads: this machine gives {}; take fewer", size, this->size());
 }
 
 Team::~Team() {

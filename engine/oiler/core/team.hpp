@@ -5,19 +5,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace oiler {
+
+/// Starts threads that call f(index) until there are `count`, or as many as the machine gives.
+template <class Thread, class F>
+void start_threads(std::vector<Thread>& threads, std::size_t count, F f) {
+    try {
+        while (threads.size() < count) threads.emplace_back(f, threads.size());
+    } catch (const std::system_error&) {
+    }
+}
 
 /// Threads for short pieces of work. Between two pieces they spin for some tens of microseconds,
 /// because waking a thread takes longer than most pieces. Then they sleep, so that an idle team
 /// uses no core.
 class Team {
 public:
-    /// `size` threads, including the caller of `run`. Throws Error{usage} if the machine gives
-    /// fewer.
-    explicit Team(std::size_t size);
+    /// `size` threads, including the caller of `run`. If the machine gives fewer, has those or, if
+    /// they are `required`, throws Error{usage}.
+    explicit Team(std::size_t size, bool required = true);
     ~Team();
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;

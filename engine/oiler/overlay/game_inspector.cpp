@@ -82,7 +82,8 @@ void GameInspector::begin_game() {
     follower_.end();
 }
 
-/// Finding the limits takes longer than a frame, so another thread does it.
+/// Finding the limits takes longer than a frame, so another thread does it, if the machine gives
+/// one.
 void GameInspector::find_stiffest(bool waits) {
     constexpr std::size_t most_bodies = 2000;
     constexpr std::chrono::milliseconds period{250};
@@ -94,14 +95,13 @@ void GameInspector::find_stiffest(bool waits) {
         next_stiffest_ = now + period;
         found_for_ = stepping;
         finding_ = std::async(
-            std::launch::async,
             [this, stepping, suspects = StiffestFinder::suspects_of(world.bodies(), stepping)] {
                 return finder_.find(suspects, stepping);
             });
     }
     if (found_for_ != stepping) stiffest_.reset();
     if (!finding_.valid()) return;
-    if (!waits && finding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    if (!waits && finding_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
     const std::optional<Stiffest> found = finding_.get();
     stiffest_.reset();
     const auto is_here = [&](std::size_t row) { return row < world.body_count(); };

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <filesystem>
 #include <iterator>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "oiler/core/floating_point.hpp"
 #include "oiler/process/console.hpp"
@@ -76,6 +78,13 @@ Ending ending_of(std::string_view name, const std::function<Exit()>& program) {
         return {error.exit(), error.what()};
     } catch (const std::bad_alloc&) {
         return {Exit::io, "not enough memory; take fewer bodies or a shorter time"};
+    } catch (const std::filesystem::filesystem_error& error) {
+        return {Exit::io,
+                fmt::format("cannot use {}: {}; choose another place", error.path1().string(),
+                            error.code().message())};
+    } catch (const std::system_error& error) {
+        return {Exit::io, fmt::format("the machine refuses: {}; free some of its resources",
+                                      error.code().message())};
     }
 }
 

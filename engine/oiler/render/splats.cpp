@@ -101,7 +101,7 @@ std::vector<DiscRun> runs_of(std::span<const PlacedDisc> discs, Size frame) {
 }
 
 void Splats::draw(std::span<const PlacedDisc> discs, Size frame) {
-    if (!team_) team_.emplace(std::clamp(std::thread::hardware_concurrency(), 1U, most_threads));
+    if (!team_) team_.emplace(std::clamp(std::thread::hardware_concurrency(), 1U, most_threads), false);
     texels_.assign(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height),
                    {});
     team_->run([&](std::size_t part) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/captured.hpp"
 
-#include <fstream>
-#include <iterator>
+#include <unistd.h>
+
 #include <span>
 #include <utility>
 
 #include "oiler/capture/capture_folder.hpp"
+#include "oiler/capture/file.hpp"
 #include "oiler/capture/frame_record.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
@@ -17,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string read_bytes(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) fail(Exit::usage, "{}: cannot be read; capture again", path.string());
-    return {std::istreambuf_iterator<char>(file), {}};
+    if (access(path.c_str(), R_OK) != 0)
+        fail(Exit::usage, "{}: cannot be read; capture again", path.string());
+    return read_text(path);
 }
 
 /// Both frames/spring and frames/spring/manifest.json name a capture.

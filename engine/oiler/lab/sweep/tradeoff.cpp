@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/team.hpp"
 #include "oiler/core/version.hpp"
 
 namespace oiler::lab {
@@ -96,7 +97,8 @@ void on_all_cores(std::size_t count, const std::function<bool()>& asked_to_stop,
     };
     {
         std::vector<std::jthread> others;
-        for (int i = 1; i < this_machine().cores; ++i) others.emplace_back(work);
+        start_threads(others, static_cast<std::size_t>(this_machine().cores - 1),
+                      [&](std::size_t) { work(); });
         work();
     }
     if (failure) std::rethrow_exception(failure);

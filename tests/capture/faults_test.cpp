@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +11,7 @@
 #include "capture/captures.hpp"
 #include "oiler/capture/capture_folder.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/team.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"
 
@@ -19,10 +22,19 @@ enum class Fault { one_rename_fails, all_renames_fail_from_there, process_is_kil
 Fault fault;
 int renames_before_fault = -1;  // none if negative
 bool has_failed = false;
+bool gives_threads = true;
 
 }  // namespace
 
-/// Replaces the C library's function in this program.
+// These replace the C library's functions in this program.
+
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
+                              void* (*start)(void*), void* argument) noexcept {
+    static const auto create =
+        reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
+    return gives_threads ? create(thread, attributes, start, argument) : EAGAIN;
+}
+
 extern "C" int rename(const char* from, const char* to) noexcept {
     if (renames_before_fault == 0) {
         if (fault == Fault::process_is_killed) _exit(1);
@@ -117,6 +129,17 @@ TEST_P(Replacement, OfNothingIsMadeAgainWhereverItStopped) {
         files.erase(".oiler-capture");
         EXPECT_EQ(files, after) << renames;
     }
+}
+
+TEST(Capture, WritesTheSameFilesIfTheMachineGivesNoThread) {
+    const Folder folder;
+    write(film_of(20), folder / "threads");
+    gives_threads = false;
+    write(film_of(20), folder / "none");
+    const Team team(3, false);
+    gives_threads = true;
+    EXPECT_EQ(files_in(folder / "none"), files_in(folder / "threads"));
+    EXPECT_EQ(team.size(), 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, Replacement,
