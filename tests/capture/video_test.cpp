@@ -2,11 +2,13 @@
 #include "oiler/capture/video.hpp"
 
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <thread>
 
 #include "support/folder.hpp"
 #include "support/test.hpp"
@@ -132,7 +134,7 @@ TEST_F(Videos, WithoutTheirEndLeaveNoFile) {
 }
 
 TEST_F(Videos, AnotherEndingIsRefusedBeforeAnyFolderIsMade) {
-    for (const char* name : {"new/a.avi", "new/a", "new/.mp4", "new/a.MP4"})
+    for (const char* name : {"new/a.avi", "new/a", "new/.mp4"})
         EXPECT_TRUE(
             holds(line_of_error(Exit::usage, [&] { const Video video(folder / name, size, 25); }),
                   ".mp4, .gif or .apng"))
@@ -187,6 +189,39 @@ TEST_F(Videos, WithoutTheirEndDoNotWaitForFfmpeg) {
         EXPECT_NE(getpgid(child()), getpgrp()) << "Ctrl-C signals the group of the terminal";
     }
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
+}
+
+TEST_F(Videos, FfmpegEndsWithAKilledProgram) {
+    put_program(folder / "ffmpeg", "echo $$ > pid.tmp; mv pid.tmp pid; exec sleep infinity");
+    const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
+    const pid_t program = fork();
+    if (program == 0) {
+        fs::current_path(folder.path());
+        const Video video("a.gif", size, 25);
+        pause();
+    }
+    const fs::path pid = folder / "pid";
+    while (!fs::exists(pid)) std::this_thread::yield();
+    kill(program, SIGKILL);
+    waitpid(program, nullptr, 0);
+    const std::string process = "/proc/" + std::to_string(std::stoi(text_of(pid))) + "/stat";
+    const auto has_ended = [&] {
+        const std::string stat = text_of(process);
+        return stat.empty() || holds(stat, ") Z");
+    };
+    while (!has_ended()) std::this_thread::yield();
+    EXPECT_EQ(names_in(folder.path()), (Names{"ffmpeg", "pid"}));
+}
+
+TEST_F(Videos, FollowLinksAndKeepPermissions) {
+    put(folder / "old.gif", "old");
+    fs::permissions(folder / "old.gif", fs::perms::owner_read | fs::perms::owner_write);
+    fs::create_symlink("old.gif", folder / "link.GIF");
+    write(folder / "link.GIF", 3);
+    EXPECT_TRUE(fs::is_symlink(folder / "link.GIF"));
+    EXPECT_TRUE(text_of(folder / "old.gif").starts_with("GIF8"));
+    EXPECT_EQ(fs::status(folder / "old.gif").permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST_F(Videos, TheLastWordsOfFfmpegAreTold) {

@@ -39,6 +39,8 @@ public:
     /// Writes are buffered, so a full disk may be reported only by commit().
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
+    /// For another program that writes the file.
+    [[nodiscard]] int descriptor() const { return descriptor_; }
 
     /// Flushes and names the file. Later writes add to it; flush() makes them readable.
     void publish(Sync sync = Sync::none);

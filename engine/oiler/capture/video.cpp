@@ -4,27 +4,28 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
-
-extern char** environ;
 
 namespace oiler {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The file of the video in ffmpeg.
+constexpr int video_descriptor = 3;
 
 struct Format {
     std::string_view ending;
@@ -47,45 +48,71 @@ const std::array<Format, 3>& formats() {
 }
 
 const Format& format_of(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     for (const Format& format : formats())
-        if (path.extension() == format.ending) return format;
+        if (ending == format.ending) return format;
     fail(Exit::usage, "--video {}: give a file that ends with .mp4, .gif or .apng", path.string());
 }
 
-std::vector<std::string> command_of(const Format& format, const fs::path& target, Size size,
-                                    int fps) {
+const fs::path& with_known_ending(const fs::path& path) {
+    (void)format_of(path);
+    return path;
+}
+
+std::vector<std::string> command_of(const Format& format, Size size, int fps) {
     // Without -xerror a full disk is no error.
     std::vector<std::string> words{"ffmpeg", "-v", "error",    "-xerror",       "-nostdin",
                                    "-y",     "-f", "rawvideo", "-pixel_format", "rgb24"};
     words.insert(words.end(), {"-video_size", fmt::format("{}x{}", size.width, size.height),
                                "-framerate", std::to_string(fps), "-i", "pipe:0"});
     words.insert(words.end(), format.arguments.begin(), format.arguments.end());
-    words.insert(words.end(), {"-fflags", "+bitexact", "file:" + target.string()});
+    words.insert(words.end(), {"-fflags", "+bitexact", fmt::format("file:/proc/self/fd/{}", video_descriptor)});
     return words;
 }
 
-/// Starts a program with `input` and `errors` as its standard streams. It is in a process group of
-/// its own, so that Ctrl-C in a terminal lets it complete its file. Returns an errno value.
-int spawn(pid_t& process, const std::vector<std::string>& words, int input, int errors) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t defaults;
-    sigfillset(&defaults);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+/// The descriptors that ffmpeg gets.
+struct Streams {
+    int input;
+    int errors;
+    int video;
+};
+
+/// Becomes ffmpeg. Returns if that is impossible. It is in a process group of its own, so that
+/// Ctrl-C in a terminal lets it complete its file, and ends with its parent.
+void exec(const std::vector<std::string>& words, const Streams& streams, pid_t parent) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    const int error =
-        posix_spawnp(&process, "ffmpeg", &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    dup2(streams.input, STDIN_FILENO);
+    dup2(streams.errors, STDOUT_FILENO);
+    dup2(streams.errors, STDERR_FILENO);
+    if (streams.video == video_descriptor)
+        fcntl(streams.video, F_SETFD, 0);
+    else
+        dup2(streams.video, video_descriptor);
+    for (const int number : {SIGPIPE, SIGXFSZ}) signal(number, SIG_DFL);
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() == parent) execvp("ffmpeg", arguments.data());
+}
+
+/// Starts ffmpeg. Returns an errno value.
+int spawn(pid_t& process, const std::vector<std::string>& words, const Streams& streams) {
+    std::array<int, 2> reason{};
+    if (pipe2(reason.data(), O_CLOEXEC) != 0) return errno;
+    const pid_t parent = getpid();
+    process = fork();
+    if (process == 0) {
+        const int report = fcntl(reason[1], F_DUPFD_CLOEXEC, video_descriptor + 1);
+        exec(words, streams, parent);
+        const int error = errno;
+        _exit(write(report, &error, sizeof error) == sizeof error ? 127 : 126);
+    }
+    int error = process < 0 ? errno : 0;
+    close(reason[1]);
+    if (process > 0 && read(reason[0], &error, sizeof error) > 0) waitpid(process, nullptr, 0);
+    close(reason[0]);
     return error;
 }
 
@@ -104,16 +131,11 @@ std::string last_line(int descriptor) {
 
 void Video::require_format(const fs::path& path) { (void)format_of(path); }
 
-Video::Video(const fs::path& path, Size size, int fps) : path_(path) {
-    const Format& format = format_of(path);
-    if (path.has_parent_path()) make_folder(path.parent_path());
+Video::Video(const fs::path& path, Size size, int fps)
+    : path_(with_known_ending(path)), file_(path) {
     remove_abandoned_files(path.parent_path());
-    lock_ = open_temporary(path.parent_path(), temporary_);
-    if (lock_ < 0)
-        fail(Exit::io, "cannot write {}: {}; choose another place", path.string(),
-             system_reason(errno));
     try {
-        start(command_of(format, temporary_, size, fps));
+        start(command_of(format_of(path), size, fps));
     } catch (...) {
         stop();
         throw;
@@ -128,7 +150,7 @@ void Video::start(const std::vector<std::string>& words) {
         fail(Exit::io, "cannot start ffmpeg: {}", system_reason(errno));
     frames_ = ends[1];
     errors_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-    const int error = spawn(process_, words, ends[0], errors_);
+    const int error = spawn(process_, words, {ends[0], errors_, file_.descriptor()});
     close(ends[0]);
     if (error == 0) return;
     process_ = -1;
@@ -143,9 +165,7 @@ void Video::stop() {
         kill(process_, SIGKILL);
         wait();
     }
-    std::error_code ignored;
-    if (!temporary_.empty()) fs::remove(temporary_, ignored);
-    for (const int descriptor : {frames_, errors_, lock_}) close(descriptor);
+    for (const int descriptor : {frames_, errors_}) close(descriptor);
 }
 
 int Video::wait() {
@@ -176,10 +196,7 @@ void Video::add(std::span<const std::uint8_t> rgb_bottom_up) {
 void Video::finish() {
     const int status = wait();
     if (status != 0) fail_with_reason(status);
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-        fail(Exit::io, "cannot write {}: {}; choose another place", path_.string(),
-             system_reason(errno));
-    temporary_.clear();
+    file_.commit();
 }
 
 }  // namespace oiler

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/size.hpp"
 
 namespace oiler {
 
 /// A video that ffmpeg encodes from raw frames while they are drawn. The ending of the path chooses
-/// the format: .mp4 (H.264), .gif or .apng. ffmpeg writes into a temporary file, which gets its
-/// name when it is complete.
+/// the format: .mp4 (H.264), .gif or .apng. ffmpeg ends with this process. The file gets its name
+/// when it is complete.
 class Video {
 public:
     /// Throws Error{usage} unless the path's ending names a format.
@@ -34,17 +35,16 @@ public:
 
 private:
     void start(const std::vector<std::string>& words);
-    /// Stops ffmpeg and removes the temporary file, unless the video is finished.
+    /// Stops ffmpeg, unless the video is finished.
     void stop();
     [[noreturn]] void fail_with_reason(int status);
     /// Closes the pipe and returns the status of ffmpeg's end.
     int wait();
 
     std::filesystem::path path_;
-    std::filesystem::path temporary_;
+    File file_;
     int frames_ = -1;  ///< descriptor of the pipe to ffmpeg
     int errors_ = -1;  ///< descriptor of the memory that takes ffmpeg's messages
-    int lock_ = -1;    ///< descriptor of the temporary file, which another run would remove
     pid_t process_ = -1;
 };
 
