@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "oiler/capture/capture.hpp"
 #include "oiler/capture/file.hpp"
@@ -311,6 +312,23 @@ TEST(Capture, AFailedFrameEndsTheCaptureBeforeIt) {
         EXPECT_FALSE(manifest.is_finished());
         EXPECT_EQ(manifest.frames.size(), static_cast<std::size_t>(failing));
     }
+}
+
+TEST(Capture, AFolderThatIsRemovedMeanwhileIsAnErrorAndStaysAway) {
+    const Folder folder;
+    {
+        Capture capture(folder / "frames", header(3));
+        capture.add(shot(0));
+        while (!fs::exists(folder / "frames" / frame_name(0))) std::this_thread::yield();
+        fs::remove_all(folder / "frames");
+        EXPECT_TRUE(holds(line_of_error(Exit::io,
+                                        [&] {
+                                            capture.add(shot(1));
+                                            capture.finish();
+                                        }),
+                          "was removed during the capture"));
+    }
+    EXPECT_EQ(names_in(folder.path()), Names{});
 }
 
 TEST(Capture, AFrameThatCannotBeWrittenIsAnError) {

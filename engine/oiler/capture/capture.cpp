@@ -89,6 +89,7 @@ void Capture::write_next(std::unique_lock<std::mutex>& lock) {
 }
 
 void Capture::write(Job& job) {
+    folder_.require_present();
     const auto hash = [&] {
         const Span span(profile_, "hash");
         return hash_top_down(manifest_.size, job.shot.rgb);
@@ -156,6 +157,7 @@ void Capture::finish() {
     drop_incomplete();
     if (error_) records_.reset();  // a failed write may have left a gap in it
     if (!manifest_.frames.empty()) {
+        folder_.require_present();
         if (records_) records_->commit();
         write_manifest();
     }

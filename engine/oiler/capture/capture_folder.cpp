@@ -221,6 +221,11 @@ bool CaptureFolder::lock() {
     return true;
 }
 
+void CaptureFolder::require_present() const {
+    if (!is_same_file(lock_, file(lock_name)))
+        fail(Exit::io, "{} was removed during the capture; capture again", path_.string());
+}
+
 /// The manifest lists no frame before the first one is removed, and is removed last. If this
 /// process is killed meanwhile, the manifest is still true and the next capture continues the
 /// removal.

@@ -34,6 +34,8 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
+    /// Throws Error{io} if the folder was removed or replaced meanwhile.
+    void require_present() const;
     /// Removes the files of the earlier capture. Throws Error{io}.
     void clear();
     /// Replaces the files of the earlier capture by those of the complete capture in
