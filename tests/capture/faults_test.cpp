@@ -110,7 +110,7 @@ TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
         if (occurred) {
             EXPECT_EQ(files_in(folder_of_new(golden)), after) << renames;
         }
-        EXPECT_FALSE(fs::exists(golden / ".old")) << renames;
+        EXPECT_FALSE(fs::exists(golden / ".oiler-old")) << renames;
     }
     EXPECT_EQ(renames, 5 + 4 + 1);  // each file once
 }

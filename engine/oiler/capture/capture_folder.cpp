@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view lock_name = ".oiler-capture";
 /// Has the files of the earlier capture while they are replaced.
-constexpr std::string_view old_name = ".old";
+constexpr std::string_view old_name = ".oiler-old";
 
 /// Returns whether a reader of frame_*.png would take the file for a frame.
 bool is_frame_like(std::string_view name) {
@@ -168,7 +168,7 @@ bool is_capture_file(std::string_view name) {
     return is_frame_like(name) || name == records_name || name == manifest_name;
 }
 
-fs::path folder_of_new(const fs::path& folder) { return folder / ".new"; }
+fs::path folder_of_new(const fs::path& folder) { return folder / ".oiler-new"; }
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
