@@ -115,6 +115,31 @@ TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
     EXPECT_EQ(renames, 5 + 4 + 1);  // each file once
 }
 
+// The second process is killed while it puts the earlier files back.
+TEST(KilledReplacement, IsUndoneHoweverOftenItIsKilled) {
+    fault = Fault::process_is_killed;
+    for (int first = 1; first < 9; ++first)
+        for (int second = 0; second < 10; ++second) {
+            const Folder folder;
+            const fs::path golden = folder.path() / "golden";
+            write(film_of(3), golden);
+            const auto before = files_in(golden);
+            write(film_of(2), folder_of_new(golden));
+            EXPECT_TRUE(replace_with_fault(golden, first));
+            const pid_t child = fork();
+            if (child == 0) {
+                renames_before_fault = second;
+                const CaptureFolder killed(golden, "made up");
+                _exit(0);
+            }
+            waitpid(child, nullptr, 0);
+            const CaptureFolder next(golden, "made up");
+            auto files = files_in(golden);
+            files.erase(".oiler-capture");
+            EXPECT_EQ(files, before) << first << ' ' << second;
+        }
+}
+
 TEST_P(Replacement, OfNothingIsMadeAgainWhereverItStopped) {
     fault = GetParam();
     for (int renames = 0; renames < 4; ++renames) {

@@ -41,8 +41,8 @@ void Capture::add(Shot shot) {
     const std::size_t index = manifest_.frames.size();
     if (shot.record) shot.record->index = static_cast<std::int64_t>(index);
     std::unique_lock lock(mutex_);
-    changed_.wait(lock,
-                  [&] { return error_ || jobs_.size() < std::max(workers_.size(), std::size_t{1}); });
+    const std::size_t most_jobs = std::max<std::size_t>(1, workers_.size());
+    changed_.wait(lock, [&] { return error_ || jobs_.size() < most_jobs; });
     if (error_) std::rethrow_exception(error_);
     manifest_.frames.push_back({.index = static_cast<std::int64_t>(index),
                                 .file = shot.has_png ? frame_name(std::int64_t(index)) : "",

@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view lock_name = ".oiler-capture";
 /// Has the files of the earlier capture while they are replaced.
 constexpr std::string_view old_name = ".oiler-old";
+/// Has them while they are put back, so that none is taken for a new one.
+constexpr std::string_view back_name = ".oiler-back";
 
 /// Returns whether a reader of frame_*.png would take the file for a frame.
 bool is_frame_like(std::string_view name) {
@@ -106,17 +108,24 @@ std::vector<fs::path> capture_files(const fs::path& folder) {
         if (is_capture_file(at->path().filename().string())) files.push_back(at->path());
     if (error && error != std::errc::no_such_file_or_directory)
         fail(Exit::io, "cannot read {}: {}", folder.string(), error.message());
-    std::ranges::partition(files, [](const fs::path& file) { return file.filename() != manifest_name; });
+    std::ranges::partition(
+        files, [](const fs::path& file) { return file.filename() != manifest_name; });
     return files;
 }
 
+void move(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) fail(Exit::io, "cannot write {}: {}", to.string(), error.message());
+}
+
 void move_capture(const fs::path& from, const fs::path& to) {
-    for (const fs::path& file : capture_files(from)) {
-        std::error_code error;
-        fs::rename(file, to / file.filename(), error);
-        if (error)
-            fail(Exit::io, "cannot write {}: {}", (to / file.filename()).string(), error.message());
-    }
+    for (const fs::path& file : capture_files(from)) move(file, to / file.filename());
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code none;
+    return fs::is_directory(fs::symlink_status(path, none));
 }
 
 /// Waits until everything written to the folder's file system is on the disk.
@@ -251,8 +260,8 @@ void CaptureFolder::replace() {
         try {
             undo_replacement();
         } catch (const Error&) {
-            fail(Exit::io, "{}; the earlier capture is in {} until the next one into {}",
-                 error.what(), old.string(), path_.string());
+            fail(Exit::io, "{}; the next capture into {} puts the earlier one back", error.what(),
+                 path_.string());
         }
         fail(Exit::io, "{}; the earlier capture is as it was, the new one is in {}", error.what(),
              folder_of_new(path_).string());
@@ -264,16 +273,19 @@ void CaptureFolder::replace() {
 /// last in both directions, so it shows how far the replacement came.
 void CaptureFolder::undo_replacement() {
     const fs::path old = file(old_name);
-    std::error_code none;
-    if (!fs::is_directory(fs::symlink_status(old, none))) return;
-    const bool has_any = has_manifest(path_);
-    if (has_any && has_manifest(old)) {
-        for (const fs::path& path : capture_files(old)) remove_file(path);
-    } else {
+    const fs::path back = file(back_name);
+    if (is_folder(old)) {
+        const bool has_any = has_manifest(path_);
+        if (has_any && has_manifest(old)) {
+            for (const fs::path& path : capture_files(old)) remove_file(path);
+            return remove_file(old);
+        }
         if (!has_any) move_capture(path_, folder_of_new(path_));
-        move_capture(old, path_);
+        move(old, back);
     }
-    remove_file(old);
+    if (!is_folder(back)) return;
+    move_capture(back, path_);
+    remove_file(back);
 }
 
 void CaptureFolder::release() {
