@@ -23,9 +23,9 @@ inline constexpr std::string_view records_name = "frames.jsonl.gz";
 /// capture are removed, so that a shorter run does not keep the last frames of a longer one.
 class CaptureFolder {
 public:
-    /// Makes the folder if it is missing, and undoes a replacement that was killed. Throws Error{io}
-    /// and changes no file if another process captures into the folder, or if it has frames of
-    /// another scene or of another program.
+    /// Makes the folder if it is missing, and undoes a replacement that was killed. Throws
+    /// Error{io} and changes no file if another process captures into the folder, or if it has
+    /// frames of another scene or of another program.
     CaptureFolder(std::filesystem::path path, const std::string& scene);
     /// Removes the lock, and the folder if this object made it and it is empty.
     ~CaptureFolder();

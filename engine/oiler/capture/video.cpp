@@ -67,7 +67,8 @@ std::vector<std::string> command_of(const Format& format, Size size, int fps) {
     words.insert(words.end(), {"-video_size", fmt::format("{}x{}", size.width, size.height),
                                "-framerate", std::to_string(fps), "-i", "pipe:0"});
     words.insert(words.end(), format.arguments.begin(), format.arguments.end());
-    words.insert(words.end(), {"-fflags", "+bitexact", fmt::format("file:/proc/self/fd/{}", video_descriptor)});
+    words.insert(words.end(), {"-fflags", "+bitexact",
+                               fmt::format("file:/proc/self/fd/{}", video_descriptor)});
     return words;
 }
 
