@@ -2,8 +2,7 @@
 #include "oiler/capture/manifest.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
-
+#include <cerrno>
 #include <charconv>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -218,8 +217,9 @@ Manifest read_manifest(const fs::path& folder_or_file) {
     std::error_code error;
     const fs::path path =
         fs::is_directory(folder_or_file, error) ? folder_or_file / "manifest.json" : folder_or_file;
-    if (access(path.c_str(), R_OK) != 0 || !fs::is_regular_file(path, error))
-        fail(Exit::usage, "{}: no capture there: {} cannot be read; capture with --headless --out",
+    if (!fs::is_regular_file(path, error))
+        fail(exit_of_open(error ? error.value() : ENOENT),
+             "{}: no capture there: {} cannot be read; capture with --headless --out",
              folder_or_file.string(), path.string());
     return parse_manifest(read_text(path), path.string());
 }
