@@ -385,6 +385,19 @@ TEST(File, ReplacesOnlyItsKind) {
     EXPECT_EQ(names_in(folder.path()), Names{"a"});
 }
 
+// A scene file begins with [scene], which is no list of JSON.
+TEST(FileKind, OfJsonIsNotThatOfAScene) {
+    const Folder folder;
+    for (const char* text : {"{\"a\": 1}", "{\n}", "[\n  {\n", "[{}]", "[]\n", ""}) {
+        put(folder / "a", text);
+        EXPECT_TRUE(is_replaceable(folder / "a", kinds::json)) << text;
+    }
+    for (const char* text : {"[scene]\n", "[[body]]\n", "a", "\"a\"", "# [{"}) {
+        put(folder / "a", text);
+        EXPECT_FALSE(is_replaceable(folder / "a", kinds::json)) << text;
+    }
+}
+
 TEST(File, OfAKindIsWrittenToDevices) {
     write_file("/dev/null", "data", kinds::json);
     require_replaceable("/dev/zero", kinds::json);

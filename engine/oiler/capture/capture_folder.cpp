@@ -258,8 +258,8 @@ void CaptureFolder::clear() {
 
 void CaptureFolder::replace() {
     const fs::path old = file(old_name);
-    sync_to_disk(path_);
     try {
+        sync_to_disk(path_);
         make_folder(old);
         move_capture(path_, old);
         move_capture(folder_of_new(path_), path_);

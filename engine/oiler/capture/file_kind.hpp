@@ -16,7 +16,7 @@ struct FileKind {
 namespace kinds {
 
 inline constexpr FileKind any{"a file", ""};
-inline constexpr FileKind json{"JSON", "{|["};
+inline constexpr FileKind json{"JSON", "{|[\n|[{|[]"};
 inline constexpr FileKind sweep{"a file of oiler tradeoff", "{\n \"oiler\""};
 inline constexpr FileKind trace{"a file of --trace", "tick,time,body,"};
 inline constexpr FileKind energy{"a file of --energy", "tick,time,kinetic,"};
