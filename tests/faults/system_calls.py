@@ -203,7 +203,7 @@ def judge(case, name, call, code, errors, folder, older, normal):
     left = [path for path in now if "/.oiler-" in path and not is_told]
     failures.expect(not left or call in REMOVALS, f"{case}: left {left}")
     for hidden in list((folder / "out").rglob(".oiler-*")):  # removed or put back by the next run
-        shutil.rmtree(hidden) if hidden.is_dir() else hidden.unlink()
+        shutil.rmtree(hidden) if hidden.is_dir() else hidden.unlink(missing_ok=True)
     for fault in faults_of_outputs(folder / "out"):
         failures.expect(False, f"{case}: exit code {code}, {fault}")
     lost = [path for path in older if path.startswith("out/") and path not in now
@@ -255,7 +255,8 @@ def campaign(name, words, sample, work):
             code, errors = run(folder, words, limited(letter, limit))
             ends[code] += 1
             judge(f"{name}: ulimit -{letter} {limit}", name, call, code, errors, folder, older, normal)
-    print(f"{name}: exit codes", ", ".join(f"{end}: {count}" for end, count in sorted(ends.items(), key=str)), flush=True)
+    tally = ", ".join(f"{end}: {count}" for end, count in sorted(ends.items(), key=str))
+    print(f"{name}: exit codes {tally}", flush=True)
 
 
 if not shutil.which("strace") or not shutil.which("pngcheck"):
