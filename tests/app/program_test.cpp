@@ -323,6 +323,26 @@ TEST(Program, DrawsTheSameWithoutThreads) {
               text_of(folder / "threads/frame_000001.png"));
 }
 
+// The runs would take hours.
+TEST(Program, KeepsFilesOfAnotherKind) {
+    const Folder folder;
+    put(folder / "mine", "my notes\n");
+    put(folder / "scene.gif", "[scene]\naxes = 1\n");
+    const std::string steps = "timeout 60 hello --steps 1000000000000 --quiet ";
+    const std::string frames = "timeout 60 hello --headless --frames 1000000 --quiet --out " +
+                               quoted(folder / "out") + " ";
+    for (const char* option : {"--json", "--trace", "--energy", "--profile", "--record"})
+        shell(steps + option + " " + quoted(folder / "mine"), 2);
+    for (const char* option : {"--sheet", "--json"})
+        shell(frames + option + " " + quoted(folder / "scene.gif"), 2);
+    const Outcome run = shell(frames + "--video " + quoted(folder / "scene.gif"), 2);
+    EXPECT_EQ(run.err, "hello: " + (folder / "scene.gif").string() +
+                           " is not a video and would be lost; remove it or choose another path\n");
+    EXPECT_EQ(text_of(folder / "mine"), "my notes\n");
+    EXPECT_EQ(text_of(folder / "scene.gif"), "[scene]\naxes = 1\n");
+    EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"mine", "scene.gif"}));
+}
+
 // The run would take hours.
 TEST(Program, AReportThatCannotBeWrittenIsNamedBeforeTheRun) {
     const Outcome run =
