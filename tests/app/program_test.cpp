@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs the demos as users do: from a shell, without a display.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -292,6 +293,54 @@ TEST(Program, ADivergedRunReplacesTheReportOfAnEarlierOne) {
     EXPECT_TRUE(holds(report["diverged"].get<std::string>(), "diverged at step"));
     EXPECT_EQ(report["energy"]["last"], nullptr);
     EXPECT_EQ(report["state_hash"], nullptr);
+}
+
+// Mesa 22.3 would dereference null.
+TEST(Program, OsMesaWithoutItsDriverIsNoOpenGl) {
+    const Folder folder;
+    const std::string line = "hello --headless --frames 1 --size 64x36 --quiet --out " +
+                             quoted(folder / "out") + " --surface ";
+    if (shell(line + "osmesa").exit == 3) GTEST_SKIP() << "OSMesa is not installed";
+    for (const std::string driver : {"bogus", "zink", "LLVMPIPE"})
+        for (const std::string surface : {"osmesa", "auto"}) {
+            const Outcome run = shell("export GALLIUM_DRIVER=" + driver + "; " + line + surface, 3);
+            EXPECT_TRUE(holds(run.err, "unset variables of Mesa such as GALLIUM_DRIVER"));
+        }
+}
+
+// Mesa would wait for its threads for ever. The limit is not that of root.
+TEST(Program, DrawsTheSameWithoutThreads) {
+    const Folder folder;
+    const std::string line = "hello --headless --frames 2 --size 64x36 --quiet --out ";
+    const Outcome run = shell(line + quoted(folder / "threads"));
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    const std::string as_nobody = getuid() == 0
+                                      ? "setpriv --reuid=65534 --inh-caps=-all,+dac_override "
+                                        "--ambient-caps=-all,+dac_override "
+                                      : "";
+    shell("timeout 60 " + as_nobody + "prlimit --nproc=1 " + line + quoted(folder / "none"), 0);
+    EXPECT_EQ(text_of(folder / "none/frame_000001.png"),
+              text_of(folder / "threads/frame_000001.png"));
+}
+
+// The runs would take hours.
+TEST(Program, KeepsFilesOfAnotherKind) {
+    const Folder folder;
+    put(folder / "mine", "my notes\n");
+    put(folder / "scene.gif", "[scene]\naxes = 1\n");
+    const std::string steps = "timeout 60 hello --steps 1000000000000 --quiet ";
+    const std::string frames = "timeout 60 hello --headless --frames 1000000 --quiet --out " +
+                               quoted(folder / "out") + " ";
+    for (const char* option : {"--json", "--trace", "--energy", "--profile", "--record"})
+        shell(steps + option + " " + quoted(folder / "mine"), 2);
+    for (const char* option : {"--sheet", "--json"})
+        shell(frames + option + " " + quoted(folder / "scene.gif"), 2);
+    const Outcome run = shell(frames + "--video " + quoted(folder / "scene.gif"), 2);
+    EXPECT_EQ(run.err, "hello: " + (folder / "scene.gif").string() +
+                           " is not a video and would be lost; remove it or choose another path\n");
+    EXPECT_EQ(text_of(folder / "mine"), "my notes\n");
+    EXPECT_EQ(text_of(folder / "scene.gif"), "[scene]\naxes = 1\n");
+    EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"mine", "scene.gif"}));
 }
 
 // The run would take hours.

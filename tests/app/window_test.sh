@@ -134,6 +134,15 @@ status=$?
 [ $status -eq 5 ] || fail "a divergence leaves with exit code $status"
 grep -q "diverged at step" "$folder/err" || fail "no word of the divergence"
 
+# A display whose OpenGL fails is none: one line, not that of a library.
+for broken in LIBGL_ALWAYS_INDIRECT=1 MESA_GL_VERSION_OVERRIDE=2.1; do
+    env $broken "$program" --frames 2 --quiet 2>"$folder/err"
+    status=$?
+    [ $status -eq 3 ] || fail "with $broken the exit code is $status"
+    [ "$(wc -l <"$folder/err")" = 1 ] && grep -q -- --headless "$folder/err" ||
+        fail "with $broken: $(cat "$folder/err")"
+done
+
 # The window is closed and a key is pressed between two polls.
 "$program" --size 640x360 --quiet &
 game=$!

@@ -179,6 +179,35 @@ TEST(EncodePng, RefusesEmptyAndTooLargeFrames) {
         line_of_error(Exit::usage, [&] { (void)encode_png(size, {}); });
 }
 
+/// The PNG of a black frame whose header says another size. Checksums are not read.
+Bytes with_other_size(Size frame, Size said) {
+    const auto count = std::size_t{3} * static_cast<std::size_t>(frame.width) *
+                       static_cast<std::size_t>(frame.height);
+    Bytes png = encode_png(frame, Pixels(count));
+    constexpr std::size_t place_of_width = 16;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t shift = 8 * (3 - i);
+        png[place_of_width + i] = static_cast<std::byte>(said.width >> shift & 0xFF);
+        png[place_of_width + 4 + i] = static_cast<std::byte>(said.height >> shift & 0xFF);
+    }
+    return png;
+}
+
+// Data with more bytes than the pixels of the header need: 35 kB would become 36 MB, and larger
+// ones would fill the memory. The sizes of a header of more than 1 GiB are refused, too.
+TEST(DecodePng, TakesNoMoreMemoryThanAFrameNeeds) {
+    const Size size{64, 36};
+    EXPECT_EQ(decode_png(with_other_size(size, size), "a.png").rgb_bottom_up,
+              Pixels(std::size_t{64} * 36 * 3));
+    const auto refusal = [&](const Bytes& png) {
+        return line_of_error(Exit::usage, [&] { (void)decode_png(png, "a.png"); });
+    };
+    EXPECT_EQ(size_of_png(with_other_size(size, {16384, 16384}), "a.png"), (Size{16384, 16384}));
+    (void)refusal(with_other_size(size, {32768, 32768}));
+    EXPECT_EQ(refusal(with_other_size({4000, 3000}, size)),
+              "a.png: not a valid PNG (outofmem); capture again");
+}
+
 TEST(EncodePng, PassesPngcheck) {
     if (std::system("command -v pngcheck > /dev/null") != 0)
         GTEST_SKIP() << "pngcheck is not installed";

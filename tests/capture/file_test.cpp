@@ -223,7 +223,7 @@ TEST(File, ReplacesASymbolicLinkWhenAsked) {
     fs::permissions(folder / "victim", fs::perms{0600});
     for (const char* const target : {"victim", "nothing", "/dev/null"}) {
         fs::create_symlink(target, folder / "link");
-        write_file(folder / "link", bytes_of("new"), Links::replaced);
+        write_file(folder / "link", bytes_of("new"), kinds::any, Links::replaced);
         EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "link"))) << target;
         EXPECT_EQ(text_of(folder / "link"), "new") << target;
         EXPECT_EQ(text_of(folder / "victim"), "old") << target;
@@ -237,14 +237,14 @@ TEST(File, ReplacesAPipeButNoFolderWhenAsked) {
     const Folder folder;
     ASSERT_EQ(mkfifo((folder / "a").c_str(), 0600), 0);
     const int reader = open((folder / "a").c_str(), O_RDONLY | O_NONBLOCK);
-    write_file(folder / "a", bytes_of("new"), Links::replaced);
+    write_file(folder / "a", bytes_of("new"), kinds::any, Links::replaced);
     close(reader);
     ASSERT_TRUE(fs::is_regular_file(folder / "a"));
     EXPECT_EQ(text_of(folder / "a"), "new");
-    EXPECT_TRUE(
-        holds(io_error_of([&] { File(folder.path(), Links::replaced); }), "Is a directory"));
-    EXPECT_TRUE(
-        holds(io_error_of([&] { File(folder / "new/", Links::replaced); }), "Is a directory"));
+    EXPECT_TRUE(holds(io_error_of([&] { File(folder.path(), kinds::any, Links::replaced); }),
+                      "Is a directory"));
+    EXPECT_TRUE(holds(io_error_of([&] { File(folder / "new/", kinds::any, Links::replaced); }),
+                      "Is a directory"));
 }
 
 TEST(File, AcceptsTheLongestNameOfTheFileSystem) {
@@ -341,21 +341,66 @@ TEST(File, ALimitOfItsSizeIsAnErrorWithARemedy) {
     EXPECT_EQ(names_in(folder.path()), Names{"a"});
 }
 
-// A failed sync leaves the old file, so the sync comes before the name.
-TEST(File, MayBeSyncedBeforeItHasItsName) {
+// A failed sync leaves the old file, so the sync comes before the name. The frames of a capture
+// replace nothing and are not synced, which would take longer than encoding them.
+TEST(File, IsOnTheDiskBeforeItReplacesAnother) {
     const Folder folder;
     put(folder / "a", "old");
-    File file(folder / "a");
-    file.write("new");
-    file.commit(Sync::disk);
+    write_file(folder / "a", "new");
     EXPECT_EQ(text_of(folder / "a"), "new");
     in_child([&] {
         refuse_calls({SYS_fsync, SYS_fdatasync}, 0, 0, EIO);
-        File failing(folder / "a");
-        failing.write("newer");
-        EXPECT_TRUE(holds(io_error_of([&] { failing.commit(Sync::disk); }), "Input/output error"));
+        EXPECT_TRUE(
+            holds(io_error_of([&] { write_file(folder / "a", "newer"); }), "Input/output error"));
+        File published(folder / "a");
+        published.write("newer");
+        EXPECT_TRUE(holds(io_error_of([&] { published.publish(); }), "Input/output error"));
+        write_file(folder / "b", "new");
     });
     EXPECT_EQ(text_of(folder / "a"), "new");
+    EXPECT_EQ(text_of(folder / "b"), "new");
+    EXPECT_EQ(names_in(folder.path()), (Names{"a", "b"}));
+}
+
+TEST(File, ReplacesOnlyItsKind) {
+    const Folder folder;
+    const FileKind kind{"a letter", "Dear ?,|Hello"};
+    for (const char* old : {"", "Dear A, thanks", "Dear B,", "Hello"}) {
+        put(folder / "a", old);
+        write_file(folder / "a", "Hello, you", kind);
+        EXPECT_EQ(text_of(folder / "a"), "Hello, you") << old;
+    }
+    for (const char* old : {"D", "Dear AB,", "hello", "Hell", "\n", " Hello"}) {
+        put(folder / "a", old);
+        fs::create_symlink("a", folder / "link");
+        for (const char* name : {"a", "link"})
+            EXPECT_EQ(
+                line_of_error(Exit::usage, [&] { write_file(folder / name, "Hello, you", kind); }),
+                (folder / name).string() +
+                    " is not a letter and would be lost; remove it or "
+                    "choose another path");
+        EXPECT_EQ(text_of(folder / "a"), old);
+        fs::remove(folder / "link");
+    }
+    EXPECT_EQ(names_in(folder.path()), Names{"a"});
+}
+
+// A scene file begins with [scene], which is no list of JSON.
+TEST(FileKind, OfJsonIsNotThatOfAScene) {
+    const Folder folder;
+    for (const char* text : {"{\"a\": 1}", "{\n}", "[\n  {\n", "[{}]", "[]\n", ""}) {
+        put(folder / "a", text);
+        EXPECT_TRUE(is_replaceable(folder / "a", kinds::json)) << text;
+    }
+    for (const char* text : {"[scene]\n", "[[body]]\n", "a", "\"a\"", "# [{"}) {
+        put(folder / "a", text);
+        EXPECT_FALSE(is_replaceable(folder / "a", kinds::json)) << text;
+    }
+}
+
+TEST(File, OfAKindIsWrittenToDevices) {
+    write_file("/dev/null", "data", kinds::json);
+    require_replaceable("/dev/zero", kinds::json);
 }
 
 TEST(RequireWritable, RefusesAFileThatIsReadOnlyForAll) {

@@ -214,7 +214,7 @@ TEST_F(Videos, FfmpegEndsWithAKilledProgram) {
 }
 
 TEST_F(Videos, FollowLinksAndKeepPermissions) {
-    put(folder / "old.gif", "old");
+    put(folder / "old.gif", "GIF87a");
     fs::permissions(folder / "old.gif", fs::perms::owner_read | fs::perms::owner_write);
     fs::create_symlink("old.gif", folder / "link.GIF");
     write(folder / "link.GIF", 3);

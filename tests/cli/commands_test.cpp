@@ -395,5 +395,31 @@ TEST(LedgerText, HasASpreadInEachRow) {
     EXPECT_TRUE(holds(text, " 300 rounds of 19 steps"));
 }
 
+// A scene's title, its body and its file begin with a command of GitHub or Azure; the name of the
+// file has the start of a terminal's command, too.
+TEST(Output, OfNamesOfOthersIsNoCommand) {
+    std::string scene = spring_scene("[budget]\nposition_error = 1e-9\n");
+    scene.replace(scene.find("A <"), 0, "::error::a ##vso[b] ");
+    for (std::size_t at = 0; (at = scene.find("mass", at)) != scene.npos; at += 20)
+        scene.replace(at, 4, "::warning::");
+    const Desk desk(scene);
+    const std::string file = "'::error::d/\x1b[2J##vso[x].toml'";
+    for (const std::string command :
+         {"play FILE --steps 5 --json -", "rates FILE", "check FILE", "check FILE --junit -",
+          "advise FILE --position-error 10", "advise FILE --position-error 10 --json -",
+          "play none/FILE --steps 1", "play FILE --steps 1 --json FILE/x", "merge FILE",
+          "compare FILE FILE", "play FILE --method FILE"}) {
+        std::string line = command;
+        for (std::size_t at = 0; (at = line.find("FILE", at)) != line.npos; at += file.size())
+            line.replace(at, 4, file);
+        const Outcome run =
+            desk.run("mkdir '::error::d'; cp scene.toml " + file + "; oiler " + line);
+        EXPECT_FALSE((run.out + run.err).empty()) << command;
+        for (const std::string& text : {"\n" + run.out, "\n" + run.err})
+            for (const char* bad : {"\x1b", "##", "\n::", "\n ::"})
+                EXPECT_FALSE(holds(text, bad)) << command;
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -12,13 +12,23 @@ using namespace lab;
 
 const std::string few = "--methods semi_implicit_euler,velocity_verlet,rk4,exact --max-rate 400 ";
 
-/// The JSON without timings and the Pareto front.
+/// The JSON without timings, the Pareto front and the seal.
 Json accuracy_of(Json tradeoff) {
     for (Json& row : tradeoff.at("rows"))
         for (const char* name : {"ns_per_second", "ns_spread", "ns_together", "pareto"})
             row.erase(name);
     tradeoff.erase("machines");
+    tradeoff.erase("seal");
     return tradeoff;
+}
+
+/// The file of a sweep whose first row has another velocity error.
+std::string with_mark(const std::string& text) {
+    Tradeoff tradeoff = parse_tradeoff(text, "a.json");
+    const auto first = std::ranges::find_if(
+        tradeoff.all_series, [](const RateSeries& series) { return !series.rows.empty(); });
+    first->rows.front().judgement.velocity_error = 4242;
+    return file_text(tradeoff);
 }
 
 TEST(TradeoffCommand, WritesATableAndItsPictures) {
@@ -62,9 +72,7 @@ TEST(TradeoffCommand, InterruptedIsResumed) {
     EXPECT_EQ(desk.names("a"), std::vector<std::string>{"tradeoff.json"});
     EXPECT_GE(part.at("rows").size(), 1U);
     // Rows in the file are not measured again: a changed number stays.
-    Json marked = part;
-    marked.at("rows").at(0).at("velocity_error") = 4242;
-    desk.put("a/tradeoff.json", marked.dump());
+    desk.put("a/tradeoff.json", with_mark(desk.text("a/tradeoff.json")));
     const Outcome rest = desk.run(command + "a");
     if (rest.exit == 3) GTEST_SKIP() << rest.err;
     EXPECT_EQ(rest.exit, 0) << rest.err;
@@ -94,13 +102,12 @@ bool has_mark(const Json& part) {
 class UnfinishedSweep : public testing::Test {
 protected:
     UnfinishedSweep() {
-        Json part = measure();
-        part.at("rows").at(0).at("velocity_error") = 4242;
-        desk_.put("a/part-1-of-2.json", part.dump());
+        measure();
+        desk_.put("a/part-1-of-2.json", with_mark(desk_.text("a/part-1-of-2.json")));
     }
     /// Returns the rows of the finished file.
-    [[nodiscard]] Json measure(const std::string& options = "--max-rate 60 --duration 1",
-                               const std::string& folder = "a") const {
+    Json measure(const std::string& options = "--max-rate 60 --duration 1",
+                 const std::string& folder = "a") const {
         desk_.run("oiler tradeoff scene.toml --methods rk4,exact --shard 1/2 --quiet --out " +
                       folder + " " + options,
                   0);
@@ -241,6 +248,61 @@ TEST(TradeoffTable, CellsHaveTheUnitsOfTheirHeadings) {
               "* rk4 250 double <1.0e-09 <1.0e-09 - - 5000 45 25% 0.0045% -");
     EXPECT_EQ(line_with(run.out, " 10 "), "rk4 10 double unstable unstable - - - - - - -");
     EXPECT_TRUE(Json::accept(desk.run("oiler merge part.json --out t --quiet --json -").out));
+}
+
+// One bad byte would cost the whole sweep, and any other text would be lost.
+TEST(TradeoffCommand, KeepsAFileThatItCannotRead) {
+    const std::string good = file_text(made_up());
+    std::string flipped = good;
+    flipped[good.find("4800")] = '5';
+    for (const std::string& text : {std::string("my notes\n"), good.substr(0, good.size() - 2),
+                                    flipped, std::string("{\"a\": 1}\n")}) {
+        const Desk desk;
+        std::filesystem::create_directory(desk.folder() / "t");
+        desk.put("part.json", good);
+        desk.put("t/tradeoff.json", text);
+        desk.put("copy.json", text);
+        for (const std::string line :
+             {"tradeoff scene.toml --methods rk4 --max-rate 60 --out t", "merge part.json --out t",
+              "merge part.json --out u --json copy.json",
+              "tradeoff scene.toml --methods rk4 --max-rate 60 --out u --json copy.json"}) {
+            const Outcome run = desk.run("oiler " + line + " --quiet", 2);
+            EXPECT_EQ(lines(run.err), 1) << run.err;
+            EXPECT_TRUE(holds(run.err, "remove it or choose another p"));
+        }
+        EXPECT_EQ(desk.text("t/tradeoff.json"), text);
+        EXPECT_EQ(desk.text("copy.json"), text);
+        EXPECT_EQ(desk.names("t"), std::vector<std::string>{"tradeoff.json"});
+    }
+}
+
+// An earlier sweep of any scene is replaced, also by a copy. So is an empty file, as mktemp makes
+// it.
+TEST(TradeoffCommand, ReplacesAnEarlierSweep) {
+    const Desk desk;
+    desk.put("part.json", file_text(made_up()));
+    std::filesystem::create_directory(desk.folder() / "t");
+    desk.put("t/tradeoff.json", with_mark(file_text(made_up())));
+    desk.put("copy.json", "");
+    const Outcome run = desk.run("oiler merge part.json --out t --json copy.json --quiet");
+    if (run.exit == 3) GTEST_SKIP() << run.err;
+    EXPECT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(desk.text("t/tradeoff.json"), file_text(made_up()));
+    EXPECT_EQ(desk.text("copy.json"), file_text(made_up()));
+}
+
+// A foreign table or picture is found before the sweep.
+TEST(TradeoffCommand, KeepsOtherFilesOfItsNames) {
+    for (const std::string name : {"tradeoff.csv", "error_over_time.png"}) {
+        const Desk desk;
+        std::filesystem::create_directory(desk.folder() / "t");
+        desk.put("t/" + name, "mine");
+        const Outcome run = desk.run("oiler tradeoff scene.toml --out t", 2);
+        EXPECT_TRUE(holds(run.err, "t/" + name + " is not a "));
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_EQ(desk.text("t/" + name), "mine");
+        EXPECT_EQ(desk.names("t"), std::vector<std::string>{name});
+    }
 }
 
 // Worker threads write the file; a write error is one line from any of them.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/comparison.hpp"
 
+#include <unistd.h>
+
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +14,8 @@
 
 namespace oiler::test {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Compares a made-up capture of five frames with a changed copy.
 class ComparisonOfFilms : public testing::Test {
@@ -46,6 +50,35 @@ TEST_F(ComparisonOfFilms, ACaptureIsNamedByItsManifest) {
     const Comparison same =
         compare_captures(folder / "golden/manifest.json", folder / "actual/manifest.json", {});
     EXPECT_EQ(same.verdict, "5 frames are equal");
+}
+
+// A path that names no capture is wrong usage; a capture that may not be read is an error of the
+// machine, whichever part of it that is.
+TEST_F(ComparisonOfFilms, OfWhatMayNotBeReadIsAnErrorOfReading) {
+    (void)changed([](Film&) {});
+    fs::permissions(folder.path(), fs::perms{0755});
+    constexpr uid_t nobody = 65534;
+    const bool is_root = geteuid() == 0;
+    const auto refuse_parts = [&] {
+        for (const char* part : {"manifest.json", "frames.jsonl.gz", ""}) {
+            const fs::path path = folder / "golden" / part;
+            const fs::perms before = fs::status(path).permissions();
+            fs::permissions(path, fs::perms::none);
+            if (is_root) EXPECT_EQ(seteuid(nobody), 0);
+            EXPECT_TRUE(holds(line_of_error(Exit::io,
+                                            [&] {
+                                                (void)compare_captures(folder / "golden",
+                                                                       folder / "actual", {});
+                                            }),
+                              "cannot be read"))
+                << part;
+            if (is_root) EXPECT_EQ(seteuid(0), 0);
+            fs::permissions(path, before);
+        }
+    };
+    refuse_parts();
+    fs::remove(folder / "golden/manifest.json");
+    EXPECT_TRUE(holds(refusal(), "no capture there"));
 }
 
 TEST_F(ComparisonOfFilms, AStateNamesTickBodyAndField) {

@@ -4,6 +4,7 @@
 
 #include "oiler/core/markup.hpp"
 #include "oiler/core/profile.hpp"
+#include "oiler/core/utf8.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -74,6 +75,31 @@ Json events_of(const Profile& profile) {
     const Json json = Json::parse(profile.to_json());
     EXPECT_EQ(json.at("displayTimeUnit"), "ms");
     return json.at("traceEvents");
+}
+
+// What a terminal or a CI reads as a command: ESC of ASCII and the same of Latin 1, text that runs
+// backwards, a byte outside UTF-8, and lines of GitHub and Azure.
+TEST(ForTerminal, ShowsWhatWouldBeACommand) {
+    EXPECT_EQ(for_terminal("\x1b[2J \xc2\x9b[2J \r\t\x7f"), "\\x1b[2J \\x9b[2J \\x0d\\x09\\x7f");
+    EXPECT_EQ(for_terminal("\xe2\x80\xae\xe2\x81\xa6 \xff"), "\\u202e\\u2066 \\xff");
+    EXPECT_EQ(for_terminal("::error::a\n \xe3\x80\x80::debug"),
+              "\\x3a:error::a\n \xe3\x80\x80\\x3a:debug");
+    EXPECT_EQ(for_terminal("a ##vso[task.complete]\n##[group]"),
+              "a \\x23#vso[task.complete]\n\\x23#[group]");
+}
+
+TEST(ForTerminal, KeepsTexts) {
+    for (const std::string text : {"", "µ · — ω√\U0001F600 \xef\xbf\xbd\n", "a::b: #1 #f0f0f0\n\n",
+                                   "C:\\x", "oiler: std::error::x"})
+        EXPECT_EQ(for_terminal(text), text);
+}
+
+TEST(JsonText, HasNoCommandOfATerminalOrACi) {
+    EXPECT_EQ(oiler::Json("\xc2\x9b[2J\x7f ##vso[x] #a").dump(-1),
+              "\"\\u009b[2J\\u007f #\\u0023vso[x] #a\"");
+    JunitSuite suite("a");
+    suite.add("##vso[x]", "#1", Outcome::passed, "");
+    EXPECT_NE(suite.xml().find("classname=\"#&#35;vso[x]\" name=\"#1\""), std::string::npos);
 }
 
 TEST(Profile, HasTimesInMicroseconds) {

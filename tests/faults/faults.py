@@ -44,7 +44,7 @@ def contents(folder):
     """The bytes of all files in a folder by name."""
     if not folder.exists():
         return {}
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
 
 
 def lies_of(folder):

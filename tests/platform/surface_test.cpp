@@ -108,10 +108,12 @@ TEST(Library, NamesThePackageToInstall) {
 
 TEST(Llvmpipe, IsLimitedUnlessTheUserSetsAWidth) {
     unsetenv("LP_NATIVE_VECTOR_WIDTH");
-    limit_llvmpipe_vectors();
+    unsetenv("LP_NUM_THREADS");
+    limit_llvmpipe();
+    EXPECT_EQ(std::getenv("LP_NUM_THREADS"), nullptr);
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
     setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
-    limit_llvmpipe_vectors();
+    limit_llvmpipe();
     EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "128");
 }
 

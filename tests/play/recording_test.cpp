@@ -240,15 +240,15 @@ TEST(Recordings, AreRefusedIfAByteIsChanged) {
 
 TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
     const Folder folder;
-    put(folder / "a", "an old one");
+    put(folder / "a", "OILERREC old");
     const RecordingHeader header = header_of("game", settings_of(), Game::controls);
     RecordingWriter old(folder / "a", header);
     RecordingWriter fresh(folder / "b", header);
-    EXPECT_EQ(text_of(folder / "a"), "an old one");
+    EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
     EXPECT_FALSE(std::filesystem::exists(folder / "b"));
     AnyGameOf<Game> game(settings_of());
     for (int step = 0; step < 60; ++step) {
-        EXPECT_EQ(text_of(folder / "a"), "an old one");
+        EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
         old.add(step, {});
         old.add_state(step, game);
     }
@@ -263,7 +263,7 @@ TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
 
 TEST(Recordings, ThatCannotBeWrittenLeaveTheOlderFile) {
     const Folder folder;
-    put(folder / "a", "older");
+    put(folder / "a", "OILERREC old");
     AnyGameOf<Game> game{settings_of()};
     RecordingWriter writer(folder / "a", header_of("game", settings_of(), Game::controls));
     writer.add(0, {});
@@ -276,7 +276,7 @@ TEST(Recordings, ThatCannotBeWrittenLeaveTheOlderFile) {
     const std::string line = line_of_error(Exit::io, [&] { writer.finish(1, game); });
     setrlimit(RLIMIT_FSIZE, &sizes);
     EXPECT_TRUE(holds(line, (folder / "a").string()));
-    EXPECT_EQ(text_of(folder / "a"), "older");
+    EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
 }
 

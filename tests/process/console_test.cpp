@@ -14,5 +14,12 @@ TEST(TimeLeft, IsInSecondsOrMinutes) {
     EXPECT_EQ(time_left(10, 0.01), "") << "too early";
 }
 
+// A terminal obeys control characters, a CI commands at the start of a line: see for_terminal().
+TEST(Say, PrintsNamesOfOthersEscaped) {
+    testing::internal::CaptureStderr();
+    say("a \x1b[31mtitle\n::error::b");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "a \\x1b[31mtitle\n\\x3a:error::b\n");
+}
+
 }  // namespace
 }  // namespace oiler::test

@@ -78,7 +78,7 @@ void Sheet::write(const std::filesystem::path& path) const {
     if (tiles_.empty()) return;
     Pixels sheet = blank(tile_, static_cast<int>(tiles_.size()));
     for (std::size_t i = 0; i < tiles_.size(); ++i) place(sheet, tiles_[i], static_cast<int>(i));
-    write_file(path, encode_png(sheet.size, sheet.rgb));
+    write_file(path, encode_png(sheet.size, sheet.rgb), kinds::png);
 }
 
 Film::Film(Renderer& renderer, const Manifest& header, const Options& options, Profile* profile)

@@ -33,7 +33,8 @@ Exit compare_with_golden(const Options& options, const std::vector<BudgetEntry>&
     std::string text = describe(comparison);
     text.pop_back();
     remark(options.quiet && comparison.passed(), "{}", text);
-    if (!options.junit.empty()) write_file(options.junit, junit_of(comparison, budget));
+    if (!options.junit.empty())
+        write_file(options.junit, junit_of(comparison, budget), kinds::junit);
     const fs::path folder = differences_folder(options.out);
     write_differences(comparison, folder);
     if (comparison.passed()) return Exit::done;

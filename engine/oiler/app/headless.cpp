@@ -167,7 +167,7 @@ Exit draw_still(const GameRun& run, Renderer& renderer, const Manifest& header) 
     const auto path = options.out / fmt::format("still_{:06}.png", frame);
     make_folder(options.out);
     const Span span(run.profile, "encode");
-    write_file(path, encode_png(pixels.size, pixels.rgb), Links::replaced);
+    write_file(path, encode_png(pixels.size, pixels.rgb), kinds::png, Links::replaced);
     remark(options.quiet, "frame {}, tick {}, {:.6g} s: {}", frame, at.step,
            static_cast<double>(frame) / header.fps, path.string());
     if (!options.from) return Exit::done;

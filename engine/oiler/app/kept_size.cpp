@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/process/console.hpp"
 #include "oiler/process/parse_size.hpp"
@@ -66,11 +67,7 @@ std::optional<Size> read_size(const fs::path& file) {
 }
 
 void write_size(const fs::path& file, Size size) {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    std::ofstream stream(file);
-    stream << size.width << 'x' << size.height << '\n' << std::flush;
-    if (!stream) fail(Exit::io, "{}: cannot be written; give --size", file.string());
+    write_file(file, fmt::format("{}x{}\n", size.width, size.height));
 }
 
 }  // namespace oiler

@@ -58,17 +58,16 @@ enum Trait : unsigned {
     game_only = 1U << 0U,
     scene_only = 1U << 1U,
     input = 1U << 2U,           ///< a file that is read
-    output = 1U << 3U,          ///< a file that is written
-    drawn = 1U << 4U,           ///< excluded by --steps
-    filmed = 1U << 5U,          ///< needs --headless
-    several = 1U << 6U,         ///< of more frames than one: excluded by --frame
-    no_panel = 1U << 7U,        ///< excludes --inspector
-    compared = 1U << 8U,        ///< needs --golden
-    not_updated = 1U << 9U,     ///< excluded by --update-golden
-    recorded = 1U << 10U,       ///< a recording has it: excluded by --replay
-    of_many_runs = 1U << 11U,   ///< allowed with --what-if
-    keeps_setting = 1U << 12U,  ///< the setting of the run cannot be changed
-    keeps_steps = 1U << 13U,    ///< needs each step as it was first taken; keeps the setting, too
+    drawn = 1U << 3U,           ///< excluded by --steps
+    filmed = 1U << 4U,          ///< needs --headless
+    several = 1U << 5U,         ///< of more frames than one: excluded by --frame
+    no_panel = 1U << 6U,        ///< excludes --inspector
+    compared = 1U << 7U,        ///< needs --golden
+    not_updated = 1U << 8U,     ///< excluded by --update-golden
+    recorded = 1U << 9U,        ///< a recording has it: excluded by --replay
+    of_many_runs = 1U << 10U,   ///< allowed with --what-if
+    keeps_setting = 1U << 11U,  ///< the setting of the run cannot be changed
+    keeps_steps = 1U << 12U,    ///< needs each step as it was first taken; keeps the setting, too
 };
 
 /// An option, in one place.
@@ -77,8 +76,9 @@ struct Row {
     const char* help;  ///< see fill_in
     Target target;
     unsigned traits = 0;
-    const char* shown = "";  ///< the default in --help, see fill_in
-    const char* type = "";   ///< in --help, or the allowed words; one in [] is optional
+    const char* shown = "";          ///< the default in --help, see fill_in
+    const char* type = "";           ///< in --help, or the allowed words; one in [] is optional
+    const FileKind* kind = nullptr;  ///< of a file that is written
 };
 
 /// In the order of --help.
@@ -93,7 +93,7 @@ const std::vector<Row>& rows() {
          "play the keys and the mouse of a text, with lines such as: 60 press Space; - for stdin",
          &Given::script, game_only | input | recorded | keeps_steps},
         {"--record", "record what is played, for --replay", &Given::record,
-         game_only | output | recorded | keeps_steps},
+         game_only | recorded | keeps_steps, "", "", &kinds::recording},
         {"--replay", "play a recording with its settings: exit 1 with the first step that differs",
          &Given::replay_file, game_only | input | keeps_steps | of_many_runs},
         {"--what-if",
@@ -122,16 +122,16 @@ const std::vector<Row>& rows() {
         {"--keyframes", "write a PNG for every Nth frame only, hashes for all",
          Whole<std::int64_t>{&Given::keyframes, 1, 1'000'000}, filmed | several},
         {"--video", "write the frames as .mp4, .gif or .apng, too; needs ffmpeg", &Given::video,
-         output | filmed | several},
+         filmed | several, "", "", &kinds::video},
         {"--sheet", "write up to 12 frames of the run on one PNG", &Given::sheet,
-         output | filmed | several | no_panel},
+         filmed | several | no_panel, "", "", &kinds::png},
         {"--golden", "compare the frames with those in DIR: exit 1 with the cause if they differ",
          &Given::golden, filmed | several | no_panel, "", "DIR"},
         {"--update-golden", "write the frames into the folder of --golden", &Given::update_golden,
          compared},
         {"--force", "let --update-golden run in CI", &Given::force},
         {"--junit", "write the comparison with --golden as JUnit XML", &Given::junit,
-         output | compared | not_updated},
+         compared | not_updated, "", "", &kinds::junit},
         {"--from", "take the settings of a capture from its manifest.json", &Given::from_file,
          input | filmed | recorded},
         {"--frame", "draw frame N only; with --from, compare it with the manifest",
@@ -150,15 +150,15 @@ const std::vector<Row>& rows() {
         {"--seed", "seed of the game's random numbers",
          Whole<std::uint64_t>{&Given::seed, 0, ~std::uint64_t{0}}, recorded, "0"},
         {"--trace", "write each body after each step as CSV, - for stdout", &Given::trace,
-         output | keeps_steps},
+         keeps_steps, "", "", &kinds::trace},
         {"--energy", "write energies after each step as CSV, - for stdout", &Given::energy,
-         output | keeps_steps},
+         keeps_steps, "", "", &kinds::energy},
         {"--json", "write a summary of the run as JSON, - for stdout", &Given::json,
-         output | of_many_runs | keeps_setting},
+         of_many_runs | keeps_setting, "", "", &kinds::json},
         {"--inspector", "show what the timestep costs beside the picture, as F1 does in a window",
          &Given::inspector},
-        {"--profile", "write the times of all stages in Chrome's trace format", &Given::profile,
-         output},
+        {"--profile", "write the times of all stages in Chrome's trace format", &Given::profile, 0,
+         "", "", &kinds::json},
         {"--quiet", "print no remarks and no progress on standard error", &Given::quiet,
          of_many_runs},
     };
@@ -211,7 +211,8 @@ void refuse_all(const CLI::App& app, Trait trait, std::string_view before, std::
             fail(Exit::usage, "{}{}{}", before, row.name, after);
 }
 
-/// Checks that no path is empty, no output is an input and no two outputs are the same.
+/// Checks that no path is empty, no output is an input, no two outputs are the same and none
+/// replaces a file of another kind.
 void check_paths(const CLI::App& app, const Given& given) {
     std::vector<NamedPath> inputs;
     std::vector<NamedPath> outputs;
@@ -221,7 +222,7 @@ void check_paths(const CLI::App& app, const Given& given) {
         const Path& path = given.*(*target);
         if (path.empty() && (row.traits & scene_only) == 0 && is_given(app, row.name))
             fail(Exit::usage, "{}: give a path", row.name);
-        if ((row.traits & output) != 0) outputs.push_back({row.name, path});
+        if (row.kind) outputs.push_back({.name = row.name, .path = path, .kind = row.kind});
         if ((row.traits & input) != 0 && !path.empty() && path != "-")
             inputs.push_back({row.name, path});
     }
@@ -233,6 +234,7 @@ void check_paths(const CLI::App& app, const Given& given) {
     if (given.record == "-")
         fail(Exit::usage, "--record -: a recording is written to a file; give a name");
     require_distinct(inputs, outputs);
+    for (const NamedPath& one : outputs) require_replaceable(one.path, *one.kind);
     if (!given.video.empty()) Video::require_format(given.video);
 }
 
@@ -365,8 +367,7 @@ Options collect(const CLI::App& app, Given given, const About& about) {
     if (given.surface == "egl") given.offscreen = Offscreen::egl;
     given.has_png = given.png == "all";
     if (!is_given(app, "--out"))
-        given.out =
-            given.update_golden ? folder_of_new(given.golden) : Path("frames") / about.name;
+        given.out = given.update_golden ? folder_of_new(given.golden) : Path("frames") / about.name;
     check_paths(app, given);
     check_golden(given);
     return given;

@@ -17,6 +17,7 @@
 #include "oiler/app/window.hpp"
 #include "oiler/capture/file.hpp"
 #include "oiler/core/error.hpp"
+#include "oiler/core/utf8.hpp"
 #include "oiler/play/replay.hpp"
 #include "oiler/play/script.hpp"
 #include "oiler/process/console.hpp"
@@ -175,7 +176,7 @@ Exit run_what_if(const Options& options, const About& about, const MakeGame& mak
                                                 ? usual_what_if(options.settings, make)
                                                 : options.what_if_settings;
     std::optional<File> json;  // opened before the runs, so that a wrong path costs no time
-    if (!options.json.empty()) json.emplace(options.json);
+    if (!options.json.empty()) json.emplace(options.json, kinds::json);
     const RecordedPlay play{options.settings, options.controls, *options.replay,
                             options.replay_file.string(), options.replay_anyway};
     const std::unique_ptr<DrawTimer> draw = open_timer(options);
@@ -186,7 +187,7 @@ Exit run_what_if(const Options& options, const About& about, const MakeGame& mak
         json->write(to_json(*result, about.name).dump(2) + "\n");
         json->commit();
     }
-    if (options.json != "-") write_file("-", text_of(*result, about.name));
+    if (options.json != "-") write_file("-", for_terminal(text_of(*result, about.name)));
     return Exit::done;
 }
 
@@ -228,11 +229,11 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     RunReport report{.scene = about.name, .first = world.energy()};
     TraceWriter trace(options.trace, options.energy, world);
     std::optional<File> json;  // opened before the run, so that a wrong path costs no time
-    if (!options.json.empty()) json.emplace(options.json);
+    if (!options.json.empty()) json.emplace(options.json, kinds::json);
     std::optional<File> profile_file;
     std::optional<Profile> profile;
     if (!options.profile.empty()) {
-        profile_file.emplace(options.profile);
+        profile_file.emplace(options.profile, kinds::json);
         profile.emplace();
     }
     Profile* const stages = profile ? &*profile : nullptr;
@@ -278,7 +279,7 @@ int run_program(int argc, char** argv, const About& about, const MakeGame& make)
     return guard_main(about.name, [&] {
         const CommandLine line = parse_command_line(argc, argv, about);
         if (line.text.empty()) return run_game(line.options, about, make);
-        write_file("-", std::as_bytes(std::span(line.text)));
+        write_file("-", for_terminal(line.text));
         return Exit::done;
     });
 }

@@ -31,7 +31,7 @@ std::vector<std::byte> Stills::png(const Picture& picture) {
 }
 
 void Stills::write(const Picture& picture, const std::filesystem::path& path) {
-    write_file(path, png(picture), Links::replaced);
+    write_file(path, png(picture), kinds::png, Links::replaced);
 }
 
 }  // namespace oiler

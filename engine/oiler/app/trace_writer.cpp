@@ -51,8 +51,9 @@ void require_finite(const Energy& energy, const World& world) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& trace, const std::filesystem::path& energy,
                          const World& world) {
-    if (!trace.empty()) trace_.emplace(trace).write(trace_header(world.axes()));
-    if (!energy.empty()) energy_.emplace(energy).write("tick,time,kinetic,potential,total\n");
+    if (!trace.empty()) trace_.emplace(trace, kinds::trace).write(trace_header(world.axes()));
+    if (!energy.empty())
+        energy_.emplace(energy, kinds::energy).write("tick,time,kinetic,potential,total\n");
     write(0, world);
 }
 

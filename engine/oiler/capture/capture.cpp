@@ -101,7 +101,8 @@ void Capture::write(Job& job) {
             png = encode_png(manifest_.size, job.shot.rgb);
         }
         const Span span(profile_, "write");
-        write_file(folder_.file(frame_name(std::int64_t(job.index))), png, Links::replaced);
+        write_file(folder_.file(frame_name(std::int64_t(job.index))), png, kinds::png,
+                   Links::replaced);
     }
     std::vector<std::byte> record;
     if (job.shot.record) {
@@ -121,13 +122,13 @@ void Capture::write_record(std::size_t index, std::vector<std::byte> record) {
          next != waiting_records_.end() && next->first == next_record_;
          next = waiting_records_.erase(next), ++next_record_) {
         if (next->second.empty()) continue;
-        if (!records_) records_.emplace(folder_.file(records_name), Links::replaced);
+        if (!records_) records_.emplace(folder_.file(records_name), kinds::any, Links::replaced);
         records_->write(next->second);
     }
 }
 
 void Capture::write_manifest() const {
-    File file(folder_.file(manifest_name), Links::replaced);
+    File file(folder_.file(manifest_name), kinds::any, Links::replaced);
     file.write(to_json(manifest_));
     file.commit();
 }

@@ -108,8 +108,8 @@ std::vector<fs::path> capture_files(const fs::path& folder) {
         if (is_capture_file(at->path().filename().string())) files.push_back(at->path());
     if (error && error != std::errc::no_such_file_or_directory)
         fail(Exit::io, "cannot read {}: {}", folder.string(), error.message());
-    std::ranges::partition(
-        files, [](const fs::path& file) { return file.filename() != manifest_name; });
+    std::ranges::partition(files,
+                           [](const fs::path& file) { return file.filename() != manifest_name; });
     return files;
 }
 
@@ -207,12 +207,7 @@ bool CaptureFolder::lock() {
     if (descriptor < 0)
         fail(Exit::io, "cannot write {}: {}; choose another folder", path.string(),
              system_reason(errno));
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-        const std::string owner = wait_for_owner(descriptor);
-        close(descriptor);
-        fail(Exit::io, "{} is in use: {} captures into it; choose another folder", path_.string(),
-             owner);
-    }
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) refuse_lock(descriptor, errno);
     if (!is_same_file(descriptor, path)) {
         close(descriptor);
         return false;
@@ -228,6 +223,18 @@ bool CaptureFolder::lock() {
              path.string(), system_reason(error_number));
     }
     return true;
+}
+
+void CaptureFolder::refuse_lock(int descriptor, int reason) const {
+    const bool is_in_use = reason == EWOULDBLOCK;
+    const std::string owner = is_in_use ? wait_for_owner(descriptor) : read_owner(descriptor);
+    if (owner.empty()) unlink(file(lock_name).c_str());  // made by this process
+    close(descriptor);
+    if (is_in_use)
+        fail(Exit::io, "{} is in use: {} captures into it; choose another folder", path_.string(),
+             owner);
+    fail(Exit::io, "cannot lock {}: {}; choose another folder", path_.string(),
+         system_reason(reason));
 }
 
 void CaptureFolder::require_present() const {
@@ -251,8 +258,8 @@ void CaptureFolder::clear() {
 
 void CaptureFolder::replace() {
     const fs::path old = file(old_name);
-    sync_to_disk(path_);
     try {
+        sync_to_disk(path_);
         make_folder(old);
         move_capture(path_, old);
         move_capture(folder_of_new(path_), path_);

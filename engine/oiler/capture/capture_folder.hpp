@@ -49,6 +49,8 @@ public:
 private:
     /// Returns false if the lock file was removed meanwhile.
     [[nodiscard]] bool lock();
+    /// Closes the descriptor of a lock that another process has or that the system refuses.
+    [[noreturn]] void refuse_lock(int descriptor, int reason) const;
     void undo_replacement();
     void release();
 

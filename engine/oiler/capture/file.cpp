@@ -156,6 +156,21 @@ bool is_written_by(const NamedPath& folder, const NamedPath& file) {
            folder.uses(file.path.filename().string()) && Place(file.path).is_in(Place(folder.path));
 }
 
+const FileKind& kind_of_ending(const fs::path& path) {
+    const fs::path ending = path.extension();
+    return ending == ".png"    ? kinds::png
+           : ending == ".csv"  ? kinds::table
+           : ending == ".json" ? kinds::sweep
+                               : kinds::any;
+}
+
+void require_replaceable_files(const NamedPath& folder) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder.path, none))
+        if (folder.uses(entry.path().filename().string()))
+            require_replaceable(entry.path(), kind_of_ending(entry.path()));
+}
+
 bool are_one_file(const NamedPath& a, const NamedPath& b) {
     if (a.path.empty() || b.path.empty()) return false;
     if (a.path == "-" && b.path == "-") return true;
@@ -166,7 +181,7 @@ bool are_one_file(const NamedPath& a, const NamedPath& b) {
 
 }  // namespace
 
-File::File(const fs::path& path, Links links)
+File::File(const fs::path& path, const FileKind& kind, Links links)
     : path_(path), target_(path), largest_write_(std::size_t{1} << 20) {
     std::optional<int> in_place;
     if (links == Links::followed) {
@@ -179,6 +194,7 @@ File::File(const fs::path& path, Links links)
     in_place_ = in_place.has_value();
     if (in_place_) largest_write_ = PIPE_BUF;
     if (!in_place_ && names_folder(target_)) fail_write(EISDIR);
+    if (!in_place_) require_replaceable(path, kind);
     if (!in_place_ && target_.has_parent_path()) make_folder(target_.parent_path());
     descriptor_ = in_place_ ? *in_place : open_temporary();
     if (descriptor_ < 0) fail_write(errno);
@@ -223,10 +239,12 @@ void File::flush() {
     buffer_.clear();
 }
 
-void File::keep_permissions() const {
+/// Returns whether there is an older file.
+bool File::keep_permissions() const {
     struct stat replaced = {};
-    if (lstat(target_.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode))
-        fchmod(descriptor_, replaced.st_mode & 07777);
+    if (lstat(target_.c_str(), &replaced) != 0 || !S_ISREG(replaced.st_mode)) return false;
+    fchmod(descriptor_, replaced.st_mode & 07777);
+    return true;
 }
 
 /// Links a file without a name to its final name or, if that exists, to a temporary one.
@@ -247,12 +265,11 @@ void File::close_descriptor() {
 }
 
 /// Writes everything to a file that has its own name or a temporary one.
-void File::prepare_name(Sync sync) {
+void File::prepare_name() {
     assert(descriptor_ >= 0);
     flush();
     if (in_place_ || is_named_) return;
-    keep_permissions();
-    if (sync == Sync::disk && fsync(descriptor_) != 0) fail_write(errno);
+    if (keep_permissions() && fsync(descriptor_) != 0) fail_write(errno);
     if (temporary_.empty()) give_name();
 }
 
@@ -263,13 +280,13 @@ void File::rename_temporary() {
     temporary_.clear();
 }
 
-void File::publish(Sync sync) {
-    prepare_name(sync);
+void File::publish() {
+    prepare_name();
     rename_temporary();
 }
 
-void File::commit(Sync sync) {
-    prepare_name(sync);
+void File::commit() {
+    prepare_name();
     close_descriptor();
     rename_temporary();
 }
@@ -298,14 +315,15 @@ std::string read_text(const fs::path& path, std::size_t most) {
     return text;
 }
 
-void write_file(const fs::path& path, std::span<const std::byte> bytes, Links links) {
-    File file(path, links);
+void write_file(const fs::path& path, std::span<const std::byte> bytes, const FileKind& kind,
+                Links links) {
+    File file(path, kind, links);
     file.write(bytes);
     file.commit();
 }
 
-void write_file(const fs::path& path, std::string_view text, Links links) {
-    write_file(path, std::as_bytes(std::span(text)), links);
+void write_file(const fs::path& path, std::string_view text, const FileKind& kind, Links links) {
+    write_file(path, std::as_bytes(std::span(text)), kind, links);
 }
 
 void require_writable(const fs::path& path) {
@@ -351,14 +369,15 @@ bool make_folder(const fs::path& path) {
 }
 
 void require_openable(const NamedPath& output) {
-    if (output.uses || output.path.empty() || output.path == "-") return;
+    if (output.path.empty() || output.path == "-") return;
+    if (output.uses) return require_replaceable_files(output);
     std::error_code none;
     const fs::file_status found = fs::status(output.path, none);
     if (fs::exists(found) && !fs::is_regular_file(found) && !fs::is_directory(found)) return;
     // Missing folders are made later: a command that fails leaves none.
     if (const fs::path folder = output.path.parent_path();
         folder.empty() || fs::is_directory(folder, none))
-        const File probe(output.path);
+        const File probe(output.path, *output.kind);
 }
 
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "oiler/capture/file_kind.hpp"
+
 namespace oiler {
 
 /// The treatment of a symbolic link at the path of a file.
@@ -15,23 +17,22 @@ enum class Links {
     replaced,  ///< for names that Oiler chooses within an output folder
 };
 
-/// Whether the bytes are on the disk before the file has its name, so that a power failure leaves
-/// the old file or the new one.
-enum class Sync { none, disk };
-
 /// A file that is written completely or not at all, so that a failed, interrupted or killed run
 /// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() or
-/// publish() gives it its name; without them it disappears. A missing folder is made.
+/// publish() gives it its name; without them it disappears. A missing folder is made. What replaces
+/// an older file is on the disk before, so that a power failure leaves the old file or the new one.
 ///
 /// With Links::followed, "-" is the standard output. Devices, pipes and the targets of standard
 /// output and standard error (/dev/stdout) cannot be replaced and are written in place. With
 /// Links::replaced, everything at the path but a folder is replaced.
 ///
-/// Every failure throws Error{io} with the path, the reason and a remedy. A signal that interrupts
-/// the wait for a pipe throws Error{interrupted}.
+/// Every failure throws Error{io} with the path, the reason and a remedy, but Error{usage} for an
+/// older file of another kind. A signal that interrupts the wait for a pipe throws
+/// Error{interrupted}.
 class File {
 public:
-    explicit File(const std::filesystem::path& path, Links links = Links::followed);
+    explicit File(const std::filesystem::path& path, const FileKind& kind = kinds::any,
+                  Links links = Links::followed);
     ~File();
     File(const File&) = delete;
     File& operator=(const File&) = delete;
@@ -43,15 +44,15 @@ public:
     [[nodiscard]] int descriptor() const { return descriptor_; }
 
     /// Flushes and names the file. Later writes add to it; flush() makes them readable.
-    void publish(Sync sync = Sync::none);
+    void publish();
     void flush();
     /// Publishes and closes the file. No write may follow.
-    void commit(Sync sync = Sync::none);
+    void commit();
 
 private:
     [[nodiscard]] int open_temporary();
-    void keep_permissions() const;
-    void prepare_name(Sync sync);
+    [[nodiscard]] bool keep_permissions() const;
+    void prepare_name();
     void give_name();
     void rename_temporary();
     void close_descriptor();
@@ -73,9 +74,9 @@ private:
                                     std::size_t most = 256'000'000);
 /// Writes all of `bytes` to `path` through File.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                Links links = Links::followed);
+                const FileKind& kind = kinds::any, Links links = Links::followed);
 void write_file(const std::filesystem::path& path, std::string_view text,
-                Links links = Links::followed);
+                const FileKind& kind = kinds::any, Links links = Links::followed);
 
 /// Throws Error{io} if the file may not be written, also for a superuser if it is read-only for
 /// all.
@@ -97,6 +98,8 @@ struct NamedPath {
     /// Empty for a file. For a folder: whether the command reads or writes a file of that name in
     /// it.
     bool (*uses)(std::string_view name) = nullptr;
+    /// Of an output file.
+    const FileKind* kind = &kinds::any;
 };
 
 /// Throws Error{usage} if an output is an input, or if two outputs are one file. Compares files,
@@ -104,7 +107,8 @@ struct NamedPath {
 /// times.
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs);
 
-/// Throws Error{io} if the file of an output cannot be made in its folder, so that a command fails
+/// Throws Error{io} if the file of an output cannot be made in its folder, and Error{usage} if it,
+/// or a file that is written into an output folder, is of another kind, so that a command fails
 /// before its work. Makes neither file nor folder.
 void require_openable(const NamedPath& output);
 

@@ -2,8 +2,6 @@
 #include "oiler/capture/manifest.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
-
 #include <charconv>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -218,7 +216,11 @@ Manifest read_manifest(const fs::path& folder_or_file) {
     std::error_code error;
     const fs::path path =
         fs::is_directory(folder_or_file, error) ? folder_or_file / "manifest.json" : folder_or_file;
-    if (access(path.c_str(), R_OK) != 0 || !fs::is_regular_file(path, error))
+    const bool is_file = fs::is_regular_file(path, error);
+    if (error && exit_of_open(error.value()) == Exit::io)
+        fail(Exit::io, "{}: cannot be read: {}; give a capture that you may read", path.string(),
+             error.message());
+    if (!is_file)
         fail(Exit::usage, "{}: no capture there: {} cannot be read; capture with --headless --out",
              folder_or_file.string(), path.string());
     return parse_manifest(read_text(path), path.string());

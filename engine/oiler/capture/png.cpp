@@ -77,6 +77,18 @@ unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_cou
 
 }  // namespace
 
+namespace {
+
+/// The largest piece of memory that the decoder may take: compressed data may have more than the
+/// header says.
+thread_local std::size_t most_decoded = 0;
+
+void* take_decoded(void* bytes, std::size_t size) {
+    return size > most_decoded ? nullptr : std::realloc(bytes, size);
+}
+
+}  // namespace
+
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
@@ -85,6 +97,9 @@ unsigned char* deflate_fast(unsigned char* bytes, int count, int* compressed_cou
 #define STBIW_FREE(bytes) scratch().give_back(bytes)
 #define STBIW_REALLOC(bytes, size) nullptr  // only of the compressor that libdeflate replaces
 #include <stb/stb_image_write.h>
+#define STBI_MALLOC(size) take_decoded(nullptr, size)
+#define STBI_REALLOC(bytes, size) take_decoded(bytes, size)
+#define STBI_FREE(bytes) std::free(bytes)
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO
@@ -105,6 +120,14 @@ void require_encodable(Size size) {
         fail(Exit::usage,
              "cannot encode a frame of {}x{} pixels; choose a size from 1x1 up to a gigabyte",
              size.width, size.height);
+}
+
+const stbi_uc* bytes_of(std::span<const std::byte> png) {
+    return reinterpret_cast<const stbi_uc*>(png.data());
+}
+
+[[noreturn]] void refuse_png(std::string_view file) {
+    fail(Exit::usage, "{}: not a valid PNG ({}); capture again", file, stbi_failure_reason());
 }
 
 /// Sets stb's global variable for the filter, once, so that threads may encode.
@@ -130,21 +153,31 @@ std::vector<std::byte> encode_png(Size size, std::span<const std::uint8_t> rgb_b
     return {first, first + count};
 }
 
+Size size_of_png(std::span<const std::byte> png, std::string_view file) {
+    most_decoded = std::size_t{1} << 16;
+    Size size;
+    int channels_there = 0;
+    if (stbi_info_from_memory(bytes_of(png), static_cast<int>(png.size()), &size.width,
+                              &size.height, &channels_there) == 0)
+        refuse_png(file);
+    return size;
+}
+
 Image decode_png(std::span<const std::byte> png, std::string_view file) {
-    int width = 0;
-    int height = 0;
+    Size size = size_of_png(png, file);
+    const auto pixel_count =
+        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    constexpr std::size_t most_bytes_of_pixel = 9;  // four channels of 16 bits, and a filter
+    constexpr std::size_t most_tables = std::size_t{1} << 16;
+    most_decoded = most_bytes_of_pixel * pixel_count + 2 * png.size() + most_tables;
     int channels_there = 0;
     stbi_set_flip_vertically_on_load_thread(1);
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
-                              static_cast<int>(png.size()), &width, &height, &channels_there,
-                              channels),
+        stbi_load_from_memory(bytes_of(png), static_cast<int>(png.size()), &size.width,
+                              &size.height, &channels_there, channels),
         stbi_image_free);
-    if (!pixels)
-        fail(Exit::usage, "{}: not a valid PNG ({}); capture again", file, stbi_failure_reason());
-    const auto count =
-        std::size_t{channels} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    return {{width, height}, {pixels.get(), pixels.get() + count}};
+    if (!pixels) refuse_png(file);
+    return {size, {pixels.get(), pixels.get() + channels * pixel_count}};
 }
 
 std::uint64_t hash_top_down(Size size, std::span<const std::uint8_t> rgb_bottom_up) {

@@ -23,7 +23,12 @@ struct Image {
     std::vector<std::uint8_t> rgb_bottom_up;
 };
 
-/// Decodes a PNG file. Throws Error{usage} if it is damaged; `file` is named in the message.
+/// The size of a PNG file as its header has it. Throws Error{usage} if it is damaged; `file` is
+/// named in the message.
+[[nodiscard]] Size size_of_png(std::span<const std::byte> png, std::string_view file);
+
+/// Decodes a PNG file. Throws Error{usage} if it is damaged or has more than 1 GiB. Takes no memory
+/// for more pixels than the header says.
 [[nodiscard]] Image decode_png(std::span<const std::byte> png, std::string_view file);
 
 /// XXH3 over the rows of pixels, top row first, as in the PNG.

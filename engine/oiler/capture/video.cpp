@@ -67,8 +67,8 @@ std::vector<std::string> command_of(const Format& format, Size size, int fps) {
     words.insert(words.end(), {"-video_size", fmt::format("{}x{}", size.width, size.height),
                                "-framerate", std::to_string(fps), "-i", "pipe:0"});
     words.insert(words.end(), format.arguments.begin(), format.arguments.end());
-    words.insert(words.end(), {"-fflags", "+bitexact",
-                               fmt::format("file:/proc/self/fd/{}", video_descriptor)});
+    words.insert(words.end(),
+                 {"-fflags", "+bitexact", fmt::format("file:/proc/self/fd/{}", video_descriptor)});
     return words;
 }
 
@@ -133,7 +133,7 @@ std::string last_line(int descriptor) {
 void Video::require_format(const fs::path& path) { (void)format_of(path); }
 
 Video::Video(const fs::path& path, Size size, int fps)
-    : path_(with_known_ending(path)), file_(path) {
+    : path_(with_known_ending(path)), file_(path, kinds::video) {
     remove_abandoned_files(path.parent_path());
     try {
         start(command_of(format_of(path), size, fps));

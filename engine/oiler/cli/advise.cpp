@@ -143,7 +143,7 @@ struct AdviseCommand {
         const std::string file = scene_options.file.string();
         File applied(file);
         applied.write(apply(read_text(file), file, stepping));
-        applied.commit(Sync::disk);
+        applied.commit();
         remark(scene_options.quiet, "{} now has the setting {}", file, describe(stepping));
     }
 

@@ -98,28 +98,26 @@ void Arguments::add_option(const std::string& name, std::string& target, const s
 }
 
 void Arguments::add_output(const std::string& name, std::filesystem::path& target,
-                           const std::string& help) {
-    add_path(name, target, "FILE", nullptr, help);
+                           const std::string& help, const FileKind& kind) {
+    add_path({.name = name, .path = {}, .kind = &kind}, target, "FILE", help);
 }
 
 void Arguments::add_output_folder(const std::string& name, std::filesystem::path& target,
                                   bool (*writes)(std::string_view name), const std::string& help) {
-    add_path(name, target, "DIR", writes, help);
+    add_path({.name = name, .path = {}, .uses = writes}, target, "DIR", help);
 }
 
-void Arguments::add_path(const std::string& name, std::filesystem::path& target,
-                         const std::string& type, bool (*writes)(std::string_view name),
-                         const std::string& help) {
-    const auto set = [name, &target](const std::string& path) {
-        if (path.empty()) throw CLI::ValidationError(name + ": give a path");
-        target = path;
+void Arguments::add_path(const NamedPath& path, std::filesystem::path& target,
+                         const std::string& type, const std::string& help) {
+    const auto set = [name = path.name, &target](const std::string& given) {
+        if (given.empty()) throw CLI::ValidationError(name + ": give a path");
+        target = given;
     };
-    command_.add_option_function<std::string>(name, set, help)
+    command_.add_option_function<std::string>(path.name, set, help)
         ->type_name(type)
         ->default_str(target.string());
-    paths_.emplace_back([name, &target, writes](NamedPaths& all) {
-        all.outputs.push_back({name, target, writes});
-    });
+    paths_.emplace_back(
+        [path, &target](NamedPaths& all) { (all.outputs.emplace_back(path)).path = target; });
 }
 
 NamedPaths Arguments::paths() const {

@@ -54,8 +54,8 @@ public:
     void add_option(const std::string& name, std::string& target, const std::string& type,
                     const std::string& help);
     /// `--NAME FILE`, an output file.
-    void add_output(const std::string& name, std::filesystem::path& target,
-                    const std::string& help);
+    void add_output(const std::string& name, std::filesystem::path& target, const std::string& help,
+                    const FileKind& kind);
     /// `--NAME DIR`, an output folder. `writes` is that of NamedPath.
     void add_output_folder(const std::string& name, std::filesystem::path& target,
                            bool (*writes)(std::string_view name), const std::string& help);
@@ -72,8 +72,9 @@ public:
     [[nodiscard]] NamedPaths paths() const;
 
 private:
-    void add_path(const std::string& name, std::filesystem::path& target, const std::string& type,
-                  bool (*writes)(std::string_view name), const std::string& help);
+    /// `path` is a NamedPath without its path.
+    void add_path(const NamedPath& path, std::filesystem::path& target, const std::string& type,
+                  const std::string& help);
 
     CLI::App& command_;
     std::vector<std::function<void(NamedPaths&)>> paths_;  ///< each adds those of an argument

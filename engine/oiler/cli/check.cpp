@@ -153,8 +153,8 @@ struct CheckCommand {
 
     void declare(Arguments& arguments) {
         arguments.add_required("SCENE", scenes, "scene files");
-        arguments.add_output("--junit", junit,
-                             "write the result as JUnit XML for CI, - for stdout");
+        arguments.add_output("--junit", junit, "write the result as JUnit XML for CI, - for stdout",
+                             kinds::junit);
         add_json(arguments, json);
         arguments.add_flag("--quiet", quiet, "print only scenes that fail");
     }
@@ -165,7 +165,7 @@ struct CheckCommand {
             all.push_back(check(path));
             if (Interrupt::requested()) return Exit::interrupted;
         }
-        if (!junit.empty()) write_file(junit, to_junit(all));
+        if (!junit.empty()) write_file(junit, to_junit(all), kinds::junit);
         if (!json.empty()) write_json(json, to_json(all));
         if (json != "-" && junit != "-") print(text_of(all, quiet));
         for (const CheckResult& result : all)

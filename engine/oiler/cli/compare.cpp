@@ -34,8 +34,8 @@ struct CompareCommand {
                               "largest difference of a channel of a pixel, 2 if not given");
         arguments.add_integer("--most-pixels", percent, 0, 100,
                               "largest share of differing pixels in percent, 1 if not given");
-        arguments.add_output("--junit", junit,
-                             "write the result as JUnit XML for CI, - for stdout");
+        arguments.add_output("--junit", junit, "write the result as JUnit XML for CI, - for stdout",
+                             kinds::junit);
         add_json(arguments, json);
     }
 
@@ -46,7 +46,7 @@ struct CompareCommand {
         const std::filesystem::path folder = out.empty() ? differences_folder(actual) : out;
         const bool prints = json != "-" && junit != "-";
         if (prints) print(describe(comparison));
-        if (!junit.empty()) write_file(junit, suite_of(comparison).xml());
+        if (!junit.empty()) write_file(junit, suite_of(comparison).xml(), kinds::junit);
         if (!json.empty()) write_json(json, to_json(comparison));
         write_differences(comparison, folder);
         if (prints && !comparison.passed())

@@ -33,7 +33,7 @@ struct MergeCommand {
         arguments.add_required("PART", parts, "part files of all shards");
         arguments.add_flag("--all", all, "print all rows");
         pictures.declare(arguments, is_tradeoff_file);
-        add_json(arguments, json);
+        add_json(arguments, json, kinds::sweep);
         add_quiet(arguments, quiet);
     }
 
@@ -42,6 +42,8 @@ struct MergeCommand {
         std::vector<lab::Tradeoff> read;
         for (const std::filesystem::path& path : parts) read.push_back(read_part(path));
         const lab::Tradeoff tradeoff = lab::merge(read);
+        for (const std::filesystem::path& path : {pictures.out / "tradeoff.json", json})
+            (void)find_earlier(path);
         make_folder(pictures.out);
         Stills stills(size);
         publish(tradeoff, {pictures.out, json, all, quiet}, stills);

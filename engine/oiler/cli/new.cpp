@@ -47,7 +47,7 @@ public:
 
     void write(const fs::path& path, const std::string& text) {
         files_.push_back(path);
-        write_file(path, text, Links::replaced);
+        write_file(path, text, kinds::any, Links::replaced);
     }
     void keep() { files_.clear(); }
 

@@ -8,17 +8,18 @@
 
 #include "oiler/capture/file.hpp"
 #include "oiler/core/json.hpp"
+#include "oiler/core/utf8.hpp"
 #include "oiler/physics/methods/methods.hpp"
 
 namespace oiler::cli {
 
 // Texts of the commands, and the numbers in their tables and JSON.
 
-/// Writes to standard output. Throws Error{io}.
-inline void print(const std::string& text) { write_file("-", text); }
+/// Writes text, not data, to standard output, see for_terminal(). Throws Error{io}.
+inline void print(const std::string& text) { write_file("-", for_terminal(text)); }
 /// Throws Error{io}.
 inline void write_json(const std::filesystem::path& path, const Json& json) {
-    write_file(path, json.dump(2) + "\n");
+    write_file(path, json.dump(2) + "\n", kinds::json);
 }
 
 [[nodiscard]] inline std::string order_text(int order) {

@@ -147,7 +147,7 @@ struct ReportCommand {
     void declare(Arguments& arguments) {
         scene_options.declare(arguments);
         tolerances.declare(arguments);
-        arguments.add_output("--out", out, "output file");
+        arguments.add_output("--out", out, "output file", kinds::report);
     }
 
     [[nodiscard]] Exit run() const {
@@ -156,7 +156,7 @@ struct ReportCommand {
         if (Interrupt::requested()) return Exit::interrupted;
         const Requirements requirements = this->requirements(scene, reference);
         require_judgeable(scene, reference, requirements);
-        File page(out);
+        File page(out, kinds::report);
         const ReportResults results = measure(scene, reference, requirements);
         if (Interrupt::requested()) return Exit::interrupted;
         const Json data = report_json(scene, reference, requirements, results);

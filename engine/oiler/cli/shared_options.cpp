@@ -21,8 +21,8 @@ bool is_in_group(const Method& method, const std::string& group) {
 
 }  // namespace
 
-void add_json(Arguments& arguments, std::filesystem::path& target) {
-    arguments.add_output("--json", target, "write the result as JSON, - for stdout");
+void add_json(Arguments& arguments, std::filesystem::path& target, const FileKind& kind) {
+    arguments.add_output("--json", target, "write the result as JSON, - for stdout", kind);
 }
 
 void add_quiet(Arguments& arguments, bool& target) {
@@ -89,11 +89,11 @@ Damping MethodOptions::damping_of(const Method& method) const {
     return find_damping(damping).value_or(method.damping);
 }
 
-void SceneOptions::declare(Arguments& arguments) {
+void SceneOptions::declare(Arguments& arguments, const FileKind& kind_of_json) {
     arguments.add_required("SCENE", file, "scene file");
     arguments.add_positive("--duration", duration, "S",
                            "simulated seconds to measure, the scene's duration if not given");
-    add_json(arguments, json);
+    add_json(arguments, json, kind_of_json);
     add_quiet(arguments, quiet);
 }
 

@@ -16,7 +16,8 @@ namespace oiler::cli {
 
 // Options that several commands share. An empty path writes no file.
 
-void add_json(Arguments& arguments, std::filesystem::path& target);
+void add_json(Arguments& arguments, std::filesystem::path& target,
+              const FileKind& kind = kinds::json);
 void add_quiet(Arguments& arguments, bool& target);
 
 /// `--methods`, see parse_methods.
@@ -64,7 +65,7 @@ struct SceneOptions {
     std::filesystem::path json;
     bool quiet = false;
 
-    void declare(Arguments& arguments);
+    void declare(Arguments& arguments, const FileKind& kind_of_json = kinds::json);
     /// Reads the scene and sets its duration. Throws Error.
     [[nodiscard]] Scene read() const;
     /// The file's name without .toml.

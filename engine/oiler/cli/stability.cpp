@@ -46,7 +46,8 @@ struct StabilityCommand {
         const std::vector<StabilityRegion> regions = measure(methods, grid);
         if (Interrupt::requested()) return Exit::interrupted;
         make_folder(pictures.out);
-        write_file(pictures.out / "stability.csv", to_csv(regions, grid), Links::replaced);
+        write_file(pictures.out / "stability.csv", to_csv(regions, grid), kinds::table,
+                   Links::replaced);
         stills.write(atlas(regions, grid), pictures.out / "stability.png");
         remark(quiet, "stability.csv and stability.png are in {}", pictures.out.string());
         return Exit::done;

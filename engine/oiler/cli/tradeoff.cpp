@@ -21,19 +21,18 @@ namespace {
 
 /// Reads the unfinished trade-off of the same scene and options, if there is one.
 std::optional<Tradeoff> find_unfinished(const std::filesystem::path& path,
-                                        const std::string& fingerprint, bool quiet) try {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) return std::nullopt;
-    Tradeoff found = parse_tradeoff(read_text(path), path.string());
-    if (found.fingerprint != fingerprint || (found.complete() && found.timed()))
+                                        const std::string& fingerprint, bool quiet) {
+    std::optional<Tradeoff> found = find_earlier(path);
+    if (!found || (found->complete() && found->timed())) return std::nullopt;
+    if (found->fingerprint != fingerprint) {
+        remark(quiet, "{} is unfinished, but of another scene or other options: it is replaced",
+               path.string());
         return std::nullopt;
+    }
     remark(quiet, "continuing {}: {} of {} methods and precisions are done", path.string(),
-           std::ranges::count(found.all_series, true, &RateSeries::done), found.all_series.size());
+           std::ranges::count(found->all_series, true, &RateSeries::done),
+           found->all_series.size());
     return found;
-} catch (const Error& error) {
-    if (error.exit() != Exit::usage) throw;
-    remark(quiet, "{}; starting from the beginning", error.what());
-    return std::nullopt;
 }
 
 /// Draws the energies of the notable methods at the scene's current rate. Takes runs of the scene,
@@ -95,7 +94,7 @@ struct TradeoffCommand {
     PictureOptions pictures{.out = "tradeoff"};
 
     void declare(Arguments& arguments) {
-        scene_options.declare(arguments);
+        scene_options.declare(arguments, kinds::sweep);
         add_method_list(arguments, methods);
         arguments.add_integer(
             "--max-rate", max_rate, 1, 1'000'000,
@@ -128,6 +127,7 @@ public:
         const std::string inputs =
             fingerprint(read_text(options_.scene_options.file), scene_, plan_);
         const std::optional<Tradeoff> unfinished = find_unfinished(part_, inputs, quiet());
+        (void)find_earlier(options_.scene_options.json);
         const Reference reference = measure_reference(scene_, 0, quiet());
         if (Interrupt::requested()) return Exit::interrupted;
         Tradeoff tradeoff = unfinished.value_or(start_tradeoff(scene_, reference, plan_));

@@ -127,14 +127,21 @@ bool is_tradeoff_file(std::string_view name) {
            name == evaluations_picture || name == energy_picture;
 }
 
+std::optional<Tradeoff> find_earlier(const std::filesystem::path& path) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none) || std::filesystem::is_empty(path, none))
+        return std::nullopt;
+    return parse_tradeoff(read_text(path), path.string(), "remove it or choose another place");
+}
+
 void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
-    write_file(path, file_text(tradeoff), Links::replaced);
+    write_file(path, file_text(tradeoff), kinds::sweep, Links::replaced);
 }
 
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
     save(tradeoff, output.out / data_file);
-    write_file(output.out / table_file, to_csv(tradeoff), Links::replaced);
-    if (!output.json.empty()) write_file(output.json, file_text(tradeoff));
+    write_file(output.out / table_file, to_csv(tradeoff), kinds::table, Links::replaced);
+    if (!output.json.empty()) write_file(output.json, file_text(tradeoff), kinds::sweep);
     if (output.json != "-") print(table_of(tradeoff, output.all));
     stills.write(
         work_precision(tradeoff, {time_of, 1e3, "computing time per simulated second, µs", "µs"}),

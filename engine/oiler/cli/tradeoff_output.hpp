@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "oiler/app/stills.hpp"
@@ -21,6 +22,10 @@ struct TradeoffOutput {
     bool all;                    ///< print all rows
     bool quiet;
 };
+
+/// The sweep in a file that is to be replaced; empty if there is none, or for standard output.
+/// Throws Error{usage} if the file cannot be read, so that a damaged sweep is not lost.
+[[nodiscard]] std::optional<lab::Tradeoff> find_earlier(const std::filesystem::path& path);
 
 /// Writes the file of a sweep into its folder. Throws Error{io}.
 void save(const lab::Tradeoff& tradeoff, const std::filesystem::path& path);

@@ -31,6 +31,8 @@ void append_escape(std::string& text, char32_t code) {
     }
 }
 
+/// Escapes all control characters, because a terminal obeys those beyond ASCII, too, and the second
+/// of two #, because a CI takes "##" in a log for the start of a command.
 void append_string(std::string& text, std::string_view value, Json::Characters characters) {
     constexpr std::u32string_view with_short_escapes = U"\"\\\b\f\n\r\t";
     constexpr std::string_view short_escapes = "\"\\bfnrt";
@@ -41,7 +43,9 @@ void append_string(std::string& text, std::string_view value, Json::Characters c
         const std::size_t at = with_short_escapes.find(code);
         if (at != with_short_escapes.npos)
             (text += '\\') += short_escapes[at];
-        else if (code < 0x20 || (code > 0x7E && characters == Json::Characters::ascii))
+        else if (code < 0x20 || (code > 0x7E && code < 0xA0) ||
+                 (code > 0x7E && characters == Json::Characters::ascii) ||
+                 (code == '#' && text.ends_with('#')))
             append_escape(text, code);
         else if (code == 0xFFFD)
             text += "\xEF\xBF\xBD";

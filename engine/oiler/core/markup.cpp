@@ -25,14 +25,15 @@ std::string base64(const std::vector<std::byte>& bytes) {
     return text;
 }
 
-/// ASCII with character references.
+/// ASCII with character references, also for the second of two #: a CI takes "##" in a log for the
+/// start of a command.
 std::string for_xml(std::string_view text) {
     std::string safe;
     for (const char32_t code : decode_utf8(text)) {
         const bool is_control = code < ' ' || (code > '~' && code < 0xA0);
         if (is_control || code == 0xFFFD)
             safe += '?';
-        else if (code > '~')
+        else if (code > '~' || (code == '#' && safe.ends_with('#')))
             safe += fmt::format("&#{};", static_cast<unsigned>(code));
         else
             safe += escaped(std::string(1, static_cast<char>(code)));

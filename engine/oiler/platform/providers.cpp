@@ -2,11 +2,31 @@
 #include "oiler/platform/providers.hpp"
 
 #include <dlfcn.h>
+
+#include <algorithm>
 #include <cstdlib>
+#include <latch>
+#include <thread>
+#include <vector>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/team.hpp"
 
 namespace oiler {
+namespace {
+
+/// Whether the machine gives as many threads as llvmpipe starts at most, and one for its cache.
+bool gives_threads() {
+    const std::size_t wanted = std::clamp(std::thread::hardware_concurrency(), 1U, 16U) + 1;
+    std::latch tried(1);
+    std::vector<std::thread> threads;
+    start_threads(threads, wanted, [&tried](std::size_t) { tried.wait(); });
+    tried.count_down();
+    for (std::thread& thread : threads) thread.join();
+    return threads.size() == wanted;
+}
+
+}  // namespace
 
 // RTLD_NODELETE: a driver has threads of its own, which crash if it is unmapped.
 Library::Library(const char* soname, const char* remedy)
@@ -25,6 +45,9 @@ Library::Symbol Library::operator[](const char* name) const {
     return {found};
 }
 
-void limit_llvmpipe_vectors() { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); }
+void limit_llvmpipe() {
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
+    if (!gives_threads()) setenv("LP_NUM_THREADS", "0", 0);
+}
 
 }  // namespace oiler

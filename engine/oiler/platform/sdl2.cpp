@@ -38,24 +38,32 @@ int remember_error(void*, void*) {
 /// Replaces exit(1). Xlib's function then returns with an error.
 void keep_running(void*, void*) {}
 
-/// Keeps the process alive when the server of an X11 display ends or reports an error. By default
-/// Xlib then calls exit(1), and the files of a run are lost. `display` is a Display* of a loaded
-/// libX11; without libX11 1.7 or later the default stays.
-void outlive_display(void* display) {
+/// A function of libX11; null if SDL has not loaded it.
+template <class Function>
+Function x11_function(const char* name) {
     void* const library = dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
-    if (library == nullptr) return;
-    const auto set_error =
-        reinterpret_cast<ErrorHandler (*)(ErrorHandler)>(dlsym(library, "XSetErrorHandler"));
-    const auto set_end =
-        reinterpret_cast<EndHandler (*)(EndHandler)>(dlsym(library, "XSetIOErrorHandler"));
-    const auto set_exit = reinterpret_cast<void (*)(void*, ExitHandler, void*)>(
-        dlsym(library, "XSetIOErrorExitHandler"));
-    if (set_error != nullptr && set_end != nullptr && set_exit != nullptr) {
-        set_error(remember_error);
-        set_end(remember_end);
-        set_exit(display, keep_running, nullptr);
-    }
+    if (library == nullptr) return nullptr;
+    void* const found = dlsym(library, name);
     dlclose(library);
+    return reinterpret_cast<Function>(found);
+}
+
+/// Keeps the process alive when the server of an X11 display reports an error, for example because
+/// it has no OpenGL. By default Xlib then calls exit(1).
+void outlive_x11_errors() {
+    const auto set_error = x11_function<ErrorHandler (*)(ErrorHandler)>("XSetErrorHandler");
+    if (set_error != nullptr) set_error(remember_error);
+}
+
+/// Keeps the process alive when the server ends, so that the files of a run are not lost. `display`
+/// is a Display*; without libX11 1.7 or later the process still ends.
+void outlive_display(void* display) {
+    const auto set_end = x11_function<EndHandler (*)(EndHandler)>("XSetIOErrorHandler");
+    const auto set_exit =
+        x11_function<void (*)(void*, ExitHandler, void*)>("XSetIOErrorExitHandler");
+    if (set_end == nullptr || set_exit == nullptr) return;
+    set_end(remember_end);
+    set_exit(display, keep_running, nullptr);
 }
 
 /// Returns whether the server has ended or reported an error. After that, no function of X11 or SDL
@@ -104,7 +112,9 @@ public:
         // Without this folder there is no Wayland, and libwayland would print that on stderr.
         if (std::getenv("XDG_RUNTIME_DIR") == nullptr)
             sdl_.set_hint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
-        if (sdl_.init(SDL_INIT_VIDEO) != 0 || invisible()) {
+        const bool has_video = sdl_.init(SDL_INIT_VIDEO) == 0;
+        outlive_x11_errors();
+        if (!has_video || invisible()) {
             const std::string reason = sdl_.error();
             sdl_.quit();
             fail(Exit::no_display, "no display to open a window on (SDL: {}); run with --headless",
@@ -149,15 +159,17 @@ public:
         window_ = sdl_->create_window(
             title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width, size.height,
             SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-        context_ = window_ != nullptr ? sdl_->create_context(window_) : nullptr;
-        if (context_ == nullptr) {
-            const std::string reason = sdl_->error();
+        if (window_ != nullptr) {
+            outlive_x11_display();
+            context_ = sdl_->create_context(window_);
+        }
+        if (context_ != nullptr && !display_is_lost()) take_over_thread();
+        if (context_ == nullptr || display_is_lost()) {
+            const std::string reason = display_is_lost() ? "the display refuses" : sdl_->error();
             close();
             fail(Exit::no_display, "cannot open a window with OpenGL 3.3 ({}); run with --headless",
                  reason);
         }
-        outlive_x11_display();
-        take_over_thread();
         sdl_->swap_interval(1);
         // A system without controllers plays with keys.
         (void)sdl_->init(SDL_INIT_GAMECONTROLLER);
@@ -257,7 +269,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Window> open_window(Size size, const std::string& title) {
-    limit_llvmpipe_vectors();
+    limit_llvmpipe();
     return std::make_unique<SdlWindow>(size, title);
 }
 

@@ -31,7 +31,7 @@ bool has_display() {
 }
 
 std::unique_ptr<Surface> open_offscreen(Offscreen which) {
-    limit_llvmpipe_vectors();
+    limit_llvmpipe();
     if (which == Offscreen::egl) return open_egl();
     try {
         return open_osmesa();

@@ -198,7 +198,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Record
     if (std::filesystem::is_directory(path, none))
         fail(Exit::usage, "--record {}: it is a folder; give a file", path.string());
     require_writable(path);
-    const File probe(path);
+    const File probe(path, kinds::recording);
 }
 
 void RecordingWriter::begin_record(std::int64_t step) {
@@ -244,7 +244,7 @@ void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diver
 void RecordingWriter::write_chunk() {
     const bool is_first = !file_;
     if (is_first) {
-        file_.emplace(path_);
+        file_.emplace(path_, kinds::recording);
         write(head_);
     }
     std::string size;

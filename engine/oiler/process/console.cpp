@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "oiler/core/timing.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 
@@ -17,10 +18,7 @@ void fill_closed_streams() {
             (void)open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void say(const std::string& line) {
-    std::fputs(line.c_str(), stderr);
-    std::fputc('\n', stderr);
-}
+void say(const std::string& line) { std::fputs((for_terminal(line) + '\n').c_str(), stderr); }
 
 Progress::Progress(bool quiet, std::string what, std::int64_t total)
     : what_(std::move(what)), total_(total), visible_(!quiet && isatty(STDERR_FILENO) == 1) {}

@@ -15,7 +15,7 @@ namespace oiler {
 /// opened for reading, so that data for it are a write error.
 void fill_closed_streams();
 
-/// Prints a line on standard error. Write errors are ignored.
+/// Prints a line on standard error, see for_terminal(). Write errors are ignored.
 void say(const std::string& line);
 
 /// Prints a line on standard error unless `quiet`.

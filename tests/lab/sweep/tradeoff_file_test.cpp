@@ -306,7 +306,53 @@ TEST(TradeoffFile, WithoutAnyOneOfItsFieldsIsRefused) {
     };
     for (const char* at : {"", "/current", "/reference", "/machines/1", "/ladders/2", "/rows/4"})
         try_all(Parsed::json_pointer(at));
-    EXPECT_EQ(fields, 11U + 4 + 11 + 3 + 4 + 16);
+    EXPECT_EQ(fields, 12U + 4 + 11 + 3 + 4 + 16);
+}
+
+/// The text without this member of each object.
+Parsed without(const Parsed& whole, const char* name) {
+    Parsed rest = whole;
+    rest.erase(name);
+    return rest;
+}
+
+/// The places of all texts, flags and numbers.
+void list_values(const Parsed& at, const Parsed::json_pointer& place,
+                 std::vector<Parsed::json_pointer>& places) {
+    if (!at.is_structured()) return places.push_back(place);
+    for (const auto& [name, value] : at.items())
+        list_values(value, at.is_array() ? place / std::stoul(name) : place / name, places);
+}
+
+/// Another value that the field may have: flags, texts and numbers that are valid or absurd.
+Parsed other_value(const Parsed& value) {
+    if (value.is_boolean()) return !value.get<bool>();
+    if (value.is_string()) return value.get<std::string>() + " ";
+    if (value.is_number_unsigned()) return value.get<std::uint64_t>() + 1;
+    return value.is_number() && value != 0 ? Parsed(0) : Parsed(1e300);
+}
+
+// Each value is sealed: none can be changed, however plausible, not even by a digit.
+TEST(TradeoffFile, WithAnyChangedValueIsRefused) {
+    const Parsed good = Parsed::parse(file_text(hard_numbers()));
+    (void)parse_tradeoff(good.dump(), "a.json");  // other spaces and another order do not matter
+    std::vector<Parsed::json_pointer> places;
+    list_values(good, Parsed::json_pointer(), places);
+    EXPECT_GT(places.size(), 500U);
+    for (const Parsed::json_pointer& place : places) {
+        Parsed changed = good;
+        changed[place] = other_value(good[place]);
+        expect_usage([&] { (void)parse_tradeoff(changed.dump(), "a.json"); }, "measure again");
+    }
+}
+
+TEST(TradeoffFile, OfAnotherSealIsRefusedWithThatReason) {
+    Parsed json = Parsed::parse(file_text(hard_numbers()));
+    json["rows"][0]["evaluations"] = 1e300;
+    expect_usage([&] { (void)parse_tradeoff(json.dump(), "a.json"); },
+                 "a.json: values were changed after they were measured: their seal is ");
+    expect_usage([&] { (void)parse_tradeoff(without(json, "seal").dump(), "a.json"); },
+                 "a.json: seal is missing");
 }
 
 TEST(TradeoffFile, OfAnotherVersionIsRefused) {

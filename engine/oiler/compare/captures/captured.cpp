@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/compare/captures/captured.hpp"
 
-#include <unistd.h>
-
 #include <span>
 #include <utility>
 
@@ -16,12 +14,6 @@ namespace oiler {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_bytes(const fs::path& path) {
-    if (access(path.c_str(), R_OK) != 0)
-        fail(Exit::usage, "{}: cannot be read; capture again", path.string());
-    return read_text(path);
-}
 
 /// Both frames/spring and frames/spring/manifest.json name a capture.
 fs::path folder_of(fs::path path) {
@@ -37,7 +29,7 @@ Captured::Captured(fs::path folder)
     const fs::path path = folder_ / records_name;
     std::error_code error;
     if (!fs::exists(path, error)) return;
-    const std::string bytes = read_bytes(path);
+    const std::string bytes = read_text(path);
     const std::string lines = gunzip(std::as_bytes(std::span(bytes)), path.string());
     for (FrameRecord& record : parse_frame_records(lines, path.string()))
         records_.insert_or_assign(record.index, std::move(record));
@@ -57,13 +49,14 @@ bool Captured::has_image(std::int64_t index) const {
 Image Captured::image(std::int64_t index) const {
     const Manifest::Frame& frame = manifest_.frames[static_cast<std::size_t>(index)];
     const fs::path path = folder_ / frame.file;
-    const std::string bytes = read_bytes(path);
-    Image image = decode_png(std::as_bytes(std::span(bytes)), path.string());
-    if (image.size != manifest_.size ||
-        hash_top_down(image.size, image.rgb_bottom_up) != frame.pixel_hash)
-        fail(Exit::usage, "{}: its pixels are not those of manifest.json; capture again",
-             path.string());
-    return image;
+    const std::string bytes = read_text(path);
+    const std::span<const std::byte> png = std::as_bytes(std::span(bytes));
+    if (size_of_png(png, path.string()) == manifest_.size) {
+        Image image = decode_png(png, path.string());
+        if (hash_top_down(image.size, image.rgb_bottom_up) == frame.pixel_hash) return image;
+    }
+    fail(Exit::usage, "{}: its pixels are not those of manifest.json; capture again",
+         path.string());
 }
 
 std::map<std::int64_t, std::string> Captured::tick_hashes() const {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -29,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view page_name = "index.html";
-/// The page starts with it, so that no page of another program is removed.
-constexpr std::string_view page_mark = "<!-- frames compared by Oiler -->";
 constexpr std::array<std::string_view, 3> image_names{"expected", "actual", "difference"};
 
 std::string_view page() {
@@ -47,17 +44,10 @@ bool is_our_image(std::string_view name) {
            });
 }
 
-bool starts_with_mark(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string start(page_mark.size(), '\0');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    return start == page_mark;
-}
-
 void remove_earlier_differences(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(folder / page_name, error)) return;
-    if (!starts_with_mark(folder / page_name))
+    if (!is_replaceable(folder / page_name, kinds::differences))
         fail(Exit::io, "{} is not a page of differences and would be lost; choose another folder",
              (folder / page_name).string());
     for (const auto& entry : fs::directory_iterator(folder, error))
@@ -78,7 +68,7 @@ Image difference_of(const Image& golden, const Image& actual) {
 /// Writes the image and returns its data URL.
 std::string write_image(const Image& image, const fs::path& path) {
     const std::vector<std::byte> png = encode_png(image.size, image.rgb_bottom_up);
-    write_file(path, png, Links::replaced);
+    write_file(path, png, kinds::png, Links::replaced);
     return data_url_of(png);
 }
 
@@ -143,9 +133,9 @@ void write_differences(const Comparison& comparison, const fs::path& folder) {
     for (const FrameComparison& frame : comparison.frames)
         if (!frame.passed() && std::int64_t(frames.size()) < most_shown_frames)
             frames.push_back(frame_json(frame, golden, actual, folder));
-    const std::string html =
-        std::string(page_mark) + "\n" + fill_in(page(), {{"@DATA@", for_script(data)}});
-    write_file(folder / page_name, html, Links::replaced);
+    const std::string html = std::string(kinds::differences.beginnings) + "\n" +
+                             fill_in(page(), {{"@DATA@", for_script(data)}});
+    write_file(folder / page_name, html, kinds::differences, Links::replaced);
 }
 
 bool is_differences_file(std::string_view name) { return name == page_name || is_our_image(name); }

@@ -95,7 +95,7 @@ void keep_common_ticks(StateLog& a, StateLog& b);
                                                                const Captured& b);
 
 /// Reads a trace, the CSV file of `--trace`. Throws Error(Exit::usage) with file and line if it is
-/// malformed or has no rows, and Error(Exit::io) if it cannot be read.
+/// malformed, missing or has no rows, and Error(Exit::io) if it cannot be read.
 [[nodiscard]] StateLog read_trace(const std::filesystem::path& path);
 
 }  // namespace oiler

@@ -25,7 +25,7 @@ namespace {
 /// Reads a text file line by line: files may be larger than the memory, or pipes.
 class LineReader {
 public:
-    /// Throws Error(Exit::io) if the file cannot be read, as next() does.
+    /// Throws Error if the file cannot be read, as next() does: see exit_of_open().
     explicit LineReader(const std::filesystem::path& path) : path_(path), file_(path) {
         if (!file_) fail_read();
     }
@@ -50,7 +50,8 @@ public:
 
 private:
     [[noreturn]] void fail_read() const {
-        fail(Exit::io, "{}: cannot be read: {}", path_.string(), system_reason(errno));
+        const int reason = errno;
+        fail(exit_of_open(reason), "{}: cannot be read: {}", path_.string(), system_reason(reason));
     }
 
     std::filesystem::path path_;

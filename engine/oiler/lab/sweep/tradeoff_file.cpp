@@ -264,6 +264,15 @@ void add_row(std::vector<RateSeries>& all_series, const Field& field) {
     series->rows.push_back(std::move(row));
 }
 
+std::string hash_of(std::string_view text) {
+    StateHash hash;
+    hash.add(std::as_bytes(std::span(text)));
+    return hash_text(hash.value());
+}
+
+/// Changes with each value, but not with spaces between them.
+std::string seal_of(const Json& tradeoff) { return hash_of(tradeoff.dump(1)); }
+
 /// Fields that follow from the others must agree with them.
 void check_derived(const Field& field, const Tradeoff& tradeoff) {
     if (field["complete"].flag() != tradeoff.complete())
@@ -290,6 +299,9 @@ Tradeoff to_tradeoff(const Field& field) {
     if (tradeoff.machines.empty()) field["machines"].refuse("a machine");
     for (const Field& row : field["rows"].items()) add_row(tradeoff.all_series, row);
     check_derived(field, tradeoff);
+    if (const std::string seal = seal_of(lab::to_json(tradeoff)); field["seal"].text() != seal)
+        fail(Exit::usage, "values were changed after they were measured: their seal is {}, not {}",
+             seal, field["seal"].text());
     return tradeoff;
 }
 
@@ -331,7 +343,11 @@ Json to_json(const Tradeoff& tradeoff) {
     return json;
 }
 
-std::string file_text(const Tradeoff& tradeoff) { return to_json(tradeoff).dump(1) + "\n"; }
+std::string file_text(const Tradeoff& tradeoff) {
+    Json json = to_json(tradeoff);
+    json["seal"] = seal_of(json);
+    return json.dump(1) + "\n";
+}
 
 std::string to_csv(const Tradeoff& tradeoff) {
     std::string text = "method,rate,precision,stable,below_floor,pareto";
@@ -357,9 +373,7 @@ std::string fingerprint(std::string_view scene_text, const Scene& scene, const S
     for (const Precision precision : plan.precisions) all += fmt::format("{},", name_of(precision));
     for (const Method* method : plan.methods) all += fmt::format("{},", method->name);
     all += scene_text;
-    StateHash hash;
-    hash.add(std::as_bytes(std::span(all)));
-    return hash_text(hash.value());
+    return hash_of(all);
 }
 
 Tradeoff merge(const std::vector<Tradeoff>& parts) {
@@ -383,7 +397,7 @@ Tradeoff merge(const std::vector<Tradeoff>& parts) {
     return whole;
 }
 
-Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
+Tradeoff parse_tradeoff(std::string_view text, std::string_view file, std::string_view remedy) try {
     const Parsed json = Parsed::parse(text);
     const Field whole(json, "");
     if (const std::string from = whole["oiler"].text(); from != version())
@@ -392,10 +406,10 @@ Tradeoff parse_tradeoff(std::string_view text, std::string_view file) try {
     tradeoff.file = file;
     return tradeoff;
 } catch (const Error& error) {
-    throw Error(error.exit(), fmt::format("{}: {}; measure again", file, error.what()));
+    throw Error(error.exit(), fmt::format("{}: {}; {}", file, error.what(), remedy));
 } catch (const Parsed::exception& error) {
-    fail(Exit::usage, "{}: not a valid file of oiler tradeoff ({}); measure again", file,
-         error.what());
+    fail(Exit::usage, "{}: not a valid file of oiler tradeoff ({}); {}", file, error.what(),
+         remedy);
 }
 
 }  // namespace oiler::lab

@@ -33,9 +33,10 @@ inline constexpr RowNumber row_numbers[]{
 /// The file of a complete or partial trade-off.
 [[nodiscard]] std::string file_text(const Tradeoff& tradeoff);
 /// Reads file_text's text; numbers keep their bits. Throws Error{usage} with the file, the field
-/// and a remedy if the text is not a trade-off of this version, if a field is missing or out of
-/// range, or if fields contradict each other.
-[[nodiscard]] Tradeoff parse_tradeoff(std::string_view text, std::string_view file);
+/// and the remedy if the text is not a trade-off of this version, if a field is missing or out of
+/// range, if fields contradict each other, or if a value was changed after it was measured.
+[[nodiscard]] Tradeoff parse_tradeoff(std::string_view text, std::string_view file,
+                                      std::string_view remedy = "measure again");
 
 /// A header line, and one line per row.
 [[nodiscard]] std::string to_csv(const Tradeoff& tradeoff);
