@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "oiler/core/error.hpp"
@@ -115,7 +117,9 @@ PlaneOf<T, Axes> unit_plane(const Plane& given) {
     plane.normal = converted<Vec<T, Axes>>(given.normal / size);
     plane.offset = static_cast<T>(given.offset / size);
     plane.restitution = static_cast<T>(given.restitution);
-    plane.friction = static_cast<T>(given.friction);
+    // More friction would stop bodies within times that no step resolves.
+    constexpr double most_friction = 1 / std::numeric_limits<T>::epsilon();
+    plane.friction = static_cast<T>(std::min(given.friction, most_friction));
     return plane;
 }
 
