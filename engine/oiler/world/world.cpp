@@ -263,10 +263,9 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
         impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
                             one.before, one.after});
     }
-    if (!divergence) {
-        tick_ += count;
-        age_ += count;
-    }
+    const std::int64_t taken = divergence ? divergence->tick - 1 - tick_ : count;
+    tick_ += taken;
+    age_ += taken;
     return divergence;
 }
 

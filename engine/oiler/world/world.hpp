@@ -268,7 +268,7 @@ public:
     /// Throws Error{diverged}.
     void step(std::int64_t count = 1);
     /// Like step, but returns the first divergence without searching for its cause. The world is
-    /// unusable after a divergence.
+    /// unusable after a divergence, but for its tick: that of the last step before it.
     [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
     [[nodiscard]] std::int64_t tick() const { return tick_; }
     /// The time in s, computed from the tick.
