@@ -313,6 +313,14 @@ void Bodies::apply_force(std::size_t row, const Vec3& force) {
     });
 }
 
+void Bodies::forget_forces() {
+    columns_->visit([](auto& columns) {
+        if (columns.applied.empty()) return;
+        columns.applied.clear();
+        columns.applied_changed();
+    });
+}
+
 void Bodies::apply_impulse(std::size_t row, const Vec3& impulse) {
     Limits(precision(), axes()).check(impulse, "an impulse");
     set_velocity(row, velocity(row) + impulse / mass(row));

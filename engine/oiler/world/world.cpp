@@ -204,6 +204,8 @@ void World::apply_force(Entity entity, const Vec3& force) {
     change("apply_force", entity, [&](std::size_t row) { bodies_->apply_force(row, force); });
 }
 
+void World::forget_forces() { bodies_->forget_forces(); }
+
 void World::apply_impulse(Entity entity, const Vec3& impulse) {
     change("apply_impulse", entity, [&](std::size_t row) { bodies_->apply_impulse(row, impulse); });
 }
