@@ -220,7 +220,9 @@ TEST(Playback, AHeldWorldKeepsNoPushes) {
         const std::uint64_t before = game.state_hash();
         queue.set(Key::tab, holds);
         game.step(step, 1, input);
-        if (holds && step > 5) EXPECT_EQ(game.state_hash(), before);
+        if (holds && step > 5) {
+            EXPECT_EQ(game.state_hash(), before);
+        }
     }
     EXPECT_EQ(game.world().bodies().velocity(0)[0], 40);
 }
