@@ -195,6 +195,38 @@ TEST(Playback, ARewindOnEveryStepReturns) {
     EXPECT_EQ(shown.at(322, 0.25), 8.25F) << "the play goes on";
 }
 
+/// Pushes a body with 8 N in each update. Tab holds the world, as a menu does.
+struct Pusher {
+    static constexpr About about{.name = "pusher", .title = "Pusher"};
+
+    World world;
+    Entity body = world.spawn(Body{.mass = 2});
+
+    explicit Pusher(const Settings& settings) : world(1, settings) {}
+    void update(const Input& input, Loop& loop) {
+        world.apply_force(body, {8});
+        if (input.held(Key::tab)) loop.hold();
+    }
+    Picture picture() const { return {}; }
+};
+
+// Each of ten steps at 1 Hz adds 8/2 m/s, whatever was pushed in between.
+TEST(Playback, AHeldWorldKeepsNoPushes) {
+    AnyGameOf<Pusher> game{Settings{.stepping = {.rate = {1}}}};
+    InputQueue queue;
+    Live input{queue};
+    for (std::int64_t step = 0; step < 30; ++step) {
+        const bool holds = step >= 5 && step < 25;
+        const std::uint64_t before = game.state_hash();
+        queue.set(Key::tab, holds);
+        game.step(step, 1, input);
+        if (holds && step > 5) {
+            EXPECT_EQ(game.state_hash(), before);
+        }
+    }
+    EXPECT_EQ(game.world().bodies().velocity(0)[0], 40);
+}
+
 TEST(Playback, TheLoopRestartsAtItsRateAndHoldsTheWorld) {
     Rewound shown;
     (void)shown.at(9, 0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler check`, and `oiler play` with budgets, as users do.
+#include <limits>
+
 #include "cli/desk.hpp"
 #include "support/test.hpp"
 
@@ -196,12 +198,52 @@ TEST(Check, HasNoWarningsOfAStableScene) {
     EXPECT_FALSE(desk.json("a.json").at(0).contains("diverged"));
 }
 
-// Each step grows by the root of z² + 3.76·z + 1, 3.47: by 10^162 in 5 s, which is finite, and by
-// less than 10 in 0.03 s.
+/// The first tick at which the energy of that spring overflows, by the recurrence of the method.
+int tick_of_overflow() {
+    constexpr double dt = 1.0 / 60;
+    constexpr double stiffness = 20736;
+    double x = 1;
+    double v = 0;
+    for (int tick = 0;; ++tick) {
+        const long double energy = 0.5L * v * v + 0.5L * stiffness * x * x;
+        if (energy > std::numeric_limits<double>::max()) return tick;
+        v -= stiffness * x * dt;
+        x += v * dt;
+    }
+}
+
+TEST(Check, NamesTheTickAtWhichTheEnergyOverflowsAsPlayDoes) {
+    const Desk desk(diverging_scene(""));
+    const std::string line =
+        "the energy is no longer finite at tick " + std::to_string(tick_of_overflow());
+    const Outcome run = desk.run(
+        "sed -i 's/duration = 10.0/duration = 5.0/' scene.toml; oiler check scene.toml", 5);
+    EXPECT_TRUE(holds(run.out, "scene.toml: " + line)) << run.out;
+    for (const char* options : {"--steps 300", "--steps 290", "--steps 300 --energy e.csv",
+                                "--steps 300 --trace t.csv"}) {
+        const Outcome played =
+            desk.run("oiler play scene.toml --quiet --json a.json " + std::string(options), 5);
+        EXPECT_TRUE(holds(played.err, line)) << options << played.err;
+        EXPECT_EQ(desk.json("a.json").at("steps"), tick_of_overflow()) << options;
+        EXPECT_EQ(desk.json("a.json").at("energy").at("last"), nullptr);
+    }
+}
+
+TEST(Check, CountsTheStepsBeforeADivergenceHoweverTheyAreTaken) {
+    const Desk desk(diverging_scene(""));
+    for (const char* options : {"--steps 600", "--steps 563", "--steps 600 --trace t.csv",
+                                "--headless --png none --out f --frames 600 --size 16x16"}) {
+        desk.run("oiler play scene.toml --quiet --json a.json " + std::string(options), 5);
+        EXPECT_EQ(desk.json("a.json").at("steps"), 562) << options;
+    }
+}
+
+// Each step grows by the root of z² + 3.76·z + 1, 3.47: by 10^130 in 4 s, which has a finite
+// square, and by less than 10 in 0.03 s.
 TEST(Check, CallsARunUnstableThatGrowsButStaysFinite) {
     const Desk desk(diverging_scene(""));
     const Outcome run = desk.run(
-        "sed -i 's/duration = 10.0/duration = 5.0/' scene.toml; "
+        "sed -i 's/duration = 10.0/duration = 4.0/' scene.toml; "
         "oiler check scene.toml --junit a.xml --json a.json",
         5);
     EXPECT_TRUE(holds(run.out, warning_of_the_scene));
@@ -210,7 +252,7 @@ TEST(Check, CallsARunUnstableThatGrowsButStaysFinite) {
     EXPECT_TRUE(holds(desk.text("a.xml"), "name=\"run\"><failure message=\"" + line));
     EXPECT_TRUE(holds(desk.json("a.json").at(0).at("diverged"), line));
     const Outcome brief = desk.run(
-        "sed -i 's/duration = 5.0/duration = 0.03/' scene.toml; oiler check scene.toml", 0);
+        "sed -i 's/duration = 4.0/duration = 0.03/' scene.toml; oiler check scene.toml", 0);
     EXPECT_TRUE(holds(brief.out, warning_of_the_scene));
 }
 

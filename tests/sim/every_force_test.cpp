@@ -160,5 +160,26 @@ TEST(EveryForce, ActsInABlockOfOtherForces) {
         }
 }
 
+// After hours, a frequency that is rounded to float is off by up to 2⁻²⁴ of 10⁵ turns. One kick
+// adds F·sin(2π·f·t + φ)·dt; the fraction of f·t is right to 10⁻¹⁴ in 64 digits.
+TEST(Drive, KeepsItsPhaseForHours) {
+    const Method& euler = find_method("semi_implicit_euler");
+    for (const Precision precision : {Precision::single, Precision::double_})
+        for (const double frequency : {0.7588, 1.1, 3.3, 61.7, 1.5})
+            for (const std::int64_t hours : {0, 12, 30, 1000}) {
+                const std::int64_t first = hours * 3600 * 60 + 7;
+                Bodies bodies(2, precision);
+                bodies.add({.mass = 2}, Drive{{8, 0}, frequency, 0.5});
+                bodies.step(euler, {.rate = {60}, .first = first});
+                const Real turns = std::fmod(Real(frequency) * Real(first) / 60, 1.0L);
+                const Real kick = 4 * std::sin(2 * std::numbers::pi_v<Real> * turns + 0.5L) / 60;
+                const double u = precision == Precision::single ? 6e-8 : 1.2e-16;
+                // Time is rounded to double, and a phase to u; an angle has up to 7 rad.
+                const double phase = 7 * (10 * u + frequency * double(first) / 60 * 1.2e-16);
+                EXPECT_NEAR(bodies.velocity(0)[0], double(kick), (phase + 10 * u) * 4 / 60)
+                    << frequency << " Hz after " << hours << " h";
+            }
+}
+
 }  // namespace
 }  // namespace oiler::test

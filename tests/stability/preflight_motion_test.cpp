@@ -242,22 +242,124 @@ TEST(RoundedPosition, IsNotWarnedOfIfTheBodySoonMoves) {
     EXPECT_EQ(warnings(far_away(Precision::single, 1e9, 0), verlet, {60}).size(), 0U);
 }
 
-TEST(RandomPositions, AreWarnedOfIfTheyStay) {
-    int stuck_runs = 0;
+/// A body that flies along x under a constant acceleration.
+struct Flight {
+    double x;  ///< m
+    double v;  ///< m/s
+    double a;  ///< m/s²
+
+    [[nodiscard]] Bodies in(Precision precision) const {
+        Bodies bodies(2, precision);
+        bodies.add({.position = {static_cast<float>(x), 1}, .velocity = {static_cast<float>(v)}});
+        bodies.set_gravity({static_cast<float>(a), 0});
+        return bodies;
+    }
+    /// The relative error in float of the way, or of the change of the velocity, of some steps.
+    [[nodiscard]] double error(Risk::Of of, const Method& method, const Rate& rate,
+                               std::int64_t steps) const {
+        const auto change = [&](Precision precision) {
+            Bodies bodies = in(precision);
+            const auto number = [&] {
+                return of == Risk::Of::rounded_position ? bodies.position(0)[0]
+                                                        : bodies.velocity(0)[0];
+            };
+            const double before = number();
+            EXPECT_FALSE(bodies.try_step(method, {rate, 0, steps}));
+            return number() - before;
+        };
+        return change(Precision::single) / change(Precision::double_) - 1;
+    }
+    [[nodiscard]] std::optional<Risk> risk(const Method& method, const Rate& rate) const {
+        const std::vector<Risk> risks = preflight(in(Precision::single), method, {rate});
+        return risks.empty() ? std::nullopt : std::optional(risks.front());
+    }
+};
+
+// The last place is 2⁻¹⁰ m at 10 km, 8 m at 10⁸ m, 2⁻¹⁵ m/s at 300 m/s and 2⁻⁹ m/s at 30 km/s. rk4
+// adds sixths and thirds: of 17.07 places 3 + 6 + 6 + 3.
+TEST(Rounding, HasTheEffectOfTheRoundedParts) {
+    struct Case {
+        const char* method;
+        Flight flight;
+        std::int64_t rate;
+        Risk::Of of;
+        double effect;
+    };
+    using enum Risk::Of;
+    const double d = 1024.0 / 60;
+    const double pull = 0.01 / 240 * 32768;
+    for (const Case& one : std::vector<Case>{
+             {"rk4", {1e4, 1, 0}, 60, rounded_position, 18 / d - 1},
+             {"velocity_verlet", {1e4, 0.03, 0}, 60, rounded_position, 1 / (0.03 * d) - 1},
+             {"velocity_verlet", {1e8, 0, 9.81}, 60, rounded_position, -1},
+             {"semi_implicit_euler", {0, 300, 0.01}, 240, rounded_velocity, 1 / pull - 1},
+             {"velocity_verlet", {0, 300, 0.01}, 240, rounded_velocity, 2 / pull - 1},
+             {"implicit_midpoint", {0, 300, 0.01}, 240, rounded_velocity, 2 / pull - 1},
+             {"rk4", {0, 300, 0.01}, 240, rounded_velocity, -1},
+             {"velocity_verlet", {0, 3e4, 0.00593}, 60, rounded_velocity, -1}}) {
+        const Method& method = find_method(one.method);
+        const auto risk = one.flight.risk(method, {one.rate});
+        ASSERT_TRUE(risk) << one.method;
+        EXPECT_EQ(risk->of, one.of) << one.method;
+        EXPECT_NEAR(risk->effect, one.effect, 1e-6) << one.method;
+        EXPECT_NEAR(one.flight.error(one.of, method, {one.rate}, 64), one.effect, 1e-3)
+            << one.method;
+    }
+}
+
+TEST(Rounding, IsToldWithItsSize) {
+    EXPECT_EQ(warnings(Flight{1e4, 1, 0}.in(Precision::single), find_method("rk4"), {60}).at(0),
+              "position x of body 0: its steps are rounded to 0.000977 m, the last place in float, "
+              "and add up to 5.5 % too much: take precision double, or an origin nearer to it");
+    EXPECT_EQ(warnings(Flight{0, 300, 0.01}.in(Precision::single),
+                       find_method("semi_implicit_euler"), {240})
+                  .at(0),
+              "velocity x of body 0: its steps are rounded to 3.05e-05 m/s, the last place in "
+              "float, and add up to 27 % too little: take precision double");
+}
+
+// A mass that hangs at rest, whose forces balance but for round-off, is not warned of.
+TEST(Rounding, IsNoRiskOfABalance) {
+    for (const double stiffness : {3.0, 30.0, 700.0}) {
+        Bodies bodies(1, Precision::single);
+        bodies.set_gravity({-9.81});
+        bodies.add({.position = {100 - 9.81 / stiffness}},
+                   Spring{.anchor = {100}, .stiffness = stiffness});
+        EXPECT_TRUE(warnings(bodies, find_method("velocity_verlet"), {60}).empty()) << stiffness;
+    }
+}
+
+// The error is that of a run in double, to 1 % of the change.
+TEST(RandomFlights, AreWarnedOfWithTheErrorOfTheRun) {
+    int wrong_runs = 0;
     for (int seed = 0; seed < campaign_length(); ++seed) {
         Dice random(static_cast<std::uint64_t>(seed));
-        const double x = random.log_uniform(1, 1e9) * (seed % 2 == 0 ? 1 : -1);
-        const double v = random.log_uniform(1e-3, 1e3);
-        Bodies bodies = far_away(Precision::single, x, v);
-        const Method& method = one_of(random, {"semi_implicit_euler", "rk4"});
-        const bool warned = is_warned(bodies, method, 1 / 64.0);
-        const double before = bodies.position(0)[0];
-        ASSERT_FALSE(bodies.try_step(method, {{64}, 0, 1000}));
-        const bool stuck = bodies.position(0)[0] == before;
-        stuck_runs += stuck;
-        EXPECT_EQ(warned, stuck) << x << " m, " << v << " m/s, " << method.name;
+        // No run of 64 steps leaves the binade.
+        const double sign = seed % 2 == 0 ? 1 : -1;
+        const double x = sign * 1.5 * std::exp2(std::floor(random.uniform(0, 30)));
+        const double v = 1.5 * std::exp2(std::floor(random.uniform(-10, 15)));
+        const double a = seed % 3 == 0 ? 0 : random.log_uniform(1e-6, 100);
+        const Flight flight{x, v * random.uniform(0.8, 1.2), a};
+        const Method& method = one_of(random, {"semi_implicit_euler", "velocity_verlet", "rk4",
+                                               "blanes_moan_srkn6b", "implicit_midpoint", "exact"});
+        const Rate rate{64};
+        // Rounding adds up if acceleration changes steps by less than a quarter of a last place.
+        const double place = std::exp2(std::floor(std::log2(std::abs(x))) - 23);
+        const double turned = a / 64 / place;
+        if (std::abs(v) > std::abs(x) / 8 || (turned > 0.2 && turned < 16)) continue;
+        const auto risk = flight.risk(method, rate);
+        const double error = flight.error(Risk::Of::rounded_position, method, rate, 64);
+        const double lost = a == 0 ? 0 : flight.error(Risk::Of::rounded_velocity, method, rate, 64);
+        const std::string what = fmt::format("{} m, {} m/s, {} m/s², {}: {} and {}", flight.x,
+                                             flight.v, a, method.name, error, lost);
+        wrong_runs += std::abs(error) > 0.03 || std::abs(lost) > 0.03;
+        if (risk)
+            EXPECT_NEAR(risk->of == Risk::Of::rounded_position ? error : lost, risk->effect, 0.01)
+                << what;
+        else
+            EXPECT_LE(std::max(std::abs(error), std::abs(lost)), 0.03) << what;
     }
-    EXPECT_GT(stuck_runs, campaign_length() / 8);
+    EXPECT_GT(wrong_runs, campaign_length() / 8);
 }
 
 }  // namespace

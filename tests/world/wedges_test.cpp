@@ -113,6 +113,87 @@ TEST(Landing, GivesABodyInAWedgeNoEnergy) {
     }
 }
 
+/// Where a ball rests that friction without limit stops at each impact: it leaves a plane along
+/// its normal and flies on a parabola to the next one.
+Vec3 rest_of_sticking_ball(Vec3 x, Vec3 v, const std::vector<Plane>& planes) {
+    for (int impact = 0; impact < 10000; ++impact) {
+        double first = std::numeric_limits<double>::infinity();
+        const Plane* met = nullptr;
+        for (const Plane& plane : planes) {
+            const double size = length(plane.normal);
+            const double h = std::max(dot(plane.normal, x) / size, 0.0);
+            const double u = dot(plane.normal, v) / size;
+            const double pull = g * plane.normal[1] / size;
+            const double t = (u + std::sqrt(u * u + 2 * pull * h)) / pull;
+            if (t > 0 && t < first) {
+                first = t;
+                met = &plane;
+            }
+        }
+        if (first < 1e-12) break;
+        x = x + v * first + Vec3{0, -g / 2 * first * first};
+        v[1] -= g * first;
+        const Vec3 normal = met->normal / length(met->normal);
+        v = normal * (-met->restitution * dot(normal, v));
+    }
+    return x;
+}
+
+// Friction never adds energy. From some size on it holds whatever touches a plane.
+TEST(Landing, HugeFrictionHolds) {
+    Dice dice(3);
+    for (int i = 0; i < 60; ++i) {
+        const double e = dice.uniform(0, 0.7);
+        std::vector<Plane> planes;
+        for (const double side : {dice.uniform(0.2, 1.5), -dice.uniform(0.2, 1.5)})
+            planes.push_back({.normal = {side, 1}, .restitution = e});
+        const Vec3 x{dice.uniform(-0.3, 0.3), 1};
+        const Vec3 v{dice.uniform(-2, 2), dice.uniform(-2, 2)};
+        const Vec3 rest = rest_of_sticking_ball(x, v, planes);
+        for (const double friction : {1e16, 1e100, 1e150, 1e300}) {
+            for (Plane& plane : planes) plane.friction = friction;
+            for (const char* method : exact_flights)
+                for (const int rate : {5, 60}) {
+                    World world = world_of(method, rate, 2, {0, -g}, planes);
+                    const Entity ball =
+                        world.spawn({.position = x, .velocity = v, .contact = Contact{}});
+                    world.step(10 * rate);
+                    EXPECT_NEAR(length(world.position(ball) - rest), 0, 1e-9)
+                        << i << method << rate << ", friction " << friction;
+                    EXPECT_EQ(world.velocity(ball), Vec3{});
+                }
+        }
+    }
+}
+
+// The kick of a step ends a slide on rough planes within 10⁻¹⁵⁰ s. The error of a flight's energy
+// is up to g·dt·|v|/2.
+TEST(Landing, HugeFrictionAddsNoEnergy) {
+    Dice dice(4);
+    for (int i = 0; i < 1000; ++i) {
+        const int rate = i % 2 == 0 ? 20 : 60;
+        const int axes = i % 4 == 0 ? 3 : 2;
+        World world = world_of("semi_implicit_euler", rate, axes, {0, -g});
+        const double friction = std::pow(10, dice.uniform(0, 300));
+        for (int plane = 0; plane < 1 + i % 5; ++plane)
+            world.add_plane(
+                {.normal = {dice.uniform(-1.5, 1.5), 1, axes == 3 ? dice.uniform(-1.5, 1.5) : 0},
+                 .restitution = dice.chance(0.5) ? 0 : dice.uniform(0, 1),
+                 .friction = dice.chance(0.3) ? 0 : friction});
+        const Entity ball = world.spawn({.position = {dice.uniform(-0.3, 0.3), 3},
+                                         .velocity = {dice.uniform(-4, 4)},
+                                         .contact = Contact{}});
+        for (int step = 0; step < 5 * rate; ++step) {
+            world.step();
+            const Vec3 velocity = world.velocity(ball);
+            const double energy = dot(velocity, velocity) / 2 + g * world.position(ball)[1];
+            const double start = 3 * g + 8;
+            ASSERT_LE(energy, start + g / rate * std::sqrt(2 * start))
+                << i << ", friction " << friction << ", step " << step;
+        }
+    }
+}
+
 // The nearest place above both planes is where they meet, 1 m away: moves onto one after the other
 // would go there in 10⁶ moves.
 TEST(Landing, LiftsOutOfANarrowWedge) {

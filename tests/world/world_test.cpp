@@ -294,7 +294,7 @@ TEST(World, TryStepReturnsTheDivergence) {
     ASSERT_TRUE(where);
     EXPECT_EQ(where->tick, 128);
     EXPECT_EQ(where->row, 0U);
-    EXPECT_EQ(world.tick(), 100);
+    EXPECT_EQ(world.tick(), 127);
 }
 
 // Checked in every build, because continuing would change the entity that uses the slot now.
@@ -341,6 +341,16 @@ TEST(World, ADivergenceNamesTheEntityAsTheTraceDoes) {
     world.destroy(first);
     ASSERT_EQ(world.row(last), 0U);
     EXPECT_TRUE(holds(line_of_error(Exit::diverged, [&] { world.step(100); }), "body 2"));
+}
+
+// v' = −2·v overflows where 2^(n − 1) m/s does.
+TEST(World, HasTheTickBeforeADivergenceHoweverItIsStepped) {
+    for (const std::int64_t per_call : {1, 7, 5000}) {
+        World world(1, {.stepping = {.method = &find_method("explicit_euler"), .rate = {1}}});
+        world.spawn(Body{.velocity = {0.5}}, LinearDrag{3});
+        EXPECT_THROW(while (world.tick() < 5000) world.step(per_call), Error);
+        EXPECT_EQ(world.tick(), std::numeric_limits<double>::max_exponent) << per_call;
+    }
 }
 
 }  // namespace

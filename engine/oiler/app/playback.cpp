@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -50,7 +51,8 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
     const Span span(profile_, "step");
     const World& world = game_.world();
     while (steps_ < step && !game_.loop().quits() && !Interrupt::requested()) {
-        const bool single = trace_.active() || hashes_ticks() || watcher_ != nullptr;
+        const bool single =
+            trace_.active() || hashes_ticks() || watcher_ != nullptr || game_.takes_input();
         const std::int64_t most = single ? 1 : steps_per_call_;
         const std::int64_t before = steps_;
         take(std::min(step - steps_, most), inputs);
@@ -66,7 +68,13 @@ void Playback::step_to(std::int64_t step, InputSource& inputs) {
 /// Adapts the steps per call to the time that they take. Results do not depend on it.
 void Playback::take(std::int64_t count, InputSource& inputs) {
     const Clock::time_point start = Clock::now();
-    steps_ += game_.step(steps_, count, inputs);
+    const std::int64_t tick = game_.world().tick();
+    try {
+        steps_ += game_.step(steps_, count, inputs);
+    } catch (const Error&) {
+        if (count > 1) steps_ += game_.world().tick() - tick;
+        throw;
+    }
     const Clock::duration spent = Clock::now() - start;
     if (spent > longest_call)
         steps_per_call_ = std::max<std::int64_t>(1, count / 2);

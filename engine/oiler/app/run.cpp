@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <iterator>
 #include <new>
@@ -191,17 +192,39 @@ Exit run_what_if(const Options& options, const About& about, const MakeGame& mak
     return Exit::done;
 }
 
+/// Throws Error{diverged} if the energy is not finite. A run without a player is repeated one step
+/// at a time to find the number of steps after which it overflowed.
+void require_finite_energy(const GameRun& run, std::optional<std::int64_t>& overflow) {
+    const World& world = run.playback.world();
+    if (std::isfinite(world.energy().total())) return;
+    if (run.options.headless || run.options.steps) {
+        Options options = run.options;
+        options.record.clear();
+        options.quiet = true;
+        const std::unique_ptr<AnyGame> game = run.make(options.settings);
+        RunInputs inputs(options, run.about, *game);
+        for (std::int64_t step = 0; step < run.playback.steps(); ++step) {
+            overflow = step;
+            require_finite(game->world().energy(), game->world());
+            static_cast<void>(game->step(step, 1, inputs.source()));
+        }
+        overflow.reset();
+    }
+    require_finite(world.energy(), world);
+}
+
 /// Plays the game. Completes the report, also after a divergence.
 Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
     const Playback& playback = run.playback;
     const Clock::time_point start = Clock::now();
     RunEnd end;
+    std::optional<std::int64_t> overflow;
     try {
         end = play_to_end(run);
+        require_finite_energy(run, overflow);
         report.last = playback.world().energy();
         report.state_hash = playback.game().state_hash();
         report.readings = playback.game().readings();
-        require_finite(*report.last, playback.world());
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) {
             inputs.finish_recording(playback, true);
@@ -209,7 +232,7 @@ Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
         }
         report.divergence = error.what();
     }
-    report.steps = playback.steps();
+    report.steps = overflow.value_or(playback.steps());
     report.dropped = end.dropped;
     report.wall = Clock::now() - start;
     return end.exit;

@@ -3,7 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "oiler/app/trace_writer.hpp"
 #include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/core/markup.hpp"
@@ -71,14 +73,23 @@ Json to_json(const std::vector<CheckResult>& all) {
     return json;
 }
 
+/// Throws Error{diverged} if the energy is not finite after all steps, at the first such tick.
+void require_finite_energy(const World& end, World start) {
+    if (std::isfinite(end.energy().total())) return;
+    for (; start.tick() < end.tick(); start.step()) require_finite(start.energy(), start);
+    require_finite(end.energy(), end);
+}
+
 /// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
 std::string find_divergence(World world, const Scene& scene) {
+    const World start = world;
     const auto steps =
         static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
     const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
     try {
         for (std::int64_t left = steps; left > 0 && !Interrupt::requested(); left -= stride)
             world.step(std::min(left, stride));
+        require_finite_energy(world, start);
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) throw;
         return error.what();

@@ -212,7 +212,9 @@ public:
                 if (loop_.quits()) return taken;
                 if (loop_.restarts())
                     restart();
-                else if (!loop_.holds())
+                else if (loop_.holds())
+                    game_.world.forget_forces();
+                else
                     take_world_step(1);
                 find_cut();
             }

@@ -16,7 +16,8 @@ class Loop {
 public:
     /// Makes the game anew after this update, with its world's settings. Pictures jump.
     void restart() { restarts_ = true; }
-    /// Takes no step of the world after this update, as in a menu: its tick and hash stay.
+    /// Takes no step of the world after this update, as in a menu: its tick and hash stay, and
+    /// forces that the update applied are dropped.
     void hold() { holds_ = true; }
     /// Lets keys enter text, see Input::text, until it is switched off. Meanwhile only Enter,
     /// Escape, Backspace, Tab and the arrows act as keys.

@@ -2,6 +2,7 @@
 #include "oiler/physics/response.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -66,23 +67,65 @@ struct Shape {
     Double<T> decay;
 };
 
-/// The Taylor series u = Σ uₙ/n!, uₙ₊₂ = −ct·uₙ₊₁ − kt²·uₙ. For ct and √(kt²) ≤ 1/2, |uₙ| stays
-/// below 1, and 1/n! is below 2⁻¹²⁸ from n = 35 on.
+/// 1/n!; the last ones are below 2⁻¹²⁸.
 template <class T>
-Shape<T> taylor(Double<T> ct, Double<T> kt2) {
-    Double<T> u{0};
-    Double<T> next{1};
-    Double<T> inverse_factorial{1};
-    Shape<T> sum{};
-    for (int n = 0; n < 35; ++n) {
-        const T after = static_cast<T>(n + 1);
-        sum.decay = sum.decay + next * inverse_factorial;
-        sum.reach = sum.reach + u * inverse_factorial;
-        inverse_factorial = inverse_factorial / after;
-        sum.sway = sum.sway + u * inverse_factorial;
-        u = std::exchange(next, -(ct * next + kt2 * u));
+constexpr std::array<Double<T>, 36> inverse_factorials = [] {
+    std::array<Double<T>, 36> all{Double<T>{1}};
+    for (std::size_t n = 1; n < all.size(); ++n) all[n] = all[n - 1] / static_cast<T>(n);
+    return all;
+}();
+
+/// The terms of a Taylor series u = Σ uₙ/n!, uₙ₊₂ = −ct·uₙ₊₁ − kt²·uₙ, from n = 1 on, in numbers of
+/// type N. For ct and √(kt²) ≤ 1/2, |uₙ| stays below 1 and falls.
+template <class N, class T>
+struct Terms {
+    N ct;
+    N kt2;
+    N u;     ///< uₙ
+    N next;  ///< uₙ₊₁
+    std::size_t n = 1;
+    N reach{};  ///< not summed without springs
+    N sway{};
+
+    /// Sums the terms until they are below `least`.
+    void sum(T least) {
+        const auto& factors = inverse_factorials<T>;
+        const bool springs = high(kt2) != 0;
+        while (n + 1 < factors.size() && size() * high(factors[n]) >= least) {
+            sway = sway + u * as(factors[n + 1]);
+            if (springs) reach = reach + u * as(factors[n]);
+            u = std::exchange(next, springs ? -(ct * next + kt2 * u) : -(ct * next));
+            ++n;
+        }
     }
-    return sum;
+
+private:
+    static constexpr T high(const Double<T>& a) { return a.high; }
+    static constexpr T high(T a) { return a; }
+    static constexpr N as(const Double<T>& a) {
+        if constexpr (std::is_same_v<N, T>)
+            return a.high;
+        else
+            return a;
+    }
+    [[nodiscard]] T size() const { return std::max(std::abs(high(u)), std::abs(high(next))); }
+};
+
+/// The shape for ct and √(kt²) ≤ 1/2. Terms below `coarse` have no more than the digits of T.
+template <class T>
+Shape<T> taylor(Double<T> ct, Double<T> kt2, T coarse) {
+    Terms<Double<T>, T> terms{.ct = ct, .kt2 = kt2, .u = {1}, .next = -ct};
+    terms.sum(coarse);
+    Terms<T, T> rest{ct.high, kt2.high, terms.u.high, terms.next.high, terms.n};
+    rest.sum(std::numeric_limits<T>::epsilon() * T(0x1p-48L));
+    const Double<T> one{1};
+    const Double<T> sway = terms.sway + Double<T>{rest.sway};
+    if (kt2.high == 0) {
+        const Double<T> reach = one - ct * sway;
+        return {reach, sway, one - ct * reach};
+    }
+    const Double<T> reach = terms.reach + Double<T>{rest.reach};
+    return {reach, sway, one - ct * reach - kt2 * sway};
 }
 
 /// The shape over twice the time. The second half starts from u = v·reach + a·sway, where the
@@ -108,7 +151,9 @@ Response<T> respond(T k, T c, T t) {
         ct = ct.times(T(0.5));
         kt2 = kt2.times(T(0.25));
     }
-    Shape<T> shape = taylor(ct, kt2);
+    // Doublings double errors.
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    Shape<T> shape = taylor(ct, kt2, doublings == 0 ? T(0x1p-40L) : epsilon * epsilon / 16);
     for (int i = 0; i < doublings; ++i) {
         shape = doubled(shape, kt2);
         kt2 = kt2.times(T(4));

@@ -37,6 +37,7 @@ template <class To, class From>
         (convert(to.*std::get<I>(target).member, from.*std::get<I>(source).member), ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(To::fields())>>{});
+    if constexpr (HasRests<To>) to.take_rests(from);
     return to;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/bodies.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "oiler/core/error.hpp"
@@ -115,7 +117,9 @@ PlaneOf<T, Axes> unit_plane(const Plane& given) {
     plane.normal = converted<Vec<T, Axes>>(given.normal / size);
     plane.offset = static_cast<T>(given.offset / size);
     plane.restitution = static_cast<T>(given.restitution);
-    plane.friction = static_cast<T>(given.friction);
+    // More friction would stop bodies within times that no step resolves.
+    constexpr double most_friction = 1 / std::numeric_limits<T>::epsilon();
+    plane.friction = static_cast<T>(std::min(given.friction, most_friction));
     return plane;
 }
 
@@ -305,6 +309,14 @@ void Bodies::apply_force(std::size_t row, const Vec3& force) {
             limits.check(static_cast<double>(one), "the sum of the forces on a body");
         columns.applied.add(row, change, columns.size);
         columns.contacts.wake(row);
+        columns.applied_changed();
+    });
+}
+
+void Bodies::forget_forces() {
+    columns_->visit([](auto& columns) {
+        if (columns.applied.empty()) return;
+        columns.applied.clear();
         columns.applied_changed();
     });
 }

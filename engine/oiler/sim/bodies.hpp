@@ -132,6 +132,8 @@ public:
     /// Applies a force, N, at every stage of the next step only, which is the first step of the
     /// next call. Throws Error{usage} if the acceleration is not finite.
     void apply_force(std::size_t row, const Vec3& force);
+    /// Drops the forces that were applied since the last step.
+    void forget_forces();
     /// Changes the velocity by impulse/mass, impulse in N·s. Throws Error{usage} if the velocity is
     /// then not finite.
     void apply_impulse(std::size_t row, const Vec3& impulse);

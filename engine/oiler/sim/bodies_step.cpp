@@ -70,8 +70,7 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
                 return step_columns(columns, method, steps, team_.get());
             const Steps first{steps.rate, steps.first, 1, steps.damping};
             const auto diverged = step_columns(columns, method, first, team_.get());
-            columns.applied.clear();
-            columns.applied_changed();
+            forget_forces();
             if (diverged) return diverged;
             const Steps rest{steps.rate, steps.first + 1, steps.count - 1, steps.damping};
             return step_columns(columns, method, rest, team_.get());

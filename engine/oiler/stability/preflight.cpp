@@ -78,16 +78,33 @@ double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     return spring_limit(risk, method, damping, steps.rate.dt());
 }
 
+std::string describe_rounding(const Risk& risk, const NameOfRow& name) {
+    const bool is_position = risk.of == Risk::Of::rounded_position;
+    const std::string number =
+        fmt::format("{} {} of body {}", is_position ? "position" : "velocity",
+                    axis_names[static_cast<std::size_t>(risk.axis)], name(risk.row));
+    const char* const unit = is_position ? "m" : "m/s";
+    const char* const remedy =
+        is_position ? "take precision double, or an origin nearer to it" : "take precision double";
+    if (risk.effect == -1)
+        return fmt::format(
+            "{}: its steps are shorter than {:.3g} {}, half of the last place in float, and do not "
+            "{} it: {}",
+            number, risk.at / 2, unit, is_position ? "move" : "change", remedy);
+    return fmt::format(
+        "{}: its steps are rounded to {:.3g} {}, the last place in float, and add up to {:.2g} % "
+        "too {}: {}",
+        number, risk.at, unit, 100 * std::abs(risk.effect), risk.effect > 0 ? "much" : "little",
+        remedy);
+}
+
 std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
     if (risk.of == Risk::Of::on_attractor)
         return fmt::format(
             "body {} is on an attractor, where the force has no direction: move the body",
             name(risk.row));
-    if (risk.of == Risk::Of::rounded_position)
-        return fmt::format(
-            "position {} of body {}: its steps are shorter than {:.3g} m, half of the last place "
-            "in float, and do not move it: take precision double, or an origin nearer to it",
-            axis_names[static_cast<std::size_t>(risk.axis)], name(risk.row), risk.at);
+    if (risk.of == Risk::Of::rounded_position || risk.of == Risk::Of::rounded_velocity)
+        return describe_rounding(risk, name);
     if (risk.of == Risk::Of::quadratic_drag)
         return fmt::format(
             "quadratic drag of body {}: c·|v|·dt is not finite: take a higher rate, or "

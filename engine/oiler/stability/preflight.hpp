@@ -34,13 +34,14 @@ struct Orbit {
 /// A reason why a run with a method at a rate may not be usable.
 struct Risk {
     enum class Of {
-        springs,          ///< springs, dampers and linear drag
-        quadratic_drag,   ///< drag at the present speed
-        terminal_speed,   ///< drag at the speed at which it balances gravity
-        attractor,        ///< attraction at the start
-        periapsis,        ///< attraction at the closest point of the orbit
-        on_attractor,     ///< the attraction has no direction
-        rounded_position  ///< positions are too coarse for the motion of a step
+        springs,           ///< springs, dampers and linear drag
+        quadratic_drag,    ///< drag at the present speed
+        terminal_speed,    ///< drag at the speed at which it balances gravity
+        attractor,         ///< attraction at the start
+        periapsis,         ///< attraction at the closest point of the orbit
+        on_attractor,      ///< the attraction has no direction
+        rounded_position,  ///< positions are too coarse for the motion of a step
+        rounded_velocity   ///< velocities are too coarse for the forces of a step
     };
 
     std::size_t row;
@@ -48,8 +49,9 @@ struct Risk {
     double omega_dt = 0;    ///< ω·dt; for linked bodies an upper bound, by at most 1 %
     double damping_dt = 0;  ///< c·dt, c = 2ζω
     Of of = Of::springs;
-    double at = 0;  ///< speed, m/s; distance from an attractor, m; unit of the last place, m
-    int axis = 0;   ///< of a rounded position
+    double at = 0;      ///< speed, m/s; distance from an attractor, m; unit of the last place, m
+    int axis = 0;       ///< of a rounded number
+    double effect = 0;  ///< relative error of a change that is rounded, −1 if nothing is left of it
     /// All fast or weakly damped oscillations of linked bodies.
     std::vector<ScaledOscillation> oscillations{};
     /// Few bodies with uneven damping: their step matrix decides.
@@ -60,9 +62,9 @@ struct Risk {
 
 /// Finds the risks of the method at the rate, the worst first: springs, dampers and drag outside
 /// its region of stability, at the step or at one of four shorter steps; attraction that is too
-/// fast; and bodies in float whose motion in a step is less than half of their position's last
-/// place. It linearises at the present positions, see Component, and after 128 and 512 steps of up
-/// to 3000 bodies. It changes no state.
+/// fast; and bodies in float whose changes in a step are so small that rounding adds up. It
+/// linearises at the present positions, see Component, and after 128 and 512 steps of up to 3000
+/// bodies. It changes no state.
 [[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,
                                           const Steps& steps);
 

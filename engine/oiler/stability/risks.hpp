@@ -46,9 +46,11 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
 [[nodiscard]] double orbit_limit(const Orbit& orbit, const Method& method, Damping damping,
                                  const Rate& rate);
 
-/// Adds moving bodies whose position in float does not change for 64 steps, because its steps are
-/// shorter than half of its last place. Axes with less than a thousandth of the speed are left out,
-/// and so are forces of links.
+/// Adds bodies whose position or velocity in float changes in a step by so few units of its last
+/// place that rounding makes the change 2 % larger or smaller, step after step: a change is added
+/// in the parts of the method's drifts or kicks, each of which is rounded. It adds up while no
+/// acceleration turns a part into the next unit, over a second or 64 steps. Errors below 0.2 % of
+/// the motion, or 2 % of the acceleration, are left out, and so are forces of links.
 void add_rounding_risks(const Bodies& bodies, const Method& method, double dt,
                         std::vector<Risk>& risks);
 

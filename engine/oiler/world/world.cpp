@@ -204,6 +204,8 @@ void World::apply_force(Entity entity, const Vec3& force) {
     change("apply_force", entity, [&](std::size_t row) { bodies_->apply_force(row, force); });
 }
 
+void World::forget_forces() { bodies_->forget_forces(); }
+
 void World::apply_impulse(Entity entity, const Vec3& impulse) {
     change("apply_impulse", entity, [&](std::size_t row) { bodies_->apply_impulse(row, impulse); });
 }
@@ -263,10 +265,9 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
         impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
                             one.before, one.after});
     }
-    if (!divergence) {
-        tick_ += count;
-        age_ += count;
-    }
+    const std::int64_t taken = divergence ? divergence->tick - 1 - tick_ : count;
+    tick_ += taken;
+    age_ += taken;
     return divergence;
 }
 

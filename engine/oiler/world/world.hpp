@@ -201,6 +201,8 @@ public:
     /// Applies a force, N, over the whole next step only, which is the first step of the next call
     /// of `step`. Forces of several calls add up.
     void apply_force(Entity entity, const Vec3& force);
+    /// Drops the forces that were applied since the last step.
+    void forget_forces();
     /// Changes the velocity at once by impulse/mass, impulse in N·s.
     void apply_impulse(Entity entity, const Vec3& impulse);
     /// Lets the body meet planes, or pass through them.
@@ -268,7 +270,7 @@ public:
     /// Throws Error{diverged}.
     void step(std::int64_t count = 1);
     /// Like step, but returns the first divergence without searching for its cause. The world is
-    /// unusable after a divergence.
+    /// unusable after a divergence, but for its tick: that of the last step before it.
     [[nodiscard]] std::optional<Divergence> try_step(std::int64_t count = 1);
     [[nodiscard]] std::int64_t tick() const { return tick_; }
     /// The time in s, computed from the tick.

@@ -72,6 +72,9 @@ template <class Force>
 ForceDescription description_of() {
     ForceDescription force{.name = Force::name, .plural = Force::plural};
     for_each_field<Force>([&](const auto& field) { force.numbers.push_back(field.key); });
+    if constexpr (HasRests<Force>)
+        std::apply([&](const auto&... rest) { (force.numbers.push_back(rest.key), ...); },
+                   Force::rests());
     const auto found = std::ranges::find(elsewhere, Force::name, &Elsewhere::force);
     if (found != elsewhere.end()) {
         force.words = found->words;

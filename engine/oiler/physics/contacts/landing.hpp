@@ -342,11 +342,11 @@ private:
             }
         Leg leg{move(left_), left_};
         end_at_other_planes(state, support, leg, move);
-        const auto borne = [&](T tau) {
-            return least_reaction(support, body_.accelerate(move(tau), start_ + tau));
+        const auto borne = [&](const State& at, T tau) {
+            return least_reaction(support, body_.accelerate(at, start_ + tau));
         };
         end_where_negative(borne, least_reaction(support, a), leg, move);
-        const auto speed = [&](T tau) { return dot(move(tau).v, direction); };
+        const auto speed = [&](const State& at, T) { return dot(at.v, direction); };
         if (grip > 0 && state.v != Vec{} &&
             end_where_negative(speed, dot(state.v, direction), leg, move)) {
             leg.end.v -= direction * dot(leg.end.v, direction);
@@ -359,12 +359,13 @@ private:
         for (const Plane& plane : planes_)
             if (!support.has(plane)) end_at_impact(plane, state, leg, move);
     }
-    /// Ends the leg where a function of the time is first negative, if it is at the end.
+    /// Ends the leg where a function of state and time is first negative, if it is at the end.
     template <class F, class Move>
     static bool end_where_negative(F f, T at_start, Leg& leg, Move move) {
-        const T at_end = f(leg.tau);
+        const T at_end = f(leg.end, leg.tau);
         if (!(at_end < 0) || at_start < 0) return false;
-        leg.tau = narrow_bracket<T>(f, {0, leg.tau}, at_start, at_end, -1).after;
+        const auto at = [&](T tau) { return f(move(tau), tau); };
+        leg.tau = narrow_bracket<T>(at, {0, leg.tau}, at_start, at_end, -1).after;
         leg.end = move(leg.tau);
         return true;
     }

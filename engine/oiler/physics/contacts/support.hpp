@@ -18,10 +18,17 @@ template <std::floating_point T, int Axes>
 class Normals {
 protected:
     using Vector = Vec<T, Axes>;
+    using Surface = PlaneOf<T, Axes>;
 
     /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
     template <class Excess>
     [[nodiscard]] Vector weights(Excess excess) const {
+        if (count_ < 2) {
+            Vector weight{};
+            for (const Surface* const plane : std::span(planes_).first(count_))
+                weight.axis[0] = -excess(*plane) / dot(plane->normal, plane->normal);
+            return weight;
+        }
         auto gram = Matrix<T, Axes>::scalar(T(1));
         Vector opposed{};
         for (std::size_t i = 0; i < count_; ++i) {
@@ -37,7 +44,7 @@ protected:
         return sum;
     }
 
-    std::array<const PlaneOf<T, Axes>*, Axes> planes_{};
+    std::array<const Surface*, Axes> planes_{};
     std::size_t count_ = 0;
 };
 

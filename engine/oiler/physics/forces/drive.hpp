@@ -15,6 +15,7 @@ struct DriveForce {
     Vec<V, Axes> amplitude{};  ///< F, N
     V frequency{};             ///< f, Hz
     V phase{};                 ///< φ, rad
+    V frequency_rest{};        ///< Hz, added to f: the digits that V has no place for
 
     static constexpr std::string_view name = "drive";
     static constexpr std::string_view plural = "drives";
@@ -25,12 +26,24 @@ struct DriveForce {
                           KeyedField{"frequency", &DriveForce::frequency},
                           KeyedField{"phase", &DriveForce::phase});
     }
+    static constexpr auto rests() {
+        return std::tuple(KeyedField{"frequency rest", &DriveForce::frequency_rest});
+    }
     constexpr DriveForce per_unit_mass(V mass) const {
-        return {amplitude * (V(1) / mass), frequency, phase};
+        return {amplitude * (V(1) / mass), frequency, phase, frequency_rest};
+    }
+    /// Takes all digits of the frequency of a force in another precision.
+    template <class From>
+    constexpr void take_rests(const From& from) {
+        const auto whole = from.frequency + from.frequency_rest;
+        frequency = static_cast<V>(whole);
+        frequency_rest = static_cast<V>(whole - frequency);
     }
 
     [[gnu::always_inline]] constexpr Vec<V, Axes> field(const Vec<V, Axes>&, double t) const {
-        return amplitude * sine_of_turns(turns(frequency, t) + phase * V(Scalar<V>(per_radian)));
+        using T = Scalar<V>;
+        const V of_rest = frequency_rest * V(static_cast<T>(t));
+        return amplitude * sine_of_turns(turns(frequency, t) + of_rest + phase * V(T(per_radian)));
     }
     [[gnu::always_inline]] constexpr Vec<V, Axes> accelerate(const State<V, Axes>& state,
                                                              double t) const {

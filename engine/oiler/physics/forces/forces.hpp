@@ -32,7 +32,8 @@ namespace oiler {
 // - `line_spring()`, its spring and damper along the line to an anchor, a CoilSpringForce;
 // - `air_drag()`, its quadratic drag, an AirDrag;
 // - `fastest(state)`, the largest angular frequency of its motion from a state in double on, rad/s.
-// `depends_on_time` marks a field that depends on t, in s.
+// `depends_on_time` marks a field that depends on t, in s. If float has too few digits for a field,
+// the others are in `rests()`, which `take_rests(from)` fills.
 
 /// All forces. Accelerations are summed in this order, after that of the linear forces.
 template <Number V, int Axes>
@@ -67,7 +68,14 @@ template <class Force, class F>
         [&](const auto&... field) __attribute__((always_inline)) { (f(field), ...); }, fields);
 }
 
-/// Calls `f` with each number of a force in the order of its fields; vectors axis by axis.
+/// A force some of whose fields have further digits, in numbers of their own.
+template <class Force>
+concept HasRests = requires {
+    Force::rests();
+};
+
+/// Calls `f` with each number of a force in the order of its fields, vectors axis by axis; then
+/// with its rests.
 template <class Force, class F>
 [[gnu::always_inline]] constexpr void for_each_number(Force& force, F f) {
     const auto visit = [&]<class Field>(Field & field) __attribute__((always_inline)) {
@@ -78,6 +86,11 @@ template <class Force, class F>
     };
     for_each_field<Force>([&](const auto& field)
                               __attribute__((always_inline)) { visit(force.*field.member); });
+    if constexpr (HasRests<Force>)
+        std::apply(
+            [&](const auto&... rest)
+                __attribute__((always_inline)) { (f(force.*rest.member), ...); },
+            Force::rests());
 }
 
 /// The number of numbers in a force.

@@ -113,20 +113,19 @@ private:
     T half_step_;
 };
 
-/// Steps of one row that are shorter than dt, within the step that begins at `t` s.
+/// Steps of one row that are not longer than dt, within the step that begins at `t` s.
 template <std::floating_point T, int Axes>
 class ShortSteps {
 public:
     using Vector = Vec<T, Axes>;
     using Motion = State<T, Axes>;
 
-    ShortSteps(const Columns<T, Axes>& columns, std::size_t row, const Method& method,
-               Damping damping, double t)
-        : others_(columns.views, row, columns.kinds[row]),
-          parts_(columns.views.parts(columns.kinds[row])),
-          linear_(columns.views.template load_at<T>(row, parts_)),
-          method_(method),
-          damping_(damping),
+    ShortSteps(const StepCall<T, Axes>& call, std::size_t row, double t)
+        : call_(call),
+          row_(row),
+          others_(call.columns.views, row, call.columns.kinds[row]),
+          parts_(call.columns.views.parts(call.columns.kinds[row])),
+          linear_(call.columns.views.template load_at<T>(row, parts_)),
           t_(t) {}
 
     [[nodiscard]] Motion fly(const Motion& from, T start, T tau) {
@@ -155,6 +154,16 @@ public:
 private:
     using ForcesOfRow = Forces<T, Axes, LinearParts, ShortStepOthers<T, Axes>>;
 
+    /// A plan for steps shorter than dt, with the flows of the row.
+    struct Shorter {
+        Shorter(const Method& method, T dt, Damping damping)
+            : plan(make_plan<T>(method, dt, damping)) {}
+
+        Plan<T> plan;
+        std::array<Response<T>, Splitting::most_stages> responses;
+        std::array<FlowView<T>, Splitting::most_stages> flows;
+    };
+
     [[nodiscard]] ForcesOfRow forces(T half_step) const {
         return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
     }
@@ -162,53 +171,62 @@ private:
     /// One step of `tau` s; `with(physics, braking, take)` calls take with the physics to step.
     template <class With>
     Motion step(const Motion& from, T start, T tau, With with) {
-        const Plan<T> plan = make_plan<T>(method_, tau, damping_);
         Motion state = from;
-        std::visit([&](const auto& rule) { step_by(rule, state, start, tau, with); }, plan);
+        if (tau == call_.steps.rate.template dt<T>()) {
+            step_by(call_.plan(), call_.columns.views.flows.data(), row_, state, start, tau, with);
+        } else {
+            if (!shorter_ || tau != tau_) prepare(tau);
+            step_by(shorter_->plan, shorter_->flows.data(), 0, state, start, tau, with);
+        }
         return state;
     }
-    template <class Rule, class With>
-    void step_by(const Rule& rule, Motion& state, T start, T tau, With with) {
-        prepare_flows(rule);
-        RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows_.data(), 0,
-                                                 damping_of_rule(rule));
-        constexpr bool by_flows = !std::is_same_v<Rule, TableauPlan<T>>;
+    template <class With>
+    void step_by(const Plan<T>& plan, const FlowView<T>* flows, std::size_t row, Motion& state,
+                 T start, T tau, With with) {
         const double t = t_ + static_cast<double>(start);
-        with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t}, [&](auto& stepped) {
-            constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
-                stepped.brake_before(state);
-            };
-            if constexpr (brakes) stepped.brake_before(state);
-            solved_ &= advance(rule, state, stepped, t);
-            if constexpr (brakes) stepped.brake_after(state);
-        });
-        evaluations_ += physics.evaluations();
+        const auto by = [&]<class Rule>(const Rule& rule) {
+            RowPhysics<T, Axes, ForcesOfRow> physics([&] { return forces(tau / 2); }, flows, row,
+                                                     damping_of_rule(rule));
+            constexpr bool by_flows = !std::is_same_v<Rule, TableauPlan<T>>;
+            with(physics, Braking<T>{by_flows ? tau / 2 : T(0), t}, [&](auto& stepped) {
+                constexpr bool brakes = std::is_same_v<Rule, ImplicitPlan<T>> && requires {
+                    stepped.brake_before(state);
+                };
+                if constexpr (brakes) stepped.brake_before(state);
+                solved_ &= advance(rule, state, stepped, t);
+                if constexpr (brakes) stepped.brake_after(state);
+            });
+            evaluations_ += physics.evaluations();
+        };
+        std::visit(by, plan);
     }
 
-    template <class Rule>
-    void prepare_flows(const Rule& rule) {
-        if constexpr (std::is_same_v<Rule, ExactPlan<T>>) {
-            set_flow(0, oscillator_response(linear_.stiffness, linear_.damping, rule.dt));
-        } else if constexpr (std::is_same_v<Rule, SplittingPlan<T>>) {
-            if (rule.damping == Damping::in_kick || !parts_.damping) return;
-            for (std::size_t i = 0; i < rule.drift_count; ++i)
-                set_flow(i, oscillator_response(T(0), linear_.damping, rule.drifts[i]));
+    void prepare(T tau) {
+        const Damping damping = call_.steps.damping.value_or(call_.method.damping);
+        shorter_.emplace(call_.method, tau, damping);
+        tau_ = tau;
+        if (std::holds_alternative<ExactPlan<T>>(shorter_->plan)) {
+            set_flow(0, oscillator_response(linear_.stiffness, linear_.damping, tau));
+        } else if (const auto* split = std::get_if<SplittingPlan<T>>(&shorter_->plan)) {
+            if (split->damping == Damping::in_kick || !parts_.damping) return;
+            for (std::size_t i = 0; i < split->drift_count; ++i)
+                set_flow(i, oscillator_response(T(0), linear_.damping, split->drifts[i]));
         }
     }
     void set_flow(std::size_t i, const Response<T>& response) {
-        responses_[i] = response;
-        flows_[i] = {NumberView<T>(responses_[i].reach), NumberView<T>(responses_[i].sway),
-                     NumberView<T>(responses_[i].decay)};
+        Response<T>& kept = shorter_->responses[i] = response;
+        shorter_->flows[i] = {NumberView<T>(kept.reach), NumberView<T>(kept.sway),
+                              NumberView<T>(kept.decay)};
     }
 
+    const StepCall<T, Axes>& call_;
+    std::size_t row_;
     OtherForces<T, Axes> others_;
     LinearParts parts_;
     LinearForce<T, Axes> linear_;
-    const Method& method_;
-    Damping damping_;
     double t_;
-    std::array<Response<T>, Splitting::most_stages> responses_;
-    std::array<FlowView<T>, Splitting::most_stages> flows_;
+    std::optional<Shorter> shorter_;
+    T tau_ = 0;  ///< s, of `shorter_`
     std::int64_t evaluations_ = 0;
     bool solved_ = true;
 };
@@ -302,8 +320,7 @@ private:
         State<T, Axes> state = this->state(x_, v_, saved);
         auto& settled = columns_.contacts.settled[row];
         if (!settled) {
-            ShortSteps<T, Axes> body(columns_, row, call_.method, damping(),
-                                     step.rate.time(step.first));
+            ShortSteps<T, Axes> body(call_, row, step.rate.time(step.first));
             std::size_t index = 0;
             const auto report = [&](const ImpactOf<T, Axes>& impact) {
                 impacts_.push_back({step.first, row, index++, impact});
