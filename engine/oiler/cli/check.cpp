@@ -176,10 +176,11 @@ struct CheckCommand {
     [[nodiscard]] Exit run() const {
         std::vector<CheckResult> all;
         for (const std::filesystem::path& path : scenes) {
-            if (!Interrupt::requested()) all.push_back(check(path, quiet));
+            const bool is_begun = !Interrupt::requested();
+            if (is_begun) all.push_back(check(path, quiet));
             if (!Interrupt::requested()) continue;
             if (!Interrupt::by_time_limit()) return Exit::interrupted;
-            if (all.size() > 0 && all.back().file == path) all.pop_back();
+            if (is_begun) all.pop_back();
             all.push_back({.file = path.string(),
                            .error = fmt::format("{}: not checked to its end: {}", path.string(),
                                                 Interrupt::reason())});
