@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs `oiler check`, and `oiler play` with budgets, as users do.
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "cli/desk.hpp"
@@ -86,6 +88,61 @@ TEST(Check, ReportsEachSceneToACi) {
     EXPECT_EQ(json.at(0).at("energy_drift").at("kept"), false);
     EXPECT_EQ(json.at(1).at("kept"), false);
     EXPECT_EQ(json.at(2).at("kept"), nullptr);
+}
+
+// The closed form of a thrown body is exact, also for rk4: the error is below any limit but that of
+// the reference. With semi-implicit Euler it is g·t·dt/2 = 20·1/120 m.
+TEST(Check, SaysWhichNumbersAreLimits) {
+    const auto thrown = [](const char* method) {
+        return fmt::format(
+            "[scene]\naxes = 1\nrate = 60\nduration = 1.0\nmethod = \"{}\"\n[gravity]\n"
+            "acceleration = [-20.0]\n[[body]]\nvelocity = [10.0]\n[budget]\nposition_error = 1.0\n"
+            "energy_drift = 1.0\n",
+            method);
+    };
+    const Desk desk(thrown("rk4"));
+    desk.put("coarse.toml", thrown("semi_implicit_euler"));
+    desk.run("oiler check scene.toml coarse.toml --json a.json", 0);
+    const Json json = desk.json("a.json");
+    EXPECT_EQ(json.at(0).at("energy_drift").at("is_limit"), true);
+    EXPECT_LE(json.at(0).at("energy_drift").at("measured").get<double>(), 1e-12);
+    EXPECT_FALSE(json.at(1).at("position_error").contains("is_limit"));
+    EXPECT_NEAR(json.at(1).at("position_error").at("measured").get<double>(), 1 / 6.0, 0.01);
+    const Outcome run = desk.run("oiler play scene.toml --steps 60 --quiet --json -", 0);
+    EXPECT_EQ(Json::parse(run.out).at("budget").at("energy_drift").at("is_limit"), true);
+    EXPECT_FALSE(Json::parse(run.out).at("budget").at("position_error").contains("is_limit"));
+}
+
+/// 10^15 steps, some months.
+const std::string endless =
+    "[scene]\naxes = 1\nrate = 1000000\nduration = 1e9\n[gravity]\nacceleration = [-1.0]\n"
+    "[[body]]\n";
+
+TEST(Check, SaysBeforehandThatItTakesLong) {
+    const Desk desk(endless);
+    const Outcome run = desk.run("oiler check scene.toml --time-limit 1", 4);
+    EXPECT_TRUE(holds(run.err, "scene.toml: 1e+15 steps take about ")) << run.err;
+    EXPECT_TRUE(holds(run.err, " days; --time-limit S ends earlier\n")) << run.err;
+}
+
+// A run that polls ends, and its files are written.
+TEST(Check, ReportsTheScenesThatTheTimeLimitLeaves) {
+    const Desk desk(endless);
+    desk.put("other.toml", spring_scene(""));
+    for (const char* limit : {"0", "0.02"}) {
+        const Outcome run = desk.run(
+            fmt::format("oiler check scene.toml other.toml --time-limit {} --quiet --junit a.xml "
+                        "--json a.json",
+                        limit),
+            4);
+        for (const std::string file : {"scene.toml", "other.toml"})
+            EXPECT_TRUE(holds(run.err, "oiler: " + file +
+                                           ": not checked to its end: the time limit is reached\n"))
+                << run.err;
+        EXPECT_TRUE(run.err.ends_with("oiler: the time limit is reached\n")) << run.err;
+        EXPECT_TRUE(holds(desk.text("a.xml"), "tests=\"2\" failures=\"0\" errors=\"2\""));
+        EXPECT_TRUE(holds(desk.json("a.json").at(1).at("error").get<std::string>(), "not checked"));
+    }
 }
 
 /// A folder with a scene within its budget, one that exceeds it, and an invalid scene.

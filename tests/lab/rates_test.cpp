@@ -218,6 +218,139 @@ TEST(RatesOfABounce, NeedAContact) {
     EXPECT_EQ(find(rates, "time at which bounces"), nullptr);
 }
 
+/// A ball of 0.25 m that starts 2 m above a floor.
+std::string ball_for(double seconds, double restitution) {
+    return fmt::format(
+        "[scene]\naxes = 2\nrate = 60\nduration = {}\n[gravity]\nacceleration = [0.0, -20.0]\n"
+        "[[plane]]\nnormal = [0.0, 1.0]\nrestitution = {}\n"
+        "[[body]]\nposition = [0.0, 2.25]\ncontact = 0.25\n",
+        seconds, restitution);
+}
+const double fall = std::sqrt(2 * dropped / g);  // s
+
+// A run may end anywhere, also within 1 % of the height and a moment before or after an impact.
+TEST(RatesOfABounce, OfAnElasticBallNeverStayLow) {
+    for (const double early : {0.03, 0.001, 1e-5, 0.0, -1e-5, -0.001, -0.03}) {
+        const Rates rates = rates_of(ball_for(5 * fall - early, 1), {60, 240}, {"exact"});
+        EXPECT_EQ(find(rates, "time at which bounces"), nullptr) << early;
+        EXPECT_NEAR(quantity_of(rates, "height of bounce 1").truth, dropped, 1e-12) << early;
+    }
+}
+
+TEST(RatesOfABounce, StayLowOnceALowApexIsSeen) {
+    double t = fall;
+    for (int n = 1; n < 11; ++n) t += 2 * std::sqrt(2 * bounce(n) / g);
+    const double rise = std::sqrt(2 * bounce(11) / g);
+    for (const double after : {-0.5 * rise, 0.5 * rise})
+        EXPECT_EQ(find(rates_of(ball_for(t + after, kept), {240}, {"exact"}), "time at which"),
+                  nullptr)
+            << after;
+    EXPECT_NE(find(rates_of(ball_for(t + 1.5 * rise, kept), {240}, {"exact"}), "time at which"),
+              nullptr);
+}
+
+TEST(RatesOfABounce, ThatIsNotOverHasNoHeight) {
+    const double rise = kept * fall;
+    EXPECT_EQ(
+        find(rates_of(ball_for(fall + 0.9 * rise, kept), {60}, {"exact"}), "height of bounce"),
+        nullptr);
+    EXPECT_NEAR(quantity_of(rates_of(ball_for(fall + 1.1 * rise, kept), {60}, {"exact"}),
+                            "height of bounce 1")
+                    .truth,
+                bounce(1), 1e-12);
+}
+
+TEST(RatesOfAnImpact, HaveItsTime) {
+    for (const double restitution : {0.0, 0.5}) {
+        const Rates rates = rates_of(ball_for(2, restitution), {20, 60}, {"exact"});
+        const RatesQuantity& impact = quantity_of(rates, "time of the first impact");
+        EXPECT_NEAR(impact.truth, fall, 1e-12);
+        EXPECT_NEAR(impact.lines[0].values[0], fall, 1e-9);
+        EXPECT_EQ(find(rates, "height of bounce") == nullptr, restitution == 0);
+        EXPECT_EQ(find(rates, "time at which") == nullptr, restitution == 0);
+    }
+}
+
+// All apexes of an elastic ball are equally high. The first is at 3 m/s / 20 m/s².
+TEST(RatesOfAJump, HaveTheFirstOfEqualApexes) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 2\nrate = 60\nduration = 6.0\n[gravity]\nacceleration = [0.0, -20.0]\n"
+        "[[plane]]\nnormal = [0.0, 1.0]\nrestitution = 1.0\n"
+        "[[body]]\nposition = [0.0, 0.25]\nvelocity = [1.0, 3.0]\ncontact = 0.25\n",
+        usual, {"velocity_verlet", "rk4", "exact"});
+    EXPECT_NEAR(quantity_of(rates, "time of the apex").truth, 3 / g, 1e-7);
+    for (std::size_t method = 0; method < 3; ++method)
+        for (std::size_t i = 0; i < usual.size(); ++i)
+            EXPECT_NEAR(value_of(rates, "time of the apex", method, i), 3 / g,
+                        0.5000001 / static_cast<double>(usual[i]))
+                << usual[i];
+}
+
+// The spring lifts a weight from its lowest point, 0.5 m under the balance: 1 m, after half a
+// period, again and again.
+TEST(RatesOfAJump, HaveTheFirstApexOfASpring) {
+    const Rates rates = rates_of(
+        "[scene]\naxes = 1\nrate = 60\nduration = 10.0\n[gravity]\nacceleration = [-20.0]\n" +
+            on_spring(-1, 40),
+        usual, {"velocity_verlet", "exact"});
+    const double half_period = std::numbers::pi / std::sqrt(40.0);
+    EXPECT_NEAR(quantity_of(rates, "apex").truth, 1, 1e-6);
+    // A slope of cubics over h has an error of the order of (ωh)³, a hundredth of that here.
+    EXPECT_NEAR(quantity_of(rates, "time of the apex").truth, half_period, 1e-5);
+    for (std::size_t method = 0; method < 2; ++method)
+        for (std::size_t i = 2; i < usual.size(); ++i)
+            EXPECT_NEAR(value_of(rates, "time of the apex", method, i), half_period,
+                        1.0 / static_cast<double>(usual[i]))
+                << usual[i];
+}
+
+void expect_no_bounce(const std::string& text, std::size_t row = 0) {
+    const Rates rates = rates_of(text, {60}, {"velocity_verlet"}, row);
+    for (const char* part : {"height of bounce", "time at which bounces", "time of the first"})
+        EXPECT_EQ(find(rates, part), nullptr) << text;
+}
+
+const std::string on_floor =
+    "[scene]\naxes = 2\nrate = 60\nduration = 3.0\n[gravity]\nacceleration = [0.0, -10.0]\n"
+    "[[plane]]\nnormal = [0.0, 1.0]\nrestitution = 0.5\nfriction = 0.2\n";
+
+// 3 m/s against 2 m/s²: at t, (1.5 s − t)² m remain of 2.25 m.
+TEST(RatesOfASlide, HaveNoBouncesButTheTimeToStop) {
+    // In double, 0.3 is not three times 0.1: the body starts a hair above the floor or below it.
+    for (const auto& [offset, y] : {std::pair("0.0", "0.1"), {"0.2", "0.3"}, {"0.6", "0.7"}}) {
+        std::string floor = on_floor;
+        floor.insert(floor.find("restitution"), fmt::format("offset = {}\n", offset));
+        const std::string body = fmt::format(
+            "[[body]]\nposition = [0.0, {}]\nvelocity = [3.0, 0.0]\ncontact = 0.1\n", y);
+        expect_no_bounce(floor + body);
+        const Rates rates = rates_of(floor + body, {60}, {"exact"});
+        EXPECT_NEAR(quantity_of(rates, "time to settle").truth, 1.5 * (1 - std::sqrt(0.05)), 1e-9);
+        EXPECT_EQ(find(rates, "overshoot"), nullptr);
+        EXPECT_EQ(find(rates, "apex"), nullptr);
+    }
+}
+
+TEST(RatesOfASlide, OfLinkedBodiesHaveNoBounces) {
+    const std::string two =
+        on_floor +
+        "[[body]]\nname = \"a\"\nposition = [0.0, 0.1]\nvelocity = [3.0, 0.0]\ncontact = 0.1\n"
+        "[[body]]\nname = \"b\"\nposition = [1.0, 0.1]\ncontact = 0.1\n"
+        "[[spring]]\nbody = \"a\"\nto = \"b\"\nstiffness = 50.0\nrest_length = 1.0\n";
+    expect_no_bounce(two, 0);
+    expect_no_bounce(two, 1);
+}
+
+TEST(RatesOfABounce, NeedAFloorThatTheBodyTouches) {
+    const std::string hanging = on_floor +
+                                "[[body]]\nname = \"a\"\nposition = [0.0, 2.0]\ncontact = 0.1\n"
+                                "[[spring]]\nbody = \"a\"\nanchor = [0.0, 3.0]\nstiffness = 40.0\n";
+    expect_no_bounce(hanging);
+    EXPECT_NE(find(rates_of(hanging, {60}, {"exact"}), "period"), nullptr);
+    // Thrown upwards, it has not landed yet.
+    expect_no_bounce(on_floor +
+                     "[[body]]\nposition = [0.0, 0.1]\nvelocity = [0.0, 20.0]\ncontact = 0.1\n");
+}
+
 // A stopped call has quantities without values.
 TEST(Rates, CanBeStopped) {
     const MeasuredScene measured(article_spring);
@@ -339,6 +472,41 @@ TEST(RatesOfAnOscillation, HaveTheTimeToSettle) {
     EXPECT_EQ(quantity_of(rates, "time to settle").name, "time to settle to 5 %");
 }
 
+/// The motion from 1 m at rest with ω = 10/s and this damping ratio.
+double camera(double zeta, double t) {
+    const double gamma = 10 * zeta;
+    if (zeta == 1) return std::exp(-gamma * t) * (1 + gamma * t);
+    const double w = 10 * std::sqrt(std::abs(1 - zeta * zeta));
+    return zeta < 1 ? std::exp(-gamma * t) * (std::cos(w * t) + gamma / w * std::sin(w * t))
+                    : std::exp(-gamma * t) * (std::cosh(w * t) + gamma / w * std::sinh(w * t));
+}
+
+TEST(RatesOfACamera, HaveTheOvershootAndTheTimeToSettle) {
+    for (const double zeta : {0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.5}) {
+        const std::string scene = one_axis + "duration = 3.0\n" + on_spring(1, 100) +
+                                  fmt::format("damping = {}\n", 20 * zeta);
+        const Rates rates = rates_of(scene, {60, 240}, {"exact"});
+        double t = 3;
+        while (std::abs(camera(zeta, t)) <= 0.05) t -= 1e-5;
+        EXPECT_NEAR(quantity_of(rates, "time to settle").truth, t, 2e-5) << zeta;
+        EXPECT_NEAR(value_of(rates, "time to settle", 0, 1), t, 1e-3) << zeta;
+        const double overshoot =
+            zeta < 1 ? std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta)) : 0;
+        const RatesQuantity* const shown = find(rates, "overshoot");
+        EXPECT_EQ(shown != nullptr, overshoot > 0) << zeta;
+        if (shown) {
+            EXPECT_NEAR(shown->truth, overshoot, 1e-5) << zeta;
+        }
+    }
+}
+
+TEST(RatesOfACamera, ThatHasNotSettledHaveNoTime) {
+    const std::string scene = on_spring(1, 100) + "damping = 4.0\n";
+    // It passes its rest within 5 % at 0.18 s, but oscillates by 53 %.
+    EXPECT_TRUE(
+        rates_of(one_axis + "duration = 0.18\n" + scene, {60}, {"exact"}).quantities.empty());
+}
+
 // A weight on a spring oscillates around g/k below the anchor.
 TEST(RatesOfAnOscillation, GoAroundTheCentre) {
     const Rates rates = rates_of(one_axis + "duration = 20.0\n[gravity]\nacceleration = [-9.81]\n" +
@@ -387,6 +555,39 @@ TEST(RatesOfAnOscillation, HaveThePeriodOfTheWholeMotion) {
 // x = cos t + 0.4·cos √3·t never repeats. Its cycles differ by more than a tenth.
 TEST(RatesOfAnOscillation, WithoutAPeriodHaveNone) {
     EXPECT_EQ(find(rates_of(pair("1.4", "0.6", "1.0"), {100}, {"rk4"}), "period"), nullptr);
+}
+
+TEST(RatesOfAnOscillation, OfSeveralFrequenciesHaveAMeanPeriodAndARange) {
+    const Rates rates = rates_of(pair("1.4", "0.6", "1.0"), {100}, {"rk4"});
+    const auto x = [](double t) { return std::cos(t) + 0.4 * std::cos(std::sqrt(3.0) * t); };
+    constexpr double h = 1e-4;
+    double low = INFINITY;
+    double high = -INFINITY;
+    const double mean =
+        (std::sin(30.0) + 0.4 / std::sqrt(3.0) * std::sin(std::sqrt(3.0) * 30)) / 30;
+    std::vector<double> up;
+    for (double t = h; t < 30; t += h) {
+        low = std::min(low, x(t));
+        high = std::max(high, x(t));
+        if (x(t - h) < mean && x(t) >= mean) up.push_back(t);
+    }
+    EXPECT_NEAR(quantity_of(rates, "half of the range").truth, (high - low) / 2, 1e-5);
+    // The mean of 60 samples and more per second differs from the integral by less than 2 mm, and
+    // the slope at the crossings is more than 0.5 m/s.
+    const double period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
+    EXPECT_NEAR(quantity_of(rates, "mean period").truth, period,
+                8e-3 / static_cast<double>(up.size() - 1));
+    EXPECT_NEAR(value_of(rates, "mean period", 0, 0), period, 0.01);
+}
+
+// A driven spring with two frequencies.
+TEST(RatesOfAnOscillation, OfADrivenSpringAreShown) {
+    const Rates rates =
+        rates_of(one_axis + "duration = 30.0\n" + on_spring(1, 40) +
+                     "[[drive]]\nbody = \"mass\"\namplitude = [60.0]\nfrequency = 1.6\n",
+                 {60}, {"rk4"});
+    EXPECT_NE(find(rates, "mean period"), nullptr);
+    EXPECT_NE(find(rates, "half of the range"), nullptr);
 }
 
 // ω·dt is 3.9 at 1 Hz; the limit is 2.

@@ -9,6 +9,7 @@ namespace {
 TEST(TimeLeft, IsInSecondsOrMinutes) {
     EXPECT_EQ(time_left(33, 0.25), ", 99 s left");
     EXPECT_EQ(time_left(60, 0.25), ", 3 min left");
+    EXPECT_EQ(time_left(3600, 0.02), ", 49 h left");
     EXPECT_EQ(time_left(2, 0.8), "") << "half a second";
     EXPECT_EQ(time_left(0.5, 0.1), "") << "too early";
     EXPECT_EQ(time_left(10, 0.01), "") << "too early";
@@ -19,6 +20,13 @@ TEST(Say, PrintsNamesOfOthersEscaped) {
     testing::internal::CaptureStderr();
     say("a \x1b[31mtitle\n::error::b");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "a \\x1b[31mtitle\n\\x3a:error::b\n");
+}
+
+TEST(RoughTime, HasTheUnitOfItsSize) {
+    EXPECT_EQ(rough_time(12.4), "12 s");
+    EXPECT_EQ(rough_time(240), "4 min");
+    EXPECT_EQ(rough_time(3 * 3600), "3 h");
+    EXPECT_EQ(rough_time(1e7), "116 days");
 }
 
 }  // namespace

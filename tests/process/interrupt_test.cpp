@@ -63,12 +63,12 @@ TEST(GuardMain, TellsInALineWhatTheLibraryThrows) {
                                      (void)std::filesystem::file_size(name);
                                      return Exit::done;
                                  })),
-                ExitedWithCode(4), "^game: cannot use x+: File name too long; choose another place\n$");
-    EXPECT_EXIT(_exit(guard_main("game",
-                                 []() -> Exit {
-                                     throw std::system_error(EAGAIN, std::generic_category());
-                                 })),
-                ExitedWithCode(4), "^game: the machine refuses: Resource temporarily unavailable");
+                ExitedWithCode(4),
+                "^game: cannot use x+: File name too long; choose another place\n$");
+    EXPECT_EXIT(
+        _exit(guard_main(
+            "game", []() -> Exit { throw std::system_error(EAGAIN, std::generic_category()); })),
+        ExitedWithCode(4), "^game: the machine refuses: Resource temporarily unavailable");
 }
 
 TEST(Interrupt, AProgramThatDoesNotPollIsEnded) {
@@ -78,6 +78,67 @@ TEST(Interrupt, AProgramThatDoesNotPollIsEnded) {
                                compute_forever();
                            }),
                 ExitedWithCode(130), "^game: interrupted; unfinished files are not written\n$");
+}
+
+TEST(TimeLimit, EndsAProgramThatPolls) {
+    for (const double seconds : {0.0, 1e-300, 1e-9, 1e-3})
+        EXPECT_EXIT(_exit(guard_main("game",
+                                     [&] {
+                                         Interrupt::set_time_limit(seconds);
+                                         while (!Interrupt::requested()) continue;
+                                         EXPECT_TRUE(Interrupt::by_time_limit());
+                                         return Exit::done;
+                                     })),
+                    ExitedWithCode(4), "^game: the time limit is reached\n$")
+            << seconds;
+}
+
+TEST(TimeLimit, EndsAProgramThatDoesNotPoll) {
+    EXPECT_EXIT(guard_main("game",
+                           []() -> Exit {
+                               Interrupt::set_time_limit(0);
+                               compute_forever();
+                           }),
+                ExitedWithCode(4),
+                "^game: the time limit is reached; unfinished files are not written\n$");
+}
+
+TEST(TimeLimit, AfterASignalChangesNothing) {
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 [] {
+                                     raise(SIGTERM);
+                                     Interrupt::set_time_limit(0);
+                                     EXPECT_FALSE(Interrupt::by_time_limit());
+                                     return Exit::done;
+                                 })),
+                ExitedWithCode(130), "^game: interrupted\n$");
+}
+
+TEST(TimeLimit, ThatIsNotReachedChangesNothing) {
+    EXPECT_EXIT(_exit(guard_main("game",
+                                 [] {
+                                     Interrupt::set_time_limit(1e300);
+                                     return Exit::comparison_failed;
+                                 })),
+                ExitedWithCode(1), "^$");
+}
+
+TEST(TimeLimit, LeavesTheReportOfTheStepsSoFar) {
+    const Folder folder;
+    const std::string json = (folder / "run.json").string();
+    const Outcome run =
+        shell("hello --steps 1000000000000 --time-limit 0.01 --quiet --json " + json, 4);
+    EXPECT_EQ(run.err, "hello: the time limit is reached\n");
+    EXPECT_TRUE(holds(text_of(json), "\"state_hash\": \""));
+    shell("hello --steps 1000000000000 --time-limit 0 --quiet --json " + json, 4);
+    EXPECT_TRUE(holds(text_of(json), "\"steps\": 0,"));
+}
+
+TEST(TimeLimit, IsANumberOfSeconds) {
+    for (const std::string words : {"-1", "x", "inf", "nan", "1e999", "5s"}) {
+        const Outcome run = shell("hello --steps 1 --time-limit=" + words, 2);
+        EXPECT_TRUE(holds(run.err, "give a number of seconds, such as 60")) << run.err;
+    }
 }
 
 TEST(Interrupt, ASignalAfterTheProgramDoesNotChangeItsEnd) {

@@ -202,6 +202,28 @@ void expect_valid(const Place& place, const std::string& example) {
         << place.table << "." << place.key << " = " << example;
 }
 
+// The escapes are the code points of Unicode. Escapes mean nothing in comments, keys and ''.
+TEST(BadScenes, WithOtherCharactersHaveTheHintForTheirPlace) {
+    const std::vector<std::pair<std::string, std::string>> texts{
+        {"title = \"caf\u00e9\"", "byte 0xc3; expected ASCII text, in quotes \\u00e9"},
+        {"title = \"# 5 \u20ac\"", "byte 0xe2; expected ASCII text, in quotes \\u20ac"},
+        {"title = \"\U0001f600\"", "byte 0xf0; expected ASCII text, in quotes \\U0001f600"},
+        {"title = \"\"\"a\n\\\"\u00e9\"\"\"", "byte 0xc3; expected ASCII text, in quotes \\u00e9"},
+        {"title = 'caf\u00e9'", "byte 0xc3; expected ASCII text, in double quotes \\u00e9"},
+        {"title = \"\u202e\"", "byte 0xe2; expected ASCII text, in quotes \\u202e"},
+        {"title = \"\xe9\"", "byte 0xe9; expected ASCII text"},
+        {"title = \"\a\"", "byte 0x07; expected ASCII text"},
+        {"# caf\u00e9", "byte 0xc3; expected ASCII text, also in a comment"},
+        {"title = \"a\" # \"caf\u00e9\"", "byte 0xc3; expected ASCII text, also in a comment"},
+        {"# \xe9", "byte 0xe9; expected ASCII text, also in a comment"},
+        {"caf\u00e9 = 1", "byte 0xc3; expected ASCII text"},
+        {"rate = 6\u00a00", "byte 0xc2; expected ASCII text"}};
+    for (const auto& [text, message] : texts) {
+        const std::string error = error_of("[scene]\n" + text);
+        EXPECT_EQ(error.substr(error.find(": ") + 2), message) << text;
+    }
+}
+
 TEST(BadKeys, EveryKeyNamesWhatItExpectsAndWhatItGot) {
     int count = 0;
     for (const Refusal& refusal : refusals)

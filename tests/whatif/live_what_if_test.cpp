@@ -276,6 +276,15 @@ struct Slow : Fall {
     void update(const Input&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
 };
 
+// Half the speed of 20 m/s after 1 s is 200 J; the game falls on, but nobody knows how far.
+TEST(LiveWhatIf, HasNoScaleOfTheEnergyOnceItHasStopped) {
+    Measured<> measured;
+    measured.along.play_until(60);
+    EXPECT_GT(measured.along.energy_scale(), 180);
+    measured.along.stop("too slow");
+    EXPECT_EQ(measured.along.energy_scale(), 0);
+}
+
 TEST(LiveWhatIf, EndsAfterAFewStepsIfTheyTakeTooLong) {
     const Settings settings{.stepping = {.rate = {60}}};
     const MakeGame make = [](const Settings& own) {

@@ -329,16 +329,18 @@ struct Bounce {
     [[nodiscard]] Picture picture() const { return {.camera = {.height = camera_height}}; }
 };
 
-// The bounce lies at a = 0.4 of a step, of which the picture cuts the corner: at 0.4 it is
-// 2·v·dt·a(1 − a) above the floor, and at 7/16, the next sample, (1 − 7/16)/(1 − 0.4) of
-// that.
+// The bounce lies at a = 0.4 of a step, of which the picture cuts the corner: there it is
+// 2·v·dt·a(1 − a) above the floor.
 TEST(WhatIf, SeesTheCornerThatThePictureCutsAtABounce) {
-    const WhatIf result = measure<Bounce>(record<Bounce>(), "120");
+    const WhatIf result = measure<Bounce>(record<Bounce>(), "120,50,30");
     const double corner = 2 * Bounce::speed / rate * 0.4 * 0.6;
-    EXPECT_NEAR(result.runs[0].distance, corner * (9 / 16.0) / 0.6, 1e-9);
+    EXPECT_NEAR(result.runs[0].distance, corner, 1e-9);
     EXPECT_LT(result.runs[0].distance_at_steps, 1e-9);
     const double half = 2 * Bounce::speed / 120 * 0.8 * 0.2;  // 0.8 of the first half
-    EXPECT_NEAR(result.runs[1].distance, half * (3 / 4.0) / 0.8, 1e-9);
+    EXPECT_NEAR(result.runs[1].distance, half, 1e-9);
+    // 30.4 steps are 25 1/3 of 50 Hz, and 15.2 of 30 Hz.
+    EXPECT_NEAR(result.runs[2].distance, 2 * Bounce::speed / 50 * (1 / 3.0) * (2 / 3.0), 1e-9);
+    EXPECT_NEAR(result.runs[3].distance, 2 * Bounce::speed / 30 * 0.2 * 0.8, 1e-9);
 }
 
 // The velocity is 25/rate m/s, so that 420 and 960 Hz are 25·t·(1/420 - 1/960) m apart: 1 cm after

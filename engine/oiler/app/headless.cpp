@@ -130,7 +130,7 @@ void film(const GameRun& run, Renderer& renderer, const Manifest& header) {
                (options.update_golden ? options.golden : options.out).string());
     else
         remark(false, "{}: {} of {} frames are complete in {}",
-               Interrupt::requested() ? "interrupted" : "the game has quit", film.frames(),
+               Interrupt::requested() ? Interrupt::reason() : "the game has quit", film.frames(),
                header.planned_frames, options.out.string());
 }
 

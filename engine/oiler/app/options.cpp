@@ -49,9 +49,9 @@ struct Whole {
 };
 using Count = Whole<std::optional<std::int64_t>, std::int64_t>;
 /// The member that holds the value of an option.
-using Target = std::variant<bool Given::*, std::string Given::*, Path Given::*, Count,
-                            Whole<std::optional<int>, int>, Whole<int>, Whole<std::int64_t>,
-                            Whole<std::uint64_t>>;
+using Target = std::variant<bool Given::*, std::string Given::*, Path Given::*,
+                            std::optional<double> Given::*, Count, Whole<std::optional<int>, int>,
+                            Whole<int>, Whole<std::int64_t>, Whole<std::uint64_t>>;
 
 /// The meaning of an option for a run, and the options that it needs or excludes.
 enum Trait : unsigned {
@@ -159,6 +159,7 @@ const std::vector<Row>& rows() {
          &Given::inspector},
         {"--profile", "write the times of all stages in Chrome's trace format", &Given::profile, 0,
          "", "", &kinds::json},
+        {"--time-limit", help_of_time_limit, &Given::time_limit, of_many_runs, "", "S"},
         {"--quiet", "print no remarks and no progress on standard error", &Given::quiet,
          of_many_runs},
     };
@@ -185,6 +186,8 @@ void declare(CLI::App& app, Given& given, const Row& row, const About& about, bo
             return add_whole(app, row.name, given.*target.target, target.low, target.high, help);
         else if constexpr (std::is_same_v<To, bool Given::*>)
             return app.add_flag(row.name, given.*target, help)->disable_flag_override();
+        else if constexpr (std::is_same_v<To, std::optional<double> Given::*>)
+            return add_seconds(app, row.name, given.*target, help);
         else
             return app.add_option(row.name, given.*target, help)
                 ->type_name(std::is_same_v<To, Path Given::*> ? "FILE" : "NAME");

@@ -52,6 +52,7 @@ struct Options {
     bool replay_anyway = false;              ///< also of another version or of a changed game
     bool what_if = false;                    ///< plays `replay` with other settings
     std::vector<Stepping> what_if_settings;  ///< empty: the usual ones
+    std::optional<double> time_limit;  ///< s, of real time
     bool quiet = false;
 };
 

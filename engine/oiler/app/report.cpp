@@ -41,11 +41,13 @@ void write_report(File& file, const RunReport& report, const World& world) {
               {"dropped_time", seconds(report.dropped)},
               {"wall_seconds", seconds(report.wall)}};
     for (const Reading& reading : report.readings) json["readings"][reading.name] = reading.value;
-    for (const BudgetEntry& entry : report.budget)
+    for (const BudgetEntry& entry : report.budget) {
         json["budget"][entry.name] = {
             {"budget", entry.most},
             {"measured", std::isfinite(entry.measured) ? Json(entry.measured) : Json("infinite")},
             {"kept", entry.kept}};
+        if (entry.is_limit()) json["budget"][entry.name]["is_limit"] = true;
+    }
     file.write(json.dump(2) + "\n");
     file.commit();
 }

@@ -24,6 +24,7 @@
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/sim/kernels/instructions.hpp"
+#include "oiler/sim/step_work.hpp"
 #include "oiler/whatif/what_if_runs.hpp"
 
 namespace oiler {
@@ -129,11 +130,25 @@ void run_steps(const GameRun& run) {
     Playback& playback = run.playback;
     const std::int64_t steps = *run.options.steps;
     Progress progress(run.options.quiet, "steps", steps);
+    progress.show(0);
     const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
     while (playback.steps() < steps && !playback.loop().quits() && !Interrupt::requested()) {
         playback.step_to(std::min(playback.steps() + stride, steps), run.inputs);
         progress.show(playback.steps());
     }
+}
+
+/// Says beforehand that a run without a window takes long.
+void announce_steps(const Options& options, const About& about, const World& world) {
+    if (!options.steps && (!options.headless || options.frame)) return;
+    const Stepping& stepping = world.settings().stepping;
+    const double seconds = options.frames
+                               ? static_cast<double>(*options.frames) / options.fps.value_or(60)
+                               : about.duration;
+    const double steps =
+        options.steps ? static_cast<double>(*options.steps) : seconds / stepping.rate.dt();
+    announce(options.quiet, about.name, steps,
+             steps * StepWork(world.bodies()).seconds_per_step(*stepping.method));
 }
 
 /// Plays in a window, as frames or as steps alone.
@@ -242,6 +257,7 @@ Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget, Shelf* shelf) {
+    if (options.time_limit) Interrupt::set_time_limit(*options.time_limit);
     if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
     RunInputs inputs(options, about, *game);
@@ -249,6 +265,7 @@ Exit run_game(const Options& options, const About& about, const MakeGame& make,
     world.require_applicable();
     if (const auto line = missing_instructions()) remark(options.quiet, "{}", *line);
     for (const std::string& line : world.preflight()) remark(options.quiet, "{}", line);
+    announce_steps(options, about, world);
     RunReport report{.scene = about.name, .first = world.energy()};
     TraceWriter trace(options.trace, options.energy, world);
     std::optional<File> json;  // opened before the run, so that a wrong path costs no time

@@ -40,11 +40,9 @@ Advice search(const Scene& scene, const Reference& reference, const Requirements
 struct AdviseCommand {
     static constexpr CommandTexts texts{
         .name = "advise",
-        .summary = "Find the cheapest method, rate and precision within a tolerance",
-        .example = "assets/scenes/orbit.toml --position-error 1e-3",
-        .notes =
-            "Exits with 1 when no setting meets the tolerance. --budget-us alone: the most "
-            "accurate within it."};
+        .summary =
+            "Find the cheapest method, rate and precision within a tolerance; exit 1 if none",
+        .example = "assets/scenes/orbit.toml --position-error 1e-3"};
 
     SceneOptions scene_options;
     ToleranceOptions tolerances;
@@ -71,7 +69,8 @@ struct AdviseCommand {
         arguments.add_option("--display", display, "60|144|any",
                              "compare drawn lines at the times of frames, or at any time");
         arguments.add_positive("--budget-us", budget_us, "US",
-                               "largest computing time in µs for a frame of 1/60 s");
+                               "largest computing time in µs for a frame of 1/60 s; alone: the "
+                               "most accurate within it");
         arguments.add_integer("--min-rate", min_rate, 1, 1'000'000,
                               "lowest rate in Hz, 30 if not given");
         add_method_list(arguments, methods);

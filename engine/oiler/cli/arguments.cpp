@@ -7,6 +7,7 @@
 
 #include "oiler/cli/output.hpp"
 #include "oiler/core/version.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse.hpp"
 
 namespace oiler::cli {
@@ -31,7 +32,12 @@ std::map<std::string, Command::Run> declare(CLI::App& app, const std::vector<Com
                                        texts.notes.empty() ? "" : "\n", texts.notes));
         Arguments arguments(*subcommand);
         if (!command.declare) continue;
-        runs[name] = [run = command.declare(arguments), arguments] {
+        const Command::Run run = command.declare(arguments);
+        const auto limit = std::make_shared<std::optional<double>>();
+        if (texts.may_take_long)
+            add_seconds(*subcommand, "--time-limit", *limit, help_of_time_limit);
+        runs[name] = [run, arguments, limit] {
+            if (*limit) Interrupt::set_time_limit(**limit);
             const NamedPaths paths = arguments.paths();
             require_distinct(paths.inputs, paths.outputs);
             for (const NamedPath& output : paths.outputs) require_openable(output);

@@ -149,7 +149,7 @@ struct CertifyCommand {
         const std::vector<const Method*> methods = chosen.methods();
         if (has_table()) print(header());
         Results results = measure(methods);
-        if (Interrupt::requested()) return Exit::interrupted;
+        if (Interrupt::requested() && !Interrupt::by_time_limit()) return Exit::interrupted;
         if (has_table()) print(certify_legend(steps));
         if (!json.empty()) write_json(json, results.certificates);
         if (results.failures.empty()) return Exit::done;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "oiler/app/trace_writer.hpp"
+#include "oiler/cli/measuring.hpp"
 #include "oiler/cli/output.hpp"
 #include "oiler/cli/shared_options.hpp"
 #include "oiler/core/markup.hpp"
@@ -14,6 +15,7 @@
 #include "oiler/process/interrupt.hpp"
 #include "oiler/scene/make_world.hpp"
 #include "oiler/scene/read.hpp"
+#include "oiler/sim/step_work.hpp"
 
 namespace oiler::cli {
 
@@ -65,9 +67,11 @@ Json to_json(const std::vector<CheckResult>& all) {
         if (result.lines.empty() && result.kept()) entry["kept"] = nullptr;
         if (!result.divergence.empty()) entry["diverged"] = result.divergence;
         if (!result.error.empty()) entry = {{"scene", result.file}, {"error", result.error}};
-        for (const BudgetEntry& line : result.lines)
+        for (const BudgetEntry& line : result.lines) {
             entry[line.name] = {
                 {"measured", number(line.measured)}, {"budget", line.most}, {"kept", line.kept}};
+            if (line.is_limit()) entry[line.name]["is_limit"] = true;
+        }
         json.push_back(std::move(entry));
     }
     return json;
@@ -81,14 +85,22 @@ void require_finite_energy(const World& end, World start) {
 }
 
 /// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
-std::string find_divergence(World world, const Scene& scene) {
+std::string find_divergence(World world, const Scene& scene, const std::string& file, bool quiet) {std::string find_divergence(World world, const Scene& scene, const std::string& file, bool quiet) {
     const World start = world;
+    constexpr std::int64_t most_body_steps = 1'000'000;  // between two polls
     const auto steps =
         static_cast<std::int64_t>(scene.duration * static_cast<double>(scene.stepping.rate.steps));
-    const std::int64_t stride = std::max<std::int64_t>(1, steps / 100);
+    const auto count = static_cast<double>(steps);
+    announce(quiet, file, count,
+             count * StepWork(world.bodies()).seconds_per_step(*scene.stepping.method));
+    Progress progress(quiet, "steps of " + file, steps);
+    const std::int64_t stride =
+        std::max<std::int64_t>(1, most_body_steps / static_cast<std::int64_t>(world.body_count()));
     try {
-        for (std::int64_t left = steps; left > 0 && !Interrupt::requested(); left -= stride)
-            world.step(std::min(left, stride));
+        for (std::int64_t done = 0; done < steps && !Interrupt::requested(); done += stride) {
+            progress.show(done);
+            world.step(std::min(steps - done, stride));
+        }
         require_finite_energy(world, start);
     } catch (const Error& error) {
         if (error.exit() != Exit::diverged) throw;
@@ -98,19 +110,21 @@ std::string find_divergence(World world, const Scene& scene) {
 }
 
 /// Turns an error of usage into a result, so that the other scenes are still checked.
-CheckResult check(const std::filesystem::path& path) {
+CheckResult check(const std::filesystem::path& path, bool quiet) {
     CheckResult result{.file = path.string()};
     try {
         const Scene scene = read_scene(path.string());
         World world = make_world(scene, Settings{scene.stepping});
         world.require_applicable();
         result.warnings = world.preflight();
-        result.divergence = find_divergence(std::move(world), scene);
+        result.divergence = find_divergence(std::move(world), scene, result.file, quiet);
         if (result.divergence.empty() && !result.warnings.empty() && scene.budget.is_empty() &&
             is_unstable(scene, Settings{scene.stepping}, Interrupt::requested))
             result.divergence =
                 "unstable: bodies move to more than 10 times the extent of the true motion";
-        result.lines = check_budget(scene, Settings{scene.stepping}, Interrupt::requested);
+        Percent percent(quiet, "of the reference of " + result.file);
+        result.lines =
+            check_budget(scene, Settings{scene.stepping}, Interrupt::requested, std::ref(percent));
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
         const std::string message = error.what();
@@ -173,8 +187,14 @@ struct CheckCommand {
     [[nodiscard]] Exit run() const {
         std::vector<CheckResult> all;
         for (const std::filesystem::path& path : scenes) {
-            all.push_back(check(path));
-            if (Interrupt::requested()) return Exit::interrupted;
+            const bool is_begun = !Interrupt::requested();
+            if (is_begun) all.push_back(check(path, quiet));
+            if (!Interrupt::requested()) continue;
+            if (!Interrupt::by_time_limit()) return Exit::interrupted;
+            if (is_begun) all.pop_back();
+            all.push_back({.file = path.string(),
+                           .error = fmt::format("{}: not checked to its end: {}", path.string(),
+                                                Interrupt::reason())});
         }
         if (!junit.empty()) write_file(junit, to_junit(all), kinds::junit);
         if (!json.empty()) write_json(json, to_json(all));

@@ -17,6 +17,7 @@ struct CommandTexts {
     std::string_view summary;
     std::string_view example;  ///< a command line without "oiler NAME"
     std::string_view notes{};  ///< lines below the example
+    bool may_take_long = true;  ///< it has --time-limit
 };
 
 /// A command of the program `oiler`. All functions throw Error and return the exit code.

@@ -189,7 +189,8 @@ struct DemosCommand {
         .name = "demos",
         .summary = "List games and scenes, or start one",
         .example = "jump --rate 144",
-        .notes = "The first word is the name of a game or a scene, further words are its options."};
+        .notes = "The first word is the name of a game or a scene, further words are its options.",
+        .may_take_long = false};
 
     bool in_window = false;
     std::vector<std::string> words;

@@ -63,7 +63,8 @@ Json to_json() {
 struct MethodsCommand {
     static constexpr CommandTexts texts{.name = "methods",
                                         .summary = "List the integration methods",
-                                        .example = "--json methods.json"};
+                                        .example = "--json methods.json",
+                                        .may_take_long = false};
 
     std::filesystem::path json;
 

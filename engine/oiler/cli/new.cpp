@@ -160,7 +160,8 @@ struct NewCommand {
         .name = "new",
         .summary = "Write the project of a new game, with a test and CI jobs",
         .example = "games/cannon",
-        .notes = "It prints the two commands that run and test the game."};
+        .notes = "It prints the two commands that run and test the game.",
+        .may_take_long = false};
 
     std::string given;
 

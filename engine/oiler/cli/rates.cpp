@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "oiler/cli/measuring.hpp"
@@ -34,10 +35,11 @@ std::string text_of(const Scene& scene, const std::string& name, const Rates& ra
     std::string text = fmt::format("{}: {} in {}\n", scene.title.empty() ? name : scene.title,
                                    rates.body, name_of(scene.stepping.precision));
     if (rates.quantities.empty())
-        return text + fmt::format(
-                          "In {:g} s, the body reaches no apex and completes no oscillation: give "
-                          "a longer --duration or another --body.\n",
-                          scene.duration);
+        return text +
+               fmt::format(
+                   "In {:g} s, the body shows no apex, bounce, oscillation or settling: give a "
+                   "longer --duration or another --body.\n",
+                   scene.duration);
     for (const RatesQuantity& quantity : rates.quantities) {
         text += fmt::format("\n{}, {}: {:.6g}\n  {:<30}", quantity.name, quantity.unit,
                             quantity.truth, "Hz");
@@ -84,20 +86,48 @@ struct RatesCommand {
         arguments.add_option("--body", body, "BODY", "name of the body, or its index from 0");
     }
 
-    /// Returns no rates when interrupted.
+    [[nodiscard]] std::vector<const Method*> chosen_methods(const Scene& scene) const {
+        return methods.empty() ? usual_methods(scene) : parse_methods(methods);
+    }
+
+    /// The steps of each method, at all rates together.
+    [[nodiscard]] static double steps_of(const Scene& scene,
+                                         const std::vector<std::int64_t>& wanted) {
+        return scene.duration *
+               static_cast<double>(std::accumulate(wanted.begin(), wanted.end(), std::int64_t{0}));
+    }
+
+    void announce_steps(const Scene& scene, const std::vector<std::int64_t>& wanted) const {
+        const RunWork work(scene);
+        double steps = 0;
+        double seconds = 0;
+        for (const Method* method : chosen_methods(scene)) {
+            steps += steps_of(scene, wanted);
+            seconds += steps_of(scene, wanted) * work.seconds_per_step(*method);
+        }
+        announce(scene_options.quiet, scene_options.file.string(), steps, seconds);
+    }
+
+    /// Returns the values so far when interrupted.
     [[nodiscard]] Rates measure(const Scene& scene, const Reference& reference,
                                 const std::vector<std::int64_t>& wanted) const {
-        const std::vector<const Method*> chosen =
-            methods.empty() ? usual_methods(scene) : parse_methods(methods);
+        const std::vector<const Method*> chosen = chosen_methods(scene);
         const std::size_t row =
             body.empty() ? most_oscillating_row(reference) : find_body(scene, body);
-        return measure_rates(scene, reference, row, wanted, chosen, Interrupt::requested);
+        Percent percent(scene_options.quiet, "of the runs");
+        const double all = steps_of(scene, wanted) * static_cast<double>(chosen.size());
+        double done = 0;
+        return measure_rates(scene, reference, row, wanted, chosen, [&] {
+            percent(++done / all);
+            return Interrupt::requested();
+        });
     }
 
     void show(const Scene& scene, const Rates& measured) const {
         if (!scene_options.json.empty()) {
             Json json = to_json(measured);
             json["scene"] = scene_options.name();
+            if (Interrupt::requested()) json["complete"] = false;
             write_json(scene_options.json, json);
         }
         if (scene_options.json != "-") print(text_of(scene, scene_options.name(), measured));
@@ -106,13 +136,14 @@ struct RatesCommand {
     [[nodiscard]] Exit run() const {
         const std::vector<std::int64_t> wanted = parse_rates(rates);
         const Scene scene = scene_options.read();
+        announce_steps(scene, wanted);
         const Reference reference = measure_reference(scene, 0, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         if (!reference.why_no_longer.empty())
             remark(scene_options.quiet, "measures only the first {:.4g} s of {:.4g} s: {}",
                    reference.meaningful_until, scene.duration, reference.why_no_longer);
         const Rates measured = measure(scene, reference, wanted);
-        if (Interrupt::requested()) return Exit::interrupted;
+        if (Interrupt::requested() && !Interrupt::by_time_limit()) return Exit::interrupted;
         show(scene, measured);
         return Exit::done;
     }

@@ -44,7 +44,8 @@ struct StabilityCommand {
         Stills stills(pictures.size());
         const StabilityGrid grid;
         const std::vector<StabilityRegion> regions = measure(methods, grid);
-        if (Interrupt::requested()) return Exit::interrupted;
+        if (regions.size() < methods.size() && !(Interrupt::by_time_limit() && !regions.empty()))
+            return Exit::interrupted;
         make_folder(pictures.out);
         write_file(pictures.out / "stability.csv", to_csv(regions, grid), kinds::table,
                    Links::replaced);

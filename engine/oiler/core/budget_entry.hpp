@@ -13,6 +13,9 @@ struct BudgetEntry {
     bool kept = true;
     std::string words{};  ///< the entry as a sentence
     double floor = 0;     ///< the smallest error that can be measured
+
+    /// Whether the error is only known to be below `measured`.
+    [[nodiscard]] bool is_limit() const { return measured == floor; }
 };
 
 }  // namespace oiler

@@ -97,6 +97,15 @@ public:
         return static_cast<double>(from * numerator_ - to * denominator_) /
                static_cast<double>(denominator_);
     }
+    /// The same from a step with a fraction.
+    [[nodiscard]] double since(std::int64_t to, double from) const {
+        return from * static_cast<double>(numerator_) / static_cast<double>(denominator_) -
+               static_cast<double>(to);
+    }
+    /// The step of the other rate, with a fraction, that begins at the same time as `to`.
+    [[nodiscard]] double other_step(double to) const {
+        return to * static_cast<double>(denominator_) / static_cast<double>(numerator_);
+    }
     /// Whether a step begins at the same time as `from`.
     [[nodiscard]] bool has(std::int64_t from) const {
         return from * numerator_ % denominator_ == 0;

@@ -27,11 +27,27 @@ Progress::~Progress() {
     if (shown_percent_ >= 0) std::fputc('\n', stderr);
 }
 
+std::string rough_time(double seconds) {
+    constexpr double minute = 60;
+    constexpr double hour = 3600;
+    constexpr double day = 86400;
+    if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 100 * minute) return fmt::format("{:.0f} min", seconds / minute);
+    if (seconds < 100 * hour) return fmt::format("{:.0f} h", seconds / hour);
+    return fmt::format("{:.0f} days", seconds / day);
+}
+
+void announce(bool quiet, std::string_view what, double steps, double seconds) {
+    constexpr double short_time = 10;  // s
+    if (seconds > short_time)
+        remark(quiet, "{}: {:.3g} steps take about {}; --time-limit S ends earlier", what, steps,
+               rough_time(seconds));
+}
+
 std::string time_left(double passed, double share) {
     const double left = passed * (1 - share) / share;
     if (share < 0.02 || passed < 1 || left < 1) return "";
-    return left < 100 ? fmt::format(", {:.0f} s left", left)
-                      : fmt::format(", {:.0f} min left", left / 60);
+    return fmt::format(", {} left", rough_time(left));
 }
 
 void Progress::show(std::int64_t done) {

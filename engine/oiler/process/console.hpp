@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace oiler {
@@ -24,9 +25,16 @@ void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
     if (!quiet) say(fmt::format(line, std::forward<Args>(args)...));
 }
 
+/// A duration to two or three digits: "12 s", "3 min", "20 h", "12 days".
+[[nodiscard]] std::string rough_time(double seconds);
+
 /// The time left after `passed` seconds for this share of the work: ", 12 s left", ", 3 min left".
 /// Empty if it is too short to be of interest, or if it is too early for an estimate.
 [[nodiscard]] std::string time_left(double passed, double share);
+
+/// Says beforehand that so many steps are about to be taken, if that takes longer than some
+/// seconds.
+void announce(bool quiet, std::string_view what, double steps, double seconds);
 
 /// A progress bar with the time left, on standard error if that is a terminal, else invisible.
 class Progress {

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +33,23 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, Target& target, W
     };
     return app.add_option_function<std::string>(name, parse, help)->type_name("N");
 }
+
+/// Adds an option for a number of seconds, 0 or more.
+inline CLI::Option* add_seconds(CLI::App& app, const std::string& name,
+                                std::optional<double>& target, const std::string& help) {
+    const auto parse = [name, &target](const std::string& words) {
+        const char* const end = words.data() + words.size();
+        double value = 0;
+        const auto [last, error] = std::from_chars(words.data(), end, value);
+        if (error != std::errc() || last != end || !(value >= 0) || !std::isfinite(value))
+            throw CLI::ValidationError(
+                fmt::format("{} {}: give a number of seconds, such as 60", name, words));
+        target = value;
+    };
+    return app.add_option_function<std::string>(name, parse, help)->type_name("S");
+}
+inline constexpr const char* help_of_time_limit =
+    "end after S seconds of real time, with exit code 4 and what was found so far";
 
 /// The help of `--damping`, which is "kick" or "drift".
 inline constexpr const char* help_of_damping =

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "oiler/core/error.hpp"
+#include "oiler/core/utf8.hpp"
 
 namespace oiler {
 namespace {
@@ -87,18 +88,27 @@ public:
     NestingGuard(std::string_view text, std::string_view file) : text_(text), file_(file) {}
 
     void run() {
-        while (at_ < text_.size()) {
-            const char c = text_[at_];
-            if (c == '#')
-                skip_comment();
-            else if (c == '"' || c == '\'')
-                skip_string(c);
-            else
-                count(c);
-        }
+        while (at_ < text_.size()) take_part();
+    }
+    /// The first character of the comment (#) or string (a quote) that contains this byte; any
+    /// other one outside of both.
+    [[nodiscard]] char part_with(std::size_t at) {
+        char first = text_[at];
+        while (at_ <= at) first = take_part();
+        return first;
     }
 
 private:
+    char take_part() {
+        const char c = text_[at_];
+        if (c == '#')
+            skip_comment();
+        else if (c == '"' || c == '\'')
+            skip_string(c);
+        else
+            count(c);
+        return c;
+    }
     static constexpr int most_depth = 64;
     static constexpr int most_dots = 32;
 
@@ -147,6 +157,27 @@ bool is_text(std::string_view text, std::size_t at) {
     return c == '\t' || c == '\n' || (c >= ' ' && c <= '~');
 }
 
+/// What to write in place of a byte that is not ASCII text.
+std::string hint_at(std::string_view text, std::size_t at, std::string_view file) {
+    std::string_view rest = text.substr(at);
+    const char32_t code = take_code(rest);
+    const bool is_character = code >= 0xA0 && code != 0xFFFD;
+    const auto escape = [&] {
+        return code > 0xFFFF ? fmt::format("\\U{:08x}", static_cast<std::uint32_t>(code))
+                             : fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code));
+    };
+    switch (NestingGuard(text, file).part_with(at)) {
+        case '#':
+            return ", also in a comment";
+        case '"':
+            return is_character ? ", in quotes " + escape() : "";
+        case '\'':
+            return is_character ? ", in double quotes " + escape() : "";
+        default:
+            return "";
+    }
+}
+
 void guard_toml(std::string_view text, std::string_view file) {
     if (text.size() > most_toml_bytes)
         refuse({file}, "more than {} bytes; use a [[grid]] or a [[scatter]] for many bodies",
@@ -156,8 +187,8 @@ void guard_toml(std::string_view text, std::string_view file) {
     int line = 1;
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (!is_text(text, at))
-            refuse({file, line}, "byte 0x{:02x}; expected ASCII text, in quotes \\u00e9 for é",
-                   static_cast<unsigned char>(text[at]));
+            refuse({file, line}, "byte 0x{:02x}; expected ASCII text{}",
+                   static_cast<unsigned char>(text[at]), hint_at(text, at, file));
         if (text[at] == '\n') ++line;
     }
     NestingGuard(text, file).run();

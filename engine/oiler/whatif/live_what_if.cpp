@@ -153,6 +153,7 @@ std::vector<Ghost> LiveWhatIf::ghosts(std::int64_t step, double alpha) const {
 void LiveWhatIf::stop(std::string reason) {
     runs_.reset();
     measured_.reset();
+    energy_scale_ = {};
     repeats_ = false;
     verdict_ = {.text = std::move(reason)};
 }

@@ -49,7 +49,8 @@ public:
     };
     /// Empty if no game could be made.
     [[nodiscard]] const std::optional<Begin>& begin() const { return begin_; }
-    /// The scale of the energy's changes since then, J; in a repeated round, also of the last one.
+    /// The scale of the energy's changes since then, J; in a repeated round, also of the last one;
+    /// 0 after measuring has stopped.
     [[nodiscard]] double energy_scale() const { return energy_scale_.joules(); }
     /// The result so far. The measuring must not have stopped.
     [[nodiscard]] WhatIf result() const { return runs_->result(); }

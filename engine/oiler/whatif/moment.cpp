@@ -72,6 +72,13 @@ std::optional<Apart> largest_distance(const Moment& a, const Moment& b) {
     return largest;
 }
 
+std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& moment) {
+    const auto same = std::ranges::find_if(
+        moment.bodies, [&](const Moment::Placed& one) { return is_same_body(one, body); });
+    if (same == moment.bodies.end()) return std::nullopt;
+    return Apart{length(same->position - body.position), body.entity};
+}
+
 std::vector<Ghost> ghosts_of(const Moment& run, const Moment& reference) {
     std::vector<Ghost> ghosts;
     for (const auto& [body, truth] : same_bodies(run, reference))

@@ -46,6 +46,9 @@ struct Apart {
 /// play.
 [[nodiscard]] std::optional<Apart> largest_distance(const Moment& a, const Moment& b);
 
+/// The distance of a body from the same one of a moment; empty if that has none.
+[[nodiscard]] std::optional<Apart> distance_of(const Moment::Placed& body, const Moment& moment);
+
 /// The positions of a body in a run and in the reference at the same time, m.
 struct Ghost {
     Entity body{};

@@ -106,18 +106,38 @@ void SettingRun::play_until(std::int64_t recorded) {
     play_until_instant(recorded * instants_per_step);
 }
 
-void SettingRun::play_until_instant(std::int64_t index) {
-    while (steps_ < instants_.last_until(index) && goes_on()) take_step();
+void SettingRun::play_until_instant(std::int64_t index, std::deque<TrueImpact>* impacts) {
+    while (steps_ < instants_.last_until(index) && goes_on()) {
+        const std::int64_t before = steps_;
+        take_step();
+        if (impacts && steps_ > before) add_impacts(*impacts);
+    }
 }
 
-void SettingRun::play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth,
-                            double visible) {
+/// Adds the impacts of the last step.
+void SettingRun::add_impacts(std::deque<TrueImpact>& impacts) const {
+    const World& world = game_->world();
+    const double rate = 1 / world.dt();
+    for (const Impact& impact : world.impacts()) {
+        const std::size_t row = world.row(impact.entity);
+        const Vec3& normal = world.bodies().planes()[impact.plane].normal;
+        const double radius = world.bodies().contact(row)->radius;
+        const double step = static_cast<double>(steps_) + rate * (impact.time - world.time());
+        impacts.push_back({instants_.other_step(step),
+                           game_->cuts(),
+                           {impact.entity, world.jumps(impact.entity),
+                            impact.point + normal * (radius / length(normal))}});
+    }
+}
+
+void SettingRun::play_until(std::int64_t recorded, const TrueMotion& truth, double visible) {
     result_.distance_now = 0;
     const Rate rate = rate_of_instants(recorded_rate_);
+    const std::deque<TrueMoment>& moments = truth.moments;
     auto next = std::ranges::partition_point(
-        truth, [&](const TrueMoment& at) { return instants_.since(steps_, at.index) <= 0; });
+        moments, [&](const TrueMoment& at) { return instants_.since(steps_, at.index) <= 0; });
     while (steps_ < ratio_.last_until(recorded) && goes_on()) {
-        const bool is_compared = next != truth.end() && !result_.other_play_from &&
+        const bool is_compared = next != moments.end() && !result_.other_play_from &&
                                  instants_.since(steps_, next->index) <= 1;
         if (!is_compared) {
             take_step();
@@ -127,12 +147,28 @@ void SettingRun::play_until(std::int64_t recorded, const std::deque<TrueMoment>&
         const std::int64_t step = steps_;
         take_step();
         if (steps_ == step) return;
-        for (; next != truth.end(); ++next) {
+        if (!differs_from_) compare_impacts(before, truth.impacts, visible);
+        for (; next != moments.end(); ++next) {
             const double alpha = instants_.since(step, next->index);
             if (alpha > 1) break;
             if (const auto apart = largest_drawn(before, moment(), alpha, next->moment))
                 note(*apart, rate.time(next->index), visible);
         }
+    }
+}
+
+/// Compares the line of the last step with the corners of the true motion.
+void SettingRun::compare_impacts(const Moment& before, const std::deque<TrueImpact>& impacts,
+                                 double visible) {
+    const std::int64_t step = steps_ - 1;
+    auto next = std::ranges::partition_point(
+        impacts, [&](const TrueImpact& at) { return instants_.since(step, at.index) < 0; });
+    for (; next != impacts.end(); ++next) {
+        const double alpha = instants_.since(step, next->index);
+        if (alpha > 1) return;
+        const auto apart = distance_of(next->body, between(before, moment(), alpha));
+        if (apart && before.cuts == next->cuts && moment().cuts == next->cuts)
+            note(*apart, next->index * rate_of_instants(recorded_rate_).dt(), visible);
     }
 }
 
@@ -247,7 +283,7 @@ void WhatIfRuns::play_until(std::int64_t step) {
     if (step > 0 && !runs_.front()->failed()) replay_.after(step - 1, runs_.front()->game());
     if (!is_known) return;
     const double time = recording_.header.stepping.rate.time(step);
-    for (const auto& run : runs_) run->compare(step, time, truth_.back().moment, visible());
+    for (const auto& run : runs_) run->compare(step, time, truth_.moments.back().moment, visible());
 }
 
 void WhatIfRuns::compare_end() {
@@ -260,9 +296,10 @@ void WhatIfRuns::compare_end() {
 
 bool WhatIfRuns::play_reference(std::int64_t step) {
     std::vector<TrueMoment> moments;
+    std::deque<TrueImpact> impacts;
     const std::int64_t last = step * instants_per_step;
     for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + 1; i <= last; ++i) {
-        reference_.play_until_instant(i);
+        reference_.play_until_instant(i, &impacts);
         if (certain_) moments.push_back({i, moment_of(reference_.game())});
     }
     check_.play_until(step);
@@ -270,10 +307,16 @@ bool WhatIfRuns::play_reference(std::int64_t step) {
         if (run->failed())
             fail(Exit::diverged, "--what-if: the reference ({}) failed: {}",
                  table_text(run->result().stepping), run->result().failure);
-    while (!truth_.empty() && truth_.front().index < last - (longest_ + 1) * instants_per_step)
-        truth_.pop_front();
+    const std::int64_t oldest = last - (longest_ + 1) * instants_per_step;
+    const auto forget = [oldest](auto& past) {
+        while (!past.empty() && past.front().index < oldest) past.pop_front();
+    };
+    forget(truth_.moments);
+    forget(truth_.impacts);
     if (!certain_ || !check(step, moments.back().moment)) return false;
-    std::ranges::move(moments, std::back_inserter(truth_));
+    std::ranges::move(moments, std::back_inserter(truth_.moments));
+    std::ranges::sort(impacts, {}, &TrueImpact::index);
+    std::ranges::move(impacts, std::back_inserter(truth_.impacts));
     return true;
 }
 
@@ -292,8 +335,9 @@ bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
 std::optional<WhatIfRuns::Drawn> WhatIfRuns::drawn(double alpha) const {
     const Moment& after = runs_.front()->moment();
     const std::int64_t first = (step_ - 1) * instants_per_step;
-    const auto truth = std::ranges::find(truth_, first, &TrueMoment::index);
-    const bool is_known = truth != truth_.end() && truth_.end() - truth > instants_per_step;
+    const auto truth = std::ranges::find(truth_.moments, first, &TrueMoment::index);
+    const bool is_known =
+        truth != truth_.moments.end() && truth_.moments.end() - truth > instants_per_step;
     if (!is_known || before_.cuts != after.cuts) return std::nullopt;
     const double place = alpha * static_cast<double>(instants_per_step);
     const auto instant = std::min(static_cast<std::int64_t>(place), instants_per_step - 1);

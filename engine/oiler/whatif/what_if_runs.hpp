@@ -50,6 +50,19 @@ struct TrueMoment {
     Moment moment;
 };
 
+/// The place of a body that meets a plane, between two instants.
+struct TrueImpact {
+    double index = 0;  ///< of the instant, with a fraction
+    std::int64_t cuts = 0;
+    Moment::Placed body{};
+};
+
+/// The true motion: all bodies at instants, and single bodies at their impacts.
+struct TrueMotion {
+    std::deque<TrueMoment> moments{};
+    std::deque<TrueImpact> impacts{};
+};
+
 /// The run of a recording with one setting.
 class SettingRun {
 public:
@@ -62,9 +75,9 @@ public:
     void play_until(std::int64_t recorded);
     /// Takes these steps, and compares the bodies as drawn, between the steps and at them, with the
     /// moments of the reference. Distances above `visible`, m, are visible to a player.
-    void play_until(std::int64_t recorded, const std::deque<TrueMoment>& truth, double visible);
-    /// Takes all steps until an instant.
-    void play_until_instant(std::int64_t index);
+    void play_until(std::int64_t recorded, const TrueMotion& truth, double visible);
+    /// Takes all steps until an instant, and adds their impacts.
+    void play_until_instant(std::int64_t index, std::deque<TrueImpact>* impacts = nullptr);
     /// Compares the play with the reference as that recorded step begins, `time` in s, if a step of
     /// this run begins then, too.
     void compare(std::int64_t recorded, double time, const Moment& reference, double visible);
@@ -88,6 +101,9 @@ public:
 private:
     [[nodiscard]] bool goes_on() const { return !game_->loop().quits() && !failed(); }
     void take_step();
+    void add_impacts(std::deque<TrueImpact>& impacts) const;
+    void compare_impacts(const Moment& before, const std::deque<TrueImpact>& impacts,
+                         double visible);
     void note(const Apart& apart, double time, double visible);
 
     WhatIfRun result_;
@@ -151,10 +167,10 @@ private:
     SettingRun reference_;
     SettingRun check_;  ///< the check run: the reference at another rate
     std::vector<std::unique_ptr<SettingRun>> runs_;
-    Moment before_;                 ///< of the recorded setting, one step ago
-    std::deque<TrueMoment> truth_;  ///< since the slowest run's last step
-    std::int64_t step_ = 0;         ///< the last that was played
-    std::int64_t longest_ = 1;      ///< the recorded steps that a step of the slowest run takes
+    Moment before_;             ///< of the recorded setting, one step ago
+    TrueMotion truth_;          ///< since the slowest run's last step
+    std::int64_t step_ = 0;     ///< the last that was played
+    std::int64_t longest_ = 1;  ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
     double certain_until_ = 0;  ///< s
     double uncertainty_ = 0;    ///< m

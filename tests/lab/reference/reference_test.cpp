@@ -408,6 +408,25 @@ TEST(ReferenceByFineSteps, FollowsABounceAtAllTimes) {
 }
 
 // The reference of bodies that land with order 1 is told apart from chaos, before all work is done.
+// Between elastic planes 1 mm apart, 10 m/s are 10,000 impacts a second.
+TEST(ReferenceByFineSteps, FollowNoBodyThatOnlyBounces) {
+    const auto between = [](double seconds) {
+        Scene scene;
+        scene.axes = 1;
+        scene.duration = seconds;
+        scene.planes = {{.plane = {.normal = {1}, .restitution = 1}},
+                        {.plane = {.normal = {-1}, .offset = -0.001, .restitution = 1}}};
+        scene.bodies = {{.position = {0.0005, 0, 0}, .velocity = {10, 0, 0}}};
+        scene.bodies.front().matter.contact = 0;
+        return scene;
+    };
+    EXPECT_NO_THROW((void)make_reference(between(0.1), effort()));
+    const std::string line =
+        line_of_error(Exit::usage, [&] { (void)make_reference(between(10), effort()); });
+    EXPECT_TRUE(holds(line, "a body meets planes more than 20000 times")) << line;
+    EXPECT_TRUE(holds(line, "--duration")) << line;
+}
+
 TEST(ReferenceByFineSteps, SaysThatLinkedBodiesLandWithOrderOne) {
     const Scene scene = parse_scene(
         "[scene]\naxes = 1\nduration = 2.0\n[gravity]\nacceleration = [-9.81]\n"

@@ -16,7 +16,7 @@ std::string describe(const BudgetEntry& entry, const char* unit) {
         return fmt::format("{} of {:g}{}: exceeded, the run is unstable", entry.name, entry.most,
                            unit);
     return fmt::format("{} {}{:.3g}{} of {:g}{}: {}", entry.name,
-                       entry.measured == entry.floor ? "below " : "", entry.measured, unit,
+                       entry.is_limit() ? "below " : "", entry.measured, unit,
                        entry.most, unit, entry.kept ? "kept" : "exceeded");
 }
 
@@ -38,14 +38,15 @@ BudgetEntry make_entry(const char* name, const char* unit, double most, bool sta
 }  // namespace
 
 std::vector<BudgetEntry> check_budget(const Scene& given, const Settings& given_settings,
-                                      const std::function<bool()>& stopped) {
+                                      const std::function<bool()>& stopped,
+                                      const std::function<void(double)>& progress) {
     const Scene scene = with_seed(given, given_settings.seed);
     Settings settings = given_settings;
     settings.seed = 0;
     const SceneBudget& budget = scene.budget;
     std::vector<BudgetEntry> entries;
     if (budget.is_empty()) return entries;
-    ReferenceEffort effort{.stopped = stopped};
+    ReferenceEffort effort{.progress = progress, .stopped = stopped};
     if (budget.position_error) effort.wanted = *budget.position_error / 200;
     const Reference reference = make_reference(scene, effort);
     if (stopped()) return entries;

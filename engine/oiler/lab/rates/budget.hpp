@@ -13,7 +13,8 @@ namespace oiler::lab {
 /// floor: 100 × the reference's own error.
 [[nodiscard]] std::vector<BudgetEntry> check_budget(
     const Scene& scene, const Settings& settings,
-    const std::function<bool()>& stopped = [] { return false; });
+    const std::function<bool()>& stopped = [] { return false; },
+    const std::function<void(double)>& progress = [](double) {});
 
 /// Whether the run of a scene leaves 10 × the extent of the true motion, or is not finite. Returns
 /// false for a stopped run, and for a scene whose true motion takes too much work to find.

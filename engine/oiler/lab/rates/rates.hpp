@@ -35,9 +35,11 @@ struct Rates {
 };
 
 /// Runs the scene in its own precision with each method at each rate. Measures the drawn motion:
-/// straight lines between steps. With gravity: apex, its time, time and place of landing. For an
-/// oscillating body: period, amplitude at the end, time to settle to 5 %. Quantities that the exact
-/// motion does not have are left out.
+/// straight lines between steps. With gravity: apex, its time, time and place of landing. With a
+/// floor: first impact, heights of bounces, the time at which these stay low. For an oscillating
+/// body: period, amplitude at the end; without one period, the mean period and half of the range.
+/// For one that comes to rest: time to settle to 5 % of its largest distance from there, overshoot.
+/// Quantities that the exact motion does not have are left out.
 [[nodiscard]] Rates measure_rates(const Scene& scene, const Reference& reference, std::size_t row,
                                   const std::vector<std::int64_t>& rates,
                                   const std::vector<const Method*>& methods,

@@ -165,6 +165,18 @@ Ball ExactMotion::enclosure(const State3& state) const {
                                      length(state.v) / static_cast<double>(std::sqrt(motion->k)))};
 }
 
+std::vector<Kink> ExactMotion::kinks() const {
+    std::vector<Kink> kinks;
+    const auto* const landing = std::get_if<LandingMotion>(&motion_);
+    if (!landing) return kinks;
+    const std::span<const LandingMotion::Piece> pieces = landing->pieces();
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+        kinks.push_back({pieces[i].from,
+                         pieces[i - 1].motion.at(pieces[i].from - pieces[i - 1].from),
+                         pieces[i].motion.start});
+    return kinks;
+}
+
 std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies, double until) {
     if (bodies.link_count() > 0) return std::nullopt;
     std::vector<ExactMotion> motions;

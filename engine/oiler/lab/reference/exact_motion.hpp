@@ -53,6 +53,8 @@ public:
     [[nodiscard]] double steady_cubic_error() const;
     /// See Motion::enclosure.
     [[nodiscard]] Ball enclosure(const State3& state) const;
+    /// See Motion::kinks; none of a given motion.
+    [[nodiscard]] std::vector<Kink> kinks() const;
 
 private:
     std::variant<LinearMotion, OrbitMotion, LandingMotion, GivenMotion> motion_;
@@ -85,6 +87,9 @@ public:
     }
     [[nodiscard]] Ball enclosure(std::size_t row, const State3& state) const override {
         return motions_[row].enclosure(state);
+    }
+    [[nodiscard]] std::vector<Kink> kinks(std::size_t row) const override {
+        return motions_[row].kinks();
     }
 
 private:

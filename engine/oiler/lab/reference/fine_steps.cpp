@@ -175,6 +175,7 @@ public:
         return uncertainties;
     }
     [[nodiscard]] const Method& method() const { return method_; }
+    [[nodiscard]] bool has_too_many_impacts() const { return has_too_many_impacts_; }
     /// Whether any run had order 1.
     [[nodiscard]] bool linked_bodies_land() const { return linked_bodies_land_; }
 
@@ -189,8 +190,13 @@ private:
         Trajectory trajectory{.bodies = follower.bodies().size()};
         trajectory.states.reserve(trajectory.bodies * static_cast<std::size_t>(samples_.count));
         for (std::int64_t sample = 0; sample < samples_.count; ++sample) {
-            if (effort_.stopped() || !follower.go_to(sample)) return std::nullopt;
-            add_kinks(trajectory, follower.bodies(), {rate});
+            const bool goes_on = !effort_.stopped() && follower.go_to(sample);
+            if (goes_on) add_kinks(trajectory, follower.bodies(), {rate});
+            has_too_many_impacts_ = follower.has_too_many_impacts() ||
+                                    std::ranges::any_of(trajectory.kinks, [](const auto& kinks) {
+                                        return kinks.size() > most_impacts;
+                                    });
+            if (!goes_on || has_too_many_impacts_) return std::nullopt;
             for (std::size_t row = 0; row < trajectory.bodies; ++row)
                 trajectory.states.push_back(follower.bodies().state(row));
             if (!std::isfinite(follower.bodies().energy().total())) return std::nullopt;
@@ -210,6 +216,7 @@ private:
     std::size_t runs_ = 0;
     bool comparable_ = false;
     bool linked_bodies_land_ = false;
+    bool has_too_many_impacts_ = false;
 };
 
 std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double most) {
@@ -238,7 +245,9 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
             table.linked_bodies_land() ? effort.most_work / vain_share : effort.most_work;
         if (work > most_work || effort.stopped()) break;
         affordable = true;
-        if (!table.add_run(rate) || !table.has_uncertainties()) continue;
+        const bool has_run = table.add_run(rate);
+        if (table.has_too_many_impacts()) break;
+        if (!has_run || !table.has_uncertainties()) continue;
         effort.progress(work / effort.most_work);
         std::vector<Uncertainty> uncertainties = table.uncertainties();
         const double uncertainty = uncertainties.back().position;
@@ -268,6 +277,7 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
         if (finest.sufficient) break;
     }
     finest.affordable = affordable;
+    finest.has_too_many_impacts = table.has_too_many_impacts();
     return finest;
 }
 
@@ -282,7 +292,7 @@ FineSteps fine_steps(const Scene& scene, const Perturbation& start, const Sample
                      const ReferenceEffort& effort) {
     if (effort.wanted > 0) {
         FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort);
-        if (quick.sufficient || effort.stopped()) return quick;
+        if (quick.sufficient || quick.has_too_many_impacts || effort.stopped()) return quick;
     }
     return fine_steps_in(Precision::extended, scene, start, samples, effort);
 }

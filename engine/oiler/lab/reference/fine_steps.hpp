@@ -9,6 +9,9 @@ namespace oiler::lab {
 /// A reference is usable while it resolves errors of this fraction of its extent.
 inline constexpr double resolution = 1e-3;
 
+/// More impacts of a body are not followed.
+inline constexpr std::size_t most_impacts = 20'000;
+
 /// A run in steps so fine that their own error is known. Uncertainties of energies are in J. Empty
 /// if no run was finite or too few were affordable.
 struct FineSteps {
@@ -21,6 +24,7 @@ struct FineSteps {
     bool affordable = false;  ///< whether the coarsest run was within the work limit
     /// With order 1, so that the error falls slowly.
     bool linked_bodies_land = false;
+    bool has_too_many_impacts = false;
 };
 
 /// Halves the step until the Romberg extrapolation changes by no more than the wanted error. Stops

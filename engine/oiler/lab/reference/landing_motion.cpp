@@ -9,7 +9,7 @@ namespace oiler::lab {
 namespace {
 
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-constexpr std::size_t most_pieces = 20'000;
+constexpr std::size_t most_pieces = 20'000;  // see most_impacts
 /// More short flights in a row than this do not end, as in a corner.
 constexpr int most_short_flights = 64;
 /// Bounces with shorter flights, s, are at an end: they are less than 10⁻¹⁸ m high.

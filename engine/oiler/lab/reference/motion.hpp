@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "oiler/physics/state.hpp"
 
@@ -26,6 +27,13 @@ using State3 = State<Real, 3>;
 struct Ball {
     Real3 centre{};                                           ///< m
     double radius = std::numeric_limits<double>::infinity();  ///< m
+};
+
+/// A sudden change of a body's velocity, by an impact.
+struct Kink {
+    Real time;  ///< s
+    State3 before;
+    State3 after;
 };
 
 /// The true motion of a scene's bodies at any time from 0 s to the end.
@@ -57,6 +65,8 @@ public:
     }
     /// A ball around the body from a time on at which it has this state.
     [[nodiscard]] virtual Ball enclosure(std::size_t, const State3&) const { return {}; }
+    /// The impacts of a body, in the order of time.
+    [[nodiscard]] virtual std::vector<Kink> kinks(std::size_t) const { return {}; }
 };
 
 }  // namespace oiler::lab

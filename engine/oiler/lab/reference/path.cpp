@@ -11,12 +11,11 @@ namespace oiler::lab {
 namespace {
 
 constexpr double fewest_samples_in_period = 8;
-/// Largest ratio of the longest to the shortest cycle for which a phase is meaningful.
-constexpr double most_uneven_phase = 1.5;
 
 /// The oscillation along a path: at least two cycles, upwards and downwards together. The caller
 /// fills in row and axis.
-std::optional<PeriodicCoordinate> oscillation_of(const Path& path, double per_second) {
+std::optional<PeriodicCoordinate> oscillation_of(const Path& path, double per_second,
+                                                 double most_uneven) {
     PeriodicCoordinate oscillation;
     for (const double x : path.x) oscillation.level += x / static_cast<double>(path.size());
     const auto [low, high] = std::minmax_element(path.x.begin(), path.x.end());
@@ -27,7 +26,7 @@ std::optional<PeriodicCoordinate> oscillation_of(const Path& path, double per_se
         upward_crossings(turned(path), -oscillation.level, oscillation.band);
     if (up.size() < 2 || up.size() + down.size() < 4) return std::nullopt;
     oscillation.period = (up.back() - up.front()) / static_cast<double>(up.size() - 1);
-    if (std::max(unevenness(up), unevenness(down)) > most_uneven_phase ||
+    if (std::max(unevenness(up), unevenness(down)) > most_uneven ||
         oscillation.period * per_second < fewest_samples_in_period)
         return std::nullopt;
     return oscillation;
@@ -155,14 +154,16 @@ Path path_of(const Reference& reference, std::size_t row, int axis, std::int64_t
 }
 
 std::optional<PeriodicCoordinate> find_oscillation(const Reference& reference,
-                                                   std::optional<std::size_t> only) {
+                                                   std::optional<std::size_t> only,
+                                                   double most_uneven) {
     constexpr std::size_t most_tried = 3;
     std::vector<AxisRange> ranges = ranges_of(reference, only);
     ranges.resize(std::min(ranges.size(), most_tried));
     for (const auto& [row, axis, size] : ranges) {
         if (size < ranges.front().size / 10) break;
-        std::optional<PeriodicCoordinate> oscillation = oscillation_of(
-            path_of(reference, row, axis), static_cast<double>(reference.samples.per_second));
+        std::optional<PeriodicCoordinate> oscillation =
+            oscillation_of(path_of(reference, row, axis),
+                           static_cast<double>(reference.samples.per_second), most_uneven);
         if (!oscillation) continue;
         oscillation->row = row;
         oscillation->axis = axis;

@@ -50,13 +50,18 @@ struct Peak {
 [[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis,
                            std::int64_t times = 1);
 
+/// Largest ratio of the longest to the shortest cycle for which a phase is meaningful.
+inline constexpr double most_uneven_phase = 1.5;
+
 /// Dead band: the fraction of a coordinate's range that counts as rest.
 inline constexpr double dead_band = 1e-6;
 
 /// The oscillation with the largest range over the meaningful time, of row `only` or of all rows.
 /// The three widest coordinates are tried, down to a tenth of the widest range. Returns none if
-/// none oscillates with at least 8 samples per period.
+/// none oscillates with at least 8 samples per period and cycles that differ by up to
+/// `most_uneven`.
 [[nodiscard]] std::optional<PeriodicCoordinate> find_oscillation(
-    const Reference& reference, std::optional<std::size_t> only = std::nullopt);
+    const Reference& reference, std::optional<std::size_t> only = std::nullopt,
+    double most_uneven = most_uneven_phase);
 
 }  // namespace oiler::lab

@@ -276,6 +276,12 @@ private:
 
     void require_finite(const FineSteps& fine) const {
         if (effort_.stopped() || !fine.trajectory.states.empty()) return;
+        if (fine.has_too_many_impacts)
+            fail(
+                Exit::usage,
+                "a body meets planes more than {} times, which is too much work: shorten the scene "
+                "with --duration",
+                most_impacts);
         if (!fine.affordable)
             fail(Exit::usage,
                  "a reference for {} s takes too much work: shorten it with --duration",

@@ -11,13 +11,6 @@
 
 namespace oiler::lab {
 
-/// A sudden change of a body's velocity, by an impact.
-struct Kink {
-    Real time;  ///< s
-    State3 before;
-    State3 after;
-};
-
 /// Positions and velocities of all bodies at every sample.
 struct Trajectory {
     std::size_t bodies = 0;
@@ -50,6 +43,9 @@ public:
     /// kinks.
     [[nodiscard]] double cubic_error(std::size_t row, const State3&, const State3&, Real from,
                                      Real to) const override;
+    [[nodiscard]] std::vector<Kink> kinks(std::size_t row) const override {
+        return trajectory_.kinks.empty() ? std::vector<Kink>{} : trajectory_.kinks[row];
+    }
     [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
 
 private:

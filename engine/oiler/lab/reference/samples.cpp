@@ -78,20 +78,11 @@ Follower::Follower(const Scene& scene, const Settings& settings, const Perturbat
 
 bool Follower::go_to(std::int64_t sample) {
     const std::int64_t steps = sample * steps_per_sample_ - world_.tick();
-    return steps == 0 || !world_.try_step(steps);
+    if (steps > 0) divergence_ = world_.try_step(steps);
+    return !divergence_;
 }
 
-RunWork::RunWork(const Scene& scene) {
-    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
-    const auto size = static_cast<double>(bodies.size());
-    const auto links = static_cast<double>(bodies.link_count());
-    per_evaluation_ = size + links;
-    // A few iterations; each factorises the matrix of a net.
-    to_solve_ = 4 * (links > 0 ? std::sqrt(size * scene.axes) : 1);
-}
-
-double RunWork::per_step(const Method& method) const {
-    return per_evaluation_ * (method.evaluations > 0 ? method.evaluations : to_solve_);
-}
+RunWork::RunWork(const Scene& scene)
+    : StepWork(make_world(scene, Settings{scene.stepping}).bodies()) {}
 
 }  // namespace oiler::lab

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "oiler/scene/make_world.hpp"
+#include "oiler/sim/step_work.hpp"
 
 namespace oiler::lab {
 
@@ -61,22 +63,22 @@ public:
 
     /// Steps to a sample. Samples must be visited in order. Returns false if the run has diverged.
     [[nodiscard]] bool go_to(std::int64_t sample);
+    /// Whether it has diverged by more impacts in a step than can be followed.
+    [[nodiscard]] bool has_too_many_impacts() const {
+        return divergence_ && divergence_->of == Divergence::Of::impacts;
+    }
     [[nodiscard]] const Bodies& bodies() const { return world_.bodies(); }
 
 private:
     World world_;
     std::int64_t steps_per_sample_;
+    std::optional<Divergence> divergence_;
 };
 
-/// Estimates the work of a step: force evaluations, each on one body or link.
-class RunWork {
+/// The work of a step of the scene.
+class RunWork : public StepWork {
 public:
     explicit RunWork(const Scene& scene);
-    [[nodiscard]] double per_step(const Method& method) const;
-
-private:
-    double per_evaluation_;
-    double to_solve_;  ///< evaluations per implicit step
 };
 
 }  // namespace oiler::lab
