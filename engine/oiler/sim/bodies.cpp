@@ -54,20 +54,21 @@ Kinds kinds_of_row(const Columns<T, Axes>& columns, std::size_t row) {
     return static_cast<Kinds>(kinds & ~kinds_everywhere);
 }
 
-/// Calls f(kind, numbers, whether the force is given) for every kind of force. The numbers are per
+/// Calls f(kind, whether the force is given, numbers) for every kind of force. numbers() are per
 /// unit mass and in the order of the columns; zeros if no force is given.
 template <class T, int Axes, class F>
 void for_each_kind(const GivenForces& forces, double mass, F f) {
     for_each_index<force_count>([&](auto kind) {
         using Force = std::tuple_element_t<kind, ForceList<T, Axes>>;
-        std::array<T, number_count<Force>()> numbers{};
         const auto& given = std::get<kind>(forces);
-        if (given) {
+        f(std::size_t{kind}, given.has_value(), [&] {
+            std::array<T, number_count<Force>()> numbers{};
+            if (!given) return numbers;
             auto force = converted_force<Force>(given->per_unit_mass(mass));
             std::size_t next = 0;
             for_each_number(force, [&](T number) { numbers[next++] = number; });
-        }
-        f(std::size_t{kind}, std::span<const T>(numbers), given.has_value());
+            return numbers;
+        });
     });
 }
 
@@ -180,9 +181,12 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
     return columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         const std::size_t row = columns.size;
         for_each_kind<T, Axes>(
-            forces, body.mass, [&](std::size_t kind, std::span<const T> numbers, bool is_given) {
-                if (is_given) make_room(columns.forces[kind], 1, numbers.size(), row);
-                push_row(columns.forces[kind], numbers, kinds_everywhere >> kind & 1U);
+            forces, body.mass, [&](std::size_t kind, bool is_given, auto numbers_of_force) {
+                std::vector<ForceColumns<T>>& stored = columns.forces[kind];
+                if (!is_given && stored.empty()) return;
+                const auto numbers = numbers_of_force();
+                if (is_given) make_room(stored, 1, numbers.size(), row);
+                push_row<T>(stored, numbers, kinds_everywhere >> kind & 1U);
             });
         push(columns.motion.x, body.position);
         push(columns.motion.v, body.velocity);
@@ -200,8 +204,9 @@ void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& fo
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         for_each_kind<T, Axes>(
             forces, columns.mass[row],
-            [&](std::size_t kind, std::span<const T> numbers, bool is_given) {
+            [&](std::size_t kind, bool is_given, auto numbers_of_force) {
                 if (!is_given) return;
+                const auto numbers = numbers_of_force();
                 make_room(columns.forces[kind], index + 1, numbers.size(), columns.size);
                 for (std::size_t i = 0; i < numbers.size(); ++i)
                     columns.forces[kind][index][i].set(row, numbers[i]);

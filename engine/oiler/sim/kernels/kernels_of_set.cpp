@@ -110,7 +110,7 @@ template <bool OneStep, class Parts, class Fixed, class Rule, class T>
         auto physics = physics_of<V>(rows, row, Parts{}, damping_of_rule(fixed));
         State<V, 1> state{{V::load(rows.x + row)}, {V::load(rows.v + row)}};
         if constexpr (OneStep)
-            take_one_step(fixed, state, physics, steps);
+            advance(fixed, state, physics, steps.rate.time(steps.first));
         else
             take_steps(fixed, state, physics, steps);
         if (may_be_infinite(state)) return row;

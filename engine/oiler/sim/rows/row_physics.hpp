@@ -308,16 +308,6 @@ template <Number V, std::floating_point T, int Axes>
 /// do not depend on the number of steps per call.
 [[nodiscard]] constexpr bool is_sleep_tick(std::int64_t tick) { return tick % sleep_interval == 0; }
 
-/// One step and the sleep after it. Returns false if an implicit method found no solution.
-template <class Rule, class V, int Axes, class Physics>
-[[gnu::always_inline]] inline bool take_one_step(const Rule& rule, State<V, Axes>& state,
-                                                 Physics& physics, const Steps& steps) {
-    if (!advance(rule, state, physics, steps.rate.time(steps.first))) return false;
-    if (is_sleep_tick(steps.first + 1))
-        physics.put_to_sleep(state, steps.rate.time(steps.first + 1));
-    return true;
-}
-
 /// All steps of a row or a batch. Returns false if an implicit method found no solution.
 template <class Rule, class V, int Axes, class Physics>
 [[gnu::always_inline]] inline bool take_steps(const Rule& rule, State<V, Axes>& state,

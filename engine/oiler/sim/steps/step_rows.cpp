@@ -48,12 +48,13 @@ public:
 
     /// Steps rows under linear forces alone axis by axis, because their axes are independent.
     void step_along_axes(std::size_t begin, std::size_t end, Kinds kinds) {
+        const bool one_step = steps_.count == 1 && !is_sleep_tick(steps_.first + 1);
         for (std::size_t row = begin; row < end; row += rows_per_axis)
             for (std::size_t axis = 0; axis < Axes; ++axis) {
                 const AxisRows<T>& rows = columns_.views.axis[axis];
                 const LinearParts parts = rows.forces.parts(kinds);
                 in_batches(
-                    columns_.plan_cache.kernels.along_axis(parts, steps_.count == 1), row,
+                    columns_.plan_cache.kernels.along_axis(parts, one_step), row,
                     std::min(row + rows_per_axis, end),
                     [&](auto kernel, std::size_t from, std::size_t to) {
                         return kernel(rows, plan_, steps_, from, to);

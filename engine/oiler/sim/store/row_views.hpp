@@ -143,7 +143,8 @@ using StepAllAxes = std::size_t (*)(Columns<T, Axes>&, Kinds, const Steps&, std:
 /// The functions for one kind of plan; null where rows are stepped one at a time.
 template <std::floating_point T, int Axes>
 struct RowKernels {
-    /// A function for each combination of parts that act, for many steps per call, then for one.
+    /// A function for each combination of parts that act, for calls of any steps, then for one step
+    /// after which no body is put to sleep.
     const std::array<StepAxis<T>, 16>* axis = nullptr;
     StepAllAxes<T, Axes> all_axes = nullptr;
 
