@@ -19,7 +19,7 @@ constexpr std::int64_t most_groups = 32;
 constexpr std::int64_t frames_of_group = 16;
 /// The largest number of steps in a call. More cost no less per step.
 constexpr std::int64_t most_steps = 256;
-/// Runs of a scene are repeated for this time, s.
+/// Whole runs of a scene are repeated for this time, s.
 constexpr double least_repeating = 1e-3;
 /// A setting is timed three times, if that takes no longer than four times this time, s; more often
 /// until this time.
@@ -189,7 +189,10 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice,
         1, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
     if (start.body_count() == 0) return unknown;
     std::vector<double> runs;
-    for (double seconds = 0; seconds < least_repeating; seconds += runs.back()) {
+    const auto is_enough = [&](double seconds) {
+        return runs.size() < fewest_rounds ? seconds > patience : seconds >= least_repeating;
+    };
+    for (double seconds = 0; !is_enough(seconds); seconds += runs.back()) {
         World world = start;
         const Clock::time_point begin = Clock::now();
         if (!step_to(world, last, stopped)) return unknown;
