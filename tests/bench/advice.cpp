@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <string_view>
@@ -384,24 +385,47 @@ struct WholeRun {
     double together = 0;  ///< at many steps per call
 };
 
+/// The time that the processor takes for a piece of work, s, so that other programs do not matter.
+template <class Work>
+double cpu_seconds(Work work) {
+    constexpr double least = 0.02;
+    const auto seconds = [](std::clock_t ticks) {
+        return static_cast<double>(ticks) / static_cast<double>(CLOCKS_PER_SEC);
+    };
+    const std::clock_t begin = std::clock();
+    int times = 0;
+    do {
+        work();
+        ++times;
+    } while (seconds(std::clock() - begin) < least);
+    return seconds(std::clock() - begin) / times;
+}
+
 /// The cost of all steps of a scene. Between frames, the fastest cache loses its content.
 WholeRun run_whole(const Scene& scene) {
     const std::int64_t rate = scene.stepping.rate.steps;
     const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(rate));
     const std::int64_t per_frame = std::max<std::int64_t>(1, rate / 60);
     std::vector<unsigned char> memory(64 * 1024);
-    double seconds = 0;
     const World start = make_world(scene, Settings{scene.stepping});
-    for (World world = start; world.tick() < steps;) {
-        for (unsigned char& byte : memory) byte = static_cast<unsigned char>(byte + 1);
-        const auto begin = std::chrono::steady_clock::now();
-        for (std::int64_t i = 0; i < per_frame; ++i) world.step();
-        seconds += seconds_since(begin);
-    }
-    World world = start;
-    const auto begin = std::chrono::steady_clock::now();
-    world.step(steps);
-    return {1e9 * seconds / scene.duration, 1e9 * seconds_since(begin) / scene.duration};
+    const auto play = [&](bool takes_steps) {
+        World world = start;
+        for (std::int64_t tick = 0; tick < steps; tick += per_frame) {
+            for (std::size_t i = 0; i < memory.size(); i += 64)
+                memory[i] = static_cast<unsigned char>(memory[i] + 1);
+            asm volatile("" : : "g"(memory.data()) : "memory");
+            if (!takes_steps) continue;
+            for (std::int64_t i = 0; i < per_frame; ++i) world.step();
+        }
+    };
+    const double played = cpu_seconds([&] { play(true); }) - cpu_seconds([&] { play(false); });
+    const auto call = [&](std::int64_t count) {
+        World world = start;
+        world.step(count);
+    };
+    // A copy takes as long as some steps.
+    const double together = cpu_seconds([&] { call(steps); }) - cpu_seconds([&] { call(1); });
+    return {1e9 * played / scene.duration, 1e9 * together / scene.duration};
 }
 
 /// Whether the told costs of a scene's own setting are those of the whole run.
@@ -414,7 +438,7 @@ bool compare_costs(const std::string& name, const Scene& scene) {
     const double together = row.ns_together / whole.together;
     const bool right = std::max({played, 1 / played, together, 1 / together}) <= most;
     fmt::print(
-        "{:<26} {:<32} played {:>9.3g} µs/s, told × {:<6.2f} in calls {:>9.3g}, told × {:<6.2f} "
+        "{:<26} {:<42} played {:>9.3g} µs/s, told × {:<6.2f} in calls {:>9.3g}, told × {:<6.2f} "
         "{}\n",
         name, describe(scene.stepping), whole.played / 1e3, played, whole.together / 1e3, together,
         right ? "" : "WRONG");

@@ -433,7 +433,7 @@ TEST(ReferenceByFineSteps, SaysThatLinkedBodiesLandWithOrderOne) {
 }
 
 /// The exact motion of the pair with a restitution of 0.8: the middle falls, and the distance
-/// oscillates at 20 rad/s. The lower body lands at roots that are bisected: twice in 1 s.
+/// oscillates at 20 rad/s. The lower body lands at roots that are bisected: twice in 0.6 s.
 class LandingPair {
 public:
     /// Must be called with increasing times. The positions of both bodies, m.
@@ -489,12 +489,12 @@ private:
 
 // A reference is usable up to 100 × its own error.
 TEST(ReferenceByFineSteps, OfLinkedBodiesThatLandIsRightForAShortTime) {
-    const Reference reference = make_reference(landing_pair(1, 0.8), {.wanted = 1e-5});
-    EXPECT_EQ(reference.meaningful_until, 1);
+    const Reference reference = make_reference(landing_pair(0.6, 0.8), {.wanted = 1e-5});
+    EXPECT_EQ(reference.meaningful_until, 0.6);
     EXPECT_LE(reference.floor().position, 2e-3);
     LandingPair truth;
     double most = 0;
-    for (Real t = 0.0007L; t < 1; t += 0.0053L) {
+    for (Real t = 0.0007L; t < 0.6L; t += 0.0053L) {
         const std::array<Real, 2> exact = truth.at(t);
         for (std::size_t row = 0; row < 2; ++row)
             most = std::max(most, std::abs(static_cast<double>(reference.motion->at(row, t).x[0] -

@@ -198,7 +198,7 @@ double ns_per_step_together(const Scene& scene, const Stepping& choice,
         if (!step_to(world, last, stopped)) return unknown;
         runs.push_back(seconds_since(begin));
     }
-    return 1e9 * median_of(std::move(runs)).value / static_cast<double>(last);
+    return 1e9 * *std::ranges::min_element(runs) / static_cast<double>(last);
 } catch (const Error&) {
     return unknown;
 }
