@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <functional>
 #include <string_view>
 #include <utility>
@@ -14,11 +16,14 @@
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/scene/read.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "support/dice.hpp"
 
 // Checks advice. For each scene and tolerance, the advice is run again and compared with a motion
 // that is computed without the engine. Its cost and search time are compared with a full sweep.
-// --full takes more scenes, --cloth a net without a sweep, --cloth-sweep 1 s of it. Exits with 1 if
-// an advice misses its tolerance.
+// --full takes more scenes, --cloth a net without a sweep, --cloth-sweep 1 s of it. --costs
+// compares the costs that are told with whole runs, of the scenes of the repository and of random
+// ones. Exits with 1 if an advice misses its tolerance, or if a cost is wrong by more than a factor
+// of 1.5.
 
 using namespace oiler;
 using namespace oiler::lab;
@@ -357,10 +362,110 @@ bool run(const Case& one, const std::vector<double>& tolerances, bool sweeps) {
     return all_meet;
 }
 
+/// Balls that fall, bounce, slide and come to rest between a floor and a wall.
+Scene random_balls(std::uint64_t seed) {
+    test::Dice dice(seed);
+    constexpr const char* names[]{"velocity_verlet", "semi_implicit_euler", "rk4", "exact"};
+    return parse_scene(
+        fmt::format(
+            "[scene]\naxes = 2\nrate = {}\nmethod = \"{}\"\nduration = {:.3g}\n[gravity]\n"
+            "acceleration = [0.0, -9.81]\n[[plane]]\nnormal = [0.0, 1.0]\nrestitution = {:.2g}\n"
+            "friction = {:.2g}\n[[plane]]\nnormal = [1.0, 0.0]\noffset = -6.0\nrestitution = 0.5\n"
+            "[[scatter]]\ncount = {}\nseed = {}\nposition_from = [-3.0, 1.0]\n"
+            "position_to = [3.0, 4.0]\nvelocity_from = [-2.0, -2.0]\nvelocity_to = [2.0, 2.0]\n"
+            "linear_drag = {:.2g}\ncontact = 0.1\n",
+            dice.whole(30, 300), names[dice.whole(0, 3)], dice.uniform(2, 12), dice.uniform(0, 1),
+            dice.chance(0.5) ? 0.0 : dice.uniform(0, 1), static_cast<int>(dice.log_uniform(1, 500)),
+            seed, dice.chance(0.5) ? 0.0 : dice.log_uniform(0.01, 1)),
+        "balls");
+}
+
+struct WholeRun {
+    double played = 0;    ///< ns per simulated second, one step per call
+    double together = 0;  ///< at many steps per call
+};
+
+/// The time that the processor takes for a piece of work, s, so that other programs do not matter.
+template <class Work>
+double cpu_seconds(Work work) {
+    constexpr double least = 0.02;
+    const auto seconds = [](std::clock_t ticks) {
+        return static_cast<double>(ticks) / static_cast<double>(CLOCKS_PER_SEC);
+    };
+    const std::clock_t begin = std::clock();
+    int times = 0;
+    do {
+        work();
+        ++times;
+    } while (seconds(std::clock() - begin) < least);
+    return seconds(std::clock() - begin) / times;
+}
+
+/// The cost of all steps of a scene. Between frames, the fastest cache loses its content.
+WholeRun run_whole(const Scene& scene) {
+    const std::int64_t rate = scene.stepping.rate.steps;
+    const auto steps = static_cast<std::int64_t>(scene.duration * static_cast<double>(rate));
+    const std::int64_t per_frame = std::max<std::int64_t>(1, rate / 60);
+    std::vector<unsigned char> memory(64 * 1024);
+    const World start = make_world(scene, Settings{scene.stepping});
+    const auto play = [&](bool takes_steps) {
+        World world = start;
+        for (std::int64_t tick = 0; tick < steps; tick += per_frame) {
+            for (std::size_t i = 0; i < memory.size(); i += 64)
+                memory[i] = static_cast<unsigned char>(memory[i] + 1);
+            asm volatile("" : : "g"(memory.data()) : "memory");
+            if (!takes_steps) continue;
+            for (std::int64_t i = 0; i < per_frame; ++i) world.step();
+        }
+    };
+    const double played = cpu_seconds([&] { play(true); }) - cpu_seconds([&] { play(false); });
+    const auto call = [&](std::int64_t count) {
+        World world = start;
+        world.step(count);
+    };
+    // A copy takes as long as some steps.
+    const double together = cpu_seconds([&] { call(steps); }) - cpu_seconds([&] { call(1); });
+    return {1e9 * played / scene.duration, 1e9 * together / scene.duration};
+}
+
+/// Whether the told costs of a scene's own setting are those of the whole run.
+bool compare_costs(const std::string& name, const Scene& scene) {
+    constexpr double most = 1.5;
+    TradeoffRow row{.stepping = scene.stepping};
+    time_rows(scene, {&row}, 5, {});
+    const WholeRun whole = run_whole(scene);
+    const double played = row.ns_per_second / whole.played;
+    const double together = row.ns_together / whole.together;
+    const bool right = std::max({played, 1 / played, together, 1 / together}) <= most;
+    fmt::print(
+        "{:<26} {:<42} played {:>9.3g} µs/s, told × {:<6.2f} in calls {:>9.3g}, told × {:<6.2f} "
+        "{}\n",
+        name, describe(scene.stepping), whole.played / 1e3, played, whole.together / 1e3, together,
+        right ? "" : "WRONG");
+    std::fflush(stdout);
+    return right;
+}
+
+bool compare_all_costs() {
+    constexpr std::int64_t most_bodies = 100'000;
+    bool right = true;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(fmt::format("{}/assets/scenes", OILER_SOURCE))) {
+        if (entry.path().extension() != ".toml") continue;
+        const Scene scene = read_scene(entry.path().string());
+        if (scene.body_count() > most_bodies) continue;
+        right = compare_costs(entry.path().stem().string(), scene) && right;
+    }
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+        right = compare_costs(fmt::format("balls {}", seed), random_balls(seed)) && right;
+    return right;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
     const std::string_view mode = argc > 1 ? argv[1] : "";
+    if (mode == "--costs") return compare_all_costs() ? 0 : 1;
     const bool cloth = mode == "--cloth" || mode == "--cloth-sweep";
     std::vector<Case> chosen;
     if (cloth) {

@@ -60,11 +60,15 @@ inline const MeasuredScene& spring() {
 /// A clock by which a step takes the given time, ns, however many steps a frame or a call has.
 inline lab::SweepWatch made_up_clock(std::function<double(const Stepping&)> ns_per_step) {
     lab::SweepWatch watch;
-    watch.ns_per_step = [ns_per_step](const Scene&, const Settings& settings, std::int64_t) {
-        return ns_per_step(settings.stepping);
+    watch.ns_of_frames = [ns_per_step](const Scene&, const Settings& settings, const auto&) {
+        const auto rate = static_cast<double>(settings.stepping.rate.steps);
+        return std::vector{ns_per_step(settings.stepping) * rate / std::min(rate, 60.0)};
     };
-    watch.ns_per_step_together = [ns = std::move(ns_per_step)](
-                                     const Scene&, const Stepping& choice) { return ns(choice); };
+    watch.ns_per_step = [ns_per_step](const auto&, const Stepping& choice, std::int64_t) {
+        return ns_per_step(choice);
+    };
+    watch.ns_per_step_together = [ns = std::move(ns_per_step)](const Scene&, const Stepping& choice,
+                                                               const auto&) { return ns(choice); };
     return watch;
 }
 

@@ -72,9 +72,16 @@ Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 }  // namespace
 
 bool System::is_linear() const {
-    return attractors.empty() &&
+    return attractors.empty() && !has_contacts() &&
            std::ranges::all_of(springs, [](const auto& one) { return one.rest_length == 0; }) &&
-           std::ranges::all_of(bodies, [](const auto& one) { return one.quadratic_drag == 0; });
+           std::ranges::all_of(bodies, [](const auto& one) {
+               return one.quadratic_drag == 0 && one.winds.empty() && one.drives.empty();
+           });
+}
+
+bool System::has_contacts() const {
+    return !floors.empty() &&
+           std::ranges::any_of(bodies, [](const auto& one) { return one.contact.has_value(); });
 }
 
 Real System::shortest_spring_period() const {

@@ -253,6 +253,112 @@ void at_rest(Dice& dice, Draft& draft) {
     if (!falls) draft.body(1, random_point(dice, 10), {0});
 }
 
+double restitution_of(Dice& dice) {
+    const int choice = dice.whole(0, 3);
+    return choice == 0 ? 0 : choice == 1 ? 1 : rounded(dice.uniform(0.2, 0.95));
+}
+
+double friction_of(Dice& dice) { return dice.chance(0.4) ? 0 : rounded(dice.uniform(0.02, 1)); }
+
+/// A body over a floor, with `contact` m.
+std::string add_ball(Dice& dice, Draft& draft, double height, const std::string& more = "") {
+    return draft.body(mass_of(dice), {rounded(dice.uniform(-1, 1)), height},
+                      {rounded(dice.uniform(-5, 5)), rounded(dice.uniform(-3, 3))},
+                      more + "contact = 0.125\n");
+}
+
+std::string some_drag(Dice& dice) {
+    const int choice = dice.whole(0, 2);
+    if (choice == 0) return "";
+    return drags(choice == 1 ? dice.log_uniform(0.01, 1) : 0,
+                 choice == 2 ? dice.log_uniform(0.01, 0.3) : 0);
+}
+
+/// Balls that bounce on a floor, which may be a slope, until they slide or rest.
+void balls(Dice& dice, Draft& draft) {
+    draft.axes = 2;
+    draft.gravity(9.81);
+    draft.plane({dice.chance(0.5) ? 0 : rounded(dice.uniform(-0.4, 0.4)), 1}, -1,
+                restitution_of(dice), friction_of(dice));
+    for (int i = dice.whole(1, 3); i > 0; --i)
+        add_ball(dice, draft, rounded(dice.uniform(0.1, 3)), some_drag(dice));
+    draft.longest = 4;
+}
+
+/// A body that slides from its start on, with friction and drag.
+void slide(Dice& dice, Draft& draft) {
+    draft.axes = 2;
+    draft.gravity(9.81);
+    draft.plane({0, 1}, 0, restitution_of(dice), friction_of(dice));
+    const std::string body =
+        draft.body(mass_of(dice), {0, 0.125}, {rounded(dice.uniform(1, 20)), 0},
+                   some_drag(dice) + "contact = 0.125\n");
+    if (dice.chance(0.3)) draft.spring(body, {0, 0.125}, rounded(dice.log_uniform(0.1, 10)), 0);
+    draft.longest = 5;
+}
+
+void wind(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(2, 3);
+    if (dice.chance(0.7)) draft.gravity(9.81);
+    for (int i = dice.whole(1, 3); i > 0; --i) {
+        const double omega = dice.log_uniform(0.5, 50);
+        const double mass = mass_of(dice);
+        const std::string body = draft.body(mass, random_point(dice, 3), random_point(dice, 10));
+        draft.wind(body, random_point(dice, 15), rounded(mass * dice.log_uniform(1e-3, 0.3)));
+        if (dice.chance(0.6)) draft.spring(body, {0}, rounded(mass * omega * omega), 0);
+        draft.limit(omega / turn, 200);
+    }
+    draft.longest = std::min(draft.longest, 20.0);
+}
+
+void drive(Dice& dice, Draft& draft) {
+    draft.axes = dice.whole(1, 2);
+    const double omega = dice.log_uniform(0.5, 200);
+    const double mass = mass_of(dice);
+    const double stiffness = rounded(mass * omega * omega);
+    const std::string body = draft.body(mass, random_point(dice, 1), {0});
+    draft.spring(body, {0}, stiffness, damping_of(dice, mass, stiffness));
+    draft.drive(body, random_point(dice, stiffness),
+                rounded(omega / turn * dice.log_uniform(0.1, 3)), rounded(dice.uniform(0, turn)));
+    draft.limit(omega / turn, 200);
+}
+
+/// A driven ball over a floor.
+void driven_ball(Dice& dice, Draft& draft) {
+    draft.axes = 2;
+    draft.gravity(9.81);
+    draft.plane({0, 1}, 0, restitution_of(dice), friction_of(dice));
+    const std::string body = add_ball(dice, draft, rounded(dice.uniform(0.2, 2)));
+    draft.drive(body, {0, rounded(dice.uniform(1, 40))}, rounded(dice.log_uniform(0.3, 5)),
+                rounded(dice.uniform(0, turn)));
+    draft.longest = 2;
+}
+
+/// A small net that falls onto a floor.
+void falling_net(Dice& dice, Draft& draft) {
+    draft.axes = 2;
+    draft.gravity(9.81);
+    draft.plane({0, 1}, 0, rounded(dice.uniform(0.2, 0.9)), dice.chance(0.5) ? 0 : 0.3);
+    const double omega = dice.log_uniform(5, 60);
+    const double damping = dice.chance(0.5) ? 0 : rounded(dice.uniform(0.1, 3));
+    std::vector<std::string> names;
+    for (int i = 0; i < 4; ++i)
+        names.push_back(draft.body(1,
+                                   {0.5 * (i % 2) + rounded(dice.uniform(-0.1, 0.1)),
+                                    1 + 0.5 * (i / 2) + rounded(dice.uniform(-0.1, 0.1))},
+                                   {rounded(dice.uniform(-1, 1)), rounded(dice.uniform(-3, 0))},
+                                   "contact = 0.0625\n"));
+    const auto join = [&](std::size_t a, std::size_t b, double length) {
+        draft.link(names[a], names[b], rounded(omega * omega), damping, length);
+    };
+    join(0, 1, 0.5);
+    join(2, 3, 0.5);
+    join(0, 2, 0.5);
+    join(1, 3, 0.5);
+    join(0, 3, 0.707);
+    draft.longest = 0.8;
+}
+
 constexpr Kind all[]{
     {"spring", single_spring},
     {"slow and fast", slow_and_fast},
@@ -272,6 +378,12 @@ constexpr Kind all[]{
     {"free flight", free_flight},
     {"at rest", at_rest},
     {"many springs", many_springs},
+    {"balls", balls},
+    {"wind", wind},
+    {"drive", drive},
+    {"slide", slide},
+    {"driven ball", driven_ball},
+    {"falling net", falling_net},
 };
 
 constexpr double smallest_tolerance = 1e-6;  ///< of the extent
@@ -356,12 +468,33 @@ void Draft::attractor(const std::vector<double>& position, double gm) {
     text += fmt::format("[[attractor]]\nposition = {}\ngm = {}\n", vector(position), gm);
 }
 
+void Draft::wind(const std::string& body, const std::vector<double>& velocity, double drag) {
+    text += fmt::format("[[wind]]\nbody = \"{}\"\nvelocity = {}\ndrag = {}\n", body,
+                        vector(velocity), drag);
+}
+
+void Draft::drive(const std::string& body, const std::vector<double>& amplitude, double hertz,
+                  double phase) {
+    text += fmt::format("[[drive]]\nbody = \"{}\"\namplitude = {}\nfrequency = {}\nphase = {}\n",
+                        body, vector(amplitude), hertz, phase);
+}
+
+void Draft::plane(const std::vector<double>& normal, double offset, double restitution,
+                  double friction) {
+    text += fmt::format("[[plane]]\nnormal = {}\noffset = {}\nrestitution = {}\nfriction = {}\n",
+                        vector(normal), offset, restitution, friction);
+}
+
 void Draft::limit(double hertz, double periods) { longest = std::min(longest, periods / hertz); }
 
-std::span<const Kind> kinds() { return all; }
+const Kind& kind_of(std::uint64_t seed) {
+    constexpr std::size_t last = 6;  // with wind, a drive or a floor
+    constexpr std::size_t others = std::size(all) - last;
+    return seed % 4 == 3 ? all[others + seed / 4 % last] : all[seed % others];
+}
 
 Trap make_trap(std::uint64_t seed, bool plain) {
-    const Kind& kind = kinds()[seed % kinds().size()];
+    const Kind& kind = kind_of(seed);
     Dice dice(seed);
     Draft draft;
     kind.make(dice, draft);

@@ -36,6 +36,11 @@ struct Draft {
               double rest_length = 0);
     void gravity(double g);
     void attractor(const std::vector<double>& position, double gm);
+    void wind(const std::string& body, const std::vector<double>& velocity, double drag);
+    void drive(const std::string& body, const std::vector<double>& amplitude, double hertz,
+               double phase);
+    void plane(const std::vector<double>& normal, double offset, double restitution,
+               double friction);
     /// Limits the duration to so many periods of the frequency.
     void limit(double hertz, double periods = 2e4);
 };
@@ -46,7 +51,8 @@ struct Kind {
     void (*make)(Dice&, Draft&);
 };
 
-[[nodiscard]] std::span<const Kind> kinds();
+/// The kind of a seed. One in four has wind, a drive or a floor.
+[[nodiscard]] const Kind& kind_of(std::uint64_t seed);
 
 /// One question to `oiler advise`.
 struct Question {

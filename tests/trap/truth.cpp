@@ -14,15 +14,39 @@ namespace {
 
 Point point_of(const Vec3& vector) { return {vector[0], vector[1], vector[2]}; }
 
+void add_force(const SceneForce& force, CoupledBody& body) {
+    std::visit(
+        [&]<class Force>(const Force& one) {
+            if constexpr (requires { one.frequency; })
+                body.drives.push_back(
+                    {point_of(one.amplitude), 2 * std::acos(Real(-1)) * one.frequency, one.phase});
+            else if constexpr (requires { one.velocity; })
+                body.winds.push_back({point_of(one.velocity), one.coefficient});
+        },
+        force.force);
+}
+
+Floor floor_of(const Plane& plane) {
+    Floor floor{point_of(plane.normal), plane.offset, plane.restitution, plane.friction};
+    const Real size = std::hypot(floor.normal[0], floor.normal[1], floor.normal[2]);
+    for (Real& number : floor.normal) number /= size;
+    floor.offset /= size;
+    return floor;
+}
+
 /// All bodies of the scene at their start, in the order of its rows.
 System system_of(const Scene& scene) {
     System system;
     const World world = make_world(scene, Settings{});
     const auto add = [&](const SceneMatter& matter) {
         const std::size_t row = system.bodies.size();
-        system.bodies.push_back({matter.mass, matter.linear_drag, matter.quadratic_drag,
-                                 point_of(world.bodies().position(row)),
-                                 point_of(world.bodies().velocity(row))});
+        CoupledBody& body = system.bodies.emplace_back();
+        body.mass = matter.mass;
+        body.drag = matter.linear_drag;
+        body.quadratic_drag = matter.quadratic_drag;
+        body.x = point_of(world.bodies().position(row));
+        body.v = point_of(world.bodies().velocity(row));
+        if (matter.contact) body.contact = *matter.contact;
     };
     for (const SceneBody& body : scene.bodies) add(body.matter);
     for (const SceneScatter& scatter : scene.scatters)
@@ -32,6 +56,8 @@ System system_of(const Scene& scene) {
             {one.body, one.to, point_of(one.anchor), one.stiffness, one.damping, one.rest_length});
     for (const SceneAttractor& one : scene.attractors)
         system.attractors.push_back({point_of(one.position), one.gm});
+    for (const SceneForce& one : scene.forces) add_force(one, system.bodies[one.body]);
+    for (const ScenePlane& one : scene.planes) system.floors.push_back(floor_of(one.plane));
     if (scene.gravity) system.gravity = point_of(*scene.gravity);
     return system;
 }
@@ -56,7 +82,7 @@ std::vector<std::vector<std::size_t>> groups_of(const System& system) {
 /// The bodies of `rows` alone, with the springs given by `of`, the springs of each body.
 System part_of(const System& whole, const std::vector<std::size_t>& rows,
                const std::vector<std::vector<std::size_t>>& springs_of) {
-    System part{.attractors = whole.attractors, .gravity = whole.gravity};
+    System part{.attractors = whole.attractors, .gravity = whole.gravity, .floors = whole.floors};
     const auto local = [&](std::size_t row) {
         return static_cast<std::size_t>(std::ranges::lower_bound(rows, row) - rows.begin());
     };
@@ -87,8 +113,9 @@ OscillatorBody oscillator_of(const System& system) {
 
 bool is_orbit(const System& system) {
     return system.bodies.size() == 1 && system.attractors.size() == 1 && system.springs.empty() &&
-           system.gravity == Point{} && system.bodies[0].drag == 0 &&
-           system.bodies[0].quadratic_drag == 0;
+           system.gravity == Point{} && system.bodies[0].drag == 0 && !system.has_contacts() &&
+           system.bodies[0].quadratic_drag == 0 && system.bodies[0].winds.empty() &&
+           system.bodies[0].drives.empty();
 }
 
 }  // namespace

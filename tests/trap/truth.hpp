@@ -50,12 +50,35 @@ public:
     virtual void sample(std::int64_t n, Point* out) = 0;
 };
 
+struct Wind {
+    Point velocity{};  ///< m/s
+    Real drag = 0;     ///< N·s²/m²
+};
+
+/// The force amplitude·sin(omega·t + phase).
+struct Drive {
+    Point amplitude{};  ///< N
+    Real omega = 0;     ///< rad/s
+    Real phase = 0;     ///< rad
+};
+
 struct CoupledBody {
     Real mass = 1;            ///< kg
     Real drag = 0;            ///< N·s/m
     Real quadratic_drag = 0;  ///< N·s²/m²
     Point x{};                ///< m, at the start
     Point v{};                ///< m/s, at the start
+    std::vector<Wind> winds{};
+    std::vector<Drive> drives{};
+    std::optional<Real> contact{};  ///< m, the radius that meets planes
+};
+
+/// A plane with a normal of length 1.
+struct Floor {
+    Point normal{};
+    Real offset = 0;  ///< m
+    Real restitution = 0;
+    Real friction = 0;
 };
 
 struct CoupledSpring {
@@ -78,8 +101,11 @@ struct System {
     std::vector<CoupledSpring> springs{};
     std::vector<Attractor> attractors{};
     Point gravity{};  ///< m/s²
+    std::vector<Floor> floors{};
 
     [[nodiscard]] bool is_linear() const;
+    /// Whether a body meets a plane.
+    [[nodiscard]] bool has_contacts() const;
     /// At most the shortest period of the springs without damping, s.
     [[nodiscard]] Real shortest_spring_period() const;
 };
@@ -202,7 +228,8 @@ private:
 };
 
 /// Integrates a system by collocation at Chebyshev's nodes, in segments whose length follows the
-/// last coefficients of the accelerations. The positions are polynomials in each segment.
+/// last coefficients of the accelerations. The positions are polynomials in each segment. Impacts,
+/// lift-offs and stops are roots of these polynomials, at which a segment ends.
 class Integration : public Motion {
 public:
     /// `tolerance` is relative to the distance travelled in a segment. Throws std::domain_error if
@@ -230,16 +257,37 @@ private:
     };
     struct Nodes;
 
-    void accelerate(const Real* x, const Real* v, Real* a) const;
+    /// What bears a body.
+    struct Bearing {
+        const Floor* floor = nullptr;
+        Point direction{};  ///< of a slide with friction
+        bool rests = false;
+    };
+    struct Event;
+
+    void accelerate(const Real* x, const Real* v, Real t, Real* a) const;
+    void accelerate_on_floors(const Real* x, const Real* v, Real t, Real* a) const;
     void pull(const CoupledSpring& spring, const Real* x, const Real* v, Real* a) const;
     static void attract(const Attractor& one, const Real* x, Real* a);
+    static void blow(const Wind& wind, Real mass, const Real* v, Real* a);
     void move(Real h, Nodes& at) const;
-    [[nodiscard]] Real update(Nodes& at) const;
+    [[nodiscard]] Real update(Real h, Nodes& at) const;
     [[nodiscard]] bool converge(Real h, Nodes& at) const;
     [[nodiscard]] Real error_of(Real h, const Nodes& at) const;
-    void append(Real h, Nodes& at);
+    void append(Real h, const Nodes& at);
+    void go_on(Real h, Nodes& at);
+    void state_at(Real after, Real h, const Nodes& at, Numbers& x, Numbers& v) const;
+    [[nodiscard]] Real before(const Event& event, const Numbers& x, const Numbers& v, Real t) const;
+    [[nodiscard]] std::vector<Event> possible_events(std::size_t body) const;
+    [[nodiscard]] std::optional<Event> first_event(Real h, const Nodes& at) const;
+    void meet(const Event& event, Real h, Nodes& at);
+    void land(std::size_t body, const Floor& floor, Nodes& at);
+    void slide(std::size_t body, const Floor& floor, Nodes& at);
+    void start_on_floor(std::size_t body, Nodes& at);
 
     System system_;
+    std::vector<Bearing> bearings_;
+    Real now_ = 0;  ///< s, the start of the segment
     Real duration_;
     std::vector<Segment> segments_;
     Real shortest_ = 0;

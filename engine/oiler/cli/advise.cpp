@@ -95,6 +95,7 @@ struct AdviseCommand {
                  "(see oiler advise --help)");
         refuse_without_effect(requirements);
         requirements.min_rate = min_rate;
+        requirements.negligible_ns_per_second = 0.01 * 1e9;  // 1 % of the time
         requirements.methods = parse_methods(methods);
         return requirements;
     }

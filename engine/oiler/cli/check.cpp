@@ -85,7 +85,7 @@ void require_finite_energy(const World& end, World start) {
 }
 
 /// Runs the scene for its duration. Returns the message of a divergence, or an empty text.
-std::string find_divergence(World world, const Scene& scene, const std::string& file, bool quiet) {std::string find_divergence(World world, const Scene& scene, const std::string& file, bool quiet) {
+std::string find_divergence(World world, const Scene& scene, const std::string& file, bool quiet) {
     const World start = world;
     constexpr std::int64_t most_body_steps = 1'000'000;  // between two polls
     const auto steps =

@@ -25,9 +25,9 @@ constexpr const char* evaluations_picture = "error_over_evaluations.png";
 constexpr auto tradeoff_legend = R"(
 * Pareto front: no cheaper setting is more accurate; > current setting. drawn m: the largest error of
 any body at any time, on straight lines between steps; steps m: at the steps; phase: at the end, +
-leads; energy: relative error at the steps; forces: evaluations in the run; µs per s: computing time
-per simulated second in a game of 60 frames per second, ±: half the interquartile range of repeated
-times; frame: its share of the time; in calls: µs per s at many steps per call.
+leads; energy: relative error at the steps; forces: evaluations in the run; µs per s: mean computing
+time per simulated second in a game of 60 frames per second, ±: half the interquartile range of
+repeated times; frame: its share of the time; in calls: µs per s at many steps per call.
 {} of {} rows are shown{}
 )";
 

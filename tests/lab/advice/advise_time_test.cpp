@@ -16,18 +16,17 @@ struct Price {
     double timed;
 };
 
-/// The search estimates costs at a rate that no run here has.
 SweepWatch clock_of(const std::vector<Price>& prices) {
-    constexpr std::int64_t rate_of_estimates = 1 << 16;
-    SweepWatch watch;
-    watch.ns_per_step = [prices](const Scene&, const Settings& settings, std::int64_t) {
-        const Stepping& choice = settings.stepping;
-        for (const Price& price : prices)
-            if (choice.method->name == price.method)
-                return choice.rate.steps == rate_of_estimates ? price.estimated : price.timed;
+    const auto price = [prices](const Stepping& choice, double Price::*of) {
+        for (const Price& one : prices)
+            if (choice.method->name == one.method) return one.*of;
         return 1.0;
     };
-    watch.ns_per_step_together = [](const Scene&, const Stepping&) { return 1.0; };
+    SweepWatch watch =
+        made_up_clock([=](const Stepping& choice) { return price(choice, &Price::timed); });
+    watch.ns_per_step = [=](const auto&, const Stepping& choice, std::int64_t) {
+        return price(choice, &Price::estimated);
+    };
     return watch;
 }
 

@@ -230,6 +230,31 @@ TEST(Advice, ThatMeetsNothingNamesTheClosest) {
             << method->name;
 }
 
+// explicit_euler and ruth3 need more than 10⁴ steps for 1e-6 m, and a step of one body counts as
+// some 300 evaluations: this limit is reached before. The closest of what was tried is told as
+// that.
+TEST(Advice, EndsAtItsLimitOfWork) {
+    const Requirements requirements{.position_error = 1e-6,
+                                    .at_steps = true,
+                                    .methods = methods_of({"explicit_euler", "ruth3"}),
+                                    .most_search_work = 1e7};
+    const Advised advised(article_spring, requirements);
+    const Advice& advice = advised.advice;
+    EXPECT_TRUE(advice.ended_early);
+    EXPECT_FALSE(advice.meets);
+    ASSERT_TRUE(advice.best);
+    EXPECT_TRUE(advice.best->judgement.complete);
+    EXPECT_TRUE(
+        holds(advised.words().front(), "No setting that was tried meets 1e-06 m. Closest:"));
+    EXPECT_TRUE(holds(advice.obstacles.back(), "work"));
+    Requirements enough = requirements;
+    enough.most_search_work = 2e10;
+    const Advice whole = Advised(article_spring, enough).advice;
+    EXPECT_FALSE(whole.ended_early);
+    EXPECT_TRUE(whole.meets);
+    EXPECT_GT(whole.runs, advice.runs);
+}
+
 constexpr double pi = std::numbers::pi;
 
 std::string spring(const std::string& name, double omega, double amplitude) {

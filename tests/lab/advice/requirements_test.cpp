@@ -96,9 +96,9 @@ Advice advice_of_many(int bodies, double on_all) {
         "velocity_to = [9.0]\n",
         bodies));
     SweepWatch watch = made_up_clock([](const Stepping&) { return 100.0; });
-    watch.ns_per_step = [=](const Scene&, const Settings& settings, std::int64_t) {
-        if (settings.threads == 1) return 100.0;
-        return settings.threads == this_machine().cores ? on_all : unknown;
+    watch.ns_of_frames = [=](const Scene&, const Settings& settings, const auto&) {
+        if (settings.threads == 1) return std::vector{100.0};
+        return std::vector{settings.threads == this_machine().cores ? on_all : unknown};
     };
     return advise(many.scene, many.reference,
                   {.position_error = 1, .methods = methods_of({"velocity_verlet"})}, watch);
@@ -143,10 +143,8 @@ Advice advice_among(const std::vector<const char*>& names, const SweepWatch& wat
 SweepWatch noisy(double spread, const std::function<double(const Stepping&)>& ns) {
     SweepWatch watch = made_up_clock(ns);
     auto reading = std::make_shared<int>(0);
-    watch.ns_per_step = [=](const Scene&, const Settings& settings, std::int64_t) {
-        const Stepping& choice = settings.stepping;
-        const bool is_estimate = choice.rate.steps == 1 << 16;
-        return ns(choice) * (is_estimate ? 1 : 1 + spread * ((*reading)++ % 7 - 3) / 3);
+    watch.ns_of_frames = [=](const Scene&, const Settings& settings, const auto&) {
+        return std::vector{ns(settings.stepping) * (1 + spread * ((*reading)++ % 7 - 3) / 3)};
     };
     return watch;
 }
@@ -198,20 +196,63 @@ TEST(Ties, OfEqualErrorsGoToTheFirstMethod) {
 // earlier.
 TEST(Ties, OfEqualErrorsGoToTheHigherRate) {
     const MeasuredScene stiff(one_axis + "duration = 2.0\n" + on_spring(1, 40'000));
+    SweepWatch watch = made_up_clock(
+        [](const Stepping& choice) { return 6000.0 / static_cast<double>(choice.rate.steps); });
+    watch.ns_per_step = [](const auto&, const Stepping& choice, std::int64_t) {
+        return choice.method->name == "exact" ? 0.4 : 0.1;
+    };
     for (const auto& names : {std::vector<const char*>{"exact", "velocity_verlet"},
                               std::vector<const char*>{"velocity_verlet", "exact"}}) {
-        const Advice advice = advise(
-            stiff.scene, stiff.reference, {.position_error = 1000, .methods = methods_of(names)},
-            made_up_clock([](const Stepping& choice) {
-                const bool is_estimate = choice.rate.steps == 1 << 16;
-                const double estimate = choice.method->name == "exact" ? 0.4 : 0.1;
-                return is_estimate ? estimate : 6000.0 / static_cast<double>(choice.rate.steps);
-            }));
+        const Advice advice = advise(stiff.scene, stiff.reference,
+                                     {.position_error = 1000, .methods = methods_of(names)}, watch);
         ASSERT_TRUE(advice.meets);
         EXPECT_EQ(advice.best->stepping.method->name, "velocity_verlet");
         EXPECT_GE(advice.best->stepping.rate.steps, 100);
         EXPECT_TRUE(is_among(advice.ties, "exact"));
     }
+}
+
+// ---- negligible costs
+
+/// The advice of these methods for 5 m at the steps, where costs up to `negligible` do not decide.
+Advice advice_on_spring(double negligible, const SweepWatch& watch,
+                        const std::vector<const char*>& names, std::int64_t max_rate = 10'000) {
+    return advise(spring().scene, spring().reference,
+                  {.position_error = 5,
+                   .at_steps = true,
+                   .max_rate = max_rate,
+                   .methods = methods_of(names),
+                   .negligible_ns_per_second = negligible},
+                  watch);
+}
+
+// Exact steps meet any tolerance at 30 Hz. The scene has 100 Hz: input shows after 10 ms, not 33
+// ms.
+TEST(NegligibleCosts, LeaveTheScenesOwnRate) {
+    const SweepWatch watch = made_up_clock([](const Stepping&) { return 10.0; });
+    const Advice prompt = advice_on_spring(1e7, watch, {"exact"});
+    ASSERT_TRUE(prompt.meets);
+    EXPECT_EQ(prompt.best->stepping.rate.steps, 100);
+    ASSERT_TRUE(prompt.cheapest);
+    EXPECT_EQ(prompt.cheapest->stepping.rate.steps, 30);
+    EXPECT_EQ(advice_on_spring(1e7, watch, {"exact"}, 50).best->stepping.rate.steps, 50);
+    // 100 Hz cost 1000 ns per second.
+    EXPECT_EQ(advice_on_spring(1001, watch, {"exact"}).best->stepping.rate.steps, 100);
+    const Advice cheapest = advice_on_spring(999, watch, {"exact"});
+    EXPECT_EQ(cheapest.best->stepping.rate.steps, 30);
+    EXPECT_FALSE(cheapest.cheapest);
+}
+
+// At 100 Hz, velocity Verlet has an error of 1.5 m and costs half of rk4, whose error is 1 mm.
+TEST(NegligibleCosts, LeaveTheMostAccurate) {
+    const SweepWatch watch = made_up_clock([](const Stepping& choice) {
+        return choice.method->name == "velocity_verlet" ? 50.0 : 100.0;
+    });
+    const std::vector<const char*> names{"velocity_verlet", "rk4"};
+    const Advice accurate = advice_on_spring(1e7, watch, names);
+    ASSERT_TRUE(accurate.meets);
+    EXPECT_EQ(accurate.best->stepping.method->name, "rk4");
+    EXPECT_GE(accurate.best->stepping.rate.steps, 100);
 }
 
 // ---- damping

@@ -4,6 +4,8 @@
 #include "oiler/lab/reference/exact_motion.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/sampled_motion.hpp"
+#include "oiler/scene/read.hpp"
+#include "oiler/sim/bodies.hpp"
 #include "support/oscillator.hpp"
 #include "support/test.hpp"
 
@@ -333,6 +335,29 @@ TEST(FindOscillation, IsNoneForTooFewPeriodsOrSamples) {
     EXPECT_FALSE(found(5.8L));
     EXPECT_TRUE(found(9 / 60.0L));
     EXPECT_FALSE(found(7 / 60.0L));
+}
+
+// A body that slides on a slope of 3:4 must not bounce, and one above the slope stays above it.
+TEST(PerturbedStarts, StayOnTheirPlanes) {
+    const Scene scene = parse_scene(
+        "[scene]\naxes = 2\n[gravity]\nacceleration = [0.0, -9.81]\n"
+        "[[plane]]\nnormal = [3.0, 4.0]\noffset = 5.0\n"
+        "[[body]]\nposition = [0.75, 1.0]\nvelocity = [4.0, -3.0]\ncontact = 0.25\n"
+        "[[body]]\nposition = [0.7501, 1.0]\nvelocity = [0.0, 1.0]\ncontact = 0.25\n",
+        "test");
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const World world = make_world(scene, Settings{}, {seed, 0.01, 0.02});
+        const auto gap = [&](std::size_t row) {
+            const Vec3 x = world.bodies().position(row);
+            return 0.6 * x[0] + 0.8 * x[1] - 1.25;
+        };
+        const Vec3 v = world.bodies().velocity(0);
+        EXPECT_NEAR(gap(0), 0, 1e-15);
+        EXPECT_NEAR(0.6 * v[0] + 0.8 * v[1], 0, 1e-15);
+        EXPECT_NE(v[0], 4);
+        EXPECT_GE(gap(1), -1e-15);
+        EXPECT_NE(world.bodies().velocity(1)[0], 0);
+    }
 }
 
 }  // namespace

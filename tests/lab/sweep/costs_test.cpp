@@ -2,6 +2,7 @@
 // Costs: the Pareto front, times of rows from a made-up clock, so that each number is known, and
 // the evaluations that methods need.
 
+#include <numeric>
 #include <ostream>
 
 #include "lab/measured_scenes.hpp"
@@ -75,21 +76,20 @@ TradeoffRow row_at(std::int64_t rate, bool stable = true) {
     return row;
 }
 
-/// A watch whose costs at many steps per call are 1 ns.
-SweepWatch quick_watch() {
+/// A watch whose frames take these times, and whose costs at many steps per call are 1 ns.
+SweepWatch watch_of(std::function<std::vector<double>(const Settings&)> frames) {
     SweepWatch watch;
-    watch.ns_per_step_together = [](const auto&, const auto&) { return 1.0; };
+    watch.ns_of_frames = [frames = std::move(frames)](const auto&, const Settings& given,
+                                                      const auto&) { return frames(given); };
+    watch.ns_per_step_together = [](const auto&, const auto&, const auto&) { return 1.0; };
     return watch;
 }
 
-/// A clock that returns these costs of a step in turn, and repeats.
-SweepWatch clock_of(const std::vector<double>& ns) {
-    SweepWatch watch = quick_watch();
-    watch.ns_per_step = [ns, calls = std::size_t{0}](const auto&, const auto&,
-                                                     std::int64_t) mutable {
-        return ns[calls++ % ns.size()];
-    };
-    return watch;
+/// A clock that returns these rounds of frames in turn, and repeats.
+SweepWatch clock_of(const std::vector<std::vector<double>>& rounds) {
+    return watch_of([rounds, calls = std::size_t{0}](const Settings&) mutable {
+        return rounds[calls++ % rounds.size()];
+    });
 }
 
 void time_row(TradeoffRow& row, int rounds, const SweepWatch& watch) {
@@ -98,27 +98,36 @@ void time_row(TradeoffRow& row, int rounds, const SweepWatch& watch) {
 }
 
 // Sorted: 1, 2, 3, 4 and 100 ns. The median is 3 ns, the quartiles are 2 and 4 ns: half the
-// interquartile range is 1 ns. 50 Hz are 50 steps per second.
+// interquartile range is 1 ns. 50 Hz are 50 frames with a step per second.
 TEST(TimeRow, HasTheMedianAndHalfTheInterquartileRange) {
     TradeoffRow row = row_at(50);
-    time_row(row, 5, clock_of({4, 1, 100, 3, 2}));
+    time_row(row, 5, clock_of({{4}, {1}, {100}, {3}, {2}}));
     EXPECT_DOUBLE_EQ(row.ns_per_second, 50 * 3);
     EXPECT_DOUBLE_EQ(row.ns_spread, 50 * 1);
+    EXPECT_DOUBLE_EQ(row.ns_worst_frame, 3);
     EXPECT_DOUBLE_EQ(row.ns_together, 50 * 1);
 }
 
 // The quartiles of 10 and 20 ns are 12.5 and 17.5 ns.
 TEST(TimeRow, HasQuartilesBetweenTwoMeasurements) {
     TradeoffRow row = row_at(1);
-    time_row(row, 2, clock_of({20, 10}));
+    time_row(row, 2, clock_of({{20}, {10}}));
     EXPECT_DOUBLE_EQ(row.ns_per_second, 15);
     EXPECT_DOUBLE_EQ(row.ns_spread, 2.5);
 }
 
+// Each frame has been disturbed once: the medians are 1, 2 and 90 ns, and their mean is 31 ns.
+TEST(TimeRow, HasTheMeanOfTheFramesAndTheWorst) {
+    TradeoffRow row = row_at(240);
+    time_row(row, 3, clock_of({{1, 2, 500}, {1, 700, 90}, {900, 2, 90}}));
+    EXPECT_DOUBLE_EQ(row.ns_per_second, 60 * 31);
+    EXPECT_DOUBLE_EQ(row.ns_worst_frame, 90);
+}
+
 TEST(TimeRow, ReplacesItsTimesIfTimedAgain) {
     TradeoffRow row = row_at(10);
-    time_row(row, 3, clock_of({500, 700, 900}));
-    time_row(row, 3, clock_of({6, 6, 6}));
+    time_row(row, 3, clock_of({{500}, {700}, {900}}));
+    time_row(row, 3, clock_of({{6}}));
     EXPECT_DOUBLE_EQ(row.ns_per_second, 60);
     EXPECT_EQ(row.ns_spread, 0);
 }
@@ -129,60 +138,102 @@ TEST(TimeRows, TakeTurns) {
     TradeoffRow unstable = row_at(1, false);
     TradeoffRow second = row_at(1);
     const Scene scene;
-    time_rows(scene, {&first, &unstable, &second}, 3, clock_of({1, 10, 2, 20, 3, 30}));
+    time_rows(scene, {&first, &unstable, &second}, 3, clock_of({{1}, {10}, {2}, {20}, {3}, {30}}));
     EXPECT_EQ(first.ns_per_second, 2);
     EXPECT_EQ(second.ns_per_second, 20);
     EXPECT_TRUE(std::isnan(unstable.ns_per_second));
 }
 
-// A frame of 1/60 s has four steps at 240 Hz, and one or none at 30 Hz. At 150 Hz, frames of two
-// and of three steps alternate. The made-up step costs as many ns as its frame has steps, at most
-// 256.
-TEST(TimeRow, HasTheCostOfAGamesFrames) {
-    SweepWatch watch = quick_watch();
-    watch.ns_per_step = [](const auto&, const auto&, std::int64_t per_frame) {
-        return static_cast<double>(per_frame);
-    };
-    for (const auto& [rate, ns] :
-         std::vector<std::pair<std::int64_t, double>>{{30, 30 * 1},
-                                                      {60, 60 * 1},
-                                                      {120, 120 * 2},
-                                                      {150, 30 * 2 * 2 + 30 * 3 * 3},
-                                                      {240, 240 * 4},
-                                                      {15'360, 15'360 * 256},
-                                                      {60'000, 60'000 * 256}}) {
-        TradeoffRow row = row_at(rate);
-        time_row(row, 1, watch);
-        EXPECT_NEAR(row.ns_per_second, ns, 1e-9 * ns) << rate;
-    }
-}
-
-// 119 Hz must not cost more than 120 Hz if all steps cost the same.
-TEST(TimeRow, GrowsWithTheRate) {
-    SweepWatch watch = quick_watch();
-    watch.ns_per_step = [](const auto&, const auto&, std::int64_t) { return 10.0; };
-    double before = 0;
-    for (std::int64_t rate = 1; rate < 400; ++rate) {
-        TradeoffRow row = row_at(rate);
-        time_row(row, 1, watch);
-        EXPECT_NEAR(row.ns_per_second, 10.0 * static_cast<double>(rate), 1e-6);
-        EXPECT_GT(row.ns_per_second, before);
-        before = row.ns_per_second;
-    }
+TEST(TimeRow, WithoutAFrameIsUnknown) {
+    TradeoffRow row = row_at(60);
+    time_row(row, 3, clock_of({{}}));
+    EXPECT_TRUE(std::isnan(row.ns_per_second));
+    EXPECT_TRUE(std::isnan(row.ns_worst_frame));
 }
 
 // The clock gets the row's method, rate and precision.
 TEST(TimeRow, IsTimedWithItsOwnSetting) {
     const Stepping choice{&find_method("velocity_verlet"), {75}, Precision::single};
     Stepping timed;
-    SweepWatch watch = quick_watch();
-    watch.ns_per_step = [&](const auto&, const Settings& given, std::int64_t) {
-        timed = given.stepping;
-        return 1.0;
-    };
     TradeoffRow row{.stepping = choice};
-    time_row(row, 1, watch);
+    time_row(row, 1, watch_of([&](const Settings& given) {
+                 timed = given.stepping;
+                 return std::vector{1.0};
+             }));
     EXPECT_EQ(timed, choice);
+}
+
+Scene parsed(const std::string& text) { return parse_scene(text, "test.toml"); }
+
+std::vector<double> frames_of(const Scene& scene, const Stepping& choice,
+                              const FrameMeasure& measure) {
+    return measure_frames(
+        scene, Settings{choice}, [] { return false; }, measure);
+}
+
+// A frame of 1/60 s has four steps at 240 Hz, one or none at 30 Hz, two or three at 150 Hz.
+TEST(Frames, HaveTheStepsOfAGame) {
+    const Scene scene = parsed(one_axis + "duration = 2.0\n" + on_spring(1, 15));
+    for (const std::int64_t rate : {1, 30, 60, 65, 119, 150, 240, 15'361}) {
+        const auto steps =
+            frames_of(scene, {&find_method("rk4"), {rate}}, [](World& world, std::int64_t count) {
+                world.step(count);
+                return static_cast<double>(count);
+            });
+        EXPECT_EQ(steps.size(), static_cast<std::size_t>(2 * std::min<std::int64_t>(rate, 60)));
+        EXPECT_EQ(std::accumulate(steps.begin(), steps.end(), 0.0),
+                  2.0 * static_cast<double>(rate));
+        const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+        EXPECT_GT(*least, 0);
+        EXPECT_LE(*most - *least, 1) << rate;
+    }
+}
+
+// A ball that falls 1 m bounces for ever, every 2·√(2/9.81) s. Frames are about one in seven of
+// 60 s, and meet as many of the 66 bounces.
+TEST(Frames, AreThoseOfTheWholeDuration) {
+    const Scene scene = parsed(
+        "[scene]\naxes = 1\nduration = 60.0\n[gravity]\nacceleration = [-9.81]\n[[plane]]\n"
+        "normal = [1.0]\nrestitution = 1.0\n[[body]]\nposition = [1.0]\ncontact = 0.0\n");
+    std::vector<double> times;
+    const auto bounces = frames_of(scene, {&find_method("velocity_verlet"), {60}},
+                                   [&](World& world, std::int64_t count) {
+                                       world.step(count);
+                                       times.push_back(world.time());
+                                       return static_cast<double>(world.impacts().size());
+                                   });
+    ASSERT_GT(times.size(), 400U);
+    EXPECT_LT(times.size(), 600U);
+    EXPECT_LT(times.front(), 2);
+    EXPECT_GT(times.back(), 58);
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_LT(times[i] - times[i - 1], 2);
+    const double per_frame =
+        std::accumulate(bounces.begin(), bounces.end(), 0.0) / static_cast<double>(bounces.size());
+    const double exact = 1 / (60 * 2 * std::sqrt(2 / 9.81));
+    EXPECT_NEAR(per_frame, exact, exact / 3);
+}
+
+// A body that slides with drag takes further evaluations in each step. It lands after 1.43 s of 20,
+// so that the first frames show nothing of it.
+TEST(Frames, TakeTheEvaluationsOfTheWholeRun) {
+    const Scene scene = parsed(
+        "[scene]\naxes = 2\nduration = 20.0\n[gravity]\nacceleration = [0.0, -9.81]\n[[plane]]\n"
+        "normal = [0.0, 1.0]\n[[body]]\nposition = [0.0, 10.0]\nvelocity = [30.0, 0.0]\n"
+        "linear_drag = 0.2\ncontact = 0.0\n");
+    const Stepping choice{&find_method("rk4"), {60}};
+    std::vector<double> evaluations =
+        frames_of(scene, choice, [](World& world, std::int64_t count) {
+            const std::int64_t before = world.bodies().evaluations();
+            world.step(count);
+            return static_cast<double>(world.bodies().evaluations() - before);
+        });
+    World whole = make_world(scene, Settings{choice});
+    whole.step(1200);
+    const double per_step = static_cast<double>(whole.bodies().evaluations()) / 1200;
+    EXPECT_GT(per_step, 1.5 * evaluations.front());
+    EXPECT_NEAR(std::accumulate(evaluations.begin(), evaluations.end(), 0.0) /
+                    static_cast<double>(evaluations.size()),
+                per_step, 0.05 * per_step);
 }
 
 constexpr double stiffness = 15;  // N/m, of the article's spring, on 1 kg

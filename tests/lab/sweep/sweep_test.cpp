@@ -172,8 +172,8 @@ TEST(TimeRows, TimesStableRowsAndChangesNoError) {
     for (RateSeries& series : tradeoff.all_series)
         for (TradeoffRow& row : series.rows) rows.push_back(&row);
     SweepWatch watch;
-    watch.ns_per_step = [](const Scene&, const Settings&, std::int64_t) { return 3.0; };
-    watch.ns_per_step_together = [](const Scene&, const Stepping&) { return 2.0; };
+    watch.ns_of_frames = made_up_clock([](const Stepping&) { return 3.0; }).ns_of_frames;
+    watch.ns_per_step_together = [](const auto&, const auto&, const auto&) { return 2.0; };
     time_rows(spring().scene, rows, 1, watch);
     EXPECT_TRUE(tradeoff.timed());
     expect_same_errors(tradeoff, whole_sweep());

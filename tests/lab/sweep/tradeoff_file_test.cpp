@@ -33,6 +33,7 @@ Tradeoff hard_numbers() {
             TradeoffRow row{.stepping = {series.method, {rate}, series.precision},
                             .ns_per_second = std::exp(rate),
                             .ns_spread = rate % 3 == 0 ? unknown : 1.0 / rate,
+                            .ns_worst_frame = rate % 5 == 0 ? unknown : 2.0 / rate,
                             .ns_together = rate % 7 == 0 ? unknown : std::exp(-rate)};
             row.judgement = {
                 .stable = rate % 5 != 0,
@@ -131,6 +132,7 @@ TEST(TradeoffFile, IsATableToo) {
         EXPECT_TRUE(same(number("evaluations"), row.judgement.evaluations)) << line;
         EXPECT_TRUE(same(number("ns_per_second"), row.ns_per_second)) << line;
         EXPECT_TRUE(same(number("ns_spread"), row.ns_spread)) << line;
+        EXPECT_TRUE(same(number("ns_worst_frame"), row.ns_worst_frame)) << line;
         EXPECT_TRUE(same(number("ns_together"), row.ns_together)) << line;
     }
     EXPECT_EQ(count, tradeoff.rows().size());
@@ -247,6 +249,7 @@ std::vector<Damage> damages() {
         {"/rows/0/evaluations", -1, "rows[0].evaluations"},
         {"/rows/0/ns_per_second", -1, "rows[0].ns_per_second"},
         {"/rows/0/ns_spread", -1, "rows[0].ns_spread"},
+        {"/rows/0/ns_worst_frame", -1, "rows[0].ns_worst_frame"},
         {"/rows/0/ns_together", -1, "rows[0].ns_together"},
         {"/rows/0/ns_together", gone, "rows[0].ns_together is missing"},
     };
@@ -306,7 +309,7 @@ TEST(TradeoffFile, WithoutAnyOneOfItsFieldsIsRefused) {
     };
     for (const char* at : {"", "/current", "/reference", "/machines/1", "/ladders/2", "/rows/4"})
         try_all(Parsed::json_pointer(at));
-    EXPECT_EQ(fields, 12U + 4 + 11 + 3 + 4 + 16);
+    EXPECT_EQ(fields, 12U + 4 + 11 + 3 + 4 + 17);
 }
 
 /// The text without this member of each object.

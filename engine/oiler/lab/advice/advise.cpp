@@ -48,25 +48,37 @@ public:
         const bool found = requirements_.has_tolerance() && !search_.meeting_rows().empty();
         front_ = contenders_among(found ? search_.meeting_rows() : search_.closest_rows());
         for (TradeoffRow& row : front_) row = search_.measure(row.stepping);
-        if (const Stepping& own = scene_.stepping; why_not(scene_, Settings{own}).empty())
+        if (const Stepping& own = scene_.stepping;
+            why_not(scene_, Settings{own}).empty() && search_.can_measure(own))
             advice_.current = search_.measure(own);
+        const bool has_current = advice_.current && advice_.current->judgement.stable &&
+                                 is_asked(*advice_.current->stepping.method);
+        if (front_.empty() && search_.ended_early() && has_current)
+            front_.push_back(*advice_.current);
         for (const Method* method : obvious_methods()) consider(*method);
+        if (found) add_prompt_rows();
         time(watch);
-        if (found) rank();
+        if (found) {
+            add_measured_rows();
+            rank();
+        }
         choose();
         if (advice_.best) explain();
         if (advice_.best) try_threads(watch);
         advice_.perturbed_starts = search_.perturbed_starts();
+        advice_.ended_early = search_.ended_early();
         advice_.runs = search_.runs();
         return std::move(advice_);
     }
 
 private:
+    [[nodiscard]] bool is_asked(const Method& method) const {
+        return std::ranges::find(requirements_.methods, &method) != requirements_.methods.end();
+    }
     /// Adds a method at a rate at which the search found that it meets the tolerance, else at the
     /// highest rate that costs no more than the best.
     void consider(const Method& method) {
-        const auto& asked = requirements_.methods;
-        if (std::ranges::find(asked, &method) == asked.end()) return;
+        if (!is_asked(method)) return;
         Alternative alternative{.method = &method};
         alternative.why =
             why_not(scene_, Settings{{&method, {search_.rates().back()}, Precision::double_}});
@@ -76,28 +88,73 @@ private:
                 requirements_.has_tolerance() ? search_.meeting_rows() : std::vector<TradeoffRow>{};
             const auto found = std::ranges::find_if(meeting, is_of);
             const double cost = front_.empty() ? 0 : search_.cost_of(front_.front().stepping);
-            alternative.row = search_.measure(
-                found != meeting.end() ? found->stepping : search_.within_cost(method, cost));
+            const Stepping choice =
+                found != meeting.end() ? found->stepping : search_.within_cost(method, cost);
+            if (search_.can_measure(choice))
+                alternative.row = search_.measure(choice);
+            else
+                alternative.why = "to compare it is too much work";
         }
         advice_.alternatives.push_back(std::move(alternative));
     }
+    /// At this rate, input shows as soon as the display and the scene's author expect, 1/s.
+    [[nodiscard]] std::int64_t prompt_rate() const {
+        constexpr std::int64_t display = 60;
+        return std::min(requirements_.max_rate, std::max(display, scene_.stepping.rate.steps));
+    }
+    [[nodiscard]] bool is_negligible(const TradeoffRow& row) const {
+        return row.ns_per_second <= requirements_.negligible_ns_per_second;
+    }
+    /// Adds the settings of lower rates at the prompt rate, if they cost little there.
+    void add_prompt_rows() {
+        const std::vector<TradeoffRow> rows = front_;
+        for (TradeoffRow row : rows) {
+            if (row.stepping.rate.steps >= prompt_rate()) continue;
+            row.stepping.rate.steps = prompt_rate();
+            if (search_.cost_of(row.stepping) > requirements_.negligible_ns_per_second) continue;
+            if (const auto tried = search_.try_affordable(row.stepping))
+                add_meeting(search_.measure(tried->stepping));
+        }
+    }
+    /// Adds the current setting and the obvious ones.
+    void add_measured_rows() {
+        if (advice_.current) add_meeting(*advice_.current);
+        for (const Alternative& alternative : advice_.alternatives)
+            if (alternative.row) add_meeting(*alternative.row);
+    }
+    void add_meeting(const TradeoffRow& row) {
+        const std::int64_t rate = row.stepping.rate.steps;
+        const bool is_known =
+            std::ranges::find(front_, row.stepping, &TradeoffRow::stepping) != front_.end();
+        const bool has_step = static_cast<double>(rate) * reference_.meaningful_until >= 1;
+        const bool is_allowed = rate >= requirements_.min_rate && rate <= requirements_.max_rate &&
+                                is_asked(*row.stepping.method);
+        if (!is_known && has_step && is_allowed && search_.meets_tolerance(row))
+            front_.push_back(row);
+    }
     /// Puts the settings that tie with the cheapest before the others: the most accurate first,
-    /// then those of the highest rate.
+    /// then those of the highest rate. If their cost is negligible, those of a prompt rate come
+    /// first.
     void rank() {
         std::ranges::stable_sort(front_, {}, &TradeoffRow::ns_per_second);
         const TradeoffRow cheapest = front_.front();
-        const auto others = std::stable_partition(
-            front_.begin(), front_.end(),
-            [&](const TradeoffRow& row) { return in_time(row) && is_tie(row, cheapest); });
+        const auto others =
+            std::stable_partition(front_.begin(), front_.end(), [&](const TradeoffRow& row) {
+                return in_time(row) && (is_negligible(row) || is_tie(row, cheapest));
+            });
         // Errors that differ by less than a hundredth of the tolerance are equal.
         const auto merit = [&](const TradeoffRow& row) {
-            return std::tuple(std::round(100 * excess(row.judgement, requirements_)),
-                              -row.stepping.rate.steps, row.stepping.method);
+            const std::int64_t rate = row.stepping.rate.steps;
+            return std::tuple(is_negligible(row) ? -std::min(rate, prompt_rate()) : 0,
+                              std::round(100 * excess(row.judgement, requirements_)), -rate,
+                              row.stepping.precision == Precision::single, row.stepping.method);
         };
         std::ranges::stable_sort(front_.begin(), others, {}, merit);
+        const TradeoffRow best = front_.front();
         for (auto row = front_.begin() + 1; row != front_.end(); ++row)
-            if (row < others || (in_time(*row) && is_tie(*row, front_.front())))
-                advice_.ties.push_back(*row);
+            if (in_time(*row) && is_tie(*row, best)) advice_.ties.push_back(*row);
+        if (best.ns_per_second > cheapest.ns_per_second && !is_tie(best, cheapest))
+            advice_.cheapest = cheapest;
     }
     [[nodiscard]] std::string why_worse(const TradeoffRow& row) const {
         const Judgement& judgement = row.judgement;
@@ -117,7 +174,9 @@ private:
         if (off > 1) return add(fmt::format("has {:.3g} times the error allowed", off));
         const std::string objection = search_.objection(row);
         if (!objection.empty()) return text + (is_dearer ? "; " : " ") + objection;
-        return add("meets the tolerance");
+        if (!search_.meets_tolerance(row))
+            return add(fmt::format("has {:.3g} times the error allowed, too close to it", off));
+        return add(is_dearer ? "meets the tolerance" : "is less accurate, or shows input later");
     }
     /// Says why each alternative loses. Removes the advice itself and the runner-up.
     void explain() {
@@ -129,14 +188,6 @@ private:
                    std::ranges::any_of(advice_.ties, is_of);
         };
         std::erase_if(advice_.alternatives, named);
-        std::erase_if(advice_.alternatives, [&](const Alternative& alternative) {
-            const bool ties = alternative.row && requirements_.has_tolerance() &&
-                              is_tie(*alternative.row, *advice_.best) &&
-                              in_time(*alternative.row) &&
-                              search_.meets_tolerance(*alternative.row);
-            if (ties) advice_.ties.push_back(*alternative.row);
-            return ties;
-        });
         for (Alternative& alternative : advice_.alternatives)
             if (alternative.row) alternative.why = why_worse(*alternative.row);
     }
@@ -163,10 +214,10 @@ private:
         TradeoffRow threaded = *advice_.best;
         SweepWatch on_threads = watch;
         on_threads.progress = [](double) {};
-        on_threads.ns_per_step = [&](const Scene& scene, Settings settings,
-                                     std::int64_t per_frame) {
+        on_threads.ns_of_frames = [&](const Scene& scene, Settings settings,
+                                      const std::function<bool()>& stopped) {
             settings.threads = cores;
-            return watch.ns_per_step(scene, settings, per_frame);
+            return watch.ns_of_frames(scene, settings, stopped);
         };
         time_rows(scene_, {&threaded}, rounds, on_threads);
         if (is_tie(threaded, *advice_.best) ||
@@ -212,6 +263,8 @@ private:
                 fmt::format("time: the fastest setting as accurate takes {} per frame",
                             describe_time(advice_.best->ns_per_second / 60)));
         if (!near) add_rounding_and_rates();
+        if (!near && search_.ended_early())
+            advice_.obstacles.push_back("work: the search ended before it had tried all settings");
     }
     void add_rounding_and_rates() {
         const std::vector<TradeoffRow> nearest = search_.closest_rows();

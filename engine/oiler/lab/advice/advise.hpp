@@ -21,7 +21,11 @@ struct Requirements {
     std::int64_t min_rate = 30;  ///< 1/s
     std::int64_t max_rate = 1'000'000;  ///< 1/s
     std::vector<const Method*> methods{};
-    double most_work = 1e9;  ///< see SweepPlan
+    double most_work = 1e9;          ///< see SweepPlan
+    double most_search_work = 2e10;  ///< see WorkMeter; less than a minute
+    /// Costs up to this do not decide between settings that meet the tolerance, ns per simulated
+    /// second.
+    double negligible_ns_per_second = 0;
 
     [[nodiscard]] bool has_tolerance() const { return position_error || energy_drift; }
     /// The position error that the tolerance limits, m.
@@ -49,8 +53,10 @@ struct Advice {
     std::optional<TradeoffRow> runner_up{};  ///< of another method
     std::optional<TradeoffRow> current{};    ///< the scene's own setting
     std::vector<Alternative> alternatives{};
-    std::vector<std::string> obstacles{};  ///< why no setting meets the requirements
-    std::int64_t runs = 0;                 ///< number of runs that the search took
+    std::optional<TradeoffRow> cheapest{};  ///< that meets the tolerance, if another one is best
+    std::vector<std::string> obstacles{};   ///< why no setting meets the requirements
+    bool ended_early = false;               ///< whether some settings were too much work to try
+    std::int64_t runs = 0;                  ///< number of runs that the search took
 };
 
 /// Whether two costs tie: their spreads overlap.
@@ -62,9 +68,10 @@ struct Advice {
 /// Finds the cheapest setting within the tolerances or, without tolerances, the most accurate
 /// within the time. A setting must also meet the tolerances from perturbed starts, and raise no
 /// warning before the run, also at a rate 5 % lower. Among settings of equal cost, the most
-/// accurate wins, then the one of the higher rate. Tries settings from the cheapest up and skips
-/// rates that the method's order rules out. Throws Error{usage} for a tolerance that the reference
-/// cannot judge. The result of a stopped call is empty.
+/// accurate wins, then the one of the higher rate. Among those of negligible cost, the first are
+/// those of 60 Hz and of the scene's own rate. The work is bounded. Tries settings from the
+/// cheapest up and skips rates that the method's order rules out. Throws Error{usage} for a
+/// tolerance that the reference cannot judge. The result of a stopped call is empty.
 [[nodiscard]] Advice advise(const Scene& scene, const Reference& reference,
                             const Requirements& requirements, const SweepWatch& watch);
 

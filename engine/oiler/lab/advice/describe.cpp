@@ -19,9 +19,19 @@ std::string describe_error(const Judgement& judgement, const Reference& referenc
                        error(judgement.step_error));
 }
 
+constexpr double frames_per_second = 60;
+
+/// Names the worst frame if it costs much more than the mean of the frames that have a step, and
+/// more than 1 % of the time of a frame.
 std::string describe_cost(const TradeoffRow& row) {
-    return fmt::format("{} per simulated second, {:.2g} % of a frame",
-                       describe_time(row.ns_per_second), row.ns_per_second / 1e7);
+    constexpr double much = 3;
+    const double frames = std::min(static_cast<double>(row.stepping.rate.steps), frames_per_second);
+    const double least = std::max(much * row.ns_per_second / frames, 1e7 / frames_per_second);
+    return fmt::format("{} per simulated second, {:.2g} % of a frame{}",
+                       describe_time(row.ns_per_second), row.ns_per_second / 1e7,
+                       row.ns_worst_frame > least
+                           ? fmt::format(" and {} in the worst", describe_time(row.ns_worst_frame))
+                           : "");
 }
 
 /// The share of each tolerance that is used.
@@ -63,8 +73,9 @@ std::string conclusion(const Advice& advice, const Reference& reference,
                         ? fmt::format(" ({})", describe_time(advice.best->ns_per_second / 60))
                         : "");
     if (!advice.meets)
-        return fmt::format("No setting meets {}. Closest: {}.", describe_requirements(requirements),
-                           what);
+        return fmt::format("No setting {}meets {}. Closest: {}.",
+                           advice.ended_early ? "that was tried " : "",
+                           describe_requirements(requirements), what);
     const std::string margin = describe_margin(advice.best->judgement, requirements);
     return margin.empty() ? fmt::format("{}: the most accurate within {}.", what,
                                         describe_requirements(requirements))
@@ -123,6 +134,7 @@ std::string describe_times(const Requirements& requirements) {
 Json with_frame(const TradeoffRow& row) {
     Json json = to_json(row);
     json["us_per_frame"] = row.ns_per_second / 60'000;
+    json["us_worst_frame"] = row.ns_worst_frame / 1000;
     json["share_of_frame"] = row.ns_per_second / 1e9;
     json["latency_ms"] = 1e3 / static_cast<double>(row.stepping.rate.steps);
     return json;
@@ -170,6 +182,11 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
     if (!advice.ties.empty())
         words.push_back(
             fmt::format("Ties, within the spread of the cost: {}.", describe_ties(advice)));
+    if (advice.meets && advice.ended_early)
+        words.push_back(
+            "The search ended before it had tried all settings, because that is too much work: a "
+            "cheaper one may exist.");
+    if (advice.cheapest) words.push_back(beside("Cheapest", *advice.cheapest, advice, reference));
     if (advice.runner_up)
         words.push_back(beside("Runner-up", *advice.runner_up, advice, reference));
     if (advice.current)
@@ -195,6 +212,7 @@ Json to_json(const Advice& advice, const Scene& scene, const Reference& referenc
         {"growth", growth_of(advice, requirements)},
         {"ties", Json::list(advice.ties, [](const TradeoffRow& row) { return with_frame(row); })},
         {"threads", {{"count", advice.threads}, {"ns_per_second", advice.ns_on_threads}}},
+        {"cheapest", with_frame(advice.cheapest)},
         {"runner_up", with_frame(advice.runner_up)},
         {"current", with_frame(advice.current)},
         {"alternatives",
@@ -213,6 +231,7 @@ Json to_json(const Advice& advice, const Scene& scene, const Reference& referenc
           {"position_floor", floor.position},
           {"energy_floor", floor.energy},
           {"meaningful_until", reference.meaningful_until}}},
+        {"ended_early", advice.ended_early},
         {"runs", advice.runs},
         {"words", describe(advice, scene, reference, requirements)}};
 }

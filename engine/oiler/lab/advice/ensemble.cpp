@@ -75,8 +75,9 @@ void Ensemble::make_members() {
 std::string Ensemble::judge_members(const Stepping& choice) {
     if (!is_made_) make_members();
     for (const Member& member : members_) {
-        const Judgement judgement = judge(scene_, Settings{choice}, member.reference,
-                                          {.display = requirements_.display, .stopped = stopped_});
+        const Judgement judgement =
+            judge(scene_, Settings{choice}, member.reference,
+                  {.display = requirements_.display, .stopped = meter_.counting(*choice.method)});
         if (!judgement.stable) return "a start perturbed by 0.1 % is unstable";
         const double times = excess(judgement, member.requirements);
         if (times > 1)

@@ -6,6 +6,7 @@
 
 #include "oiler/core/error.hpp"
 #include "oiler/lab/sweep/drawn_error.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -17,6 +18,8 @@ constexpr double rival_cost_ratio = 1.3;
 /// A runner-up of another method is sought up to this multiple of the best's cost.
 constexpr double runner_up_cost_ratio = 2;
 constexpr std::size_t most_refined = 4;
+/// Multiples of this, modulo 1, are spread evenly, however many are taken.
+constexpr double golden = 0.6180339887498949;
 
 double share_of(double error, const std::optional<double>& tolerance) {
     return tolerance && !std::isnan(error) ? error / *tolerance : 0;
@@ -36,7 +39,6 @@ std::int64_t highest_rate(const Candidate& candidate, std::int64_t low, std::int
 /// The largest distance of a coordinate from the nearest float, m, at some times of the run. No run
 /// in float has a smaller error at the steps there.
 double rounding_to_float(const Reference& reference) {
-    constexpr double golden = 0.6180339887498949;
     constexpr int times = 16;
     Real most = 0;
     std::vector<State3> states(reference.motion->bodies());
@@ -49,7 +51,38 @@ double rounding_to_float(const Reference& reference) {
     return static_cast<double>(most);
 }
 
+Vec3 narrowed(const Real3& a) {
+    return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
+}
+
 }  // namespace
+
+WorkMeter::WorkMeter(const Scene& scene, double most, const std::function<bool()>& stopped)
+    : work_(scene), most_(most), stopped_(stopped) {
+    // As many evaluations take as long as the rest of a step, and to step a body on a plane.
+    constexpr double rest = 250;
+    constexpr double landing = 1500;
+    const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
+    linked_ = bodies.link_count() > 0;
+    per_comparison_ = rest + comparison * static_cast<double>(bodies.size());
+    if (bodies.planes().empty()) return;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (bodies.contact(row)) per_comparison_ += landing;
+}
+
+double WorkMeter::per_step(const Method& method) const {
+    // A factorisation of the matrix of a net, beside the evaluations for it.
+    constexpr double factorisation = 20;
+    const bool factorises = linked_ && method.evaluations == 0;
+    return work_.per_step(method) * (factorises ? factorisation : 1) + per_comparison_;
+}
+
+std::function<bool()> WorkMeter::counting(const Method& method) {
+    return [this, work = per_step(method)] {
+        done_ += work;
+        return stopped_();
+    };
+}
 
 double Candidate::cost(std::int64_t rate) const {
     constexpr double frames_per_second = 60;
@@ -94,8 +127,8 @@ Search::Search(const Scene& scene, const Reference& reference, const Requirement
       reference_(reference),
       requirements_(requirements),
       watch_(watch),
-      work_(scene),
-      ensemble_(scene, reference, requirements, watch.stopped) {
+      meter_(scene, requirements.most_search_work, watch.stopped),
+      ensemble_(scene, reference, requirements, watch.stopped, meter_) {
     // A run has at least one step.
     const double least = (1 - 1e-12) / reference.meaningful_until;
     for (const std::int64_t rate : lab::sweep_rates(scene, requirements.max_rate))
@@ -120,7 +153,10 @@ void Search::drop_low_rates() {
     if (!requirements_.position_error || requirements_.at_steps || requirements_.display > 0)
         return;
     const double most = *requirements_.position_error;
+    const auto bodies = static_cast<double>(reference_.motion->bodies());
     const auto is_too_low = [&](std::int64_t rate) {
+        const double samples = 2 * static_cast<double>(rate) * reference_.meaningful_until * bodies;
+        if (!meter_.is_little(WorkMeter::comparison * samples)) return false;
         return least_drawn_error(*reference_.motion, rate, reference_.meaningful_until, most) >
                most;
     };
@@ -138,25 +174,52 @@ void Search::add_candidates(const Method& method, Precision precision) {
         add_candidate(method, precision, other);
 }
 
+/// Worlds in the states of the reference at times spread over the duration: costs grow where bodies
+/// land.
+const std::vector<World>& Search::starts(Precision precision) {
+    constexpr std::size_t most = 12;
+    constexpr std::size_t many_bodies = 100'000;
+    std::vector<World>& worlds = starts_[precision == Precision::single ? 0 : 1];
+    if (!worlds.empty()) return worlds;
+    const World start =
+        make_world(scene_, Settings{{scene_.stepping.method, scene_.stepping.rate, precision}});
+    std::vector<State3> states(start.body_count());
+    const std::size_t count =
+        std::clamp(many_bodies / std::max<std::size_t>(1, states.size()), std::size_t{2}, most);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = std::fmod(static_cast<double>(i + 1) * golden, 1.0);
+        reference_.motion->all_at(share * reference_.meaningful_until, states);
+        World& world = worlds.emplace_back(start);
+        for (std::size_t row = 0; row < states.size(); ++row) {
+            const Entity entity = world.entity_of_row(row);
+            world.set_position(entity, narrowed(states[row].x));
+            world.set_velocity(entity, narrowed(states[row].v));
+        }
+    }
+    return worlds;
+}
+
 void Search::add_candidate(const Method& method, Precision precision,
                            std::optional<Damping> damping) {
-    // All steps cost the same. A short one is stable.
-    constexpr std::int64_t rate = 1 << 16;
-    constexpr std::int64_t many = 16;
-    constexpr double expensive = 2e5;  // ns; the cost of a frame is negligible beside it
+    // A short step is stable. Impacts and landings of a frame are in its first step.
+    constexpr std::int64_t high_rate = 1 << 16;
+    constexpr std::int64_t frames_per_second = 60;
+    constexpr double expensive = 2e5;  // ns
     Candidate candidate{.method = &method,
                         .precision = precision,
                         .damping = damping,
                         .convergence = Convergence(largest_converging_error * reference_.extent)};
-    candidate.first = candidate.further =
-        watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, 1);
-    if (std::isnan(candidate.first)) return;
-    candidate.work_per_hertz = work_.per_step(method) * reference_.meaningful_until;
-    if (candidate.first < expensive) {
-        const double in_many = watch_.ns_per_step(scene_, Settings{candidate.at(rate)}, many);
-        candidate.further =
-            std::clamp((many * in_many - candidate.first) / (many - 1), 0.0, candidate.first);
-    }
+    const auto cost = [&](std::int64_t rate, std::int64_t per_frame) {
+        return watch_.ns_per_step(starts(precision), candidate.at(rate), per_frame);
+    };
+    const double single = cost(high_rate, 1);
+    if (std::isnan(single)) return;
+    const std::int64_t many = single < expensive ? 16 : 2;
+    const auto others = static_cast<double>(many - 1);
+    candidate.further = std::clamp(
+        (static_cast<double>(many) * cost(high_rate, many) - single) / others, 0.0, single);
+    const double of_frame = cost(frames_per_second, 1);
+    candidate.first = std::isnan(of_frame) ? single : of_frame;
     candidates_.push_back(candidate);
 }
 
@@ -176,7 +239,16 @@ TradeoffRow Search::judged(const Stepping& choice, double enough) {
                                {.display = requirements_.display,
                                 .enough = enough,
                                 .at_steps = requirements_.at_steps,
-                                .stopped = watch_.stopped})};
+                                .stopped = meter_.counting(*choice.method)})};
+}
+
+bool Search::can_measure(const Stepping& choice) const {
+    return meter_.is_little(work_of(choice)) || affordable(choice);
+}
+
+double Search::work_of(const Stepping& choice) const {
+    return meter_.per_step(*choice.method) * static_cast<double>(choice.rate.steps) *
+           reference_.meaningful_until;
 }
 
 TradeoffRow Search::try_choice(const Stepping& choice) {
@@ -223,16 +295,26 @@ double Search::next_cost(const Candidate& candidate) const {
     return candidate.cost(rates_[candidate.next]);
 }
 
-Candidate* Search::cheapest_next() {
-    Candidate* cheapest = nullptr;
-    for (Candidate& candidate : candidates_)
-        if (!candidate.over && (!cheapest || next_cost(candidate) < next_cost(*cheapest)))
-            cheapest = &candidate;
-    return cheapest;
+/// The candidate whose next rate costs least; none if that is more than `most`. Those that are too
+/// much work to try are over.
+Candidate* Search::cheapest_next(double most) {
+    for (;;) {
+        Candidate* cheapest = nullptr;
+        for (Candidate& candidate : candidates_)
+            if (!candidate.over && (!cheapest || next_cost(candidate) < next_cost(*cheapest)))
+                cheapest = &candidate;
+        if (!cheapest || next_cost(*cheapest) > most) return nullptr;
+        if (affordable(cheapest->at(rates_[cheapest->next]))) return cheapest;
+        cheapest->over = ended_early_ = true;
+    }
 }
 
-bool Search::affordable(const Candidate& candidate, std::int64_t rate) const {
-    return candidate.work_per_hertz * static_cast<double>(rate) <= requirements_.most_work;
+/// One run may take a part of the work that is left, so that others remain possible.
+bool Search::affordable(const Stepping& choice) const {
+    constexpr double part = 4;
+    const double steps = static_cast<double>(choice.rate.steps) * reference_.meaningful_until;
+    return meter_.evaluations_per_step(*choice.method) * steps <= requirements_.most_work &&
+           meter_.affords(part * work_of(choice));
 }
 
 /// Moves a candidate to the next rate that is worth a run, or marks it as over.
@@ -244,7 +326,8 @@ void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess
         candidate.tried = row.stepping.rate.steps;
         candidate.error = error;
         if (candidate.convergence.stalled()) {
-            candidate.rounded = is_round_off(scene_, row, reference_, watch_.stopped);
+            candidate.rounded =
+                is_round_off(scene_, row, reference_, meter_.counting(*candidate.method));
             candidate.over = candidate.rounded;
             candidate.convergence.restart();
         }
@@ -252,17 +335,18 @@ void Search::advance(Candidate& candidate, const TradeoffRow& row, double excess
             least = candidate.least_rate(row, excess, requirements_, reference_.extent);
     }
     while (candidate.next < rates_.size() && rates_[candidate.next] < least) ++candidate.next;
-    if (candidate.next == rates_.size() || !affordable(candidate, rates_[candidate.next]))
-        candidate.over = true;
+    if (candidate.next == rates_.size()) candidate.over = true;
 }
 
 void Search::find_cheapest() {
     double first = INFINITY;
     const Method* first_method = nullptr;
     bool has_second = false;
-    for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
+    const auto next_candidate = [&] {
+        return cheapest_next(first * (has_second ? rival_cost_ratio : runner_up_cost_ratio));
+    };
+    for (Candidate* next = next_candidate(); next && !watch_.stopped(); next = next_candidate()) {
         const double cost = next_cost(*next);
-        if (cost > first * (has_second ? rival_cost_ratio : runner_up_cost_ratio)) break;
         report_progress();
         const TradeoffRow row = try_choice(next->at(rates_[next->next]));
         if (!meets_tolerance(row)) {
@@ -281,8 +365,9 @@ void Search::report_progress() const {
     std::size_t done = 0;
     for (const Candidate& candidate : candidates_)
         done += candidate.over ? rates_.size() : candidate.next;
-    watch_.progress(static_cast<double>(done) /
-                    static_cast<double>(candidates_.size() * rates_.size()));
+    watch_.progress(std::max(
+        meter_.share_done(),
+        static_cast<double>(done) / static_cast<double>(candidates_.size() * rates_.size())));
 }
 
 /// Tries the three settings with the smallest errors expected by their order, at the highest rates
@@ -293,7 +378,7 @@ void Search::try_highest() {
     for (const Candidate& candidate : candidates_) {
         std::int64_t rate = candidate.tried;
         for (const std::int64_t higher : rates_)
-            if (affordable(candidate, higher)) rate = std::max(rate, higher);
+            if (affordable(candidate.at(higher))) rate = std::max(rate, higher);
         if (candidate.tried == 0 || rate == candidate.tried || candidate.rounded) continue;
         const double times = static_cast<double>(rate) / static_cast<double>(candidate.tried);
         const int order = std::min(candidate.method->order, requirements_.at_steps ? 8 : 2);
@@ -302,13 +387,15 @@ void Search::try_highest() {
     std::ranges::stable_sort(highest, {}, &std::pair<double, Stepping>::first);
     highest.resize(std::min(highest.size(), most));
     for (const auto& [error, choice] : highest)
-        if (!watch_.stopped()) try_choice(choice);
+        if (!watch_.stopped()) try_affordable(choice);
 }
 
 void Search::find_most_accurate() {
     double least = INFINITY;
-    for (Candidate* next = cheapest_next(); next && !watch_.stopped(); next = cheapest_next()) {
-        if (next_cost(*next) > *requirements_.ns_per_second && !rows_.empty()) break;
+    const auto next_candidate = [&] {
+        return cheapest_next(rows_.empty() ? INFINITY : *requirements_.ns_per_second);
+    };
+    for (Candidate* next = next_candidate(); next && !watch_.stopped(); next = next_candidate()) {
         report_progress();
         const TradeoffRow row = try_choice(next->at(rates_[next->next]));
         const Judgement& judgement = row.judgement;
@@ -340,25 +427,39 @@ void Search::refine_to_time() {
         const std::int64_t low = row.stepping.rate.steps;
         for (const Candidate& candidate : candidates_)
             if (candidate.at(low) == row.stepping && !watch_.stopped())
-                try_choice(candidate.at(
+                try_affordable(candidate.at(
                     highest_rate(candidate, low, std::min(4 * low, requirements_.max_rate), most)));
     }
 }
 
-/// Bisects between a rate that meets the tolerance and the one below. Returns false if there is
-/// none.
+/// Tries rates between one that meets the tolerance and the one below, from the lowest up, because
+/// errors of few steps do not fall steadily. Returns false if there are none.
 bool Search::refine(const TradeoffRow& row) {
     const auto found = std::ranges::find(rates_, row.stepping.rate.steps);
     if (found == rates_.begin() && !too_low_) return false;
-    std::int64_t low = found == rates_.begin() ? *too_low_ : *std::prev(found);
-    std::int64_t high = row.stepping.rate.steps;
+    const auto candidate = std::ranges::find_if(candidates_, [&](const Candidate& one) {
+        return one.at(row.stepping.rate.steps) == row.stepping;
+    });
     Stepping choice = row.stepping;
-    // Below 1/32 of the rate, the gain is not worth a run.
-    while (high - low > std::max<std::int64_t>(1, high / 32) && !watch_.stopped()) {
-        choice.rate.steps = (low + high) / 2;
-        (meets_tolerance(try_choice(choice)) ? high : low) = choice.rate.steps;
+    choice.rate.steps = found == rates_.begin() ? *too_low_ : *std::prev(found);
+    for (std::int64_t least = choice.rate.steps; !watch_.stopped();) {
+        // Below 1/32 of the rate, the gain is not worth a run.
+        const std::int64_t step = std::max<std::int64_t>(1, choice.rate.steps / 32);
+        choice.rate.steps = std::max(choice.rate.steps + step, least);
+        if (choice.rate.steps >= row.stepping.rate.steps) break;
+        const std::optional<TradeoffRow> tried = try_affordable(choice);
+        if (!tried || meets_tolerance(*tried)) break;
+        if (tried->judgement.stable)
+            least = candidate->least_rate(*tried, excess(tried->judgement, requirements_),
+                                          requirements_, reference_.extent);
     }
     return true;
+}
+
+std::optional<TradeoffRow> Search::try_affordable(const Stepping& choice) {
+    if (affordable(choice)) return try_choice(choice);
+    ended_early_ = true;
+    return std::nullopt;
 }
 
 std::vector<TradeoffRow> Search::meeting_rows() {
@@ -383,7 +484,11 @@ std::vector<TradeoffRow> Search::closest_rows() {
             return matters && !row.judgement.complete;
         });
         if (incomplete == rows.end() || watch_.stopped()) return rows;
-        measure(incomplete->stepping);
+        const Stepping& choice = incomplete->stepping;
+        if (can_measure(choice))
+            measure(choice);
+        else
+            std::erase_if(rows_, [&](const TradeoffRow& row) { return row.stepping == choice; });
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,14 +10,49 @@
 
 namespace oiler::lab {
 
+/// Counts the work of a search: its runs beside the reference, in force evaluations, each on one
+/// body or link. It does not depend on the machine.
+class WorkMeter {
+public:
+    /// The work of comparing a body with the reference once.
+    static constexpr double comparison = 50;
+
+    WorkMeter(const Scene& scene, double most, const std::function<bool()>& stopped);
+
+    [[nodiscard]] double evaluations_per_step(const Method& method) const {
+        return work_.per_step(method);
+    }
+    /// The work of a step and of its comparison with the reference.
+    [[nodiscard]] double per_step(const Method& method) const;
+    /// Whether so much more work is within the limit of a search.
+    [[nodiscard]] bool affords(double work) const { return done_ + work <= most_; }
+    /// Whether work is so little that the limit does not matter.
+    [[nodiscard]] bool is_little(double work) const { return work <= most_ / 32; }
+    /// For JudgeOptions: a run asks at each step whether to stop, which counts the step.
+    [[nodiscard]] std::function<bool()> counting(const Method& method);
+    [[nodiscard]] double share_done() const { return done_ / most_; }
+
+private:
+    RunWork work_;
+    double most_;
+    const std::function<bool()>& stopped_;
+    bool linked_ = false;
+    double per_comparison_ = 0;  ///< work per step beside the evaluations
+    double done_ = 0;
+};
+
 /// Perturbed starts of a scene: positions by up to 0.1 % of the extent, velocities by up to 0.1 %
 /// of the speed. A scene at rest is moved by 0.1 % of its size; there, errors up to twice that are
 /// tolerated, because only instability makes them larger.
 class Ensemble {
 public:
     Ensemble(const Scene& scene, const Reference& reference, const Requirements& requirements,
-             const std::function<bool()>& stopped)
-        : scene_(scene), reference_(reference), requirements_(requirements), stopped_(stopped) {}
+             const std::function<bool()>& stopped, WorkMeter& meter)
+        : scene_(scene),
+          reference_(reference),
+          requirements_(requirements),
+          stopped_(stopped),
+          meter_(meter) {}
 
     /// Why a setting that meets the tolerances is not advised: a warning before the run, at this
     /// rate or 5 % below it, or an error from a perturbed start. Empty if it holds.
@@ -44,6 +80,7 @@ private:
     const Reference& reference_;
     const Requirements& requirements_;
     const std::function<bool()>& stopped_;
+    WorkMeter& meter_;
     std::vector<Member> members_;
     bool is_made_ = false;
     std::vector<Known> known_;
@@ -54,10 +91,9 @@ struct Candidate {
     const Method* method = nullptr;
     Precision precision = Precision::double_;
     std::optional<Damping> damping{};
-    double first = unknown;     ///< ns, of the only step of a frame
-    double further = unknown;   ///< ns, of each further step of a frame
-    double work_per_hertz = 0;  ///< work of a run at 1 Hz
-    std::size_t next = 0;       ///< index of the next rate to try
+    double first = unknown;    ///< ns, of the first step of a frame, with the frame's impacts
+    double further = unknown;  ///< ns, of each further step of a frame
+    std::size_t next = 0;      ///< index of the next rate to try
     Convergence convergence;
     std::int64_t tried = 0;  ///< the last stable rate
     double error = unknown;  ///< m, at that rate
@@ -93,6 +129,10 @@ public:
     /// Judges a setting; further calls return the first result. An error far above the tolerance
     /// ends its run early.
     TradeoffRow try_choice(const Stepping& choice);
+    /// The same, or nothing if the run would be too much work.
+    std::optional<TradeoffRow> try_affordable(const Stepping& choice);
+    /// Whether judging a setting to the end of its run takes little work, or what is left of it.
+    [[nodiscard]] bool can_measure(const Stepping& choice) const;
     /// Judges a setting to the end of its run.
     TradeoffRow measure(const Stepping& choice);
     /// The setting of a method with the highest rate that is estimated to cost no more, or its
@@ -111,7 +151,8 @@ public:
     /// The tried rows that meet the tolerance, the cheapest first.
     [[nodiscard]] std::vector<TradeoffRow> meeting_rows();
     /// The stable rows, by their errors relative to the tolerances; without tolerances, by position
-    /// error. The first ones and the first of each precision are judged to the end of their runs.
+    /// error. The first ones and the first of each precision are judged to the end of their runs;
+    /// those for which that is too much work are left out.
     [[nodiscard]] std::vector<TradeoffRow> closest_rows();
 
     /// The distance by which rounding to float moves bodies, m, if it exceeds the tolerance.
@@ -119,16 +160,20 @@ public:
     [[nodiscard]] const std::vector<std::int64_t>& rates() const { return rates_; }
     [[nodiscard]] std::size_t perturbed_starts() const { return ensemble_.size(); }
     [[nodiscard]] std::int64_t runs() const { return static_cast<std::int64_t>(rows_.size()); }
+    /// Whether settings that may be cheaper or more accurate were too much work to try.
+    [[nodiscard]] bool ended_early() const { return ended_early_; }
 
 private:
     void drop_low_rates();
+    [[nodiscard]] const std::vector<World>& starts(Precision precision);
     void add_candidates(const Method& method, Precision precision);
     void add_candidate(const Method& method, Precision precision, std::optional<Damping> damping);
-    Candidate* cheapest_next();
+    Candidate* cheapest_next(double most);
     [[nodiscard]] double next_cost(const Candidate& candidate) const;
     TradeoffRow judged(const Stepping& choice, double enough);
+    [[nodiscard]] double work_of(const Stepping& choice) const;
     void advance(Candidate& candidate, const TradeoffRow& row, double excess);
-    [[nodiscard]] bool affordable(const Candidate& candidate, std::int64_t rate) const;
+    [[nodiscard]] bool affordable(const Stepping& choice) const;
     /// Reports the share of settings that were tried or ruled out.
     void report_progress() const;
     void try_highest();
@@ -144,7 +189,9 @@ private:
     const Reference& reference_;
     const Requirements& requirements_;
     const SweepWatch& watch_;
-    RunWork work_;
+    WorkMeter meter_;
+    bool ended_early_ = false;
+    std::array<std::vector<World>, 2> starts_;  ///< in float and in double
     std::vector<std::int64_t> rates_;
     std::optional<std::int64_t> too_low_;  ///< the highest rate that was dropped
     std::vector<Candidate> candidates_;

@@ -17,7 +17,7 @@ constexpr std::size_t most_columns = 4;
 /// Halvings in a row without improvement, after which only round-off or chaos remains.
 constexpr int most_vain_runs = 2;
 /// The error of linked bodies that land only halves with the step: less work is spent on it.
-constexpr double vain_share = 256;
+constexpr double landing_share = 32;
 constexpr double least_wanted = 1e-12;  ///< of the extent
 
 bool is_damped_along_lines(const Scene& scene) {
@@ -132,13 +132,13 @@ bool any_linked_kink(const Trajectory& trajectory, const Bodies& bodies) {
 class Table {
 public:
     Table(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
-          const ReferenceEffort& effort, Precision precision)
+          const ReferenceEffort& effort, Precision precision, const Method& method)
         : scene_(scene),
           start_(start),
           samples_(samples),
           effort_(effort),
           precision_(precision),
-          method_(finest_method(scene)) {}
+          method_(method) {}
 
     /// Returns false and empties the table if the run diverged or was stopped.
     bool add_run(std::int64_t rate) {
@@ -225,36 +225,57 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
 }
 
 /// The error that is enough. A loose tolerance must not make a scene look chaotic.
-double sufficient_error(const ReferenceEffort& effort, double extent) {
-    return effort.wanted > 0 ? std::min(effort.wanted, resolution * extent / margin)
-                             : least_wanted * extent;
+double sufficient_error(const ReferenceEffort& effort, double extent, bool linked_bodies_land) {
+    const double usable = resolution * extent / margin;
+    // Order 1 reaches no more than that, and the samples need a part of it.
+    if (linked_bodies_land) return std::min(effort.wanted > 0 ? effort.wanted : usable, usable / 2);
+    return effort.wanted > 0 ? std::min(effort.wanted, usable) : least_wanted * extent;
+}
+
+/// The difference of two runs of linked bodies that land depends on where in a step they land, and
+/// may be small by chance. An error is at least half of that at twice the step.
+void raise_to_half(std::vector<Uncertainty>& uncertainties,
+                   const std::vector<Uncertainty>& before) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        Uncertainty& one = uncertainties[i];
+        one = {std::max(one.position, before[i].position / 2),
+               std::max(one.velocity, before[i].velocity / 2),
+               std::max(one.energy, before[i].energy / 2)};
+    }
 }
 
 FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbation& start,
-                        const SampleTimes& samples, const ReferenceEffort& effort) {
-    Table table(scene, start, samples, effort, precision);
-    const double work_per_step = RunWork(scene).per_step(table.method());
-    FineSteps finest;
+                        const SampleTimes& samples, const ReferenceEffort& effort,
+                        const Method& method, bool linked_bodies_land = false) {
+    Table table(scene, start, samples, effort, precision, method);
+    const double work_per_step = RunWork(scene).per_step(method);
+    const double most_work =
+        linked_bodies_land ? effort.most_work / landing_share : effort.most_work;
+    FineSteps finest{.linked_bodies_land = linked_bodies_land};
     bool affordable = false;
     std::int64_t most_usable = -1;
     int vain = 0;
     for (std::int64_t rate = samples.per_second; vain < most_vain_runs; rate *= 2) {
         const double work =
             work_per_step * static_cast<double>(rate) * samples.time(samples.count - 1);
-        const double most_work =
-            table.linked_bodies_land() ? effort.most_work / vain_share : effort.most_work;
         if (work > most_work || effort.stopped()) break;
         affordable = true;
         const bool has_run = table.add_run(rate);
         if (table.has_too_many_impacts()) break;
+        // No method has more than order 1 then, and round-off is less than the error.
+        if (table.linked_bodies_land() && !linked_bodies_land)
+            return fine_steps_in(Precision::double_, scene, start, samples, effort,
+                                 find_method("velocity_verlet"), true);
         if (!has_run || !table.has_uncertainties()) continue;
-        effort.progress(work / effort.most_work);
+        effort.progress(work / most_work);
         std::vector<Uncertainty> uncertainties = table.uncertainties();
+        if (linked_bodies_land) raise_to_half(uncertainties, finest.uncertainties);
         const double uncertainty = uncertainties.back().position;
         const double extent = extent_of(table.best());
+        const double enough = sufficient_error(effort, extent, linked_bodies_land);
         const std::int64_t usable = count_within(uncertainties, resolution * extent / margin);
         const bool better =
-            finest.uncertainties.empty() || usable > most_usable ||
+            finest.uncertainties.empty() || usable > most_usable || linked_bodies_land ||
             (usable == most_usable && uncertainty < finest.uncertainties.back().position / 2);
         vain = better ? 0 : vain + 1;
         if (!better) continue;
@@ -272,8 +293,9 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
                 uncertainty),
             .finest_run = table.finest_run(),
             .stepping = {&table.method(), {rate}, precision},
-            .sufficient = uncertainty <= sufficient_error(effort, extent),
-            .linked_bodies_land = table.linked_bodies_land()};
+            .sufficient_error = enough,
+            .sufficient = uncertainty <= enough,
+            .linked_bodies_land = linked_bodies_land};
         if (finest.sufficient) break;
     }
     finest.affordable = affordable;
@@ -290,11 +312,14 @@ double most_samples(const Scene& scene, const ReferenceEffort& effort) {
 
 FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
                      const ReferenceEffort& effort) {
+    const Method& method = finest_method(scene);
     if (effort.wanted > 0) {
-        FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort);
-        if (quick.sufficient || quick.has_too_many_impacts || effort.stopped()) return quick;
+        FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort, method);
+        if (quick.sufficient || quick.linked_bodies_land || quick.has_too_many_impacts ||
+            effort.stopped())
+            return quick;
     }
-    return fine_steps_in(Precision::extended, scene, start, samples, effort);
+    return fine_steps_in(Precision::extended, scene, start, samples, effort, method);
 }
 
 }  // namespace oiler::lab

@@ -18,10 +18,11 @@ struct FineSteps {
     Trajectory trajectory{};
     std::vector<Uncertainty> uncertainties{};
     std::string words{};
-    Trajectory finest_run{};  ///< from which the trajectory was extrapolated
-    Stepping stepping{};      ///< of the finest run
-    bool sufficient = false;  ///< whether the error at the end is no more than the wanted one
-    bool affordable = false;  ///< whether the coarsest run was within the work limit
+    Trajectory finest_run{};      ///< from which the trajectory was extrapolated
+    Stepping stepping{};          ///< of the finest run
+    double sufficient_error = 0;  ///< m, that is wanted at the end
+    bool sufficient = false;      ///< whether the error at the end is no more
+    bool affordable = false;      ///< whether the coarsest run was within the work limit
     /// With order 1, so that the error falls slowly.
     bool linked_bodies_land = false;
     bool has_too_many_impacts = false;

@@ -157,11 +157,15 @@ private:
     [[nodiscard]] std::optional<SampleTimes> finer_samples(
         const FineSteps& fine, const std::vector<double>& between) const {
         constexpr std::int64_t most_times = 8;
-        constexpr double order = 8;  // of polynomials of degree 7
-        if (effort_.stopped() || !(effort_.wanted > 0) || between.empty() ||
-            between.back() <= effort_.wanted || fine.uncertainties.back().position > effort_.wanted)
+        // Of polynomials of degree 7; less where a linked body lands and changes the forces on
+        // others.
+        const double order = fine.linked_bodies_land ? 2 : 8;
+        const double wanted = fine.linked_bodies_land ? fine.sufficient_error / 2 : effort_.wanted;
+        const double own = fine.linked_bodies_land ? fine.sufficient_error : wanted;
+        if (effort_.stopped() || !(wanted > 0) || between.empty() || between.back() <= wanted ||
+            fine.uncertainties.back().position > own)
             return std::nullopt;
-        const double times = std::ceil(2 * std::pow(between.back() / effort_.wanted, 1 / order));
+        const double times = std::ceil(2 * std::pow(between.back() / wanted, 1 / order));
         if (!(times <= most_times)) return std::nullopt;
         Density more = density(48, effort_);
         more.times = times;

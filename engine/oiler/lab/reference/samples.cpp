@@ -20,6 +20,23 @@ constexpr double fewest_samples = 20;
 /// The limit of bodies × samples, which are kept in memory several times.
 constexpr double most_states = 1.5e6;
 
+/// Keeps a perturbed body on the planes that it touches, and out of the others: a body that slides
+/// must not bounce.
+void keep_on_planes(const Bodies& bodies, std::size_t row, State<double, 3>& state) {
+    constexpr double touching = 1e-9;  // m
+    const auto contact = bodies.contact(row);
+    if (!contact) return;
+    for (const Plane& plane : bodies.planes()) {
+        const double size = length(plane.normal);
+        const Vec3 normal = plane.normal * (1 / size);
+        const double least = plane.offset / size + contact->radius;
+        const bool touches = dot(normal, bodies.position(row)) - least <= touching;
+        const double gap = dot(normal, state.x) - least;
+        if (touches || gap < 0) state.x = state.x - normal * gap;
+        if (touches) state.v = state.v - normal * dot(normal, state.v - bodies.velocity(row));
+    }
+}
+
 }  // namespace
 
 World make_world(const Scene& scene, const Settings& settings, const Perturbation& perturbation) {
@@ -33,8 +50,11 @@ World make_world(const Scene& scene, const Settings& settings, const Perturbatio
     };
     for (std::size_t row = 0; row < world.body_count(); ++row) {
         const Entity entity = world.entity_of_row(row);
-        world.teleport(entity, moved(world.position(entity), perturbation.position));
-        world.set_velocity(entity, moved(world.velocity(entity), perturbation.velocity));
+        State<double, 3> state{moved(world.position(entity), perturbation.position),
+                               moved(world.velocity(entity), perturbation.velocity)};
+        keep_on_planes(world.bodies(), row, state);
+        world.teleport(entity, state.x);
+        world.set_velocity(entity, state.v);
     }
     return world;
 }

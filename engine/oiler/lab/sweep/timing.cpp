@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/timing.hpp"
@@ -12,14 +13,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double frames_per_second = 60;
-/// The largest number of steps in a frame and in a call. More cost no less per step.
+constexpr std::int64_t frames_per_second = 60;
+/// Frames are timed in groups, spread over the duration.
+constexpr std::int64_t most_groups = 32;
+constexpr std::int64_t frames_of_group = 16;
+/// The largest number of steps in a call. More cost no less per step.
 constexpr std::int64_t most_steps = 256;
-/// The shortest and the longest measurement, s; a clock's resolution is tens of ns.
-constexpr double shortest_timing = 200e-6;
-constexpr double longest_timing = 50e-3;
-constexpr std::size_t fewest_timings = 5;
-constexpr std::size_t most_timings = 300;
+/// Whole runs of a scene are repeated for this time, s.
+constexpr double least_repeating = 1e-3;
+/// A setting is timed three times, if that takes no longer than four times this time, s; more often
+/// until this time.
+constexpr double patience = 0.5;
+constexpr std::size_t fewest_rounds = 3;
+/// The cost of a step from several starts is measured for this time, s, from two starts at least.
+constexpr double most_starting = 20e-3;
+constexpr double most_of_start = 200e-6;
 
 /// The time that two readings of the clock take, s.
 double clock_time() {
@@ -43,9 +51,9 @@ private:
     std::vector<unsigned char> memory_ = std::vector<unsigned char>(64 * 1024);
 };
 
-/// A game's frame: steps one by one, with a body read after each. Returns seconds, `unknown` for a
+/// A game's frame: steps one by one, with a body read after each. Returns ns, `unknown` for a
 /// divergence.
-double seconds_of_frame(World& world, std::int64_t steps) {
+double ns_of_frame(World& world, std::int64_t steps) {
     double seen = 0;
     const Clock::time_point begin = Clock::now();
     for (std::int64_t step = 0; step < steps; ++step) {
@@ -53,108 +61,166 @@ double seconds_of_frame(World& world, std::int64_t steps) {
         seen += world.position_of_row(0)[0];
     }
     asm volatile("" : : "g"(seen));  // the compiler must not drop the readings
-    return std::max(0.0, seconds_since(begin) - clock_time());
+    return 1e9 * std::max(0.0, seconds_since(begin) - clock_time());
 }
 
-/// Steps worlds from `start` in pieces of `steps` to the scene's end, again and again, until a
-/// measurement is long enough. A run may be unstable after the scene's end. Calls `measure` for
-/// each piece.
-template <class Measure>
-void repeat_scene(const World& start, double duration, std::int64_t steps, Measure measure) {
-    const auto last = std::max<std::int64_t>(
-        start.tick() + steps,
-        static_cast<std::int64_t>(
-            std::floor(duration * static_cast<double>(start.settings().stepping.rate.steps))));
-    double seconds = 0;
-    std::size_t pieces = 0;
-    const auto is_enough = [&] {
-        return seconds > longest_timing || pieces >= most_timings ||
-               (seconds >= shortest_timing && pieces >= fewest_timings);
+FrameMeasure timed() {
+    return [between = FrameWork()](World& world, std::int64_t steps) mutable {
+        between.run();
+        return ns_of_frame(world, steps);
     };
-    while (!is_enough()) {
-        World world = start;
-        for (; world.tick() + steps <= last && !is_enough(); ++pieces) {
-            const double taken = measure(world);
-            if (std::isnan(taken)) return;
-            seconds += taken;
-        }
-    }
 }
+
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The frames of a second that have a step.
+std::int64_t frames_with_steps(const Rate& rate) { return std::min(rate.steps, frames_per_second); }
+
+/// Steps as far as a tick in calls of many steps. Returns false for a divergence and if stopped.
+bool step_to(World& world, std::int64_t tick, const std::function<bool()>& stopped) {
+    while (world.tick() < tick) {
+        if (stopped() || world.try_step(std::min(most_steps, tick - world.tick()))) return false;
+    }
+    return true;
+}
+
+/// The times of one row: of each frame, in each round.
+class RowTimes {
+public:
+    RowTimes(TradeoffRow& row) : row_(row) {}
+
+    void add_round(const Scene& scene, const SweepWatch& watch) {
+        if (seconds_ > (rounds_.size() < fewest_rounds ? 4 * patience : patience)) return;
+        const Clock::time_point begin = Clock::now();
+        rounds_.push_back(watch.ns_of_frames(scene, Settings{row_.stepping}, watch.stopped));
+        seconds_ += seconds_since(begin);
+    }
+    /// A frame's time is its median over the rounds, so that other programs disturb none.
+    void conclude() {
+        const auto frames = static_cast<double>(frames_with_steps(row_.stepping.rate));
+        std::vector<double> means;
+        for (const std::vector<double>& round : rounds_)
+            if (!round.empty()) means.push_back(mean_of(round));
+        if (means.empty()) return;
+        std::vector<double> medians;
+        for (std::size_t frame = 0; frame < rounds_.front().size(); ++frame) {
+            std::vector<double> times;
+            for (const std::vector<double>& round : rounds_)
+                if (frame < round.size()) times.push_back(round[frame]);
+            medians.push_back(median_of(std::move(times)).value);
+        }
+        row_.ns_per_second = frames * mean_of(medians);
+        row_.ns_worst_frame = *std::ranges::max_element(medians);
+        row_.ns_spread = frames * median_of(std::move(means)).spread;
+    }
+    [[nodiscard]] TradeoffRow& row() const { return row_; }
+
+private:
+    TradeoffRow& row_;
+    std::vector<std::vector<double>> rounds_;
+    double seconds_ = 0;
+};
 
 }  // namespace
 
-double ns_per_step(const Scene& scene, const Settings& settings, std::int64_t per_frame) try {
-    World start = make_world(scene, settings);
-    if (start.body_count() == 0 || start.try_step()) return unknown;
-    FrameWork between;
-    std::vector<double> frames;
-    repeat_scene(start, scene.duration, per_frame, [&](World& world) {
-        between.run();
-        frames.push_back(seconds_of_frame(world, per_frame));
-        return frames.back();
-    });
-    if (frames.empty() || std::isnan(frames.back())) return unknown;
-    return 1e9 * median_of(std::move(frames)).value / static_cast<double>(per_frame);
+std::vector<double> measure_frames(const Scene& scene, const Settings& settings,
+                                   const std::function<bool()>& stopped,
+                                   const FrameMeasure& measure) {
+    World world = make_world(scene, settings);
+    if (world.body_count() == 0) return {};
+    const std::int64_t rate = settings.stepping.rate.steps;
+    const std::int64_t per_second = frames_with_steps(settings.stepping.rate);
+    const auto tick_of = [&](std::int64_t frame) { return frame * rate / per_second; };
+    const auto frames = std::max<std::int64_t>(
+        1, static_cast<std::int64_t>(scene.duration * static_cast<double>(per_second)));
+    const std::int64_t groups =
+        std::min(most_groups, (frames + frames_of_group - 1) / frames_of_group);
+    std::vector<double> measured;
+    for (std::int64_t group = 0; group < groups; ++group) {
+        const std::int64_t first = group * frames / groups;
+        const std::int64_t last = std::min(first + frames_of_group, (group + 1) * frames / groups);
+        if (!step_to(world, tick_of(first), stopped)) break;
+        for (std::int64_t frame = first; frame < last && !stopped(); ++frame) {
+            const double cost = measure(world, tick_of(frame + 1) - tick_of(frame));
+            if (std::isnan(cost)) return measured;
+            measured.push_back(cost);
+        }
+    }
+    return measured;
+}
+
+std::vector<double> ns_of_frames(const Scene& scene, const Settings& settings,
+                                 const std::function<bool()>& stopped) try {
+    return measure_frames(scene, settings, stopped, timed());
+} catch (const Error&) {
+    return {};
+}
+
+double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
+                   std::int64_t per_frame) try {
+    constexpr std::size_t most_frames = 5;
+    constexpr std::size_t fewest_starts = 2;
+    FrameMeasure measure = timed();
+    std::vector<double> costs;
+    const Clock::time_point begin = Clock::now();
+    for (const World& start : starts) {
+        if (costs.size() >= fewest_starts && seconds_since(begin) > most_starting) break;
+        World world = start;
+        world.set_stepping(choice);
+        if (world.try_step()) continue;
+        std::vector<double> times;
+        for (double ns = 0; times.size() < most_frames && ns < 1e9 * most_of_start;
+             ns += times.back())
+            times.push_back(measure(world, per_frame));
+        if (const Median time = median_of(std::move(times)); std::isfinite(time.value))
+            costs.push_back(time.value);
+    }
+    return costs.empty() ? unknown : mean_of(costs) / static_cast<double>(per_frame);
 } catch (const Error&) {
     return unknown;
 }
 
-double ns_per_step_together(const Scene& scene, const Stepping& choice) try {
-    World start = make_world(scene, Settings{choice});
-    if (start.body_count() == 0 || start.try_step()) return unknown;
-    World probe = start;
-    const double first = seconds_of_frame(probe, 1);
-    const std::int64_t steps = std::clamp<std::int64_t>(
-        std::llround(longest_timing / std::max(first, 1e-9)), 1, most_steps);
-    std::vector<double> calls;
-    repeat_scene(start, scene.duration, steps, [&](World& world) {
-        const Clock::time_point begin = Clock::now();
-        calls.push_back(world.try_step(steps) ? unknown : seconds_since(begin));
-        return calls.back();
-    });
-    if (calls.empty() || std::isnan(calls.back())) return unknown;
-    return 1e9 * median_of(std::move(calls)).value / static_cast<double>(steps);
-} catch (const Error&) {
-    return unknown;
-}
-
-double ns_per_second(const Scene& scene, const Stepping& choice, const SweepWatch& watch) {
-    const auto rate = static_cast<double>(choice.rate.steps);
-    const double in_frame = rate / frames_per_second;
-    const double few = std::floor(in_frame);
-    if (few >= static_cast<double>(most_steps))
-        return rate * watch.ns_per_step(scene, Settings{choice}, most_steps);
-    const auto frame = [&](double steps) {
-        return steps == 0 ? 0
-                          : steps * watch.ns_per_step(scene, Settings{choice},
-                                                      static_cast<std::int64_t>(steps));
+double ns_per_step_together(const Scene& scene, const Stepping& choice,
+                            const std::function<bool()>& stopped) try {
+    const World start = make_world(scene, Settings{choice});
+    const auto last = std::max<std::int64_t>(
+        1, static_cast<std::int64_t>(scene.duration * static_cast<double>(choice.rate.steps)));
+    if (start.body_count() == 0) return unknown;
+    std::vector<double> runs;
+    const auto is_enough = [&](double seconds) {
+        return runs.size() < fewest_rounds ? seconds > patience : seconds >= least_repeating;
     };
-    const double share = in_frame - few;
-    const double more = share > 0 ? share * frame(few + 1) : 0;
-    return frames_per_second * ((1 - share) * frame(few) + more);
+    for (double seconds = 0; !is_enough(seconds); seconds += runs.back()) {
+        World world = start;
+        const Clock::time_point begin = Clock::now();
+        if (!step_to(world, last, stopped)) return unknown;
+        runs.push_back(seconds_since(begin));
+    }
+    return 1e9 * *std::ranges::min_element(runs) / static_cast<double>(last);
+} catch (const Error&) {
+    return unknown;
 }
 
 void time_rows(const Scene& scene, const std::vector<TradeoffRow*>& rows, int rounds,
                const SweepWatch& watch) {
-    std::vector<TradeoffRow*> stable;
+    std::vector<RowTimes> times;
     for (TradeoffRow* row : rows)
-        if (row->judgement.stable) stable.push_back(row);
-    std::vector<std::vector<double>> times(stable.size());
-    const auto all = static_cast<double>(stable.size()) * rounds;
+        if (row->judgement.stable) times.emplace_back(*row);
+    const auto all = static_cast<double>(times.size()) * rounds;
     double done = 0;
     for (int round = 0; round < rounds; ++round)
-        for (std::size_t i = 0; i < stable.size(); ++i) {
+        for (RowTimes& one : times) {
             if (watch.stopped()) return;
-            times[i].push_back(ns_per_second(scene, stable[i]->stepping, watch));
+            one.add_round(scene, watch);
             watch.progress(++done / all);
         }
-    for (std::size_t i = 0; i < stable.size(); ++i) {
-        TradeoffRow& row = *stable[i];
-        const Median time = median_of(std::move(times[i]));
-        row.ns_per_second = time.value;
-        row.ns_spread = time.spread;
-        row.ns_together = static_cast<double>(row.stepping.rate.steps) *
-                          watch.ns_per_step_together(scene, row.stepping);
+    for (RowTimes& one : times) {
+        one.conclude();
+        const Stepping& stepping = one.row().stepping;
+        one.row().ns_together = static_cast<double>(stepping.rate.steps) *
+                                watch.ns_per_step_together(scene, stepping, watch.stopped);
     }
 }
 

@@ -25,11 +25,13 @@ struct Machine {
 struct TradeoffRow {
     Stepping stepping{};
     Judgement judgement{};
-    /// Computing time per simulated second as played, ns: the median of repeated times. In a game
-    /// of 60 frames per second each step is a call, and other work is between the frames.
+    /// Computing time per simulated second as played, ns: the mean over frames of the whole
+    /// duration, each with the median of repeated times. In a game of 60 frames per second each
+    /// step is a call, and other work is between the frames.
     double ns_per_second = unknown;
-    double ns_spread = unknown;    ///< half the interquartile range
-    double ns_together = unknown;  ///< ns per simulated second at many steps per call
+    double ns_spread = unknown;       ///< half the interquartile range
+    double ns_worst_frame = unknown;  ///< ns, of the most expensive of these frames
+    double ns_together = unknown;     ///< ns per simulated second at many steps per call
 };
 
 /// A method in one precision, at rates in ascending order. Files call it a ladder.
@@ -134,29 +136,40 @@ private:
 [[nodiscard]] bool is_round_off(const Scene& scene, const TradeoffRow& row,
                                 const Reference& reference, const std::function<bool()>& stopped);
 
-/// Measures the cost of a step as played, ns: the median over frames of `per_frame` steps. Returns
-/// `unknown` for an unstable run.
-[[nodiscard]] double ns_per_step(const Scene& scene, const Settings& settings,
+/// A cost of a frame: takes its steps one by one. `unknown` for a divergence.
+using FrameMeasure = std::function<double(World& world, std::int64_t steps)>;
+
+/// Measures frames of a game of 60 frames per second in a run of the scene: all frames or, in a
+/// long scene, groups of frames that are spread over the whole duration. Below 60 Hz, frames
+/// without a step are left out. Ends early for a divergence or if stopped.
+[[nodiscard]] std::vector<double> measure_frames(const Scene& scene, const Settings& settings,
+                                                 const std::function<bool()>& stopped,
+                                                 const FrameMeasure& measure);
+/// The times of these frames as played, ns. Empty if the run is unstable from the first step on.
+[[nodiscard]] std::vector<double> ns_of_frames(const Scene& scene, const Settings& settings,
+                                               const std::function<bool()>& stopped);
+/// The cost of a step in frames of `per_frame` steps, ns: the mean over starts that are at tick 0.
+/// `unknown` for a setting that is unstable from all of them.
+[[nodiscard]] double ns_per_step(const std::vector<World>& starts, const Stepping& choice,
                                  std::int64_t per_frame);
-/// Measures the cost of a step at many steps per call, ns; `unknown` for an unstable run.
-[[nodiscard]] double ns_per_step_together(const Scene& scene, const Stepping& choice);
+/// The cost of a step at many steps per call, ns, over the whole duration; `unknown` for an
+/// unstable run.
+[[nodiscard]] double ns_per_step_together(const Scene& scene, const Stepping& choice,
+                                          const std::function<bool()>& stopped);
 
 /// Callbacks of a sweep: progress, stopping, and each finished series.
 struct SweepWatch {
     std::function<void(double share)> progress = [](double) {};
     std::function<bool()> stopped = [] { return false; };
     std::function<void(const Tradeoff&)> series_done = [](const Tradeoff&) {};
-    /// Measures all costs. Tests replace it.
-    std::function<double(const Scene&, const Settings&, std::int64_t per_frame)> ns_per_step =
-        lab::ns_per_step;
-    std::function<double(const Scene&, const Stepping&)> ns_per_step_together =
-        lab::ns_per_step_together;
+    // All measurements of time. Tests replace them.
+    std::function<std::vector<double>(const Scene&, const Settings&, const std::function<bool()>&)>
+        ns_of_frames = lab::ns_of_frames;
+    std::function<double(const std::vector<World>&, const Stepping&, std::int64_t per_frame)>
+        ns_per_step = lab::ns_per_step;
+    std::function<double(const Scene&, const Stepping&, const std::function<bool()>&)>
+        ns_per_step_together = lab::ns_per_step_together;
 };
-
-/// The computing time per simulated second as played, ns. Where a frame has no whole number of
-/// steps, it is interpolated between the frames with one step less and one step more.
-[[nodiscard]] double ns_per_second(const Scene& scene, const Stepping& choice,
-                                   const SweepWatch& watch);
 
 /// A trade-off with all series of the plan, without rows.
 [[nodiscard]] Tradeoff start_tradeoff(const Scene& scene, const Reference& reference,

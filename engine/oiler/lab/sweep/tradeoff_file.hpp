@@ -23,6 +23,7 @@ inline constexpr RowNumber row_numbers[]{
     {"evaluations", [](TradeoffRow& row) -> double& { return row.judgement.evaluations; }},
     {"ns_per_second", [](TradeoffRow& row) -> double& { return row.ns_per_second; }},
     {"ns_spread", [](TradeoffRow& row) -> double& { return row.ns_spread; }},
+    {"ns_worst_frame", [](TradeoffRow& row) -> double& { return row.ns_worst_frame; }},
     {"ns_together", [](TradeoffRow& row) -> double& { return row.ns_together; }},
 };
 
