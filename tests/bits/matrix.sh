@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Runs the full matrix of compilers, optimisations and instruction sets with plain compiler calls.
 # Prints a line for each with the hash of the output of tests/bits/state_hash.cpp, and exits with 1
-# if two differ. As a control, a build with fused multiply-adds must differ. Takes a quarter of an
+# if two differ. As a control, a build with fused multiply-adds must differ. Takes half an
 # hour on two cores.
 #   tests/bits/matrix.sh [FOLDER]    # folder for the programs; a temporary one if absent
 set -euo pipefail
