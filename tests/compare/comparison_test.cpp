@@ -64,7 +64,9 @@ TEST_F(ComparisonOfFilms, OfWhatMayNotBeReadIsAnErrorOfReading) {
             const fs::path path = folder / "golden" / part;
             const fs::perms before = fs::status(path).permissions();
             fs::permissions(path, fs::perms::none);
-            if (is_root) EXPECT_EQ(seteuid(nobody), 0);
+            if (is_root) {
+                EXPECT_EQ(seteuid(nobody), 0);
+            }
             EXPECT_TRUE(holds(line_of_error(Exit::io,
                                             [&] {
                                                 (void)compare_captures(folder / "golden",
@@ -72,7 +74,9 @@ TEST_F(ComparisonOfFilms, OfWhatMayNotBeReadIsAnErrorOfReading) {
                                             }),
                               "cannot be read"))
                 << part;
-            if (is_root) EXPECT_EQ(seteuid(0), 0);
+            if (is_root) {
+                EXPECT_EQ(seteuid(0), 0);
+            }
             fs::permissions(path, before);
         }
     };
