@@ -56,7 +56,7 @@ double effect_of(const std::vector<double>& parts, double first, double last, do
         for (const double part : parts) sum += std::nearbyint(part * change / unit) * unit;
     }
     const double effect = sum / (steps * mean) - 1;
-    return std::abs(effect) < least_effect ? 0 : effect;
+    return std::abs(effect) >= least_effect ? effect : 0;  // NaN on an attractor
 }
 
 /// The motion of a body at a time, by all forces on it but those of links.

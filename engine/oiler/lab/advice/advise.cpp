@@ -11,6 +11,7 @@
 #include "oiler/core/error.hpp"
 #include "oiler/lab/advice/search.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "oiler/stability/stability.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -133,8 +134,8 @@ private:
             front_.push_back(row);
     }
     /// Puts the settings that tie with the cheapest before the others: the most accurate first,
-    /// then those of the highest rate. If their cost is negligible, those of a prompt rate come
-    /// first.
+    /// then those of the highest rate, then explicit methods. If their cost is negligible, those of
+    /// a prompt rate come first.
     void rank() {
         std::ranges::stable_sort(front_, {}, &TradeoffRow::ns_per_second);
         const TradeoffRow cheapest = front_.front();
@@ -147,6 +148,7 @@ private:
             const std::int64_t rate = row.stepping.rate.steps;
             return std::tuple(is_negligible(row) ? -std::min(rate, prompt_rate()) : 0,
                               std::round(100 * excess(row.judgement, requirements_)), -rate,
+                              is_implicit(*row.stepping.method),
                               row.stepping.precision == Precision::single, row.stepping.method);
         };
         std::ranges::stable_sort(front_.begin(), others, {}, merit);
