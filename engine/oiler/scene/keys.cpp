@@ -122,7 +122,7 @@ constexpr std::array known_keys{
     SceneKey{"plane", "restitution", number, "", from_to(0, 1), "0.0", "",
              "part of the speed into the plane that a bounce gives back"},
     SceneKey{"plane", "friction", number, "", not_negative, "0.0", "",
-             "Coulomb's coefficient, in bounces and slides"},
+             "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides"},
     SceneKey{"plane", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
     SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
              "bodies in a row, number of rows"},
