@@ -115,6 +115,21 @@ TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
     EXPECT_EQ(renames, 5 + 4 + 1);  // each file once
 }
 
+TEST(LinkedReplacement, FollowsNoLinkToAnotherCapture) {
+    for (const char* name : {".oiler-new", ".oiler-old", ".oiler-back"}) {
+        const Folder folder;
+        const fs::path golden = folder.path() / "golden";
+        const fs::path other = folder.path() / "other";
+        write(film_of(3), golden);
+        write(film_of(2), other);
+        const auto before = files_in(other);
+        fs::create_directory_symlink(other, golden / name);
+        EXPECT_TRUE(holds(line_of_error(Exit::io, [&] { CaptureFolder(golden, "made up"); }),
+                          "is a link; remove it"));
+        EXPECT_EQ(files_in(other), before) << name;
+    }
+}
+
 // The second process is killed while it puts the earlier files back.
 TEST(KilledReplacement, IsUndoneHoweverOftenItIsKilled) {
     fault = Fault::process_is_killed;

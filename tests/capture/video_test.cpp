@@ -233,6 +233,15 @@ TEST_F(Videos, TheLastWordsOfFfmpegAreTold) {
     EXPECT_EQ(names_in(folder.path()), Names{"ffmpeg"});
 }
 
+TEST_F(Videos, WithoutAByteReplaceNoOlderOne) {
+    put_program(folder / "ffmpeg", "cat > /dev/null");
+    put(folder / "a.gif", "GIF8 older");
+    const Variable path("PATH", folder.path().string() + ":" + std::getenv("PATH"));
+    EXPECT_EQ(line_of_error(Exit::io, [&] { write(folder / "a.gif", 2); }),
+              "cannot write " + (folder / "a.gif").string() + ": ffmpeg ended with exit code 0");
+    EXPECT_EQ(text_of(folder / "a.gif"), "GIF8 older");
+}
+
 // ffmpeg alone would end with 0. A limit of 4 KiB stands for a full disk.
 TEST_F(Videos, AFileThatCannotBeCompletedIsAnError) {
     if (!fs::exists("/usr/bin/ffmpeg")) GTEST_SKIP() << "ffmpeg is elsewhere";

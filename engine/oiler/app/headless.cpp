@@ -128,10 +128,14 @@ void film(const GameRun& run, Renderer& renderer, const Manifest& header) {
     if (film.frames() == header.planned_frames)
         remark(options.quiet, "frames and manifest.json are in {}",
                (options.update_golden ? options.golden : options.out).string());
+    else if (Interrupt::requested() && options.update_golden)
+        remark(false, "{}: the frames in {} are as they were", Interrupt::reason(),
+               options.golden.string());
     else
         remark(false, "{}: {} of {} frames are complete in {}",
                Interrupt::requested() ? Interrupt::reason() : "the game has quit", film.frames(),
-               header.planned_frames, options.out.string());
+               header.planned_frames,
+               (options.update_golden ? options.golden : options.out).string());
 }
 
 /// Names the hashes that differ from those of the manifest; empty if none does.

@@ -128,6 +128,12 @@ bool is_folder(const fs::path& path) {
     return fs::is_directory(fs::symlink_status(path, none));
 }
 
+/// Through a link, the files of another folder would be moved and removed.
+void refuse_link(const fs::path& path) {
+    if (fs::is_symlink(path))
+        fail(Exit::io, "{} is a link; remove it or choose another folder", path.string());
+}
+
 /// Waits until everything written to the folder's file system is on the disk.
 void sync_to_disk(const fs::path& folder) {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -281,6 +287,7 @@ void CaptureFolder::replace() {
 void CaptureFolder::undo_replacement() {
     const fs::path old = file(old_name);
     const fs::path back = file(back_name);
+    for (const fs::path& hidden : {old, back, folder_of_new(path_)}) refuse_link(hidden);
     if (is_folder(old)) {
         const bool has_any = has_manifest(path_);
         if (has_any && has_manifest(old)) {

@@ -196,7 +196,9 @@ void Video::add(std::span<const std::uint8_t> rgb_bottom_up) {
 
 void Video::finish() {
     const int status = wait();
-    if (status != 0) fail_with_reason(status);
+    struct stat made {};
+    if (status != 0 || fstat(file_.descriptor(), &made) != 0 || made.st_size == 0)
+        fail_with_reason(status);
     file_.commit();
 }
 

@@ -127,6 +127,7 @@ CheckResult check(const std::filesystem::path& path, bool quiet) {
             check_budget(scene, Settings{scene.stepping}, Interrupt::requested, std::ref(percent));
     } catch (const Error& error) {
         if (error.exit() != Exit::usage) throw;
+        if (!result.divergence.empty()) return result;
         const std::string message = error.what();
         result.error = message.starts_with(result.file)
                            ? message
