@@ -141,8 +141,12 @@ TEST(Nets, AreWarnedOfFromTheirEigenvaluesOn) {
             if (stretch == 1 || !diagonals) {
                 EXPECT_GE(quiet, 0.98 * limit) << diagonals;
             } else {
-                // It contracts, and its diagonals turn: the run needs shorter steps.
-                EXPECT_TRUE(scene.bodies().try_step(verlet, {rate_of(1.05 * quiet), 0, 20'000}))
+                // It contracts, and its diagonals turn: the run needs shorter steps, or gains more
+                // energy than its springs held.
+                Bodies run = scene.bodies();
+                const double held = run.energy().potential;
+                EXPECT_TRUE(run.try_step(verlet, {rate_of(1.05 * quiet), 0, 20'000}) ||
+                            run.energy().total() > 2 * held)
                     << diagonals << quiet / limit;
             }
         }

@@ -410,5 +410,19 @@ TEST(WorldMethods, ThatCannotStepTheBodiesAreRefusedBeforeAnyStep) {
     EXPECT_EQ(exact.tick(), 0);
 }
 
+// A lost bounce makes no run diverge; a spring of ω·dt = 3 does.
+TEST(Preflight, TellsInstabilitiesFromTheRest) {
+    World world(1, {.rate = Rate{60}});
+    world.set_gravity({-9.81});
+    world.add_plane({.normal = {1}, .restitution = 1});
+    world.spawn(Body{.velocity = {3}, .contact = Contact{}});
+    EXPECT_EQ(world.preflight().size(), 1U);
+    EXPECT_TRUE(world.instabilities(1).empty());
+    world.spawn(Body{.position = {1}}, Spring{.stiffness = 9 * 3600.0});
+    EXPECT_EQ(world.preflight().size(), 2U);
+    ASSERT_EQ(world.instabilities(1).size(), 1U);
+    EXPECT_TRUE(holds(world.instabilities(1)[0], "ω·dt = 3"));
+}
+
 }  // namespace
 }  // namespace oiler::test

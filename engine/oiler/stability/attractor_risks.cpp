@@ -32,32 +32,42 @@ Rate scaled_rate(const Rate& rate, double factor) {
 
 namespace {
 
-constexpr double revolutions = 20;
-constexpr double samples = 1000;  // per revolution
-constexpr double most_steps = 200'000;
+/// Whether the energy of an orbit drifts, so that a long run loses any orbit: a slow oscillation
+/// gains or loses amplitude.
+bool drifts(const Method& method, Damping damping) {
+    const Oscillation slow{0.01, 0};
+    return std::abs(spectral_radius(step_matrices(method, damping, {&slow, 1}).front()) - 1) > 1e-8;
+}
 
-/// Runs 20 revolutions of an orbit that returns, at most 200,000 steps, and tells whether the body
-/// stays on an orbit of that size: its energy never changes by `tolerance` of the initial energy.
-/// No local frequency decides that: steps that are too long scatter the body by chance. Adds the
-/// number of steps to `steps`.
-bool is_followed(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate,
-                 double tolerance, std::int64_t& steps) {
+/// Runs 100 revolutions of an orbit that returns, at most 200,000 steps, and returns the revolution
+/// in which the body leaves an orbit of that size: its energy changes by half of the initial
+/// energy. A method whose energy drifts may change it by a thousandth per revolution. No local
+/// frequency decides that: steps that are too long scatter the body by chance. Adds the cost in
+/// steps to `cost`.
+std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, Damping damping,
+                                      const Rate& rate, double& cost) {
     Bodies bodies(3, Precision::double_);
     bodies.add({.position = orbit.centre + orbit.r, .velocity = orbit.v},
                Attractor{orbit.centre, orbit.gm});
+    const double price = is_implicit(method) ? 8 : 1;
     const double per_revolution = orbit.period() / rate.dt();
-    const auto stride = static_cast<std::int64_t>(std::max(1.0, per_revolution / samples));
-    const auto most = static_cast<std::int64_t>(std::min(revolutions * per_revolution, most_steps));
+    const auto stride = static_cast<std::int64_t>(std::max(1.0, per_revolution / 1000));
+    const double most = std::min(100 * per_revolution, 200'000 / price);
+    const double tolerance =
+        drifts(method, damping) ? std::min(most / per_revolution / 1000, 0.5) : 0.5;
     std::int64_t inside = 0;
-    for (std::int64_t tick = 0; tick < most; tick += stride, steps += stride) {
-        if (bodies.try_step(method, {rate, tick, stride, damping})) return false;
+    for (std::int64_t tick = 0; static_cast<double>(tick) < most; tick += stride) {
+        cost += static_cast<double>(stride) * price;
+        const double revolution = static_cast<double>(tick + stride) / per_revolution;
+        if (bodies.try_step(method, {rate, tick, stride, damping})) return revolution;
         const Orbit now{{}, bodies.position(0) - orbit.centre, bodies.velocity(0), orbit.gm};
         // Close to the attractor the energy error is large and vanishes again.
         inside = length(now.r) < orbit.farthest() / 2 ? inside + stride : 0;
-        if (static_cast<double>(inside) > 2 * per_revolution) return false;
-        if (inside == 0 && std::abs(now.energy() / orbit.energy() - 1) >= tolerance) return false;
+        if (static_cast<double>(inside) > 2 * per_revolution) return revolution;
+        if (inside == 0 && std::abs(now.energy() / orbit.energy() - 1) >= tolerance)
+            return revolution;
     }
-    return true;
+    return std::nullopt;
 }
 
 /// The attractors of a body, and whether they are all that moves it.
@@ -77,10 +87,6 @@ Attraction attraction_of(const Bodies& bodies, std::size_t row) {
     of.is_alone = of.is_alone && of.attractors.size() == 1;
     return of;
 }
-
-/// Methods that gain energy at any rate lose an orbit sooner or later: they may change its energy
-/// by 10 %. The energy error of others is bounded.
-double orbit_tolerance(Region& region) { return region.contains({0.1, 0}) ? 1 : 0.1; }
 
 class AttractorTest {
 public:
@@ -107,14 +113,16 @@ private:
         if (!std::isfinite(distance)) return std::nullopt;
         Risk risk{.row = row, .omega_dt = INFINITY, .of = Risk::Of::on_attractor};
         if (distance == 0) return risk;
-        if (is_implicit(region_.method()) || !(attractor.gm > 0)) return std::nullopt;
+        if (!(attractor.gm > 0)) return std::nullopt;
         const bool is_orbit = is_alone && std::isfinite(squared_length(orbit.v));
         risk.at = is_orbit ? orbit.closest() : distance;
         risk.of = risk.at < distance * (1 - 1e-6) ? Risk::Of::periapsis : Risk::Of::attractor;
         risk.omega_dt = std::sqrt(2 * attractor.gm / risk.at) / risk.at * rate_.dt();
         if (is_orbit && orbit.energy() < 0 && std::isfinite(risk.omega_dt)) {
-            if (follows(orbit, risk.omega_dt)) return std::nullopt;
+            const auto lost = revolution_of_loss(orbit, risk.omega_dt);
+            if (!lost) return std::nullopt;
             risk.orbit = orbit;
+            risk.revolution = *lost;
         } else if (is_slow(risk.omega_dt)) {
             return std::nullopt;
         }
@@ -126,20 +134,21 @@ private:
     [[nodiscard]] bool is_slow(double omega_dt) {
         return omega_dt <= 1 || region_.contains({omega_dt, 0});
     }
-    [[nodiscard]] bool follows(const Orbit& orbit, double omega_dt) {
-        constexpr std::int64_t most_steps_of_trials = 2'000'000;
+    /// The revolution in which the body is lost, 0 if unknown; empty if it stays.
+    [[nodiscard]] std::optional<double> revolution_of_loss(const Orbit& orbit, double omega_dt) {
+        constexpr double most_cost = 2e6;
         constexpr double certainly_slow = 0.15;
-        const bool gains = !region_.contains({0.1, 0});
-        if (!gains && omega_dt < certainly_slow) return true;
-        if (steps_of_trials_ > most_steps_of_trials) return is_slow(omega_dt);
-        return is_followed(orbit, region_.method(), region_.damping(), rate_,
-                           orbit_tolerance(region_), steps_of_trials_);
+        if (omega_dt < certainly_slow && !drifts(region_.method(), region_.damping()))
+            return std::nullopt;
+        if (cost_ <= most_cost)
+            return lost_revolution(orbit, region_.method(), region_.damping(), rate_, cost_);
+        return is_slow(omega_dt) ? std::nullopt : std::optional<double>(0);
     }
 
     const Bodies& bodies_;
     Region& region_;
     Rate rate_;
-    std::int64_t steps_of_trials_ = 0;
+    double cost_ = 0;  ///< of all trials, in steps
 };
 
 }  // namespace
@@ -154,12 +163,14 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
         if (auto risk = test.find_risk(row, linked[row])) risks.push_back(std::move(*risk));
 }
 
+bool follows(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate) {
+    double cost = 0;
+    return !lost_revolution(orbit, method, damping, rate, cost);
+}
+
 double orbit_limit(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate) {
-    Region region(method, damping);
-    const double tolerance = orbit_tolerance(region);
-    std::int64_t steps = 0;
     const Descent descent = descend(0.85, 1e-4, [&](double factor) {
-        return is_followed(orbit, method, damping, scaled_rate(rate, factor), tolerance, steps);
+        return follows(orbit, method, damping, scaled_rate(rate, factor));
     });
     return descent.found ? descent.stable : 0;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oiler/stability/oscillations.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {
@@ -13,7 +14,8 @@ struct Dragged {
     double linear = 0;     ///< 1/s
     double quadratic = 0;  ///< 1/m
     double gravity = 0;    ///< m/s²
-    double speed = 0;      ///< m/s
+    double speed = 0;      ///< m/s, relative to the air
+    Vec3 air{};            ///< m/s
     bool has_springs = false;
     bool has_other_forces = false;
 
@@ -34,6 +36,7 @@ void include(const Force& force, const Vec3& velocity, Dragged& of) {
     } else if constexpr (DragsInAir<Force>) {
         const auto [coefficient, air] = force.air_drag();
         of.quadratic += coefficient;
+        if (coefficient > 0) of.air = air;
         of.speed = std::max(of.speed, length(velocity - air));
     } else if constexpr (LineSpring<Force>) {
         of.has_springs = of.has_springs || force.line_spring().stiffness != 0;
@@ -71,12 +74,29 @@ Bodies alone(const Bodies& bodies, std::size_t row) {
     return copy;
 }
 
-/// Whether a body alone diverges within its first steps of dt·`factor`. Too strong a drag squares
-/// the speed every step, so that few steps decide.
-bool diverges(Bodies body, const Method& method, const Steps& steps, double factor) {
-    constexpr std::int64_t count = 512;
+/// Whether a step that has turned a body alone round, relative to the air, is wrong: finer steps
+/// with exact drag do not turn it.
+bool is_thrown_back(Bodies before, const Vec3& u, const Vec3& air, const Rate& rate) {
+    constexpr std::int64_t finer = 64;
+    const Rate fine{rate.steps * finer, rate.seconds};
+    if (before.try_step(find_method("velocity_verlet"), {fine, 0, finer})) return false;
+    return dot(before.velocity(0) - air, u) >= 0;
+}
+
+/// Whether a body alone diverges or is thrown back within its first steps of dt·`factor`. Too
+/// strong a drag squares the speed every step, so that few steps decide.
+bool fails(Bodies body, const Dragged& of, const Method& method, const Steps& steps,
+           double factor) {
+    const std::int64_t count = of.quadratic > 0 ? 512 : 1;
     const Rate rate = factor == 1 ? steps.rate : scaled_rate(steps.rate, factor);
-    return body.try_step(method, {rate, 0, count, steps.damping}).has_value();
+    const Vec3 air = of.linear > 0 ? Vec3{} : of.air;
+    for (std::int64_t tick = 0; tick < count; ++tick) {
+        const Vec3 u = body.velocity(0) - air;
+        const Bodies before = body;
+        if (body.try_step(method, {rate, tick, 1, steps.damping})) return true;
+        if (dot(body.velocity(0) - air, u) < 0 && is_thrown_back(before, u, air, rate)) return true;
+    }
+    return false;
 }
 
 /// The largest speed of a body that only springs hold, from its energy, m/s.
@@ -86,15 +106,17 @@ double largest_speed(const Dragged& of, const Bodies& alone) {
     return std::max(of.speed, std::sqrt(2 * std::max(alone.energy().total(), 0.0)));
 }
 
-/// Whether a step makes a body of 1 m/s faster, for each c·|v|·dt.
-std::vector<bool> speed_up(const Method& method, Damping damping, std::vector<double> drags) {
+/// Whether a step makes a body of 1 m/s faster or throws it back, for each c·|v|·dt.
+std::vector<bool> mislead(const Method& method, Damping damping, std::vector<double> drags) {
     Bodies bodies(1, Precision::extended);
     for (const double drag : drags) bodies.add({.velocity = {1}}, QuadraticDrag{drag});
-    std::vector<bool> faster(drags.size(), true);
-    if (bodies.try_step(method, {.rate = {1}, .damping = damping})) return faster;
-    for (std::size_t row = 0; row < drags.size(); ++row)
-        faster[row] = !(std::abs(bodies.state(row).v[0]) <= 1 + 1e-14L);
-    return faster;
+    std::vector<bool> misled(drags.size(), true);
+    if (bodies.try_step(method, {.rate = {1}, .damping = damping})) return misled;
+    for (std::size_t row = 0; row < drags.size(); ++row) {
+        const long double v = bodies.state(row).v[0];
+        misled[row] = !(v >= -1e-14L && v <= 1 + 1e-14L);
+    }
+    return misled;
 }
 
 }  // namespace
@@ -104,15 +126,22 @@ double quadratic_drag_limit(const Method& method, Damping damping) {
     for (double drag = 0.05; drag < 1000; drag *= 1.01) drags.push_back(drag);
     double low = 0;
     double high = std::numeric_limits<double>::infinity();
-    const std::vector<bool> faster = speed_up(method, damping, drags);
+    const std::vector<bool> misled = mislead(method, damping, drags);
     for (std::size_t i = 0; i < drags.size() && std::isinf(high); ++i)
-        (faster[i] ? high : low) = drags[i];
+        (misled[i] ? high : low) = drags[i];
     if (std::isinf(high)) return high;
     return edge_between(low, high, 1e-14,
-                        [&](double drag) { return !speed_up(method, damping, {drag}).front(); });
+                        [&](double drag) { return !mislead(method, damping, {drag}).front(); });
 }
 
 namespace {
+
+/// The largest damping rate of linear drag and dampers on a body, 1/s.
+double strongest_drag(const Bodies& bodies) {
+    double fastest = 0;
+    for (const OwnMotion& own : own_motions(bodies)) fastest = std::max(fastest, own.linear.c);
+    return fastest;
+}
 
 class DragTest {
 public:
@@ -124,7 +153,7 @@ public:
 
     void add_risks(std::size_t row, bool linked, std::vector<Risk>& risks) {
         const Dragged of = drag_of(bodies_, row);
-        if (!(of.quadratic > 0)) return;
+        if (!(of.quadratic > 0)) return add_linear(row, of, linked, risks);
         if (linked || of.has_other_forces || !std::isfinite(of.speed))
             add_by_speed(row, of, risks);
         else
@@ -133,6 +162,11 @@ public:
         Risk risk{.row = row, .of = Risk::Of::terminal_speed, .at = of.terminal_speed()};
         risk.damping_dt = (of.linear + 2 * of.quadratic * risk.at) * steps_.rate.dt();
         if (!region_.contains({0, risk.damping_dt})) risks.push_back(risk);
+    }
+
+    /// Whether no step of a drag of `rate`, 1/s, is suspicious.
+    [[nodiscard]] bool is_weak(double rate) const {
+        return rate * steps_.rate.dt() < 0.25 * limit_;
     }
 
 private:
@@ -146,16 +180,24 @@ private:
         const Risk risk = risk_at(row, of, of.speed);
         if (!(risk.damping_dt <= limit_)) risks.push_back(risk);
     }
+    /// Linear drag that is too strong to be stable is a risk of springs.
+    void add_linear(std::size_t row, const Dragged& of, bool linked, std::vector<Risk>& risks) {
+        const double damping_dt = of.linear * steps_.rate.dt();
+        const bool moves = of.speed > 0 && std::isfinite(of.speed);
+        if (linked || of.has_other_forces || !moves || is_weak(of.linear)) return;
+        if (!region_.contains({0, damping_dt})) return;
+        add_by_trial(row, of, risks);
+    }
     void add_by_trial(std::size_t row, const Dragged& of, std::vector<Risk>& risks) {
         constexpr int most_trials = 10'000;
-        constexpr double certainly_weak = 0.25;
         if (!of.has_springs && of.speed == 0 && of.gravity == 0) return;
         auto body = std::make_shared<const Bodies>(alone(bodies_, row));
         Risk risk = risk_at(row, of, largest_speed(of, *body));
-        if (risk.damping_dt < certainly_weak * limit_) return;
+        if (is_weak(of.linear + of.quadratic * risk.at)) return;
         if (++trials_ > most_trials) return add_by_speed(row, of, risks);
-        if (!diverges(*body, region_.method(), steps_, 1)) return;
-        risk.alone = std::move(body);
+        if (!fails(*body, of, region_.method(), steps_, 1)) return;
+        risk.tried = std::move(body);
+        if (of.quadratic == 0) risk.of = Risk::Of::linear_drag;
         risks.push_back(std::move(risk));
     }
 
@@ -170,19 +212,26 @@ private:
 
 void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
                     std::vector<Risk>& risks) {
-    if (is_implicit(region.method()) || splits_dampers(region.method(), region.damping())) return;
-    if (!any_body_has(bodies, []<class Force>() { return DragsInAir<Force>; })) return;
-    const std::vector<bool> linked = bodies.linked_rows();
+    if (splits_dampers(region.method(), region.damping())) return;
+    if (std::holds_alternative<ExactFlow>(region.method().rule)) return;
+    const auto drags = []<class Force>() {
+        return DragsInAir<Force> || std::is_same_v<Force, LinearDrag>;
+    };
+    if (!any_body_has(bodies, drags)) return;
     DragTest test(bodies, region, steps);
+    const bool is_linear = !any_body_has(bodies, []<class Force>() { return DragsInAir<Force>; });
+    if (is_linear && test.is_weak(strongest_drag(bodies))) return;
+    const std::vector<bool> linked = bodies.linked_rows();
     for (std::size_t row = 0; row < bodies.size(); ++row) test.add_risks(row, linked[row], risks);
 }
 
 double drag_limit(const Risk& risk, const Method& method, const Steps& steps) {
-    if (!risk.alone)
+    if (!risk.tried)
         return quadratic_drag_limit(method, steps.damping.value_or(method.damping)) /
                risk.damping_dt;
+    const Dragged of = drag_of(*risk.tried, 0);
     const auto is_stable = [&](double factor) {
-        return !diverges(*risk.alone, method, steps, factor);
+        return !fails(*risk.tried, of, method, steps, factor);
     };
     const Descent descent = descend(0.85, 1e-6, is_stable);
     return edge_between(descent.stable, descent.unstable, 1e-6, is_stable);

@@ -16,20 +16,24 @@ bool is_attraction(const Risk& risk) {
     return risk.of == Risk::Of::attractor || risk.of == Risk::Of::periapsis;
 }
 
-/// The remedy in words: the lowest rate above the limit, with a margin of 10⁻⁹ for rounding.
+bool is_rounding(const Risk& risk) {
+    return risk.of == Risk::Of::rounded_position || risk.of == Risk::Of::rounded_velocity;
+}
+
+/// The remedy in words: the lowest rate above the limit, with a margin of 10⁻⁹ for rounding, or a
+/// method.
 std::string remedy_for(double limit, const Rate& rate, const Risk& risk) {
     constexpr double most = 1e6;  // the highest rate of the programs, Hz
     const double at_limit =
         static_cast<double>(rate.steps) / (limit * static_cast<double>(rate.seconds));
     const double above = std::floor(at_limit * (1 + 1e-9)) + 1;
-    if (is_attraction(risk))
-        return above > most ? "give the body another position or velocity"
-                            : fmt::format("rate ≥ {:.0f} Hz", above);
-    // Implicit Euler would end an oscillation that lasts.
-    const bool lasts = risk.damping_dt < 2 * risk.omega_dt;
-    const char* const method = lasts ? "implicit_midpoint" : "implicit_euler";
-    return above > most ? fmt::format("take {}", method)
-                        : fmt::format("rate ≥ {:.0f} Hz, or {}", above, method);
+    const bool has_rate = limit > 0 && above <= most;
+    if (is_attraction(risk) && !has_rate && !risk.remedy)
+        return "give the body another position or velocity";
+    if (!risk.remedy)
+        return has_rate ? fmt::format("rate ≥ {:.0f} Hz", above) : "take another method";
+    return has_rate ? fmt::format("rate ≥ {:.0f} Hz, or {}", above, risk.remedy->name)
+                    : fmt::format("take {}", risk.remedy->name);
 }
 
 double size(const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); }
@@ -73,7 +77,9 @@ std::string describe_measure(const Risk& risk) {
 /// The factor on dt up to which steps are stable.
 double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     const Damping damping = steps.damping.value_or(method.damping);
-    if (risk.of == Risk::Of::quadratic_drag) return drag_limit(risk, method, steps);
+    if (risk.of == Risk::Of::explosion) return trial_limit(risk, method, steps);
+    if (risk.of == Risk::Of::quadratic_drag || risk.of == Risk::Of::linear_drag)
+        return drag_limit(risk, method, steps);
     if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate);
     return spring_limit(risk, method, damping, steps.rate.dt());
 }
@@ -103,8 +109,7 @@ std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
         return fmt::format(
             "body {} is on an attractor, where the force has no direction: move the body",
             name(risk.row));
-    if (risk.of == Risk::Of::rounded_position || risk.of == Risk::Of::rounded_velocity)
-        return describe_rounding(risk, name);
+    if (is_rounding(risk)) return describe_rounding(risk, name);
     if (risk.of == Risk::Of::quadratic_drag)
         return fmt::format(
             "quadratic drag of body {}: c·|v|·dt is not finite: take a higher rate, or "
@@ -116,10 +121,39 @@ std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
         name(risk.row));
 }
 
+/// The loss of an orbit. The energy of an orbit that velocity_verlet follows does not drift.
+std::string describe_loss(const Risk& risk, const Method& method, const Steps& steps,
+                          const NameOfRow& name) {
+    const Method& verlet = find_method("velocity_verlet");
+    const double limit = limit_of(risk, method, steps);
+    std::string remedy = remedy_for(limit, steps.rate, risk);
+    if (&method != &verlet && follows(*risk.orbit, verlet, verlet.damping, steps.rate))
+        remedy = limit > 0 ? remedy + ", or velocity_verlet" : "take velocity_verlet";
+    const std::string when =
+        risk.revolution > 0 ? fmt::format(" in revolution {:.0f}", std::ceil(risk.revolution)) : "";
+    return fmt::format("{}: {}, {} loses the orbit{}: {}", describe_subject(risk, name),
+                       describe_measure(risk), method.name, when, remedy);
+}
+
+std::string describe_explosion(const Risk& risk, const Method& method, const Steps& steps,
+                               const NameOfRow& name) {
+    const double time = static_cast<double>(risk.tick) * steps.rate.dt();
+    const std::string what =
+        std::isfinite(risk.at)
+            ? fmt::format("has gained {:.3g} times the energy of finer steps", risk.at)
+            : "diverges";
+    return fmt::format("body {}: a trial with {} {} at step {} (t = {:.3g} s): {}", name(risk.row),
+                       method.name, what, risk.tick, time,
+                       remedy_for(limit_of(risk, method, steps), steps.rate, risk));
+}
+
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
                          const Steps& steps, const NameOfRow& name) {
     const std::string by_default = "take a higher rate, or another method";
-    const std::vector<Risk> risks = preflight(bodies, method, steps);
+    std::vector<Risk> risks = preflight(bodies, method, steps);
+    std::erase_if(risks, [](const Risk& risk) {
+        return risk.of == Risk::Of::told || risk.of == Risk::Of::explosion;
+    });
     const std::vector<std::size_t> labels = component_labels(bodies);
     const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
         return labels[risk.row] == labels[at.row];
@@ -134,59 +168,87 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     return describe(cause, method, steps, name);
 }
 
-bool has_lengths(const Bodies& bodies) {
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        if (bodies.link_at(i).rest_length != 0) return true;
-    return any_body_has(bodies, []<class Force>() { return LineSpring<Force>; });
+bool is_finite(const Bodies& bodies) {
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (!std::isfinite(squared_length(bodies.position(row))) ||
+            !std::isfinite(squared_length(bodies.velocity(row))))
+            return false;
+    return true;
 }
 
-/// Whether the run diverges soon or gains a hundred times its kinetic energy.
-bool explodes(Bodies bodies, const Method& method, Steps steps) {
-    const double before = bodies.energy().kinetic;
-    steps.count = 2048;
-    return bodies.try_step(method, steps) || !(bodies.energy().kinetic <= 100 * before);
-}
-
-/// The spring risks that the first 512 steps of the run bring, because springs with a length turn
-/// and gravity stretches nets. Springs turn back, so that a risk counts only if the run explodes
-/// soon after. Only few bodies are stepped: a run must start at once.
-std::vector<Risk> later_spring_risks(const Bodies& bodies, Region& region, Steps steps) {
-    constexpr std::size_t most_bodies = 3000;
-    if (bodies.axes() == 1 || bodies.size() > most_bodies || !has_lengths(bodies)) return {};
-    if (contains_all_springs(bodies, region, steps.rate.dt())) return {};
-    Bodies later = bodies;
-    for (const std::int64_t count : {128, 384}) {
-        steps.count = count;
-        if (later.try_step(region.method(), steps)) return {};
-        steps.first += count;
-        std::vector<Risk> risks;
-        add_spring_risks(later, region, steps.rate.dt(), risks);
-        if (!risks.empty() && explodes(later, region.method(), steps)) return risks;
-    }
-    return {};
-}
-
-}  // namespace
-
-std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
+/// The risks without the methods that are a remedy. The state of a run that has diverged is not
+/// tried.
+std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const Steps& steps) {
     const double dt = steps.rate.dt();
     Region region(method, steps.damping.value_or(method.damping));
     std::vector<Risk> risks;
-    if (!is_implicit(method)) {
-        add_spring_risks(bodies, region, dt, risks);
-        if (risks.empty()) risks = later_spring_risks(bodies, region, steps);
-    }
+    if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
     add_drag_risks(bodies, region, steps, risks);
     add_attractor_risks(bodies, region, steps.rate, risks);
+    const bool finite = is_finite(bodies);
+    if (finite && risks.empty()) add_trial_risks(bodies, region, steps, risks);
     add_rounding_risks(bodies, method, dt, risks);
+    if (finite) {
+        add_drive_risks(bodies, method, steps, risks);
+        add_point_risks(bodies, method, steps, risks);
+        add_contact_risks(bodies, method, steps, risks);
+    }
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });
     return risks;
 }
 
+/// Whether a risk makes no run unusable, or is a rounding that the present method has as well.
+bool is_borne(const Risk& risk, const std::vector<Risk>& present) {
+    if (risk.of == Risk::Of::told) return true;
+    return is_rounding(risk) && std::ranges::any_of(present, [&](const Risk& one) {
+               return one.row == risk.row && one.of == risk.of &&
+                      std::abs(one.effect) >= std::abs(risk.effect);
+           });
+}
+
+/// Whether a method steps the bodies without a risk that makes a run unusable. The orbits of a run
+/// that has diverged are not known.
+bool is_remedy(const Bodies& bodies, const Method& method, const Steps& steps,
+               const std::vector<Risk>& present) {
+    const auto attracts = []<class Force>() { return std::is_same_v<Force, Attractor>; };
+    if (!is_finite(bodies)) return !any_body_has(bodies, attracts);
+    return std::ranges::all_of(find_risks(bodies, method, {steps.rate, steps.first, steps.count}),
+                               [&](const Risk& risk) { return is_borne(risk, present); });
+}
+
+/// Implicit Euler would end an oscillation that lasts.
+const char* remedy_of(const Risk& risk) {
+    const bool lasts = risk.damping_dt < 2 * risk.omega_dt || risk.of == Risk::Of::explosion;
+    return lasts ? "implicit_midpoint" : "implicit_euler";
+}
+
+}  // namespace
+
+std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
+    std::vector<Risk> risks = find_risks(bodies, method, steps);
+    for (const char* name : {"implicit_midpoint", "implicit_euler"}) {
+        const auto helps = [&](const Risk& risk) {
+            return risk.of != Risk::Of::told && !is_attraction(risk) &&
+                   std::string_view(remedy_of(risk)) == name && method.name != name;
+        };
+        if (std::ranges::none_of(risks, helps)) continue;
+        const Method& remedy = find_method(name);
+        if (!is_remedy(bodies, remedy, steps, risks)) continue;
+        for (Risk& risk : risks)
+            if (helps(risk)) risk.remedy = &remedy;
+    }
+    return risks;
+}
+
 std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                      const NameOfRow& name) {
+    if (risk.of == Risk::Of::told)
+        return fmt::format(fmt::runtime(risk.message), name(risk.row),
+                           risk.linked ? name(*risk.linked) : 0);
+    if (risk.of == Risk::Of::explosion) return describe_explosion(risk, method, steps, name);
     if (!(size(risk) > 0) || !std::isfinite(size(risk))) return describe_without_rate(risk, name);
+    if (risk.orbit) return describe_loss(risk, method, steps, name);
     const std::string who = describe_subject(risk, name);
     const std::string measure = describe_measure(risk);
     const double limit = limit_of(risk, method, steps);

@@ -35,13 +35,16 @@ struct Orbit {
 struct Risk {
     enum class Of {
         springs,           ///< springs, dampers and linear drag
+        linear_drag,       ///< linear drag that throws a body back
         quadratic_drag,    ///< drag at the present speed
         terminal_speed,    ///< drag at the speed at which it balances gravity
         attractor,         ///< attraction at the start
         periapsis,         ///< attraction at the closest point of the orbit
         on_attractor,      ///< the attraction has no direction
         rounded_position,  ///< positions are too coarse for the motion of a step
-        rounded_velocity   ///< velocities are too coarse for the forces of a step
+        rounded_velocity,  ///< velocities are too coarse for the forces of a step
+        explosion,         ///< a trial of the scene gains energy or diverges
+        told               ///< `message` says it all; it makes no run diverge
     };
 
     std::size_t row;
@@ -52,19 +55,26 @@ struct Risk {
     double at = 0;      ///< speed, m/s; distance from an attractor, m; unit of the last place, m
     int axis = 0;       ///< of a rounded number
     double effect = 0;  ///< relative error of a change that is rounded, −1 if nothing is left of it
+    std::int64_t tick = 0;  ///< of an explosion, since the start of the trial
     /// All fast or weakly damped oscillations of linked bodies.
     std::vector<ScaledOscillation> oscillations{};
     /// Few bodies with uneven damping: their step matrix decides.
     std::shared_ptr<const Component> component{};
-    std::shared_ptr<const Bodies> alone{};  ///< a body that was tried without its links
+    std::shared_ptr<const Bodies> tried{};  ///< a body without its links, or all bodies
     std::optional<Orbit> orbit{};           ///< an orbit that was tried
+    double revolution = 0;                  ///< of the orbit, in which it is lost
+    /// The line of the risk, with {} in place of the body's name and of the linked body's.
+    std::string message{};
+    /// The implicit method that steps the scene without a risk; null if neither does.
+    const Method* remedy = nullptr;
 };
 
 /// Finds the risks of the method at the rate, the worst first: springs, dampers and drag outside
-/// its region of stability, at the step or at one of four shorter steps; attraction that is too
-/// fast; and bodies in float whose changes in a step are so small that rounding adds up. It
-/// linearises at the present positions, see Component, and after 128 and 512 steps of up to 3000
-/// bodies. It changes no state.
+/// its region of stability, at the step or at one of four shorter steps; orbits, drives and bounces
+/// that it does not follow; planes and springs that leave a body no place or no force; and bodies
+/// in float whose changes in a step are so small that rounding adds up. It linearises at the
+/// present positions, see Component, and tries scenes that are not linear, no longer than
+/// `steps` if they are more than one. It changes no state.
 [[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,
                                           const Steps& steps);
 

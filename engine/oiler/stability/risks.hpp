@@ -14,32 +14,34 @@ namespace oiler {
 /// links and one per component of linked bodies.
 void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks);
 
-/// Whether upper bounds of all springs show that no motion of the bodies is outside the region, in
-/// whatever direction their springs turn.
-[[nodiscard]] bool contains_all_springs(const Bodies& bodies, Region& region, double dt);
-
 /// The factor on the step up to which the risk's bodies are stable; 0 if they never are.
 [[nodiscard]] double spring_limit(const Risk& risk, const Method& method, Damping damping,
                                   double dt);
 
-/// Adds the bodies whose quadratic drag is too strong for the method: bodies that diverge alone in
-/// a trial of 512 steps, and falling bodies whose terminal speed is not stable. The speed alone
-/// decides for linked and attracted bodies, and beyond 10,000 trials.
+/// Adds the bodies whose drag is too strong for the method: bodies that diverge alone or are thrown
+/// back in a trial of 512 steps, or of one step if the drag is linear, and falling bodies whose
+/// terminal speed is not stable. The speed alone decides for linked and attracted bodies, and
+/// beyond 10,000 trials.
 void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
                     std::vector<Risk>& risks);
 
-/// The factor on dt up to which the body of a risk of quadratic drag does not diverge.
+/// The factor on dt up to which the body of a risk of drag neither diverges nor is thrown back.
 [[nodiscard]] double drag_limit(const Risk& risk, const Method& method, const Steps& steps);
 
-/// The largest c·|v|·dt at which no step makes a body faster; infinite if there is none below 1000.
+/// The largest c·|v|·dt at which no step makes a body faster or throws it back; infinite if there
+/// is none below 1000.
 [[nodiscard]] double quadratic_drag_limit(const Method& method, Damping damping);
 
 /// Adds the bodies that an attractor pulls faster than the method follows. If one attractor is the
-/// only force on a body that returns, 20 revolutions are tried. Else the local frequency √(2gm/r³)
+/// only force on a body that returns, 100 revolutions are tried. Else the local frequency √(2gm/r³)
 /// of radial motion decides, at the present distance or at the closest point of a known orbit.
 /// Bodies on an attractor are added for every method.
 void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
                          std::vector<Risk>& risks);
+
+/// Whether the method follows an orbit for 100 revolutions, or 200,000 steps if they are fewer.
+[[nodiscard]] bool follows(const Orbit& orbit, const Method& method, Damping damping,
+                           const Rate& rate);
 
 /// The factor on dt below which an orbit is followed, by descent in steps of 15 % to the first of
 /// four in a row; 0 if it is below 10⁻⁴.
@@ -53,6 +55,32 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
 /// the motion, or 2 % of the acceleration, are left out, and so are forces of links.
 void add_rounding_risks(const Bodies& bodies, const Method& method, double dt,
                         std::vector<Risk>& risks);
+
+/// Adds springs with a rest length whose ends are in one point and stay there: they have no
+/// direction, and no force.
+void add_point_risks(const Bodies& bodies, const Method& method, const Steps& steps,
+                     std::vector<Risk>& risks);
+
+/// Adds bodies for whose contact the planes leave no room, and bodies whose bounces the method
+/// spoils, because it gains or loses about the acceleration times dt in each.
+void add_contact_risks(const Bodies& bodies, const Method& method, const Steps& steps,
+                       std::vector<Risk>& risks);
+
+/// Adds bodies that a drive of more than an eighth of the rate moves otherwise than with finer
+/// steps: by 10 % of its effect and 5 % of the motion, within 512 steps.
+void add_drive_risks(const Bodies& bodies, const Method& method, const Steps& steps,
+                     std::vector<Risk>& risks);
+
+/// Adds the risk that a trial of all bodies explodes within 16,384 steps, or as many as take some
+/// tens of milliseconds: it diverges, or gains energy that finer steps do not gain. It finds what
+/// is not linear: springs that turn, nets that swing, close passages. If springs are the cause
+/// then, their risks are added.
+void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
+                     std::vector<Risk>& risks);
+
+/// The factor on dt up to which the trial does not explode in the same time and 1024 steps more; 0
+/// if it is below 0.1.
+[[nodiscard]] double trial_limit(const Risk& risk, const Method& method, const Steps& steps);
 
 /// The rate of steps of dt·`factor`, to seven digits or more.
 [[nodiscard]] Rate scaled_rate(const Rate& rate, double factor);

@@ -48,7 +48,7 @@ AddedParts parts_of(const Method& method) {
 double effect_of(const std::vector<double>& parts, double first, double last, double unit) {
     const double mean = (first + last) / 2;
     const double most = static_cast<double>(parts.size()) * unit / 2;
-    if (mean == 0 || most < least_effect * std::abs(mean)) return 0;
+    if (mean == 0 || !(most >= least_effect * std::abs(mean))) return 0;
     constexpr int steps = 64;
     double sum = 0;
     for (int step = 0; step < steps; ++step) {

@@ -236,17 +236,6 @@ void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vect
             risks.push_back(std::move(*risk));
 }
 
-bool contains_all_springs(const Bodies& bodies, Region& region, double dt) {
-    ScaledOscillation largest;
-    for (const BodyOscillation& one :
-         oscillations(bodies, splits_dampers(region.method(), region.damping()))) {
-        largest.omega_dt = std::max(largest.omega_dt, std::sqrt(std::max(one.of.k, 0.0)) * dt);
-        largest.damping_dt = std::max(largest.damping_dt, one.of.c * dt);
-    }
-    return region.contains_all_up_to(largest) ||
-           (largest.damping_dt == 0 && region.contains(largest));
-}
-
 double spring_limit(const Risk& risk, const Method& method, Damping damping, double dt) {
     if (risk.component) return component_limit(*risk.component, method, damping, dt);
     std::vector<ScaledOscillation> all = risk.oscillations;

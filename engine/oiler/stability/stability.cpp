@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/risks.hpp"
@@ -22,6 +23,17 @@ constexpr double outside_all = 1000;
 /// Unlike the eigenvalues it is smooth where two eigenvalues meet.
 long double trace_margin(const StepMatrix& matrix) {
     return 1 + matrix.determinant() - std::abs(matrix.trace());
+}
+
+/// The factor by which an oscillation grows before it returns: 1 if it is slow, infinite at ω·dt =
+/// 2 of velocity_verlet, where both eigenvalues are −1 and the amplitude grows with every step.
+long double largest_growth(const StepMatrix& matrix, double omega) {
+    const long double half = matrix.trace() / 2;
+    const long double turn = std::sqrt(std::abs(matrix.determinant() - half * half));
+    const long double loss = std::numbers::e_v<long double> * (1 - spectral_radius(matrix));
+    const long double mixing = std::max({std::abs(matrix.xv) * omega, std::abs(matrix.vx) / omega,
+                                         std::abs(matrix.xx - matrix.vv) / 2});
+    return mixing / std::max(turn, loss);
 }
 
 /// The steps of an oscillation at multiples of dt = 1 s.
@@ -160,6 +172,9 @@ bool Region::measure(const Oscillation& of) const {
     std::vector<Oscillation> tried;
     for (const double part : tested_steps) tried.push_back({of.k * part * part, of.c * part});
     const auto matrices = step_matrices(method_, damping_, tried);
+    constexpr double most_growth = 100;
+    const double omega = std::sqrt(of.k);
+    if (omega > 0.5 && largest_growth(matrices.front(), omega) > most_growth) return false;
     return std::all_of(matrices.begin(), matrices.end(), is_stable);
 }
 

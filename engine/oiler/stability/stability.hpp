@@ -67,7 +67,7 @@ struct ScaledOscillation {
 [[nodiscard]] Oscillation unit_oscillation(const ScaledOscillation& of);
 
 /// A method's region of stability: the oscillations that are stable at a step of 1 s and at four
-/// shorter steps.
+/// shorter steps, without its edge: oscillations that grow by a factor of 100 before they shrink.
 class Region {
 public:
     Region(const Method& method, Damping damping) : method_(method), damping_(damping) {}

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
@@ -275,14 +274,27 @@ void World::require_applicable() const {
     bodies_->require_applicable(*settings_.stepping.method, next_steps(1));
 }
 
-std::vector<std::string> World::preflight(std::size_t most) const {
-    const Steps steps = next_steps(1);
-    const std::vector<Risk> risks = oiler::preflight(*bodies_, *settings_.stepping.method, steps);
+std::vector<Risk> World::risks(std::int64_t steps) const {
+    return oiler::preflight(*bodies_, *settings_.stepping.method, next_steps(steps));
+}
+
+std::vector<std::string> World::describe(std::span<const Risk> risks, std::size_t most) const {
     std::vector<std::string> lines;
-    for (const Risk& risk : std::span(risks).first(std::min(most, risks.size())))
-        lines.push_back(describe(risk, *settings_.stepping.method, steps, name_of_row()));
+    for (const Risk& risk : risks.first(std::min(most, risks.size())))
+        lines.push_back(
+            oiler::describe(risk, *settings_.stepping.method, next_steps(1), name_of_row()));
     if (risks.size() > most) lines.push_back(fmt::format("and {} more", risks.size() - most));
     return lines;
+}
+
+std::vector<std::string> World::preflight(std::size_t most) const {
+    return describe(risks(1), most);
+}
+
+std::vector<std::string> World::instabilities(std::int64_t steps, std::size_t most) const {
+    std::vector<Risk> unstable = risks(steps);
+    std::erase_if(unstable, [](const Risk& risk) { return risk.of == Risk::Of::told; });
+    return describe(unstable, most);
 }
 
 LinkHandle World::link(Entity a, Entity b, const Link& link) {

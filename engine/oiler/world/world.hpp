@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -24,6 +25,7 @@ namespace oiler {
 
 class Bodies;
 class Error;
+struct Risk;
 
 /// The settings of a world.
 struct Settings {
@@ -251,10 +253,14 @@ public:
 
     /// Throws Error{usage} if the method cannot step these bodies; it steps nothing.
     void require_applicable() const;
-    /// Describes each spring and damper that is unstable with the method at the rate, with a
-    /// remedy, one per line and the worst first. After `most` lines, the last one counts the
-    /// others.
+    /// Describes what goes wrong with the method at the rate, with a remedy, one per line and the
+    /// worst first: springs, drag, orbits, drives and bounces that it does not follow, and places
+    /// where a force or a plane has no effect. After `most` lines, the last one counts the others.
     [[nodiscard]] std::vector<std::string> preflight(std::size_t most = 5) const;
+    /// The lines of preflight() that tell of runs that diverge or drift away, within so many steps if
+    /// they are more than one.
+    [[nodiscard]] std::vector<std::string> instabilities(std::int64_t steps,
+                                                         std::size_t most = 5) const;
 
     /// The tick of `rate` at the present time; empty if that rate has none then.
     [[nodiscard]] std::optional<std::int64_t> tick_at(const Rate& rate) const;
@@ -365,6 +371,9 @@ private:
     void detach_kind(Entity entity, std::size_t kind);
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
+    [[nodiscard]] std::vector<Risk> risks(std::int64_t steps) const;
+    [[nodiscard]] std::vector<std::string> describe(std::span<const Risk> risks,
+                                                    std::size_t most) const;
 
     Settings settings_;
     std::int64_t tick_ = 0;

@@ -34,7 +34,8 @@ std::string Ensemble::objection(const Stepping& choice) {
 std::string Ensemble::warning(Stepping choice) const {
     const auto warning_at = [&](std::int64_t rate) -> std::string {
         choice.rate.steps = rate;
-        const auto warnings = make_world(scene_, Settings{choice}).preflight(1);
+        const auto steps = static_cast<std::int64_t>(scene_.duration * static_cast<double>(rate));
+        const auto warnings = make_world(scene_, Settings{choice}).instabilities(steps, 1);
         return warnings.empty() ? "" : warnings.front();
     };
     const std::int64_t rate = choice.rate.steps;

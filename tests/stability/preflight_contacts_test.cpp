@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The pre-flight's warnings of planes, of bounces, and of springs without a direction.
+#include "oiler/sim/bodies.hpp"
+#include "support/dice.hpp"
+#include "support/explained_step.hpp"
+#include "support/springs.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+constexpr Rate rate{60};
+
+// ---- room between planes
+
+Bodies ball(int axes, double radius, const std::vector<Plane>& planes) {
+    Bodies bodies(axes, Precision::double_);
+    for (const Plane& plane : planes) bodies.add_plane(plane);
+    bodies.add({.contact = Contact{radius}});
+    return bodies;
+}
+
+std::vector<std::string> lines_of(const Bodies& bodies) {
+    return warnings(bodies, find_method("velocity_verlet"), rate);
+}
+
+TEST(RoomWarning, NamesPlanesAndRadius) {
+    const std::vector<Plane> slab{
+        {.normal = {1, 0}, .offset = -9}, {.normal = {0, 1}}, {.normal = {0, -2}, .offset = -1.6}};
+    const auto lines = lines_of(ball(2, 0.5, slab));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "body 0: planes 1 and 2 leave room for a radius of 0.4 m, and its contact of 0.5 m "
+              "does not fit: move them apart, or give it a smaller contact");
+    EXPECT_TRUE(lines_of(ball(2, 0.4, slab)).empty());
+}
+
+TEST(RoomWarning, SaysThatPlanesContradict) {
+    const auto lines =
+        lines_of(ball(1, 0, {{.normal = {1}, .offset = 3}, {.normal = {-1}, .offset = 3}}));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(
+        lines[0].starts_with("body 0: planes 0 and 1 contradict each other: every point is "
+                             "3 m or more below one of them"))
+        << lines[0];
+}
+
+// A triangle with sides 3, 4 and 5 has the inradius 1. A regular tetrahedron around the unit
+// sphere has the inradius 1, and a cube of side 2, too.
+TEST(RoomWarning, KnowsTheInradius) {
+    const std::vector<Plane> triangle{
+        {.normal = {1, 0}}, {.normal = {0, 1}}, {.normal = {-4, -3}, .offset = -12}};
+    const std::vector<Plane> tetrahedron{{.normal = {1, 1, 1}, .offset = -std::sqrt(3.0)},
+                                         {.normal = {1, -1, -1}, .offset = -std::sqrt(3.0)},
+                                         {.normal = {-1, 1, -1}, .offset = -std::sqrt(3.0)},
+                                         {.normal = {-1, -1, 1}, .offset = -std::sqrt(3.0)}};
+    std::vector<Plane> cube;
+    for (const double sign : {1, -1})
+        for (const Vec3& side : {Vec3{sign, 0, 0}, Vec3{0, sign, 0}, Vec3{0, 0, sign}})
+            cube.push_back({.normal = side, .offset = -1});
+    const std::pair<int, std::vector<Plane>> rooms[]{{2, triangle}, {3, tetrahedron}, {3, cube}};
+    for (const auto& [axes, planes] : rooms) {
+        EXPECT_TRUE(lines_of(ball(axes, 0.999999, planes)).empty()) << planes.size();
+        EXPECT_EQ(lines_of(ball(axes, 1.000001, planes)).size(), 1U) << planes.size();
+    }
+}
+
+TEST(RoomWarning, IsNotGivenForOpenPlanes) {
+    EXPECT_TRUE(
+        lines_of(ball(2, 100, {{.normal = {0, 1}}, {.normal = {1, -1}, .offset = 50}})).empty());
+    EXPECT_TRUE(lines_of(ball(3, 100, {{.normal = {0, 1}}, {.normal = {1, 0}}, {.normal = {0, 1}}}))
+                    .empty());
+    Bodies ghost(1, Precision::double_);
+    ghost.add_plane({.normal = {1}, .offset = 3});
+    ghost.add_plane({.normal = {-1}, .offset = 3});
+    ghost.add({});
+    EXPECT_TRUE(lines_of(ghost).empty());
+}
+
+// Tangents to a circle of radius R leave room for R if they surround it: if no two neighbours are
+// 180° or more apart.
+TEST(RandomRooms, HaveTheRadiusOfTheirCircle) {
+    int closed = 0;
+    for (int seed = 0; seed < 10 * campaign_length(); ++seed) {
+        Dice random(static_cast<std::uint64_t>(seed));
+        const double radius = random.log_uniform(0.1, 10);
+        const Vec3 centre{random.uniform(-5, 5), random.uniform(-5, 5)};
+        std::vector<double> angles;
+        std::vector<Plane> planes;
+        for (int i = random.whole(2, 8); i > 0; --i) {
+            angles.push_back(random.uniform(0, 2 * std::acos(-1.0)));
+            const Vec3 normal{std::cos(angles.back()), std::sin(angles.back())};
+            planes.push_back({.normal = normal, .offset = dot(normal, centre) - radius});
+        }
+        std::sort(angles.begin(), angles.end());
+        double widest = angles.front() + 2 * std::acos(-1.0) - angles.back();
+        for (std::size_t i = 1; i < angles.size(); ++i)
+            widest = std::max(widest, angles[i] - angles[i - 1]);
+        const bool is_closed = widest < std::acos(-1.0);
+        closed += is_closed;
+        EXPECT_TRUE(lines_of(ball(2, radius * (1 - 1e-6), planes)).empty()) << seed;
+        EXPECT_EQ(!lines_of(ball(2, radius * (1 + 1e-6), planes)).empty(), is_closed) << seed;
+    }
+    EXPECT_GT(closed, campaign_length());
+}
+
+// ---- bounces
+
+constexpr double g = 9.81;
+
+Bodies thrown_up(double restitution, double speed, double height = 0) {
+    Bodies bodies(2, Precision::double_);
+    bodies.set_gravity({0, -g});
+    bodies.add_plane({.normal = {0, 1}, .restitution = restitution});
+    bodies.add({.position = {0, height}, .velocity = {1, speed}, .contact = Contact{}});
+    return bodies;
+}
+
+// Semi-implicit Euler falls g·dt²/2 too far per step, and returns with g·dt = 0.16 m/s less.
+TEST(BounceWarning, NamesTheLossAndTheRemedy) {
+    const auto lines = warnings(thrown_up(1, 3), find_method("semi_implicit_euler"), rate);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].starts_with("body 0 on plane 0: semi_implicit_euler takes 0.16"))
+        << lines[0];
+    EXPECT_TRUE(holds(lines[0], " m/s from each bounce of up to 3 m/s")) << lines[0];
+    EXPECT_TRUE(lines[0].ends_with(": take velocity_verlet")) << lines[0];
+}
+
+/// The mechanical energy after `seconds`, J.
+double energy_after(Bodies bodies, const Method& method, int seconds) {
+    EXPECT_FALSE(bodies.try_step(method, {rate, 0, seconds * rate.steps}));
+    return bodies.energy().total() - 0.5;
+}
+
+// Elastic bounces keep 4.5 J. With methods of order 1 the ball rests or rises without end.
+TEST(BounceWarning, IsGivenIfElasticBouncesEndOrGrow) {
+    for (const Method& method : methods()) {
+        const double energy = energy_after(thrown_up(1, 3), method, 10);
+        const bool is_spoiled = std::abs(energy / 4.5 - 1) > 0.5;
+        EXPECT_EQ(!warnings(thrown_up(1, 3), method, rate).empty(), is_spoiled)
+            << method.name << " " << energy;
+        EXPECT_EQ(is_spoiled, method.order == 1) << method.name;
+    }
+}
+
+// Restitution takes more than the method, or there is nothing to be seen.
+TEST(BounceWarning, IsNotGivenIfTheMethodTakesLittle) {
+    const Method& euler = find_method("semi_implicit_euler");
+    for (const double restitution : {0.0, 0.3, 0.6})
+        EXPECT_TRUE(warnings(thrown_up(restitution, 3), euler, rate).empty()) << restitution;
+    EXPECT_FALSE(warnings(thrown_up(0.95, 3), euler, rate).empty());
+    EXPECT_TRUE(warnings(thrown_up(1, 3), euler, {10'000}).empty());
+    EXPECT_TRUE(warnings(thrown_up(1, 0), euler, rate).empty());
+    EXPECT_FALSE(warnings(thrown_up(1, 0, 0.5), euler, rate).empty());
+    Bodies beside = thrown_up(1, 3);
+    beside.set_contact(0, std::nullopt);
+    EXPECT_TRUE(warnings(beside, euler, rate).empty());
+    Bodies between_walls(1, Precision::double_);
+    between_walls.add_plane({.normal = {1}, .restitution = 1});
+    between_walls.add_plane({.normal = {-1}, .offset = -1, .restitution = 1});
+    between_walls.add({.position = {0.5}, .velocity = {1}, .contact = Contact{}});
+    EXPECT_TRUE(warnings(between_walls, euler, rate).empty());
+}
+
+// ---- springs without a direction
+
+TEST(PointWarning, IsGivenIfTheSpringStaysWithoutDirection) {
+    const Method& verlet = find_method("velocity_verlet");
+    const CoilSpring coil{{1, 2}, 100, 0, 1};
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {1, 2}}, coil);
+    const auto lines = warnings(bodies, verlet, rate);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "spring of body 0: both ends are in one point and stay there, because it has no "
+              "direction: move the body");
+    Bodies run = bodies;
+    EXPECT_FALSE(run.try_step(verlet, {rate, 0, 10'000}));
+    EXPECT_EQ(run.position(0), (Vec3{1, 2}));
+    const auto is_point = [&] {
+        const auto now = warnings(bodies, verlet, rate);
+        return std::ranges::any_of(now, [](const auto& line) { return holds(line, "one point"); });
+    };
+    for (const Vec3& velocity : {Vec3{1e-3, 0}, Vec3{0, -5}}) {
+        bodies.set_velocity(0, velocity);
+        EXPECT_FALSE(is_point());
+    }
+    bodies.set_velocity(0, {});
+    EXPECT_TRUE(is_point());
+    bodies.set_gravity({0, -1});
+    EXPECT_FALSE(is_point());
+}
+
+TEST(PointWarning, IsGivenForLinks) {
+    const Method& verlet = find_method("velocity_verlet");
+    Bodies bodies(2, Precision::double_);
+    bodies.set_gravity({0, -9.81});
+    for (int i = 0; i < 2; ++i) bodies.add({.position = {1, 2}, .velocity = {1, 0}});
+    bodies.link(0, 1, {.stiffness = 10, .rest_length = 0.5});
+    const auto lines = warnings(bodies, verlet, rate);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].starts_with("link of bodies 0 and 1: both are in one point")) << lines[0];
+    bodies.set_velocity(1, {2, 0});
+    EXPECT_TRUE(warnings(bodies, verlet, rate).empty());
+    Bodies hung(2, Precision::double_);
+    hung.add({});
+    hung.link_to_point(0, {}, {.stiffness = 10, .rest_length = 0.5});
+    ASSERT_EQ(warnings(hung, verlet, rate).size(), 1U);
+    EXPECT_TRUE(warnings(hung, verlet, rate)[0].starts_with("link of body 0 to a point"));
+    Bodies without_length(2, Precision::double_);
+    without_length.add({}, Spring{.stiffness = 10}, CoilSpring{{}, 0, 0, 1});
+    EXPECT_TRUE(warnings(without_length, verlet, rate).empty());
+}
+
+}  // namespace
+}  // namespace oiler::test

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// The pre-flight's warnings of drives and of explosions that no linear limit shows.
+#include <numbers>
+
+#include "oiler/sim/bodies.hpp"
+#include "support/dice.hpp"
+#include "support/explained_step.hpp"
+#include "support/oscillator.hpp"
+#include "support/springs.hpp"
+#include "support/test.hpp"
+
+namespace oiler::test {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// ---- the edge of the region
+
+// At ω·dt = 2 both eigenvalues are −1, and the amplitude grows by its start each step. At 1.99 it
+// stays below 1/√(1 − h²/4) = 10.
+TEST(EdgeWarning, IsGivenAtExactlyTwo) {
+    for (const char* name : {"semi_implicit_euler", "semi_implicit_euler_drift_kick",
+                             "velocity_verlet", "position_verlet"})
+        for (const std::int64_t hertz : {1, 7, 60, 240, 1000}) {
+            const Method& method = find_method(name);
+            const double k = 4 * static_cast<double>(hertz * hertz);
+            Bodies bodies(1, Precision::double_);
+            bodies.add({.position = {1}, .velocity = {static_cast<double>(hertz)}},
+                       Spring{.stiffness = k});
+            const auto lines = warnings(bodies, method, {hertz});
+            ASSERT_EQ(lines.size(), 1U) << name << hertz;
+            EXPECT_TRUE(holds(lines[0], "ω·dt = 2, ") && holds(lines[0], " needs < 2")) << lines[0];
+            EXPECT_EQ(rate_in(lines[0]), hertz + 1);
+            EXPECT_FALSE(bodies.try_step(method, {{hertz}, 0, 1000}));
+            EXPECT_GT(std::abs(bodies.position(0)[0]) +
+                          std::abs(bodies.velocity(0)[0]) / static_cast<double>(hertz),
+                      500)
+                << name << hertz;
+            const Bodies slower = oscillator(Precision::double_, 0.99 * k, 0, 1);
+            EXPECT_TRUE(warnings(slower, method, {hertz}).empty()) << name << hertz;
+        }
+}
+
+// ---- drives
+
+/// 1 kg on a spring of `hertz`, driven from rest.
+Bodies driven(double hertz, double drive, double damping = 0, double phase = 0) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add({}, Spring{.stiffness = turn * hertz * turn * hertz, .damping = damping},
+               Drive{.amplitude = {10}, .frequency = drive, .phase = phase});
+    return bodies;
+}
+
+double reach(Bodies bodies, const Method& method, std::int64_t steps) {
+    double farthest = 0;
+    for (std::int64_t tick = 0; tick < steps; ++tick) {
+        EXPECT_FALSE(bodies.try_step(method, {{60}, tick}));
+        farthest = std::max(farthest, std::abs(bodies.position(0)[0]));
+    }
+    return farthest;
+}
+
+/// The reach of x'' = −ω²x + 10·sin(Ωt) from rest: 10/(ω² − Ω²)·(sin Ωt − Ω/ω·sin ωt).
+double true_reach(double hertz, double drive, double seconds) {
+    const double w = turn * hertz;
+    const double d = turn * drive;
+    double farthest = 0;
+    for (double t = 0; t < seconds; t += 0.05 / std::max(hertz, drive))
+        farthest = std::max(
+            farthest, std::abs(10 / (w * w - d * d) * (std::sin(d * t) - d / w * std::sin(w * t))));
+    return farthest;
+}
+
+// 61 Hz at 60 steps per second is seen as 1 Hz, the spring's resonance.
+TEST(DriveWarning, NamesBothEffectsAndTheRate) {
+    const Method& verlet = find_method("velocity_verlet");
+    const auto lines = warnings(driven(1, 61), verlet, {60});
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].starts_with(
+        "drive of body 0: 61 Hz has 0.984 steps per period and moves the body by 6."))
+        << lines[0];
+    EXPECT_TRUE(lines[0].ends_with("rate ≥ 732 Hz")) << lines[0];
+    EXPECT_GT(reach(driven(1, 61), verlet, 512), 1000 * true_reach(1, 61, 512 / 60.0));
+    EXPECT_TRUE(warnings(driven(1, 61), verlet, {732}).empty());
+}
+
+// The response is right below rate/8, and wrong by 10 % and more above rate/6.
+TEST(DriveWarning, IsGivenIfTheReachIsWrong) {
+    const Method& verlet = find_method("velocity_verlet");
+    for (const double spring : {0.5, 1.0, 2.3})
+        for (const double drive : {3.0, 5.0, 7.0, 18.0, 24.0, 29.0, 59.0, 61.0, 62.3, 119.0}) {
+            const double ratio =
+                reach(driven(spring, drive), verlet, 512) / true_reach(spring, drive, 512 / 60.0);
+            EXPECT_EQ(!warnings(driven(spring, drive), verlet, {60}).empty(),
+                      std::abs(ratio - 1) > 0.1)
+                << spring << " " << drive << " " << ratio;
+        }
+}
+
+// 0.1 N moves 1 kg by less than 10⁻⁶ m beside a swing of 1 m.
+TEST(DriveWarning, IsNotGivenIfTheDriveMovesNothing) {
+    Bodies bodies(1, Precision::double_);
+    bodies.add({.position = {1}}, Spring{.stiffness = 9},
+               Drive{.amplitude = {0.1}, .frequency = 27});
+    EXPECT_TRUE(warnings(bodies, find_method("velocity_verlet"), {60}).empty());
+    Bodies without(1, Precision::double_);
+    without.add({}, Drive{.amplitude = {}, .frequency = 61});
+    EXPECT_TRUE(warnings(without, find_method("velocity_verlet"), {60}).empty());
+}
+
+// ---- trials
+
+/// A net of coils of 1 kg, 1 m apart, relaxed at `rest`, with its top row hung up.
+Bodies hung_net(std::size_t side, double stiffness, double rest, double gravity) {
+    Bodies bodies(2, Precision::double_);
+    bodies.set_gravity({0, -gravity});
+    for (std::size_t i = 0; i < side * side; ++i)
+        bodies.add({.position = {double(i % side), -double(i / side)}});
+    const Link link{.stiffness = stiffness, .rest_length = rest};
+    for (std::size_t i = 0; i < side * side; ++i) {
+        if (i % side + 1 < side) bodies.link(i, i + 1, link);
+        if (i + side < side * side) bodies.link(i, i + side, link);
+        if (i < side) bodies.link_to_point(i, {double(i), 1}, link);
+    }
+    return bodies;
+}
+
+/// The kinetic energy at its largest in a run; infinite if it diverges.
+double largest_kinetic(Bodies bodies, const Method& method, std::int64_t steps) {
+    double largest = 0;
+    for (std::int64_t tick = 0; tick < steps; tick += 20) {
+        if (bodies.try_step(method, {{60}, tick, 20}))
+            return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, bodies.energy().kinetic);
+    }
+    return largest;
+}
+
+// The energy that a net releases bounds its kinetic energy. A net whose steps are stable at first
+// may gain more energy, when it swings.
+TEST(NetWarning, IsGivenIfANetGainsEnergyLater) {
+    const Method& verlet = find_method("velocity_verlet");
+    int late = 0;
+    for (const std::size_t side : {3, 4, 5})
+        for (const double rest : {0.8, 1.0, 1.1})
+            for (const double stiffness : {800, 1500, 1700, 1900, 2100, 2400}) {
+                const Bodies bodies = hung_net(side, stiffness, rest, 20);
+                // A tenth of the steps, at ten times the rate.
+                Bodies fine = bodies;
+                double bound = 0;
+                for (std::int64_t tick = 0; tick < 60'000; tick += 50) {
+                    ASSERT_FALSE(fine.try_step(find_method("rk4"), {{600}, tick, 50}));
+                    bound = std::max(bound, fine.energy().kinetic);
+                }
+                const bool exploded = largest_kinetic(bodies, verlet, 6000) > 10 * bound;
+                const bool soon = largest_kinetic(bodies, verlet, 100) > 10 * bound;
+                late += exploded && !soon;
+                const bool warned = !preflight(bodies, verlet, {{60}}).empty();
+                const std::string where = std::to_string(side) + " bodies, rest length " +
+                                          std::to_string(rest) + ", " + std::to_string(stiffness);
+                EXPECT_TRUE(warned || !exploded) << "missed: " << where;
+                if (warned) {
+                    EXPECT_GT(largest_kinetic(bodies, verlet, 60'000), 2 * bound) << where;
+                }
+            }
+    EXPECT_GE(late, 3);
+}
+
+// Two attractors: a passage throws the body out, although its start is slow enough.
+TEST(TrialWarning, IsGivenIfAPassageThrowsTheBodyOut) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {2.973, 0}, .velocity = {0, 3.084}}, Attractor{.gm = 43.64});
+    bodies.attach_at(1, 0, Attractor{.centre = {6.944, -2.736}, .gm = 21.82});
+    const Method& method = find_method("kahan_li8_kdk");
+    EXPECT_FALSE(warnings(bodies, method, {4}).empty());
+    Bodies run = bodies;
+    EXPECT_FALSE(run.try_step(method, {{4}, 0, 200}));
+    EXPECT_GT(std::sqrt(squared_length(run.position(0))), 1000);
+    EXPECT_TRUE(warnings(bodies, method, {1000}).empty());
+}
+
+}  // namespace
+}  // namespace oiler::test
