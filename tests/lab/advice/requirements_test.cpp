@@ -212,6 +212,26 @@ TEST(Ties, OfEqualErrorsGoToTheHigherRate) {
     }
 }
 
+// ---- disturbed estimates
+
+// Another program delays the only estimate of a single step of semi-implicit Euler. Its further
+// steps are not free for that: blanes_moan_srkn11b needs some 60 Hz for 1 m, Euler thousands.
+TEST(DisturbedEstimates, MakeNoStepFree) {
+    SweepWatch watch = clock_by_evaluations();
+    watch.ns_per_step = [](const auto&, const Stepping& choice, std::int64_t per_frame) {
+        const bool is_delayed = choice.method->order == 1 && per_frame == 1;
+        return is_delayed && choice.rate.steps > 60 ? 100.0 : 1.0 * choice.method->evaluations;
+    };
+    const Requirements requirements{
+        .position_error = 1,
+        .at_steps = true,
+        .max_rate = 1'000'000,
+        .methods = methods_of({"semi_implicit_euler", "blanes_moan_srkn11b"})};
+    const Advice advice = advise(spring().scene, spring().reference, requirements, watch);
+    ASSERT_TRUE(advice.meets);
+    EXPECT_EQ(advice.best->stepping.method->name, "blanes_moan_srkn11b");
+}
+
 // ---- negligible costs
 
 /// The advice of these methods for 5 m at the steps, where costs up to `negligible` do not decide.

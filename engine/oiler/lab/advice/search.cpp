@@ -215,9 +215,10 @@ void Search::add_candidate(const Method& method, Precision precision,
     const double single = cost(high_rate, 1);
     if (std::isnan(single)) return;
     const std::int64_t many = single < expensive ? 16 : 2;
-    const auto others = static_cast<double>(many - 1);
-    candidate.further = std::clamp(
-        (static_cast<double>(many) * cost(high_rate, many) - single) / others, 0.0, single);
+    const double each = cost(high_rate, many);
+    const double further = each + (each - single) / static_cast<double>(many - 1);
+    // Another program may have disturbed either.
+    candidate.further = std::clamp(further, each / 2, std::max(each / 2, single));
     const double of_frame = cost(frames_per_second, 1);
     candidate.first = std::isnan(of_frame) ? single : of_frame;
     candidates_.push_back(candidate);
