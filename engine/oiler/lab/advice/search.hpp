@@ -6,40 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "oiler/lab/advice/advise.hpp"
+#include "oiler/lab/advice/candidate.hpp"
+#include "oiler/lab/advice/work_meter.hpp"
 
 namespace oiler::lab {
-
-/// Counts the work of a search: its runs beside the reference, in force evaluations, each on one
-/// body or link. It does not depend on the machine.
-class WorkMeter {
-public:
-    /// The work of comparing a body with the reference once.
-    static constexpr double comparison = 50;
-
-    WorkMeter(const Scene& scene, double most, const std::function<bool()>& stopped);
-
-    [[nodiscard]] double evaluations_per_step(const Method& method) const {
-        return work_.per_step(method);
-    }
-    /// The work of a step and of its comparison with the reference.
-    [[nodiscard]] double per_step(const Method& method) const;
-    /// Whether so much more work is within the limit of a search.
-    [[nodiscard]] bool affords(double work) const { return done_ + work <= most_; }
-    /// Whether work is so little that the limit does not matter.
-    [[nodiscard]] bool is_little(double work) const { return work <= most_ / 32; }
-    /// For JudgeOptions: a run asks at each step whether to stop, which counts the step.
-    [[nodiscard]] std::function<bool()> counting(const Method& method);
-    [[nodiscard]] double share_done() const { return done_ / most_; }
-
-private:
-    RunWork work_;
-    double most_;
-    const std::function<bool()>& stopped_;
-    bool linked_ = false;
-    double per_comparison_ = 0;  ///< work per step beside the evaluations
-    double done_ = 0;
-};
 
 /// Perturbed starts of a scene: positions by up to 0.1 % of the extent, velocities by up to 0.1 %
 /// of the speed. A scene at rest is moved by 0.1 % of its size; there, errors up to twice that are
@@ -84,35 +54,6 @@ private:
     std::vector<Member> members_;
     bool is_made_ = false;
     std::vector<Known> known_;
-};
-
-/// A method in one precision, as far as a search has tried its rates.
-struct Candidate {
-    const Method* method = nullptr;
-    Precision precision = Precision::double_;
-    std::optional<Damping> damping{};
-    double first = unknown;    ///< ns, of the first step of a frame, with the frame's impacts
-    double further = unknown;  ///< ns, of each further step of a frame
-    std::size_t next = 0;      ///< index of the next rate to try
-    Convergence convergence;
-    std::int64_t tried = 0;  ///< the last stable rate
-    double error = unknown;  ///< m, at that rate
-    bool rounded = false;    ///< only round-off causes the error
-    bool over = false;
-
-    [[nodiscard]] Stepping at(std::int64_t rate) const {
-        return {method, {rate}, precision, damping};
-    }
-    /// The computing time for a second of the scene at a rate, ns.
-    [[nodiscard]] double cost(std::int64_t rate) const;
-    /// The lowest rate above that of `row` which can meet the tolerances, by the method's order.
-    /// `excess` is that of the row.
-    [[nodiscard]] std::int64_t least_rate(const TradeoffRow& row, double excess,
-                                          const Requirements& requirements, double extent) const;
-
-private:
-    [[nodiscard]] double least_factor(const Judgement& judgement, double excess,
-                                      const Requirements& requirements) const;
 };
 
 /// Tries settings from the cheapest up and skips rates that the method's order rules out, until it
