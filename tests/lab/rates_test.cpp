@@ -237,6 +237,14 @@ TEST(RatesOfABounce, OfAnElasticBallNeverStayLow) {
     }
 }
 
+// Between two samples a cubic would pass below the floor, or stop above it.
+TEST(RatesOfABounce, OfAnElasticBallHaveHalfTheDropAsAmplitude) {
+    for (const double seconds : {5.3 * fall, 7.0 * fall, 9.9 * fall}) {
+        const Rates rates = rates_of(ball_for(seconds, 1), {60}, {"exact"});
+        EXPECT_NEAR(quantity_of(rates, "amplitude").truth, dropped / 2, 1e-12) << seconds;
+    }
+}
+
 TEST(RatesOfABounce, StayLowOnceALowApexIsSeen) {
     double t = fall;
     for (int n = 1; n < 11; ++n) t += 2 * std::sqrt(2 * bounce(n) / g);
@@ -327,6 +335,20 @@ TEST(RatesOfASlide, HaveNoBouncesButTheTimeToStop) {
         EXPECT_NEAR(quantity_of(rates, "time to settle").truth, 1.5 * (1 - std::sqrt(0.05)), 1e-9);
         EXPECT_EQ(find(rates, "overshoot"), nullptr);
         EXPECT_EQ(find(rates, "apex"), nullptr);
+    }
+}
+
+// Friction stops 4 m/s within v/(μg), far less than the time between two samples.
+TEST(RatesOfASlide, ThatStopsAtOnceDoesNotOvershoot) {
+    for (const double friction : {300.0, 1e3, 1e5}) {
+        std::string floor = on_floor;
+        floor.replace(floor.find("0.2"), 3, fmt::format("{:.1f}", friction));
+        const std::string body = "[[body]]\nvelocity = [4.0, 0.0]\ncontact = 0.0\n";
+        const Rates rates = rates_of(floor + body, {60}, {"velocity_verlet"});
+        const double stop = 4 / (friction * 10);
+        EXPECT_NEAR(quantity_of(rates, "time to settle").truth, stop * (1 - std::sqrt(0.05)),
+                    1e-9 * stop);
+        EXPECT_EQ(find(rates, "overshoot"), nullptr) << friction;
     }
 }
 

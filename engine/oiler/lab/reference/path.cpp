@@ -140,16 +140,24 @@ double unevenness(const std::vector<double>& crossings) {
 
 Path path_of(const Reference& reference, std::size_t row, int axis, std::int64_t times) {
     Path path;
-    const auto add = [&](double t) {
-        const State3 state = reference.motion->at(row, t);
+    const auto add = [&](double t, const State3& state) {
         path.t.push_back(t);
         path.x.push_back(static_cast<double>(state.x[axis]));
         path.v.push_back(static_cast<double>(state.v[axis]));
     };
+    const std::vector<Kink> kinks = reference.motion->kinks(row);
+    auto kink = kinks.begin();
+    const auto add_motion_at = [&](double t) {
+        for (; kink != kinks.end() && kink->time < t; ++kink) {
+            add(static_cast<double>(kink->time), kink->before);
+            add(static_cast<double>(kink->time), kink->after);
+        }
+        add(t, reference.motion->at(row, t));
+    };
     const SampleTimes points{reference.samples.per_second * times, reference.samples.count * times};
     for (std::int64_t i = 0; i < points.count && points.time(i) < reference.meaningful_until; ++i)
-        add(points.time(i));
-    add(reference.meaningful_until);
+        add_motion_at(points.time(i));
+    add_motion_at(reference.meaningful_until);
     return path;
 }
 

@@ -46,7 +46,7 @@ struct Peak {
 [[nodiscard]] double unevenness(const std::vector<double>& crossings);
 
 /// One coordinate of a body's true motion over the meaningful time, at `times` as many points as
-/// the reference has samples.
+/// the reference has samples, and before and after each impact.
 [[nodiscard]] Path path_of(const Reference& reference, std::size_t row, int axis,
                            std::int64_t times = 1);
 
