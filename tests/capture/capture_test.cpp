@@ -239,6 +239,16 @@ TEST(Capture, ADeadOwnerIsNamedAndItsFolderFree) {
     EXPECT_EQ(next.dead_owner(), "process 1234 of elsewhere");
 }
 
+TEST(Capture, AFileOfTheUserIsNotTakenForThatOfAnOwner) {
+    const Folder folder;
+    fs::create_directories(folder / "out");
+    put(folder / "out/.oiler-capture", "my notes");
+    EXPECT_TRUE(
+        holds(line_of_error(Exit::io, [&] { const Capture next(folder / "out", header(1)); }),
+              ".oiler-capture is not from Oiler; rename it"));
+    EXPECT_EQ(text_of(folder / "out/.oiler-capture"), "my notes");
+}
+
 TEST(Capture, AFinishedCaptureHasNoDeadOwner) {
     const Folder folder;
     capture(folder / "out", 2);
@@ -247,18 +257,22 @@ TEST(Capture, AFinishedCaptureHasNoDeadOwner) {
     EXPECT_EQ(next.dead_owner(), "");
 }
 
-// A file without a lock is of a process that was killed.
+// Linux has no processes of seven digits above 4194304. Process 1 runs.
 TEST(Capture, TemporaryFilesOfKilledRunsAreRemoved) {
     const Folder folder;
-    fs::create_directories(folder / "out/.oiler-3-0.tmp");
-    for (const char* name : {"out/.oiler-1-0.tmp", "out/.oiler-2-7.tmp", "out/.oiler-notes"})
-        put(folder / name, "half");
+    fs::create_directories(folder / "out/.oiler-4194307-0.tmp");
+    for (const char* name :
+         {".oiler-4194305-0.tmp", ".oiler-4194306-17.tmp", ".oiler-1-0.tmp", ".oiler-notes",
+          ".oiler-4194305.tmp", ".oiler-a-0.tmp", ".oiler-4194305-0.tmp.tmp"})
+        put(folder / "out" / name, "half");
     File mine(folder / "out/notes.txt");
     mine.write("mine");
     capture(folder / "out", 1);
     mine.commit();
-    EXPECT_EQ(names_in(folder / "out"), (Names{".oiler-3-0.tmp", ".oiler-notes", "frame_000000.png",
-                                               "manifest.json", "notes.txt"}));
+    EXPECT_EQ(names_in(folder / "out"),
+              (Names{".oiler-1-0.tmp", ".oiler-4194305-0.tmp.tmp", ".oiler-4194305.tmp",
+                     ".oiler-4194307-0.tmp", ".oiler-a-0.tmp", ".oiler-notes", "frame_000000.png",
+                     "manifest.json", "notes.txt"}));
 }
 
 TEST(Capture, AManifestOfAnotherProgramIsNotTouched) {

@@ -87,6 +87,22 @@ bool replace_with_fault(const fs::path& folder, int renames) {
     return has_failed;
 }
 
+bool is_of(const fs::path& folder, const std::map<std::string, std::string>& capture) {
+    auto files = files_in(folder);
+    files.erase(".oiler-capture");
+    return files == capture;
+}
+
+bool is_called_whole(const fs::path& folder) {
+    try {
+        require_whole(folder);
+        return true;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::io);
+        return false;
+    }
+}
+
 class Replacement : public testing::TestWithParam<Fault> {};
 
 TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
@@ -103,6 +119,9 @@ TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
         if (occurred && fault == Fault::one_rename_fails) {
             EXPECT_EQ(files_in(golden), before);
         }
+        const bool is_whole = is_of(golden, before) || is_of(golden, after);
+        EXPECT_TRUE(is_whole || !is_called_whole(golden)) << renames;
+        EXPECT_TRUE(occurred || is_called_whole(golden)) << renames;
         const CaptureFolder next(golden, "made up");
         auto files = files_in(golden);
         files.erase(".oiler-capture");
@@ -113,6 +132,20 @@ TEST_P(Replacement, KeepsBothCapturesWhereverItStops) {
         EXPECT_FALSE(fs::exists(golden / ".oiler-old")) << renames;
     }
     EXPECT_EQ(renames, 5 + 4 + 1);  // each file once
+}
+
+TEST(UsersFolder, IsNotTakenForThatOfAReplacement) {
+    for (const char* name : {".oiler-old", ".oiler-back"}) {
+        const Folder folder;
+        const fs::path golden = folder.path() / "golden";
+        write(film_of(3), golden);
+        write(film_of(2), golden / name);
+        const auto before = files_in(golden / name);
+        EXPECT_TRUE(holds(line_of_error(Exit::io, [&] { CaptureFolder(golden, "made up"); }),
+                          "is not from Oiler; rename it"));
+        EXPECT_EQ(files_in(golden / name), before) << name;
+        require_whole(golden);
+    }
 }
 
 TEST(LinkedReplacement, FollowsNoLinkToAnotherCapture) {

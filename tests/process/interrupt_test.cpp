@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stops programs by signals. A test of a program that would not stop hangs when it fails.
+// Stops programs by signals and limits of time.
 #include "oiler/process/interrupt.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -16,7 +17,15 @@ namespace {
 
 using testing::ExitedWithCode;
 
+/// A program that does not stop is killed after 20 s of computing time.
+void limit_computing() {
+    const rlimit limit{20, 20};
+    setrlimit(RLIMIT_CPU, &limit);
+}
+const std::string limited = "ulimit -t 20; ";
+
 [[noreturn]] void compute_forever() {
+    limit_computing();
     for (volatile unsigned i = 0;;) i = i + 1;
 }
 
@@ -84,6 +93,7 @@ TEST(TimeLimit, EndsAProgramThatPolls) {
     for (const double seconds : {0.0, 1e-300, 1e-9, 1e-3})
         EXPECT_EXIT(_exit(guard_main("game",
                                      [&] {
+                                         limit_computing();
                                          Interrupt::set_time_limit(seconds);
                                          while (!Interrupt::requested()) continue;
                                          EXPECT_TRUE(Interrupt::by_time_limit());
@@ -127,11 +137,24 @@ TEST(TimeLimit, LeavesTheReportOfTheStepsSoFar) {
     const Folder folder;
     const std::string json = (folder / "run.json").string();
     const Outcome run =
-        shell("hello --steps 1000000000000 --time-limit 0.01 --quiet --json " + json, 4);
+        shell(limited + "hello --steps 1000000000000 --time-limit 0.01 --quiet --json " + json, 4);
     EXPECT_EQ(run.err, "hello: the time limit is reached\n");
     EXPECT_TRUE(holds(text_of(json), "\"state_hash\": \""));
-    shell("hello --steps 1000000000000 --time-limit 0 --quiet --json " + json, 4);
+    shell(limited + "hello --steps 1000000000000 --time-limit 0 --quiet --json " + json, 4);
     EXPECT_TRUE(holds(text_of(json), "\"steps\": 0,"));
+}
+
+TEST(TimeLimit, EndsTheWaitForAPipe) {
+    const Folder folder;
+    for (const std::string option : {"--replay ", "--script "}) {
+        const Outcome run =
+            shell("cd " + folder.path().string() +
+                      "; rm -f fifo; mkfifo fifo; timeout -s KILL 60 hello --steps 5 "
+                      "--quiet --time-limit 0.1 " +
+                      option + "fifo",
+                  4);
+        EXPECT_EQ(run.err, "hello: the time limit is reached: interrupted while reading fifo\n");
+    }
 }
 
 TEST(TimeLimit, IsANumberOfSeconds) {
@@ -194,8 +217,8 @@ TEST(Interrupt, ALongRunWritesItsReportUpToThere) {
     const Folder folder;
     const std::string json = (folder / "run.json").string();
     const Outcome run =
-        shell("hello --steps 1000000000000 --quiet --json " + json + " & " + until_started +
-                  "kill -INT $! && kill -HUP $! && kill -TERM $!; wait $!",
+        shell(limited + "hello --steps 1000000000000 --quiet --json " + json + " & " +
+                  until_started + "kill -INT $! && kill -HUP $! && kill -TERM $!; wait $!",
               130);
     EXPECT_EQ(run.err, "hello: interrupted\n");
     EXPECT_TRUE(holds(text_of(json), "\"steps\": "));

@@ -15,6 +15,7 @@
 #include "oiler/core/version.hpp"
 #include "oiler/overlay/help.hpp"
 #include "oiler/play/keys.hpp"
+#include "oiler/process/interrupt.hpp"
 #include "oiler/process/parse.hpp"
 #include "oiler/process/parse_size.hpp"
 #include "oiler/whatif/what_if.hpp"
@@ -237,7 +238,10 @@ void check_paths(const CLI::App& app, const Given& given) {
     if (given.record == "-")
         fail(Exit::usage, "--record -: a recording is written to a file; give a name");
     require_distinct(inputs, outputs);
-    for (const NamedPath& one : outputs) require_replaceable(one.path, *one.kind);
+    for (const NamedPath& one : outputs) {
+        require_replaceable(one.path, *one.kind);
+        remove_abandoned_files(one);
+    }
     if (!given.video.empty()) Video::require_format(given.video);
 }
 
@@ -276,11 +280,12 @@ void check_what_if(const CLI::App& app, const Given& given) {
         fail(Exit::usage, "--what-if: plays a recording; add --replay FILE");
 }
 
-/// Refuses a missing golden before the run.
+/// Refuses a golden that is missing or not whole before the run.
 void check_golden(const Options& options) {
+    if (options.golden.empty() || options.update_golden) return;
+    require_whole(options.golden);
     std::error_code error;
-    if (!options.golden.empty() && !options.update_golden &&
-        !std::filesystem::exists(options.golden / manifest_name, error))
+    if (!std::filesystem::exists(options.golden / manifest_name, error))
         fail(Exit::usage, "--golden: {} has no capture; write it with --update-golden",
              options.golden.string());
 }
@@ -426,6 +431,7 @@ CommandLine parse_command_line(int argc, char** argv, const About& about,
             declare(app, given, row, about, is_scene);
     CommandLine line{.options = {}, .text = parse(app, argc, argv), .about = about};
     if (!line.text.empty()) return line;
+    if (given.time_limit) Interrupt::set_time_limit(*given.time_limit);
     given.what_if = is_given(app, "--what-if");
     if (given.what_if) check_what_if(app, given);
     if (!given.from_file.empty()) given.from = read_manifest(given.from_file);

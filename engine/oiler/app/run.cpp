@@ -257,7 +257,6 @@ Exit play(GameRun& run, RunInputs& inputs, RunReport& report) {
 
 Exit run_game(const Options& options, const About& about, const MakeGame& make,
               const MeasureBudget& measure_budget, Shelf* shelf) {
-    if (options.time_limit) Interrupt::set_time_limit(*options.time_limit);
     if (options.what_if) return run_what_if(options, about, make);
     const std::unique_ptr<AnyGame> game = make(options.settings);
     RunInputs inputs(options, about, *game);

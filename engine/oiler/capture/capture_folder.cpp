@@ -134,6 +134,18 @@ void refuse_link(const fs::path& path) {
         fail(Exit::io, "{} is a link; remove it or choose another folder", path.string());
 }
 
+/// A folder without the file of its owner is not from a replacement, unless it is empty.
+void refuse_foreign(const fs::path& path) {
+    refuse_link(path);
+    if (is_folder(path) && !fs::is_empty(path) && !is_regular(path / lock_name))
+        fail(Exit::io, "{} is not from Oiler; rename it or choose another folder", path.string());
+}
+
+void remove_folder(const fs::path& folder) {
+    remove_file(folder / lock_name);
+    remove_file(folder);
+}
+
 /// Waits until everything written to the folder's file system is on the disk.
 void sync_to_disk(const fs::path& folder) {
     const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -153,6 +165,8 @@ std::string host_name() {
     gethostname(name.data(), name.size() - 1);
     return name.data();
 }
+
+std::string own_name() { return fmt::format("process {} of {}\n", getpid(), host_name()); }
 
 std::string read_owner(int descriptor) {
     std::array<char, 300> text{};
@@ -187,6 +201,17 @@ fs::path folder_of_new(const fs::path& folder) { return folder / ".oiler-new"; }
 
 std::string frame_name(std::int64_t index) { return fmt::format("frame_{:06}.png", index); }
 
+void require_whole(const fs::path& folder) {
+    const fs::path old = folder / old_name;
+    const bool is_replaced = has_manifest(folder) && has_manifest(old);
+    for (const fs::path& hidden : {old, folder / back_name})
+        if (is_regular(hidden / lock_name) && !is_replaced)
+            fail(Exit::io,
+                 "{}: its update was stopped halfway, its earlier frames are in {}; update it "
+                 "again, which first puts them back",
+                 folder.string(), hidden.string());
+}
+
 CaptureFolder::CaptureFolder(fs::path path, const std::string& scene) : path_(std::move(path)) {
     do {
         made_ = make_folder(path_) || made_;
@@ -218,9 +243,13 @@ bool CaptureFolder::lock() {
         close(descriptor);
         return false;
     }
-    lock_ = descriptor;
     dead_owner_ = read_owner(descriptor);
-    const std::string owner = fmt::format("process {} of {}\n", getpid(), host_name());
+    if (!dead_owner_.empty() && !dead_owner_.starts_with("process ")) {
+        close(descriptor);
+        fail(Exit::io, "{} is not from Oiler; rename it or choose another folder", path.string());
+    }
+    lock_ = descriptor;
+    const std::string owner = own_name();
     if (ftruncate(lock_, 0) != 0 ||
         pwrite(lock_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
         const int error_number = errno;
@@ -267,6 +296,7 @@ void CaptureFolder::replace() {
     try {
         sync_to_disk(path_);
         make_folder(old);
+        write_file(old / lock_name, own_name());
         move_capture(path_, old);
         move_capture(folder_of_new(path_), path_);
     } catch (const Error& error) {
@@ -279,7 +309,12 @@ void CaptureFolder::replace() {
         fail(Exit::io, "{}; the earlier capture is as it was, the new one is in {}", error.what(),
              folder_of_new(path_).string());
     }
-    undo_replacement();
+    try {
+        undo_replacement();
+    } catch (const Error& error) {
+        fail(Exit::io, "{}; the new capture is complete, the next one removes the earlier one",
+             error.what());
+    }
 }
 
 /// Puts the earlier files back, or removes them if the replacement is complete. The manifest moves
@@ -287,19 +322,20 @@ void CaptureFolder::replace() {
 void CaptureFolder::undo_replacement() {
     const fs::path old = file(old_name);
     const fs::path back = file(back_name);
-    for (const fs::path& hidden : {old, back, folder_of_new(path_)}) refuse_link(hidden);
+    refuse_link(folder_of_new(path_));
+    for (const fs::path& hidden : {old, back}) refuse_foreign(hidden);
     if (is_folder(old)) {
         const bool has_any = has_manifest(path_);
         if (has_any && has_manifest(old)) {
             for (const fs::path& path : capture_files(old)) remove_file(path);
-            return remove_file(old);
+            return remove_folder(old);
         }
         if (!has_any) move_capture(path_, folder_of_new(path_));
         move(old, back);
     }
     if (!is_folder(back)) return;
     move_capture(back, path_);
-    remove_file(back);
+    remove_folder(back);
 }
 
 void CaptureFolder::release() {

@@ -18,6 +18,10 @@ inline constexpr std::string_view records_name = "frames.jsonl.gz";
 /// The hidden folder in `folder` for a capture that is to replace the one in it.
 [[nodiscard]] std::filesystem::path folder_of_new(const std::filesystem::path& folder);
 
+/// Throws Error{io} if a replacement of the capture in the folder was killed halfway, so that its
+/// files are those of two captures.
+void require_whole(const std::filesystem::path& folder);
+
 /// A folder that belongs to one capture while that runs. The owner holds a lock on the file
 /// .oiler-capture, which the system releases when the process ends in any way. Files of an earlier
 /// capture are removed, so that a shorter run does not keep the last frames of a longer one.

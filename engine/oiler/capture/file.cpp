@@ -2,6 +2,7 @@
 #include "oiler/capture/file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <charconv>
 #include <climits>
 #include <cstdio>
 #include <optional>
@@ -61,9 +63,22 @@ std::optional<int> open_in_place(const fs::path& path) {
     return open(path.c_str(), O_WRONLY | O_CLOEXEC);
 }
 
-bool is_temporary(const fs::path& path) {
-    const std::string name = path.filename().string();
-    return name.starts_with(".oiler-") && name.ends_with(".tmp");
+constexpr std::string_view temporary_start = ".oiler-";
+
+std::string temporary_name(pid_t process, int attempt) {
+    return fmt::format("{}{}-{}.tmp", temporary_start, process, attempt);
+}
+
+/// Whether the name is that of a temporary file, and its process has ended.
+bool is_of_ended_process(const std::string& name) {
+    if (!name.starts_with(temporary_start)) return false;
+    const char* const end = name.data() + name.size();
+    pid_t process = 0;
+    int attempt = 0;
+    const auto read = std::from_chars(name.data() + temporary_start.size(), end, process);
+    if (read.ptr != end) std::from_chars(read.ptr + 1, end, attempt);
+    return process > 0 && name == temporary_name(process, attempt) && kill(process, 0) != 0 &&
+           errno == ESRCH;
 }
 
 /// Returns whether the file is locked and still has its name.
@@ -89,7 +104,7 @@ template <class Make>
 int make_temporary(const fs::path& folder, fs::path& name, Make make) {
     constexpr int most_attempts = 10'000;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        fs::path tried = folder / fmt::format(".oiler-{}-{}.tmp", getpid(), attempt);
+        fs::path tried = folder / temporary_name(getpid(), attempt);
         const int result = make(tried.c_str());
         if (result < 0 && errno == EEXIST) continue;
         if (result >= 0) name = std::move(tried);
@@ -304,6 +319,7 @@ std::string read_text(const fs::path& path, std::size_t most) {
         if (count < 0) reason = errno;
         close(descriptor);
     }
+    if (reason == EINTR) fail(Exit::interrupted, "interrupted while reading {}", path.string());
     if (reason == EISDIR) fail(Exit::usage, "{}: it is a folder; give a file", path.string());
     if (reason != 0)
         fail(descriptor < 0 ? exit : Exit::io,
@@ -349,12 +365,17 @@ void remove_abandoned_files(const fs::path& folder) {
     std::error_code error;
     for (const auto& entry :
          fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error)) {
-        if (!is_temporary(entry.path()) || !entry.is_regular_file(error)) continue;
+        if (!is_of_ended_process(entry.path().filename().string()) || !entry.is_regular_file(error))
+            continue;
         const int descriptor = open(entry.path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
         if (descriptor < 0) continue;
         if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(entry.path().c_str());
         close(descriptor);
     }
+}
+
+void remove_abandoned_files(const NamedPath& output) {
+    remove_abandoned_files(output.uses ? output.path : output.path.parent_path());
 }
 
 bool make_folder(const fs::path& path) {
@@ -370,6 +391,7 @@ bool make_folder(const fs::path& path) {
 
 void require_openable(const NamedPath& output) {
     if (output.path.empty() || output.path == "-") return;
+    remove_abandoned_files(output);
     if (output.uses) return require_replaceable_files(output);
     std::error_code none;
     const fs::file_status found = fs::status(output.path, none);

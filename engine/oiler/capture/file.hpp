@@ -69,7 +69,7 @@ private:
 };
 
 /// The text of a file. Throws Error{usage} for a missing file, a folder or more than `most` bytes,
-/// Error{io} if the machine refuses.
+/// Error{io} if the machine refuses, Error{interrupted} if a signal ends the wait for a pipe.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path,
                                     std::size_t most = 256'000'000);
 /// Writes all of `bytes` to `path` through File.
@@ -85,7 +85,8 @@ void require_writable(const std::filesystem::path& path);
 /// Makes a new hidden file in a folder, with the permissions of a new file under the user's umask,
 /// and locks it. Returns its descriptor and sets `name`, or returns -1 with errno set.
 [[nodiscard]] int open_temporary(const std::filesystem::path& folder, std::filesystem::path& name);
-/// Removes the temporary files in a folder whose processes were killed.
+/// Removes the temporary files in a folder whose processes were killed: they have ended, and no
+/// process, perhaps of another container, holds the lock.
 void remove_abandoned_files(const std::filesystem::path& folder);
 
 /// Makes the folder and its parents. Returns whether it was missing. Throws Error(Exit::io).
@@ -106,6 +107,9 @@ struct NamedPath {
 /// not names, so that links and relative paths are resolved. The null device may be given several
 /// times.
 void require_distinct(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs);
+
+/// Removes the temporary files of killed processes where an output is to be.
+void remove_abandoned_files(const NamedPath& output);
 
 /// Throws Error{io} if the file of an output cannot be made in its folder, and Error{usage} if it,
 /// or a file that is written into an output folder, is of another kind, so that a command fails

@@ -15,11 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Both frames/spring and frames/spring/manifest.json name a capture.
+/// Both frames/spring and frames/spring/manifest.json name a capture. See require_whole().
 fs::path folder_of(fs::path path) {
     std::error_code error;
     const bool is_file = fs::is_regular_file(path, error) && path.filename() == manifest_name;
-    return is_file ? path.parent_path() : path;
+    if (is_file) path = path.parent_path();
+    require_whole(path);
+    return path;
 }
 
 }  // namespace
