@@ -385,14 +385,18 @@ TEST(File, ReplacesOnlyItsKind) {
     EXPECT_EQ(names_in(folder.path()), Names{"a"});
 }
 
-// A scene file begins with [scene], which is no list of JSON.
-TEST(FileKind, OfJsonIsNotThatOfAScene) {
+TEST(FileKind, OfJsonIsThatOfOiler) {
     const Folder folder;
-    for (const char* text : {"{\"a\": 1}", "{\n}", "[\n  {\n", "[{}]", "[]\n", ""}) {
+    for (const char* text :
+         {"{\n  \"scene\": \"a, b\",\n  \"method\": \"rk4\"", "{\n  \"meets\": true,",
+          "[\n  {\n    \"scene\": \"s.toml\",\n    \"kept\": null", ""}) {
         put(folder / "a", text);
         EXPECT_TRUE(is_replaceable(folder / "a", kinds::json)) << text;
     }
-    for (const char* text : {"[scene]\n", "[[body]]\n", "a", "\"a\"", "# [{"}) {
+    for (const char* text :
+         {"{\n  \"name\": \"my-app\",\n  \"version\": \"1.0.0\"", "{}", "[]", "[\n  {\n",
+          "{\n  \"scene\": \"level 1\",\n  \"enemies\": [", "{\"scene\": \"a\", \"method\": \"b\"",
+          "{\n  \"scene\": \"a\"\n}\n", "[scene]\n"}) {
         put(folder / "a", text);
         EXPECT_FALSE(is_replaceable(folder / "a", kinds::json)) << text;
     }

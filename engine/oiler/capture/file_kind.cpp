@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 std::string read_beginning(const fs::path& path) {
     struct stat found = {};
     if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return "";
-    std::array<char, 256> bytes;
+    std::array<char, 1 << 13> bytes;  // more than the longest path
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const ssize_t count = descriptor < 0 ? -1 : read(descriptor, bytes.data(), bytes.size());
     const int reason = errno;
@@ -32,10 +32,13 @@ std::string read_beginning(const fs::path& path) {
 }
 
 bool begins_as(std::string_view bytes, std::string_view beginning) {
-    return bytes.size() >= beginning.size() &&
-           std::ranges::equal(
-               beginning, bytes.substr(0, beginning.size()),
-               [](char expected, char c) { return expected == '?' || expected == c; });
+    const std::size_t star = beginning.find('*');
+    const std::string_view start = beginning.substr(0, star);
+    const auto fits = [](char expected, char c) { return expected == '?' || expected == c; };
+    return bytes.size() >= start.size() &&
+           std::ranges::equal(start, bytes.substr(0, start.size()), fits) &&
+           (star == beginning.npos ||
+            bytes.find(beginning.substr(star + 1), start.size()) != bytes.npos);
 }
 
 }  // namespace

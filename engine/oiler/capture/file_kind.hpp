@@ -9,14 +9,39 @@ namespace oiler {
 /// A kind of output file. An output replaces files of its own kind only.
 struct FileKind {
     std::string_view name;  ///< for messages
-    /// The first bytes of all files of this kind: alternatives between '|'; '?' is any byte.
+    /// The first bytes of all files of this kind: alternatives between '|'; '?' is any byte, and
+    /// one '*' any text.
     std::string_view beginnings;
 };
 
 namespace kinds {
 
 inline constexpr FileKind any{"a file", ""};
-inline constexpr FileKind json{"JSON", "{|[\n|[{|[]"};
+/// The first keys that each command writes.
+inline constexpr FileKind json{"JSON of Oiler", R"({
+  "scene": "*",
+  "method": "|{
+  "scene": "*",
+  "time": |{
+  "scene": "*",
+  "title": "|[
+  {
+    "scene": "*",
+    "kept": |[
+  {
+    "scene": "*",
+    "error": |{
+  "meets": |{
+  "tradeoff": {|{
+  "rates": [|{
+  "golden": "*",
+  "actual": "|{
+  "same": |[
+  {
+    "method": "*",
+    "damping": |[
+  {
+    "name": "explicit_euler"|{"displayTimeUnit":"ms","traceEvents":[)"};
 inline constexpr FileKind sweep{"a file of oiler tradeoff", "{\n \"oiler\""};
 inline constexpr FileKind trace{"a file of --trace", "tick,time,body,"};
 inline constexpr FileKind energy{"a file of --energy", "tick,time,kinetic,"};
