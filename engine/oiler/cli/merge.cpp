@@ -47,6 +47,7 @@ struct MergeCommand {
         make_folder(pictures.out);
         Stills stills(size);
         publish(tradeoff, {pictures.out, json, all, quiet}, stills);
+        remove_picture(pictures.out / energy_picture);
         return Exit::done;
     }
 };

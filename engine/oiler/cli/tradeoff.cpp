@@ -42,8 +42,8 @@ void draw_energies(const Tradeoff& tradeoff, const Scene& scene, const Reference
     std::vector<Stepping> settings;
     for (const Method* method : notable_methods(tradeoff))
         settings.push_back({method, tradeoff.current.rate, Precision::double_});
-    if (!settings.empty())
-        stills.write(energy_over_time(scene, tradeoff, reference, settings), path);
+    if (settings.empty()) return remove_picture(path);
+    stills.write(energy_over_time(scene, tradeoff, reference, settings), path);
 }
 
 /// One part of a sweep that several machines share.

@@ -138,6 +138,14 @@ void save(const Tradeoff& tradeoff, const std::filesystem::path& path) {
     write_file(path, file_text(tradeoff), kinds::sweep, Links::replaced);
 }
 
+void remove_picture(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error)
+        fail(Exit::io, "cannot remove {} of an earlier sweep: {}; choose another folder",
+             path.string(), error.message());
+}
+
 void publish(const Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills) {
     save(tradeoff, output.out / data_file);
     write_file(output.out / table_file, to_csv(tradeoff), kinds::table, Links::replaced);

@@ -30,6 +30,9 @@ struct TradeoffOutput {
 /// Writes the file of a sweep into its folder. Throws Error{io}.
 void save(const lab::Tradeoff& tradeoff, const std::filesystem::path& path);
 
+/// Removes a picture of an earlier sweep. Throws Error{io}.
+void remove_picture(const std::filesystem::path& path);
+
 /// Writes the files and the diagrams, prints the table. Throws Error{io}.
 void publish(const lab::Tradeoff& tradeoff, const TradeoffOutput& output, Stills& stills);
 
