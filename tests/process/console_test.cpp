@@ -15,6 +15,15 @@ TEST(TimeLeft, IsInSecondsOrMinutes) {
     EXPECT_EQ(time_left(10, 0.01), "") << "too early";
 }
 
+TEST(LongWork, IsAnnouncedOnceItIsSeenToBeLong) {
+    EXPECT_EQ(describe_long_work("of the errors", 4, 0.1),
+              "10 % of the errors, 36 s left; --time-limit S ends earlier");
+    EXPECT_EQ(describe_long_work("measured", 3, 0.001),
+              "0 % measured; --time-limit S ends earlier");
+    EXPECT_EQ(describe_long_work("measured", 1.9, 0.001), "") << "too early";
+    EXPECT_EQ(describe_long_work("measured", 4, 0.5), "") << "8 s in all";
+}
+
 // A terminal obeys control characters, a CI commands at the start of a line: see for_terminal().
 TEST(Say, PrintsNamesOfOthersEscaped) {
     testing::internal::CaptureStderr();

@@ -28,13 +28,6 @@ std::int64_t frames_of(const std::string& words) {
     return frames;
 }
 
-Advice search(const Scene& scene, const Reference& reference, const Requirements& requirements,
-              bool quiet) {
-    Percent percent(quiet, "of the settings, most of which need no run");
-    return advise(scene, reference, requirements,
-                  {.progress = std::ref(percent), .stopped = Interrupt::requested});
-}
-
 }  // namespace
 
 struct AdviseCommand {
@@ -154,7 +147,7 @@ struct AdviseCommand {
         const Reference reference = measure_reference(
             scene, required_reference_error(requirements) / 2, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
-        const Advice advice = search(scene, reference, requirements, scene_options.quiet);
+        const Advice advice = find_advice(scene, reference, requirements, scene_options.quiet);
         if (Interrupt::requested()) return Exit::interrupted;
         show(advice, scene, reference, requirements);
         if (!advice.meets) return Exit::comparison_failed;

@@ -206,7 +206,7 @@ private:
         ReportResults results{start_tradeoff(scene, reference, plan), {}, {}};
         results.tradeoff.scene = scene_options.name();
         measure_tradeoff(results.tradeoff, scene, reference, plan, scene_options.quiet);
-        results.advice = advise(scene, reference, requirements, {.stopped = Interrupt::requested});
+        results.advice = find_advice(scene, reference, requirements, scene_options.quiet);
         results.rates = measure_rates(scene, reference, most_oscillating_row(reference),
                                       usual_rates(), usual_methods(scene), Interrupt::requested);
         return results;

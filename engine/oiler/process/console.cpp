@@ -50,6 +50,16 @@ std::string time_left(double passed, double share) {
     return fmt::format(", {} left", rough_time(left));
 }
 
+std::string describe_long_work(std::string_view work, double passed, double share) {
+    constexpr double early = 2;        // s
+    constexpr double short_time = 10;  // s
+    if (passed < early || passed < share * short_time) return "";
+    return fmt::format("{:.0f} % {}{}; --time-limit S ends earlier", 100 * share, work,
+                       time_left(passed, share));
+}
+
+double Progress::passed() const { return seconds_since(start_); }
+
 void Progress::show(std::int64_t done) {
     const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1;
     const int percent = static_cast<int>(100 * share);
@@ -57,7 +67,7 @@ void Progress::show(std::int64_t done) {
     shown_percent_ = percent;
     const std::string filled(static_cast<std::size_t>(percent * 40 / 100), '#');
     std::fputs(fmt::format("\r[{:<40}] {}/{} {}{:<16}", filled, done, total_, what_,
-                           time_left(seconds_since(start_), share))
+                           time_left(passed(), share))
                    .c_str(),
                stderr);
     std::fflush(stderr);

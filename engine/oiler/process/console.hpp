@@ -36,6 +36,10 @@ void remark(bool quiet, fmt::format_string<Args...> line, Args&&... args) {
 /// seconds.
 void announce(bool quiet, std::string_view what, double steps, double seconds);
 
+/// The line for work that has no progress bar and will take longer than some seconds, once that is
+/// seen: "12 % of the errors, 40 s left; --time-limit S ends earlier". Empty before.
+[[nodiscard]] std::string describe_long_work(std::string_view work, double passed, double share);
+
 /// A progress bar with the time left, on standard error if that is a terminal, else invisible.
 class Progress {
 public:
@@ -45,6 +49,9 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void show(std::int64_t done);
+    [[nodiscard]] bool is_visible() const { return visible_; }
+    /// Real time since its start, s.
+    [[nodiscard]] double passed() const;
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
