@@ -26,6 +26,16 @@ bool gives_threads() {
     return threads.size() == wanted;
 }
 
+/// Mesa damages its memory if a vector has no room for a float.
+void refuse_narrow_vectors() {
+    const char* const given = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    char* end = nullptr;
+    const long bits = given == nullptr ? 0 : std::strtol(given, &end, 0);
+    if (end != given && bits >= 0 && bits < 32)
+        fail(Exit::no_display,
+             "LP_NATIVE_VECTOR_WIDTH is {}; unset it, or set it to 128, 256 or 512", given);
+}
+
 }  // namespace
 
 // RTLD_NODELETE: a driver has threads of its own, which crash if it is unmapped.
@@ -46,6 +56,7 @@ Library::Symbol Library::operator[](const char* name) const {
 }
 
 void limit_llvmpipe() {
+    refuse_narrow_vectors();
     setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
     if (!gives_threads()) setenv("LP_NUM_THREADS", "0", 0);
 }

@@ -41,7 +41,7 @@ private:
 /// Limits llvmpipe to vectors of 256 bits: Mesa 22.3 crashes with 512, and pixels must be the same
 /// on every machine. If the machine does not give the threads that llvmpipe wants, it gets none:
 /// it would wait for them for ever. Call it before a GL driver is loaded. LP_NATIVE_VECTOR_WIDTH
-/// and LP_NUM_THREADS of the user override it.
+/// and LP_NUM_THREADS of the user override it. Throws Error{no_display} for a width below a float.
 void limit_llvmpipe();
 
 }  // namespace oiler
