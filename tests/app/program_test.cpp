@@ -273,8 +273,8 @@ TEST(Program, ADanglingLinkIsNotReplaced) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
 }
 
-// A step of explicit Euler multiplies the energy by |1 + λ·dt|² = 1 − c·dt + ω²·dt², or 15.9 for the
-// article's spring at 1 Hz: 7.5·10⁶ J pass the largest double between the steps 250 and 252.
+// A step of explicit Euler multiplies the energy by |1 + λ·dt|² = 1 − c·dt + ω²·dt², or 15.9 for
+// the article's spring at 1 Hz: 7.5·10⁶ J pass the largest double between the steps 250 and 252.
 TEST(Program, AnEnergyThatOverflowsIsADivergence) {
     const std::string line = "spring_damper --quiet --method explicit_euler --rate 1 --steps 300";
     const Outcome run = shell(line + " --json -", 5);
@@ -284,8 +284,8 @@ TEST(Program, AnEnergyThatOverflowsIsADivergence) {
                 std::log(std::numeric_limits<double>::max() / 7.5e6) / std::log(15.9), 1);
     EXPECT_EQ(report["energy"]["first"]["total"], 7.5e6);
     EXPECT_EQ(report["energy"]["last"], nullptr);
-    EXPECT_TRUE(holds(run.err, fmt::format("at tick {}: body 0 moves at ",
-                                           report["steps"].get<int>())));
+    EXPECT_TRUE(
+        holds(run.err, fmt::format("at tick {}: body 0 moves at ", report["steps"].get<int>())));
     EXPECT_EQ("spring_damper: " + report["diverged"].get<std::string>() + "\n", run.err);
     const Outcome without = shell(line, 5);
     EXPECT_EQ(without.err, run.err);
@@ -293,7 +293,7 @@ TEST(Program, AnEnergyThatOverflowsIsADivergence) {
 
 TEST(Program, ADivergedRunReplacesTheReportOfAnEarlierOne) {
     const Folder folder;
-    put(folder / "a.json", "{\"steps\": 1}");
+    shell("spring_damper --steps 1 --quiet --json " + quoted(folder / "a.json"), 0);
     shell("spring_damper --steps 5000 --rate 1 --quiet --json " + quoted(folder / "a.json"), 5);
     const Json report = Json::parse(text_of(folder / "a.json"));
     EXPECT_TRUE(holds(report["diverged"].get<std::string>(), "diverged at step"));
@@ -334,11 +334,14 @@ TEST(Program, KeepsFilesOfAnotherKind) {
     const Folder folder;
     put(folder / "mine", "my notes\n");
     put(folder / "scene.gif", "[scene]\naxes = 1\n");
+    put(folder / "package.json", "{\n  \"name\": \"mine\"\n}\n");
     const std::string steps = "timeout 60 hello --steps 1000000000000 --quiet ";
     const std::string frames = "timeout 60 hello --headless --frames 1000000 --quiet --out " +
                                quoted(folder / "out") + " ";
     for (const char* option : {"--json", "--trace", "--energy", "--profile", "--record"})
         shell(steps + option + " " + quoted(folder / "mine"), 2);
+    for (const char* option : {"--json", "--profile"})
+        shell(steps + option + " " + quoted(folder / "package.json"), 2);
     for (const char* option : {"--sheet", "--json"})
         shell(frames + option + " " + quoted(folder / "scene.gif"), 2);
     const Outcome run = shell(frames + "--video " + quoted(folder / "scene.gif"), 2);
@@ -346,7 +349,9 @@ TEST(Program, KeepsFilesOfAnotherKind) {
                            " is not a video and would be lost; remove it or choose another path\n");
     EXPECT_EQ(text_of(folder / "mine"), "my notes\n");
     EXPECT_EQ(text_of(folder / "scene.gif"), "[scene]\naxes = 1\n");
-    EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"mine", "scene.gif"}));
+    EXPECT_EQ(text_of(folder / "package.json"), "{\n  \"name\": \"mine\"\n}\n");
+    EXPECT_EQ(names_in(folder.path()),
+              (std::vector<std::string>{"mine", "package.json", "scene.gif"}));
 }
 
 // The run would take hours.

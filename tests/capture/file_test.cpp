@@ -402,6 +402,23 @@ TEST(FileKind, OfJsonIsThatOfOiler) {
     }
 }
 
+TEST(FileKind, OfAFileThatMayNotBeReadIsUnknown) {
+    const Folder folder;
+    fs::permissions(folder.path(), fs::perms{0755});
+    put(folder / "a", "mine");
+    fs::permissions(folder / "a", fs::perms::none);
+    const bool is_root = geteuid() == 0;
+    if (is_root) {
+        ASSERT_EQ(seteuid(65534), 0);
+    }
+    const std::string line =
+        line_of_error(Exit::io, [&] { (void)is_replaceable(folder / "a", kinds::json); });
+    if (is_root) {
+        ASSERT_EQ(seteuid(0), 0);
+    }
+    EXPECT_TRUE(holds(line, "cannot read " + (folder / "a").string()));
+}
+
 TEST(File, OfAKindIsWrittenToDevices) {
     write_file("/dev/null", "data", kinds::json);
     require_replaceable("/dev/zero", kinds::json);
