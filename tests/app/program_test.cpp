@@ -314,6 +314,16 @@ TEST(Program, OsMesaWithoutItsDriverIsNoOpenGl) {
         }
 }
 
+// Mesa 22.3 would damage its memory.
+TEST(Program, AVectorWithoutRoomForAFloatIsNoOpenGl) {
+    const Folder folder;
+    const std::string line =
+        " hello --headless --frames 1 --size 64x36 --quiet --out " + quoted(folder / "out");
+    for (const char* width : {"0", "7", "31", "5x", "0x1f"})
+        EXPECT_TRUE(holds(shell(std::string("LP_NATIVE_VECTOR_WIDTH=") + width + line, 3).err,
+                          "unset it, or set it to 128, 256 or 512"));
+}
+
 // Mesa would wait for its threads for ever. The limit is not that of root.
 TEST(Program, DrawsTheSameWithoutThreads) {
     const Folder folder;

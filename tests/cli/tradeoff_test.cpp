@@ -162,6 +162,9 @@ TEST(TradeoffCommand, MergedShardsEqualOneRun) {
     desk.run(command + "whole", 0);
     EXPECT_EQ(accuracy_of(desk.json("merged/tradeoff.json")),
               accuracy_of(desk.json("whole/tradeoff.json")));
+    // A picture of the older sweep, which merge does not draw.
+    desk.run("oiler merge parts/part-*.json --out whole --size 64x36 --quiet", 0);
+    EXPECT_EQ(desk.names("whole"), desk.names("merged"));
     EXPECT_EQ(desk.text("merged/tradeoff.csv").substr(0, 60),
               desk.text("whole/tradeoff.csv").substr(0, 60));
     const Outcome twice = desk.run(
