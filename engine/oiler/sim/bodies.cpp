@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/require.hpp"
@@ -13,6 +14,8 @@
 
 namespace oiler {
 namespace {
+
+constexpr const char* no_row = "there is no body in this row";
 
 /// The kinds of force that all rows share.
 constexpr Kinds kinds_everywhere = [] {
@@ -24,6 +27,10 @@ constexpr Kinds kinds_everywhere = [] {
     return kinds;
 }();
 
+/// The limits of columns, ready before a body is added.
+template <class T, int Axes>
+constexpr Limits limits_of(std::is_same_v<T, float> ? Precision::single : Precision::double_, Axes);
+
 /// Adds columns up to `count` forces of a kind; new forces are zero for all rows.
 template <class T>
 void make_room(std::vector<ForceColumns<T>>& stored, std::size_t count, std::size_t numbers,
@@ -32,14 +39,15 @@ void make_room(std::vector<ForceColumns<T>>& stored, std::size_t count, std::siz
 }
 
 /// Adds the numbers of a new row to all forces of a kind: those that all rows share; else the given
-/// ones to the first force and zeros to the others.
+/// ones to the first force and zeros to the others. Returns whether any given number is not 0.
 template <class T>
-void push_row(std::vector<ForceColumns<T>>& stored, std::span<const T> given, bool everywhere) {
+bool push_row(std::vector<ForceColumns<T>>& stored, std::span<const T> given, bool everywhere) {
     for (std::size_t index = 0; index < stored.size(); ++index)
         for (std::size_t i = 0; i < given.size(); ++i) {
             Parameter<T>& number = stored[index][i];
             number.push(everywhere ? number[0] : index == 0 ? given[i] : T(0));
         }
+    return !everywhere && std::ranges::any_of(given, [](T number) { return number != 0; });
 }
 
 /// The kinds of force of which row `row` has any number other than 0, but for those that all rows
@@ -79,7 +87,7 @@ Vec3 vector_of(const std::array<Column<T>, Axes>& columns, std::size_t row) {
 
 template <class T, std::size_t Axes>
 void push(std::array<Column<T>, Axes>& columns, const Vec3& value) {
-    for (std::size_t i = 0; i < Axes; ++i) columns[i].push(static_cast<T>(value.axis[i]));
+    for_each_index<Axes>([&](auto i) { columns[i].push(static_cast<T>(value.axis[i])); });
 }
 
 template <class T, std::size_t Axes, class V>
@@ -158,9 +166,7 @@ int Bodies::axes() const { return static_cast<int>(columns_->of.index() % 3) + 1
 
 Precision Bodies::precision() const { return static_cast<Precision>(columns_->of.index() / 3); }
 
-void Bodies::require_row(std::size_t row) const {
-    require(row < size(), "there is no body in this row");
-}
+void Bodies::require_row(std::size_t row) const { require(row < size(), no_row); }
 
 std::size_t Bodies::size() const {
     return columns_->visit([](const auto& columns) { return columns.size; });
@@ -175,23 +181,25 @@ void Bodies::reserve(std::size_t rows) {
 }
 
 std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
-    const Limits limits(precision(), axes());
-    limits.check(body);
-    limits.check(forces, body.mass);
     return columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        const std::size_t row = columns.size;
+        limits_of<T, Axes>.check(body);
+        limits_of<T, Axes>.check(forces, body.mass);
+        Kinds kinds = 0;
         for_each_kind<T, Axes>(
-            forces, body.mass, [&](std::size_t kind, bool is_given, auto numbers_of_force) {
-                std::vector<ForceColumns<T>>& stored = columns.forces[kind];
-                if (!is_given && stored.empty()) return;
-                const auto numbers = numbers_of_force();
-                if (is_given) make_room(stored, 1, numbers.size(), row);
-                push_row<T>(stored, numbers, kinds_everywhere >> kind & 1U);
-            });
+            forces, body.mass,
+            [&](std::size_t kind, bool is_given, auto numbers_of_force)
+                __attribute__((always_inline)) {
+                    std::vector<ForceColumns<T>>& stored = columns.forces[kind];
+                    if (!is_given && stored.empty()) return;
+                    const auto numbers = numbers_of_force();
+                    if (is_given) make_room(stored, 1, numbers.size(), columns.size);
+                    if (push_row<T>(stored, numbers, kinds_everywhere >> kind & 1U))
+                        kinds = static_cast<Kinds>(kinds | 1U << kind);
+                });
         push(columns.motion.x, body.position);
         push(columns.motion.v, body.velocity);
         columns.mass.push(body.mass);
-        columns.kinds.push(kinds_of_row(columns, row));
+        columns.kinds.push(kinds);
         columns.applied.push_row();
         columns.contacts.push_row(columns.contacts.radius_of(body.contact));
         columns.forces_changed();
@@ -228,8 +236,8 @@ void Bodies::detach_kind(std::size_t row, std::size_t kind) {
 }
 
 void Bodies::remove(std::size_t row) {
-    require_row(row);
     columns_->visit([&](auto& columns) {
+        require(row < columns.size, no_row);
         for (auto& column : columns.motion.x) column.swap_remove(row);
         for (auto& column : columns.motion.v) column.swap_remove(row);
         columns.mass.swap_remove(row);
@@ -239,9 +247,11 @@ void Bodies::remove(std::size_t row) {
                 for (auto& number : numbers) number.swap_remove(row);
         columns.applied.swap_remove(row, --columns.size);
         columns.contacts.swap_remove(row, columns.size);
-        const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
-        remove_links(columns.links, row, columns.size, release);
-        remove_links(columns.point_links, row, columns.size, release);
+        if (columns.has_links()) {
+            const auto release = [&](const auto& link) { link_slots_.release(link.slot); };
+            remove_links(columns.links, row, columns.size, release);
+            remove_links(columns.point_links, row, columns.size, release);
+        }
         columns.forces_changed();
     });
 }

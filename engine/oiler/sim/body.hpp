@@ -86,14 +86,25 @@ concept BodyForce = !Force::everywhere && requires(GivenForces given) {
 template <class Force, class... All>
 inline constexpr int count_of = (int{std::same_as<Force, All>} + ... + 0);
 
-/// The forces as GivenForces.
+/// The force of type `Wanted`, or none.
+template <class Wanted, class... Force>
+[[nodiscard]] auto force_or_none(const Force&... force) {
+    if constexpr (count_of<Wanted, Force...> == 0)
+        return std::nullopt;
+    else
+        return std::get<const Wanted&>(std::tie(force...));
+}
+
+/// The forces as GivenForces. Each is constructed in place: g++ would write zeros to all of an
+/// empty one that is assigned to later.
 template <BodyForce... Force>
 [[nodiscard]] GivenForces given(const Force&... force) {
     static_assert(((count_of<Force, Force...> == 1) && ...),
                   "a body has at most one force of each kind");
-    GivenForces all;
-    ((std::get<std::optional<Force>>(all) = force), ...);
-    return all;
+    return [&]<class... Kind>(const std::tuple<std::optional<Kind>...>*) {
+        return GivenForces(force_or_none<Kind>(force...)...);
+    }
+    (static_cast<const GivenForces*>(nullptr));
 }
 
 /// The index of a kind of force among GivenForces.

@@ -1,37 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/sim/limits.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace oiler {
-namespace {
 
-/// Separate from the checks, so that those are inlined.
-[[noreturn, gnu::cold]] void refuse(double number, std::string_view what, double largest) {
+void Limits::refuse(double number, std::string_view what) const {
     throw NotFinite(Exit::usage,
                     fmt::format("{} of {}: give a number that is finite and at most {:g}", what,
-                                number, largest));
+                                number, largest_));
 }
 
-}  // namespace
-
-Limits::Limits(Precision precision, int axes)
-    : largest_(precision == Precision::single
-                   ? static_cast<double>(std::numeric_limits<float>::max())
-                   : std::numeric_limits<double>::max()),
-      axes_(axes) {}
-
-void Limits::check(double number, std::string_view what) const {
-    if (!(std::abs(number) <= largest_)) refuse(number, what, largest_);
-}
-
-void Limits::check(const Vec3& vector, std::string_view what) const {
+void Limits::refuse(const Vec3& vector, std::string_view what) const {
     for (const double number : vector.axis) check(number, what);
-    for (int i = axes_; i < 3; ++i)
-        if (vector[i] != 0)
-            fail(Exit::usage, "{} has {} = {}, but the world has {} axes: leave it 0", what,
-                 axis_names[static_cast<std::size_t>(i)], vector[i], axes_);
+    const auto axes = 3 - std::ranges::count(largest_on_axis_, 0.0);
+    std::size_t lacking = static_cast<std::size_t>(axes);
+    while (vector.axis[lacking] == 0) ++lacking;
+    fail(Exit::usage, "{} has {} = {}, but the world has {} axes: leave it 0", what,
+         axis_names[lacking], vector.axis[lacking], axes);
 }
 
 void Limits::check(const Body& body) const {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "oiler/core/error.hpp"
@@ -19,11 +22,17 @@ public:
 /// before anything is stored and throw Error{usage}, for numbers NotFinite.
 class Limits {
 public:
-    Limits(Precision precision, int axes);
+    constexpr Limits(Precision precision, int axes)
+        : largest_(precision == Precision::single ? std::numeric_limits<float>::max()
+                                                  : std::numeric_limits<double>::max()),
+          largest_on_axis_{largest_, axes > 1 ? largest_ : 0, axes > 2 ? largest_ : 0} {}
 
     /// Requires finite numbers on the axes of the world and 0 on the others. The message names
     /// `what`.
-    void check(const Vec3& vector, std::string_view what) const;
+    void check(const Vec3& vector, std::string_view what) const {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (!(std::abs(vector.axis[i]) <= largest_on_axis_[i])) refuse(vector, what);
+    }
     void check(const Body& body) const;
     /// Checks the forces per unit mass, as they are stored.
     void check(const GivenForces& forces, double mass) const;
@@ -31,11 +40,16 @@ public:
     void check(const Plane& plane) const;
     void check(const Contact& contact) const;
 
-    void check(double number, std::string_view what) const;
+    void check(double number, std::string_view what) const {
+        if (!(std::abs(number) <= largest_)) refuse(number, what);
+    }
 
 private:
+    [[noreturn, gnu::cold]] void refuse(double number, std::string_view what) const;
+    [[noreturn, gnu::cold]] void refuse(const Vec3& vector, std::string_view what) const;
+
     double largest_;
-    int axes_;
+    std::array<double, 3> largest_on_axis_;  ///< 0 for axes that the world lacks
 };
 
 }  // namespace oiler

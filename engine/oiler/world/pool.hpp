@@ -87,10 +87,12 @@ public:
         places_.reserve(slots);
     }
     void add(std::uint32_t slot) {
-        if (slot >= places_.size()) places_.resize(slot + std::size_t{1}, absent);
-        assert(places_[slot] == absent);
-        places_[slot] = static_cast<std::uint32_t>(dense_.size());
+        const auto place = static_cast<std::uint32_t>(dense_.size());
         dense_.push_back(slot);
+        if (slot == places_.size()) return places_.push_back(place);
+        if (slot > places_.size()) places_.resize(slot + std::size_t{1}, absent);
+        assert(places_[slot] == absent);
+        places_[slot] = place;
     }
     void remove(std::uint32_t slot) { fill(hide(slot)); }
     /// Takes a slot out of the set, and leaves a hole in the order: `absent`. Returns its place.

@@ -100,7 +100,7 @@ Entity World::create() { return slots_.take<Entity>(); }
 void World::destroy(Entity entity) {
     require_of(entity, alive(entity), "destroy", gone);
     for (const TaggedPool& entry : pools_) erase(*entry.pool, entity.index);
-    if (has_body(entity)) remove_body(entity);
+    if (rows_.place(entity.index) != SlotSet::absent) remove_row(entity.index);
     slots_.release(entity.index);
 }
 
@@ -138,13 +138,15 @@ void World::reserve(std::size_t bodies) {
 }
 
 void World::remove_body(Entity entity) {
-    const std::size_t place = row(entity);
-    if (visits_ > 0) {
-        removed_rows_.push_back(rows_.hide(entity.index));
-        return;
-    }
+    require_of(entity, has_body(entity), "the body", no_body);
+    remove_row(entity.index);
+}
+
+void World::remove_row(std::uint32_t slot) {
+    const std::uint32_t place = rows_.hide(slot);
+    if (visits_ > 0) return removed_rows_.push_back(place);
     bodies_->remove(place);
-    rows_.remove(entity.index);
+    rows_.fill(place);
 }
 
 void World::fill_holes() {

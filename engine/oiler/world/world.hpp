@@ -369,6 +369,8 @@ private:
     void attach_given(const char* call, std::size_t index, Entity entity,
                       const GivenForces& forces);
     void detach_kind(Entity entity, std::size_t kind);
+    /// Removes the body of the entity in a slot.
+    void remove_row(std::uint32_t slot);
     [[nodiscard]] Steps next_steps(std::int64_t count) const;
     [[nodiscard]] NameOfRow name_of_row() const;
     [[nodiscard]] std::vector<Risk> risks(std::int64_t steps) const;

@@ -79,8 +79,8 @@ public:
     const T& operator[](std::size_t row) const { return values_[row]; }
 
     void reserve(std::size_t rows) { values_.reserve(padded(rows)); }
-    void push(T value) {
-        if (size_ == values_.size()) grow();
+    [[gnu::always_inline]] void push(T value) {
+        if (size_ % row_padding == 0 && size_ == values_.size()) grow();
         values_[size_++] = value;
     }
     /// Removes `row`; the last row moves to its place.
@@ -93,7 +93,7 @@ public:
 private:
     [[nodiscard]] std::ptrdiff_t end() const { return static_cast<std::ptrdiff_t>(size_); }
 
-    void grow() { values_.resize(padded(size_ + 1)); }
+    [[gnu::noinline]] void grow() { values_.resize(padded(size_ + 1)); }
 
     std::vector<T, AlignedAllocator<T>> values_;
     std::size_t size_ = 0;
@@ -117,12 +117,7 @@ public:
     T operator[](std::size_t row) const { return *data(row); }
 
     void push(T value) {
-        if (size_ == 0) {
-            *this = Parameter(value, 1);
-            return;
-        }
-        if (shared_ && differ(value, column_[0])) spread();
-        if (!shared_) column_.push(value);
+        if (!shared_ || size_ == 0 || differ(value, column_[0])) return push_unlike(value);
         ++size_;
     }
     void set(std::size_t row, T value) {
@@ -140,6 +135,16 @@ private:
     /// 0 and −0 differ, so that the bits of a body do not depend on its neighbours.
     static bool differ(T a, T b) { return a != b || std::signbit(a) != std::signbit(b); }
 
+    /// Adds a number that is not that of all rows before.
+    [[gnu::noinline]] void push_unlike(T value) {
+        if (size_ == 0) {
+            *this = Parameter(value, 1);
+            return;
+        }
+        spread();
+        column_.push(value);
+        ++size_;
+    }
     void share(T value) {
         column_ = {};
         while (column_.size() < row_padding) column_.push(value);

@@ -112,8 +112,8 @@ struct AppliedForces {
     }
     /// Removes `row`, to whose place row `last` moves.
     void swap_remove(std::size_t row, std::size_t last) {
-        if (acceleration[0].size() > 0)
-            for (Column<T>& column : acceleration) column.swap_remove(row);
+        if (acceleration[0].size() == 0) return;
+        for (Column<T>& column : acceleration) column.swap_remove(row);
         std::erase(rows, row);
         std::replace(rows.begin(), rows.end(), last, row);
     }
@@ -166,7 +166,7 @@ struct Contacts {
         rows -= radius[row] != no_contact;
         radius.swap_remove(row);
         if (row < settled.size()) settled[row] = last < settled.size() ? settled[last] : 0;
-        settled.resize(std::min(settled.size(), last));
+        if (last < settled.size()) settled.resize(last);
     }
     void wake(std::size_t row) {
         if (row < settled.size()) settled[row] = 0;
