@@ -105,6 +105,18 @@ public:
         return all != 0;
     }
 
+    /// Whether all lanes are finite.
+    [[gnu::always_inline]] friend bool is_finite(Pack a) {
+#ifdef __AVX512DQ__
+        constexpr int infinite_or_nan = 0x99;
+        if constexpr (Bytes == 64 && sizeof(T) == 4)
+            return __builtin_ia32_fpclassps512_mask(a.register_, infinite_or_nan, 0xFFFF) == 0;
+        if constexpr (Bytes == 64 && sizeof(T) == 8)
+            return __builtin_ia32_fpclasspd512_mask(a.register_, infinite_or_nan, 0xFF) == 0;
+#endif
+        return !any(a - a != Pack(T(0)));
+    }
+
     [[gnu::always_inline]] friend Pack abs(Pack a) { return select(a < Pack(T(0)), -a, a); }
     [[gnu::always_inline]] friend Pack sqrt(Pack a) {
         for (std::size_t i = 0; i < lanes; ++i) a.register_[i] = std::sqrt(a.register_[i]);
@@ -221,8 +233,7 @@ public:
     }
     /// Whether the sum of the registers is finite in all lanes; then all numbers are finite.
     [[gnu::always_inline]] friend bool is_finite(const Batch& a) {
-        const Pack total = a.template sum_from<0, packs>();
-        return !Pack::any(total - total != Pack(T(0)));
+        return is_finite(a.template sum_from<0, packs>());
     }
 
 private:

@@ -90,6 +90,12 @@ struct ChainTableauPlan : TableauPlan<T> {
     static constexpr std::integral_constant<std::size_t, Stages> count{};
 };
 
+/// Whether steps end with a drift, which carries a velocity that is not finite into the position.
+template <class Rule>
+constexpr bool ends_with_drift = false;
+template <class T>
+constexpr bool ends_with_drift<KickDriftPlan<T>> = true;
+
 template <class V, int Axes>
 [[gnu::always_inline]] inline bool may_be_infinite(const State<V, Axes>& state) {
     V total = state.x.axis[0] + state.v.axis[0];
@@ -113,7 +119,8 @@ template <bool OneStep, class Parts, class Fixed, class Rule, class T>
             advance(fixed, state, physics, steps.rate.time(steps.first));
         else
             take_steps(fixed, state, physics, steps);
-        if (may_be_infinite(state)) return row;
+        if (ends_with_drift<Fixed> ? !is_finite(state.x.axis[0]) : may_be_infinite(state))
+            return row;
         state.x.axis[0].store(rows.x + row);
         state.v.axis[0].store(rows.v + row);
         if (row == 0 && rows.evaluations) *rows.evaluations += physics.evaluations();
