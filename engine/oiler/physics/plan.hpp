@@ -90,20 +90,28 @@ struct ExactPlan {
 template <std::floating_point T>
 using Plan = std::variant<SplittingPlan<T>, TableauPlan<T>, ImplicitPlan<T>, ExactPlan<T>>;
 
+/// Replaces a plan in place: it is large, and shorter steps need one each.
 template <std::floating_point T>
-[[nodiscard]] Plan<T> make_plan(const Method& method, T dt, Damping damping) {
-    return std::visit(
-        [&]<class Rule>(const Rule& rule) -> Plan<T> {
+void replace_plan(Plan<T>& plan, const Method& method, T dt, Damping damping) {
+    std::visit(
+        [&]<class Rule>(const Rule& rule) {
             if constexpr (std::is_same_v<Rule, Splitting>)
-                return SplittingPlan<T>(rule, dt, damping);
+                plan.template emplace<SplittingPlan<T>>(rule, dt, damping);
             else if constexpr (std::is_same_v<Rule, Tableau>)
-                return TableauPlan<T>(rule, dt);
+                plan.template emplace<TableauPlan<T>>(rule, dt);
             else if constexpr (std::is_same_v<Rule, ImplicitStage>)
-                return ImplicitPlan<T>{static_cast<T>(rule.a), static_cast<T>(rule.a) * dt, dt};
+                plan = ImplicitPlan<T>{static_cast<T>(rule.a), static_cast<T>(rule.a) * dt, dt};
             else
-                return ExactPlan<T>{dt};
+                plan = ExactPlan<T>{dt};
         },
         method.rule);
+}
+
+template <std::floating_point T>
+[[nodiscard]] Plan<T> make_plan(const Method& method, T dt, Damping damping) {
+    Plan<T> plan = ExactPlan<T>{dt};
+    replace_plan(plan, method, dt, damping);
+    return plan;
 }
 
 /// Where steps of the plan apply forces that depend on velocity.

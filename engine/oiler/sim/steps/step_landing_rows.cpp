@@ -113,6 +113,25 @@ private:
     T half_step_;
 };
 
+/// A plan for steps shorter than dt, with the flows of a row. It is large and kept from row to row.
+template <std::floating_point T>
+struct ShorterPlan {
+    T tau = 0;  ///< s
+    Plan<T> plan = ExactPlan<T>{0};
+    std::vector<Response<T>> responses;
+    std::vector<FlowView<T>> flows;
+
+    void set_flows(std::size_t count, const auto& response_of) {
+        responses.resize(count);
+        flows.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Response<T>& kept = responses[i] = response_of(i);
+            flows[i] = {NumberView<T>(kept.reach), NumberView<T>(kept.sway),
+                        NumberView<T>(kept.decay)};
+        }
+    }
+};
+
 /// Steps of one row that are not longer than dt, within the step that begins at `t` s.
 template <std::floating_point T, int Axes>
 class ShortSteps {
@@ -120,13 +139,16 @@ public:
     using Vector = Vec<T, Axes>;
     using Motion = State<T, Axes>;
 
-    ShortSteps(const StepCall<T, Axes>& call, std::size_t row, double t)
+    ShortSteps(const StepCall<T, Axes>& call, ShorterPlan<T>& shorter, std::size_t row, double t)
         : call_(call),
+          shorter_(shorter),
           row_(row),
           others_(call.columns.views, row, call.columns.kinds[row]),
           parts_(call.columns.views.parts(call.columns.kinds[row])),
           linear_(call.columns.views.template load_at<T>(row, parts_)),
-          t_(t) {}
+          t_(t) {
+        shorter_.tau = 0;
+    }
 
     [[nodiscard]] Motion fly(const Motion& from, T start, T tau) {
         return step(from, start, tau,
@@ -154,16 +176,6 @@ public:
 private:
     using ForcesOfRow = Forces<T, Axes, LinearParts, ShortStepOthers<T, Axes>>;
 
-    /// A plan for steps shorter than dt, with the flows of the row.
-    struct Shorter {
-        Shorter(const Method& method, T dt, Damping damping)
-            : plan(make_plan<T>(method, dt, damping)) {}
-
-        Plan<T> plan;
-        std::array<Response<T>, Splitting::most_stages> responses;
-        std::array<FlowView<T>, Splitting::most_stages> flows;
-    };
-
     [[nodiscard]] ForcesOfRow forces(T half_step) const {
         return {linear_, parts_, ShortStepOthers<T, Axes>(others_, half_step)};
     }
@@ -175,8 +187,8 @@ private:
         if (tau == call_.steps.rate.template dt<T>()) {
             step_by(call_.plan(), call_.columns.views.flows.data(), row_, state, start, tau, with);
         } else {
-            if (!shorter_ || tau != tau_) prepare(tau);
-            step_by(shorter_->plan, shorter_->flows.data(), 0, state, start, tau, with);
+            if (tau != shorter_.tau) prepare(tau);
+            step_by(shorter_.plan, shorter_.flows.data(), 0, state, start, tau, with);
         }
         return state;
     }
@@ -203,30 +215,27 @@ private:
 
     void prepare(T tau) {
         const Damping damping = call_.steps.damping.value_or(call_.method.damping);
-        shorter_.emplace(call_.method, tau, damping);
-        tau_ = tau;
-        if (std::holds_alternative<ExactPlan<T>>(shorter_->plan)) {
-            set_flow(0, oscillator_response(linear_.stiffness, linear_.damping, tau));
-        } else if (const auto* split = std::get_if<SplittingPlan<T>>(&shorter_->plan)) {
+        replace_plan(shorter_.plan, call_.method, tau, damping);
+        shorter_.tau = tau;
+        if (std::holds_alternative<ExactPlan<T>>(shorter_.plan)) {
+            shorter_.set_flows(1, [&](std::size_t) {
+                return oscillator_response(linear_.stiffness, linear_.damping, tau);
+            });
+        } else if (const auto* split = std::get_if<SplittingPlan<T>>(&shorter_.plan)) {
             if (split->damping == Damping::in_kick || !parts_.damping) return;
-            for (std::size_t i = 0; i < split->drift_count; ++i)
-                set_flow(i, oscillator_response(T(0), linear_.damping, split->drifts[i]));
+            shorter_.set_flows(split->drift_count, [&](std::size_t i) {
+                return oscillator_response(T(0), linear_.damping, split->drifts[i]);
+            });
         }
-    }
-    void set_flow(std::size_t i, const Response<T>& response) {
-        Response<T>& kept = shorter_->responses[i] = response;
-        shorter_->flows[i] = {NumberView<T>(kept.reach), NumberView<T>(kept.sway),
-                              NumberView<T>(kept.decay)};
     }
 
     const StepCall<T, Axes>& call_;
+    ShorterPlan<T>& shorter_;
     std::size_t row_;
     OtherForces<T, Axes> others_;
     LinearParts parts_;
     LinearForce<T, Axes> linear_;
     double t_;
-    std::optional<Shorter> shorter_;
-    T tau_ = 0;  ///< s, of `shorter_`
     std::int64_t evaluations_ = 0;
     bool solved_ = true;
 };
@@ -320,7 +329,7 @@ private:
         State<T, Axes> state = this->state(x_, v_, saved);
         auto& settled = columns_.contacts.settled[row];
         if (!settled) {
-            ShortSteps<T, Axes> body(call_, row, step.rate.time(step.first));
+            ShortSteps<T, Axes> body(call_, shorter_, row, step.rate.time(step.first));
             std::size_t index = 0;
             const auto report = [&](const ImpactOf<T, Axes>& impact) {
                 impacts_.push_back({step.first, row, index++, impact});
@@ -349,6 +358,7 @@ private:
     Columns<T, Axes>& columns_;
     const Steps& steps_;
     std::vector<RowImpact<T, Axes>>& impacts_;
+    ShorterPlan<T> shorter_;
     std::array<std::array<T, row_padding>, Axes> x_;  ///< at the start of the step
     std::array<std::array<T, row_padding>, Axes> v_;
     std::array<std::uint8_t, row_padding> meets_;
