@@ -71,9 +71,10 @@ std::vector<double> heights_of_bounces(const Path& height, const std::vector<dou
 }
 
 /// Whether the first flight after a time is seen to stay low, if all points from then on are: it
-/// has passed its apex, or the body lies on the floor.
+/// has passed its apex, or the body lies on the floor. Within the step of that time, a straight
+/// line is higher than the body: the impact may be earlier.
 bool stays_low(const Path& height, const std::vector<double>& impacts, double from, double noise) {
-    const auto impact = std::ranges::upper_bound(impacts, from);
+    const auto impact = std::ranges::upper_bound(impacts, height.t[index_after(height, from) - 1]);
     if (impact == impacts.end()) return false;
     double peak = 0;
     const std::size_t first = index_after(height, *impact);
@@ -166,6 +167,8 @@ Observer::Observer(const Scene& scene, const Reference& reference, std::size_t r
     apex_until_ = up_ ? end_of_first_apex(truth) : 0;
     find_oscillation_or_rest(reference, row, truth);
     truth_ = observe(truth);
+    // A ball that does not bounce has the time of its impact.
+    if (std::isnan(truth_.bounce_1)) truth_.rest_time = unknown;
     // They stand in for the period of an oscillation that has none.
     if (!std::isnan(truth_.period) || !truth.impacts.empty())
         truth_.mean_period = truth_.half_range = unknown;
@@ -266,13 +269,13 @@ void Observer::observe_jump(Observed& observed, const Trace& trace) const {
 void Observer::observe_bounces(Observed& observed, const Trace& trace) const {
     if (!floor_ || trace.impacts.empty()) return;
     const Path height = height_of(*floor_, trace);
-    if (highest_between(height, -1, trace.impacts.front()) > noise_)
-        observed.first_impact = trace.impacts.front();
+    const bool has_fallen = highest_between(height, -1, trace.impacts.front()) > noise_;
+    if (has_fallen) observed.first_impact = trace.impacts.front();
     const std::vector<double> heights = heights_of_bounces(height, trace.impacts, noise_);
-    if (heights.empty()) return;
-    observed.bounce_1 = heights[0];
+    if (heights.size() >= 1) observed.bounce_1 = heights[0];
     if (heights.size() >= 3) observed.bounce_3 = heights[2];
     if (heights.size() >= 10) observed.bounce_10 = heights[9];
+    if (!has_fallen && heights.empty()) return;
     const double low = finished * highest(height, 0, height.size()).x;
     const double time = time_within(height, 0, low);
     if (stays_low(height, trace.impacts, time, noise_)) observed.rest_time = time;
