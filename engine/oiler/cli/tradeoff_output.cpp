@@ -26,8 +26,9 @@ constexpr auto tradeoff_legend = R"(
 * Pareto front: no cheaper setting is more accurate; > current setting. drawn m: the largest error of
 any body at any time, on straight lines between steps; steps m: at the steps; phase: at the end, +
 leads; energy: relative error at the steps; forces: evaluations in the run; µs per s: mean computing
-time per simulated second in a game of 60 frames per second, ±: half the interquartile range of
-repeated times; frame: its share of the time; in calls: µs per s at many steps per call.
+time per simulated second in a game of 60 frames per second, with warm caches and one step per call,
+±: half the interquartile range of repeated times; frame: its share of the time; in calls: µs per s
+at many steps per call, as with --steps.
 {} of {} rows are shown{}
 )";
 

@@ -341,6 +341,19 @@ TEST(Advice, SaysTheConclusionFirst) {
               "rk4 at 60 Hz in double");
 }
 
+TEST(Advice, SaysWhatACostIs) {
+    const Requirements requirements{.position_error = 1, .methods = all_methods()};
+    Advised advised(article_spring, requirements);
+    TradeoffRow& best = *advised.advice.best;
+    best.ns_together = best.ns_per_second / 4;
+    EXPECT_TRUE(holds(advised.words().back(), "one step per call"));
+    EXPECT_TRUE(holds(advised.words().back(),
+                      "many steps per call, as with --steps, the advice takes " +
+                          describe_time(best.ns_per_second / 4) + " per simulated second."));
+    best.ns_together = unknown;
+    EXPECT_TRUE(holds(advised.words().back(), "one step per call. Reference"));
+}
+
 TEST(Meets, IsWithinAllTolerancesWithSomeToSpare) {
     const Requirements requirements{.position_error = 2, .energy_drift = 3};
     const Judgement both{.position_error = 2, .energy_drift = 3};

@@ -124,6 +124,18 @@ std::string describe_ties(const Advice& advice) {
     return text;
 }
 
+/// The conditions of the costs, and the advice's cost without them.
+std::string describe_costs(const Advice& advice) {
+    const std::string text =
+        "Costs are means over the frames of a game of 60 frames per second, with warm caches and "
+        "one step per call";
+    if (!std::isfinite(advice.best->ns_together)) return text;
+    return fmt::format(
+        "{}; at many steps per call, as with --steps, the advice takes {} per "
+        "simulated second",
+        text, describe_time(advice.best->ns_together));
+}
+
 /// The times at which errors are compared.
 std::string describe_times(const Requirements& requirements) {
     if (requirements.display > 0)
@@ -195,10 +207,9 @@ std::vector<std::string> describe(const Advice& advice, const Scene& scene,
         words.push_back(fmt::format("Not {}: {}.", alternative.method->name, alternative.why));
     words.push_back(fmt::format(
         "Errors are the largest distance of any body from the reference in {:.4g} s: as drawn, on "
-        "straight lines between steps {}. Costs are those of a game of 60 frames per second. "
-        "Reference: {}.",
+        "straight lines between steps {}. {}. Reference: {}.",
         std::min(scene.duration, reference.meaningful_until), describe_times(requirements),
-        reference.words));
+        describe_costs(advice), reference.words));
     return words;
 }
 
