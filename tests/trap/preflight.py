@@ -241,8 +241,7 @@ def pendulum(dice):
     scene.body([rounded(length * math.sin(angle)), rounded(-length * math.cos(angle))], [0.0],
                mass)
     damping = 0.0 if dice.chance(0.6) else rounded(math.sqrt(k) * dice.log(0.01, 1))
-    scene.spring(0, [0.0], k, damping,
-                 length)
+    scene.spring(0, [0.0], k, damping, length)
     scene.ticks = 2000
     return scene
 
@@ -289,28 +288,30 @@ def linked(dice):
     return scene
 
 
-def linear_drag(dice):
-    scene = Scene("linear drag", dice.randint(1, 3))
+def thrown(dice, kind, ticks, add_body):
+    """One to three bodies, each with its mass, with gravity or without."""
+    scene = Scene(kind, dice.randint(1, 3))
     if dice.chance(0.5):
         scene.gravity[-1] = -9.81
     for _ in range(dice.randint(1, 3)):
-        mass = dice.log(0.1, 10)
+        add_body(scene, dice.log(0.1, 10))
+    scene.ticks = ticks
+    return scene
+
+
+def linear_drag(dice):
+    def add_body(scene, mass):
         scene.body([0.0], [dice.number(-30, 30) for _ in range(3)], mass,
                    linear=rounded(mass * scene.rate * dice.log(0.02, 4)))
-    scene.ticks = 200
-    return scene
+    return thrown(dice, "linear drag", 200, add_body)
 
 
 def quadratic_drag(dice):
-    scene = Scene("quadratic drag", dice.randint(1, 3))
-    if dice.chance(0.5):
-        scene.gravity[-1] = -9.81
-    for _ in range(dice.randint(1, 3)):
-        mass, speed = dice.log(0.1, 10), dice.log(1, 300)
+    def add_body(scene, mass):
+        speed = dice.log(1, 300)
         scene.body([0.0], [speed] + [dice.number(-1, 1)] * 2, mass,
                    quadratic=rounded(mass * scene.rate / speed * dice.log(0.02, 8)))
-    scene.ticks = 300
-    return scene
+    return thrown(dice, "quadratic drag", 300, add_body)
 
 
 def wind(dice):
