@@ -43,6 +43,25 @@ TEST(StabilityLimit, OfDampingAlone) {
     EXPECT_TRUE(std::isinf(limit("implicit_euler")));
 }
 
+// Backward drifts of strongly damped springs grow until they overflow, which is no error.
+TEST(StabilityLimit, IsKnownWhereABackwardDriftOverflows) {
+    for (const char* name : {"blanes_moan_srkn14a", "kahan_li8_kdk"})
+        for (const double zeta : {20.0, 100.0}) {
+            const Method& method = find_method(name);
+            const double limit = stability_limit(method, Damping::in_drift, {1, 2 * zeta});
+            ASSERT_TRUE(limit > 0 && std::isfinite(limit)) << name << zeta << " " << limit;
+            const auto grows = [&](double dt) {
+                Bodies bodies(1, Precision::double_);
+                bodies.add({.position = {1}, .velocity = {1}},
+                           Spring{.stiffness = dt * dt, .damping = 2 * zeta * dt});
+                return bodies.try_step(method, {{1}, 0, 100'000, Damping::in_drift}) ||
+                       std::abs(bodies.position(0)[0]) > 1e3;
+            };
+            EXPECT_FALSE(grows(0.99 * limit)) << name << zeta;
+            EXPECT_TRUE(grows(1.01 * limit)) << name << zeta;
+        }
+}
+
 // Velocity Verlet with damping in the drift has the trace 1 + d − z²·(1 − d)/c with d = exp(−c),
 // and d as its determinant: it is stable while z·tanh(ζz) < 4ζ, z = ω·dt, however strong the
 // damping.

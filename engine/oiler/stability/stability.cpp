@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
+#include "oiler/core/error.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/risks.hpp"
 
@@ -77,20 +79,38 @@ private:
 
 }  // namespace
 
-std::vector<StepMatrix> step_matrices(const Method& method, Damping damping,
-                                      std::span<const Oscillation> oscillations) {
+namespace {
+
+/// None if any of the steps diverges, or if damping overflows in a backward drift.
+std::optional<std::vector<StepMatrix>> finite_matrices(
+    const Method& method, Damping damping, std::span<const Oscillation> oscillations) try {
     Bodies bodies(1, Precision::extended);
     for (const auto& [k, c] : oscillations)
         for (const Body& unit : {Body{.position = {1}}, Body{.velocity = {1}}})
             bodies.add(unit, Spring{.stiffness = k, .damping = c});
-    std::vector<StepMatrix> matrices(
-        oscillations.size(), StepMatrix{std::numeric_limits<long double>::infinity(), 0, 0, 0});
-    if (bodies.try_step(method, {.rate = {1}, .damping = damping})) return matrices;
-    for (std::size_t i = 0; i < matrices.size(); ++i) {
+    if (bodies.try_step(method, {.rate = {1}, .damping = damping})) return std::nullopt;
+    std::vector<StepMatrix> matrices;
+    for (std::size_t i = 0; i < oscillations.size(); ++i) {
         const auto from_x = bodies.state(2 * i);
         const auto from_v = bodies.state(2 * i + 1);
-        matrices[i] = {from_x.x[0], from_v.x[0], from_x.v[0], from_v.v[0]};
+        matrices.push_back({from_x.x[0], from_v.x[0], from_x.v[0], from_v.v[0]});
     }
+    return matrices;
+} catch (const Error&) {
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<StepMatrix> step_matrices(const Method& method, Damping damping,
+                                      std::span<const Oscillation> oscillations) {
+    if (auto matrices = finite_matrices(method, damping, oscillations)) return *std::move(matrices);
+    if (oscillations.size() == 1)
+        return {StepMatrix{std::numeric_limits<long double>::infinity(), 0, 0, 0}};
+    const std::size_t half = oscillations.size() / 2;
+    std::vector<StepMatrix> matrices = step_matrices(method, damping, oscillations.first(half));
+    for (const StepMatrix& one : step_matrices(method, damping, oscillations.subspan(half)))
+        matrices.push_back(one);
     return matrices;
 }
 

@@ -25,7 +25,7 @@ struct StepMatrix {
 };
 
 /// Measures the matrices of one step of 1 s by stepping the unit states. They hold for any dt with
-/// ω·dt = √k and c·dt = c.
+/// ω·dt = √k and c·dt = c. Those that overflow are infinite.
 [[nodiscard]] std::vector<StepMatrix> step_matrices(const Method& method, Damping damping,
                                                     std::span<const Oscillation> oscillations);
 
