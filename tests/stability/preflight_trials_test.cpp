@@ -179,5 +179,21 @@ TEST(TrialWarning, IsGivenIfAPassageThrowsTheBodyOut) {
     EXPECT_TRUE(warnings(bodies, method, {1000}).empty());
 }
 
+// With −0.927 J/kg, 2.167/r₁ + 1.083/r₂ ≥ 0.927 holds the body within 7.91 m of the first
+// attractor. explicit_euler keeps only −0.13 J/kg. After 20 s, a close passage gives energy to
+// finer steps, too.
+TEST(TrialWarning, IsGivenIfABodyIsBoundLessThanHalf) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = {2.109, 0}, .velocity = {0, 0.8221}}, Attractor{.gm = 2.167});
+    bodies.attach_at(1, 0, Attractor{.centre = {5.374, -3.176}, .gm = 1.083});
+    const Method& method = find_method("explicit_euler");
+    EXPECT_EQ(warnings(bodies, method, {4}).size(), 1U);
+    EXPECT_NEAR(bodies.energy().total(), -0.927, 1e-3);
+    Bodies run = bodies;
+    EXPECT_FALSE(run.try_step(method, {{4}, 0, 300}));
+    EXPECT_GT(std::sqrt(squared_length(run.position(0))), 10);
+    EXPECT_TRUE(warnings(bodies, find_method("velocity_verlet"), {1000}).empty());
+}
+
 }  // namespace
 }  // namespace oiler::test

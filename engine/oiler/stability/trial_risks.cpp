@@ -74,8 +74,9 @@ bool is_only_attracted(const Bodies& bodies) {
 }
 
 /// Compares the energies of a run with those of pefrl at 8 times the rate: they are too large by
-/// its largest kinetic energy or its range of potential energy so far, or by the energy of binding,
-/// for 16 samples or up to the end.
+/// its largest kinetic energy or its range of potential energy so far, or by half of the energy of
+/// binding, for 16 samples or up to the end. Without sources energy never rises: where that of the
+/// finer steps does, after a passage that they do not resolve either, the lowest so far counts.
 std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course,
                                       const Steps& steps) {
     constexpr std::int64_t finer = 8;
@@ -88,6 +89,7 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course
     double lowest = fine.energy().potential;
     double highest = lowest;
     double scale = smallest;
+    double total = fine.energy().total();
     const bool is_bound = is_only_attracted(bodies);
     Explosion first{course.fastest, 0, 0};
     std::size_t in_a_row = 0;
@@ -96,11 +98,13 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course
         lowest = std::min(lowest, now.potential);
         highest = std::max(highest, now.potential);
         scale = std::max({scale, now.kinetic, highest - lowest});
-        const double gain = course.energies[i].total() - now.total();
-        const bool is_large = gain > (is_bound ? std::abs(now.total()) : scale);
+        total = std::min(total, now.total());
+        const double gain = course.energies[i].total() - total;
+        const double size = is_bound ? std::abs(total) : scale;
+        const bool is_large = gain > (is_bound ? size / 2 : size);
         in_a_row = is_large ? in_a_row + 1 : 0;
         if (in_a_row == 1) first.tick = static_cast<std::int64_t>(i) * steps_per_sample;
-        first.gain = gain / scale;
+        first.gain = gain / size;
         if (fine.try_step(find_method("pefrl"), fine_steps)) break;
         fine_steps.first += fine_steps.count;
     }
