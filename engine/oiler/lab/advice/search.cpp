@@ -15,6 +15,8 @@ namespace {
 constexpr double safety_margin = 0.02;
 /// Settings that are estimated to cost up to this multiple of the best are tried and timed.
 constexpr double rival_cost_ratio = 1.3;
+/// The share of the work that is kept for the highest rates, in case no other meets the tolerance.
+constexpr double kept_work = 0.2;
 /// A runner-up of another method is sought up to this multiple of the best's cost.
 constexpr double runner_up_cost_ratio = 2;
 constexpr std::size_t most_refined = 4;
@@ -246,17 +248,18 @@ Candidate* Search::cheapest_next(double most) {
             if (!candidate.over && (!cheapest || next_cost(candidate) < next_cost(*cheapest)))
                 cheapest = &candidate;
         if (!cheapest || next_cost(*cheapest) > most) return nullptr;
-        if (affordable(cheapest->at(rates_[cheapest->next]))) return cheapest;
+        if (affordable(cheapest->at(rates_[cheapest->next]), kept_work)) return cheapest;
         cheapest->over = ended_early_ = true;
     }
 }
 
-/// One run may take a part of the work that is left, so that others remain possible.
-bool Search::affordable(const Stepping& choice) const {
+/// One run may take a part of the work that is left, so that others remain possible. A share of all
+/// work may be kept.
+bool Search::affordable(const Stepping& choice, double kept) const {
     constexpr double part = 4;
     const double steps = static_cast<double>(choice.rate.steps) * reference_.meaningful_until;
     return meter_.evaluations_per_step(*choice.method) * steps <= requirements_.most_work &&
-           meter_.affords(part * work_of(choice));
+           meter_.affords(part * work_of(choice) + kept * requirements_.most_search_work);
 }
 
 /// Moves a candidate to the next rate that is worth a run, or marks it as over.

@@ -114,7 +114,7 @@ private:
     TradeoffRow judged(const Stepping& choice, double enough);
     [[nodiscard]] double work_of(const Stepping& choice) const;
     void advance(Candidate& candidate, const TradeoffRow& row, double excess);
-    [[nodiscard]] bool affordable(const Stepping& choice) const;
+    [[nodiscard]] bool affordable(const Stepping& choice, double kept = 0) const;
     /// Reports the share of settings that were tried or ruled out.
     void report_progress() const;
     void try_highest();
