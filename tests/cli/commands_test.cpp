@@ -247,6 +247,15 @@ TEST(Oiler, HelpFitsAScreenAndEachCommandHasAnExample) {
     }
 }
 
+// `advise` and others have no results before their end.
+TEST(Oiler, HelpOfTheTimeLimitPromisesNoResults) {
+    for (const std::string command : {"advise", "report", "tradeoff", "check"}) {
+        const std::string help = shell("oiler " + command + " --help").out;
+        EXPECT_TRUE(holds(help, "--time-limit S")) << command;
+        EXPECT_FALSE(holds(help, "so far")) << command;
+    }
+}
+
 TEST(Oiler, AloneIsWrongUseWithoutADisplay) {
     for (const std::string display : {"env -u DISPLAY", "env DISPLAY=", "env DISPLAY=:no"}) {
         const Outcome run = shell(display + " WAYLAND_DISPLAY= oiler", 2);

@@ -49,7 +49,7 @@ inline CLI::Option* add_seconds(CLI::App& app, const std::string& name,
     return app.add_option_function<std::string>(name, parse, help)->type_name("S");
 }
 inline constexpr const char* help_of_time_limit =
-    "end after S seconds of real time, with exit code 4 and what was found so far";
+    "end after S seconds of real time, with exit code 4; unfinished results are missing";
 
 /// The help of `--damping`, which is "kick" or "drift".
 inline constexpr const char* help_of_damping =
