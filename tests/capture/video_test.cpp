@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/capture/video.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -139,6 +141,32 @@ TEST_F(Videos, AnotherEndingIsRefusedBeforeAnyFolderIsMade) {
             holds(line_of_error(Exit::usage, [&] { const Video video(folder / name, size, 25); }),
                   ".mp4, .gif or .apng"))
             << name;
+    EXPECT_EQ(names_in(folder.path()), Names{});
+}
+
+// The first limits end the file of the video, the next ones the pipes to ffmpeg.
+TEST_F(Videos, WithoutDescriptorsNameTheirLimit) {
+    const int free = open("/dev/null", O_RDONLY);
+    ASSERT_GE(free, 0);
+    close(free);
+    rlimit descriptors{};
+    getrlimit(RLIMIT_NOFILE, &descriptors);
+    int refused = 0;
+    for (bool is_refused = true; is_refused; refused += is_refused ? 1 : 0) {
+        const rlimit few{static_cast<rlim_t>(free + refused), descriptors.rlim_max};
+        setrlimit(RLIMIT_NOFILE, &few);
+        std::string line;
+        try {
+            const Video video(folder / "a.mp4", size, 25);
+            is_refused = false;
+        } catch (const Error& error) {
+            line = error.what();
+        }
+        setrlimit(RLIMIT_NOFILE, &descriptors);
+        if (!is_refused) break;
+        EXPECT_TRUE(holds(line, "Too many open files; raise the limit of `ulimit -n`")) << line;
+    }
+    EXPECT_GT(refused, 3);
     EXPECT_EQ(names_in(folder.path()), Names{});
 }
 

@@ -147,18 +147,24 @@ Video::~Video() { stop(); }
 
 void Video::start(const std::vector<std::string>& words) {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
-        fail(Exit::io, "cannot start ffmpeg: {}", system_reason(errno));
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(errno);
     frames_ = ends[1];
     errors_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-    const int error = spawn(process_, words, {ends[0], errors_, file_.descriptor()});
+    const int error =
+        errors_ < 0 ? errno : spawn(process_, words, {ends[0], errors_, file_.descriptor()});
     close(ends[0]);
     if (error == 0) return;
     process_ = -1;
-    fail(Exit::io,
-         "--video {}: cannot start ffmpeg: {}; install the Debian package ffmpeg, or leave out "
-         "--video",
-         path_.string(), system_reason(error));
+    fail_to_start(error);
+}
+
+void Video::fail_to_start(int error_number) const {
+    const std::string_view remedy =
+        error_number == ENOENT   ? "install the Debian package ffmpeg, or leave out --video"
+        : error_number == EMFILE ? "raise the limit of `ulimit -n`, or leave out --video"
+                                 : "leave out --video";
+    fail(Exit::io, "--video {}: cannot start ffmpeg: {}; {}", path_.string(),
+         system_reason(error_number), remedy);
 }
 
 void Video::stop() {

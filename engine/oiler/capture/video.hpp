@@ -34,6 +34,7 @@ public:
     void finish();
 
 private:
+    [[noreturn]] void fail_to_start(int error_number) const;
     void start(const std::vector<std::string>& words);
     /// Stops ffmpeg, unless the video is finished.
     void stop();
