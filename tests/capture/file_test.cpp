@@ -18,6 +18,7 @@
 #include <csignal>
 #include <functional>
 
+#include "oiler/core/markup.hpp"
 #include "support/folder.hpp"
 #include "support/test.hpp"
 
@@ -207,6 +208,14 @@ TEST(File, KeepsThePermissionsOfTheFileThatASymbolicLinkNames) {
     EXPECT_EQ(permissions_of(folder / "real"), 0600U);
 }
 
+TEST(File, ALoopOfLinksIsNamed) {
+    const Folder folder;
+    fs::create_symlink("b", folder / "a");
+    fs::create_symlink("a", folder / "b");
+    const std::string line = io_error_of([&] { File(folder / "a"); });
+    EXPECT_TRUE(holds(line, "Too many levels of symbolic links; remove the loop")) << line;
+}
+
 TEST(File, KeepsASymbolicLinkAndWritesItsTarget) {
     const Folder folder;
     put(folder / "real", "old");
@@ -315,12 +324,13 @@ TEST(File, AnInterruptedWaitForAPipeIsAnInterruption) {
         sigaction(SIGALRM, &action, nullptr);  // without SA_RESTART
         ualarm(50'000, 50'000);
         EXPECT_EQ(line_of_error(Exit::interrupted, [&] { File file(pipe); }),
-                  "interrupted while writing " + pipe.string() +
-                      ": it is incomplete; run the command again");
+                  pipe.string() + ": waited for a reader; start the reader first");
         const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
         ASSERT_GE(reader, 0);
-        line_of_error(Exit::interrupted,
-                      [&] { write_file(pipe, bytes_of(std::string(1 << 22, 'x'))); });
+        EXPECT_EQ(
+            line_of_error(Exit::interrupted,
+                          [&] { write_file(pipe, bytes_of(std::string(1 << 22, 'x'))); }),
+            pipe.string() + ": waited for its reader and is incomplete; run the command again");
         alarm(0);
     });
 }
@@ -354,7 +364,8 @@ TEST(File, IsOnTheDiskBeforeItReplacesAnother) {
             holds(io_error_of([&] { write_file(folder / "a", "newer"); }), "Input/output error"));
         File published(folder / "a");
         published.write("newer");
-        EXPECT_TRUE(holds(io_error_of([&] { published.publish(); }), "Input/output error"));
+        published.publish();
+        EXPECT_TRUE(holds(io_error_of([&] { published.commit(); }), "Input/output error"));
         write_file(folder / "b", "new");
     });
     EXPECT_EQ(text_of(folder / "a"), "new");
@@ -385,20 +396,90 @@ TEST(File, ReplacesOnlyItsKind) {
     EXPECT_EQ(names_in(folder.path()), Names{"a"});
 }
 
-TEST(FileKind, OfJsonIsThatOfOiler) {
+void expect_replaceable(const FileKind& kind, const std::vector<std::string>& texts,
+                        bool expected) {
     const Folder folder;
-    for (const char* text :
-         {"{\n  \"scene\": \"a, b\",\n  \"method\": \"rk4\"", "{\n  \"meets\": true,",
-          "[\n  {\n    \"scene\": \"s.toml\",\n    \"kept\": null", ""}) {
+    for (const std::string& text : texts) {
         put(folder / "a", text);
-        EXPECT_TRUE(is_replaceable(folder / "a", kinds::json)) << text;
+        EXPECT_EQ(is_replaceable(folder / "a", kind), expected) << text.substr(0, 300);
     }
-    for (const char* text :
-         {"{\n  \"name\": \"my-app\",\n  \"version\": \"1.0.0\"", "{}", "[]", "[\n  {\n",
-          "{\n  \"scene\": \"level 1\",\n  \"enemies\": [", "{\"scene\": \"a\", \"method\": \"b\"",
-          "{\n  \"scene\": \"a\"\n}\n", "[scene]\n"}) {
-        put(folder / "a", text);
-        EXPECT_FALSE(is_replaceable(folder / "a", kinds::json)) << text;
+}
+
+TEST(FileKind, OfJsonIsThatOfOiler) {
+    const std::string run = "{\n  \"scene\": \"a, b\",\n  \"method\": \"rk4\"\n}\n";
+    expect_replaceable(kinds::json,
+                       {run, "{\n  \"meets\": true,\n  \"why\": \"\"}", "",
+                        "[\n  {\n    \"scene\": \"s.toml\",\n    \"kept\": null\n  }\n]\n"},
+                       true);
+    expect_replaceable(kinds::json,
+                       {"{\n  \"name\": \"my-app\",\n  \"version\": \"1.0.0\"}", "{}", "[]",
+                        "[\n  {\n", "{\n  \"scene\": \"level 1\",\n  \"enemies\": []}",
+                        "{\"scene\": \"a\", \"method\": \"b\"}", "{\n  \"scene\": \"a\"\n}\n",
+                        "[scene]\n", "{\\rtf1 text}", "{% extends \"base\" %}\n",
+                        "{\n  \"scene\": \"a\",\n  \"mine\": 1,\n  \"method\": \"b\"\n}\n"},
+                       false);
+    for (const std::string& after :
+         {std::string("important text\n"), run, std::string("\0mine", 5)})
+        expect_replaceable(kinds::json, {run + after}, false);
+    for (std::size_t size = 1; size + 1 < run.size(); ++size)
+        expect_replaceable(kinds::json, {run.substr(0, size)}, false);
+    expect_replaceable(kinds::sweep, {"{\n \"oiler\": \"1\"\n}\n"}, true);
+    expect_replaceable(kinds::sweep, {"{\n \"oiler\": \"1\"\n}\nmine\n"}, false);
+}
+
+TEST(FileKind, OfATraceHasNumbersOnly) {
+    const std::string names = "tick,time,body,x,vx\n";
+    const std::string row = "12,0.2,0,-1e-300,5\n";
+    std::string many = names;
+    for (int i = 0; i < 10'000; ++i) many += row;
+    expect_replaceable(
+        kinds::trace,
+        {names, names + row, names + row + row, many, "tick,time,body,x,y,vx,vy\n0,0,0,1,2,3,4\n",
+         "tick,time,body,x,y,z,vx,vy,vz\n0,0,0,1,2,3,4,5,6\n"},
+        true);
+    for (const char* mine : {"important text\n", "12,0.2,0,1\n", "12,0.2,0,1,5,6\n", "a,b,c,d,e\n",
+                             "12,0.2,0,1,\n", "12,0.2,0,1,5m\n", "\n", "12,0.2,0,1,5"})
+        expect_replaceable(kinds::trace,
+                           {names + mine, names + row + mine, many + mine,
+                            names + mine + many.substr(names.size())},
+                           false);
+    expect_replaceable(kinds::trace, {"tick,time,body,x,vx,notes\n", "tick,time,body,x\n"}, false);
+}
+
+TEST(FileKind, OfATableHasItsColumns) {
+    const std::string energy = "tick,time,kinetic,potential,total";
+    expect_replaceable(kinds::energy, {energy + "\n0,0,1,2,3\n"}, true);
+    expect_replaceable(
+        kinds::energy,
+        {energy + ",notes\n", energy, energy + "\n0,0,1,2,3,mine\n", energy + "\n0,0,1,2,mine\n"},
+        false);
+    const std::string map =
+        "method,damping,omega_dt,zeta,spectral_radius,stable,bounded_double,bounded_float\n";
+    expect_replaceable(kinds::table,
+                       {map, map + "rk4,kick,0.02,0,1,1,1,1\n", map + "rk4,kick,0.02,0,,1,1,1\n"},
+                       true);
+    expect_replaceable(
+        kinds::table,
+        {"method,damping,mine\n", map + "important text\n", map + "my notes,kick,0.02,0,1,1,1,1\n"},
+        false);
+}
+
+TEST(FileKind, OfJunitIsThatOfOilerAsAWhole) {
+    JunitSuite suite("a <suite>");
+    suite.add("a", "b", JunitSuite::Outcome::failed, "</testsuite>");
+    expect_replaceable(kinds::junit, {suite.xml()}, true);
+    expect_replaceable(kinds::junit,
+                       {"<?xml version=\"1.0\"?>\nnot xml at all", "<testsuite/>\ntext after",
+                        suite.xml() + "text after", "text" + suite.xml(),
+                        suite.xml().substr(0, suite.xml().size() - 2)},
+                       false);
+}
+
+TEST(FileKind, OfAPageHasNothingAfterIt) {
+    for (const FileKind* kind : {&kinds::report, &kinds::differences}) {
+        const std::string page = std::string(kind->beginnings) + " -->\n<html>\n</html>\n";
+        expect_replaceable(*kind, {page}, true);
+        expect_replaceable(*kind, {page + "mine\n"}, false);
     }
 }
 

@@ -196,11 +196,13 @@ TEST(Recordings, CompareTheMembersThatAGameHashes) {
 // A killed program leaves whole chunks, and a part of the next one.
 TEST(Recordings, SurviveAKilledProgram) {
     const Folder folder;
+    put(folder / "a", "OILERREC old");
     record(folder / "a", 6, false);
-    const Recording recording = read_recording(folder / "a");
+    EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
+    const Recording recording = read_recording(part_of(folder / "a"));
     EXPECT_FALSE(recording.complete);
     EXPECT_EQ(recording.steps, ten_seconds) << "the last second was complete";
-    const std::string text = text_of(folder / "a");
+    const std::string text = text_of(part_of(folder / "a"));
     std::int64_t longest = 0;
     std::size_t in_first_second = 0;
     for (std::size_t size = text.find("}\n") + 2; size < text.size(); size += 97) {
@@ -238,7 +240,7 @@ TEST(Recordings, AreRefusedIfAByteIsChanged) {
     }
 }
 
-TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
+TEST(Recordings, ReplaceAnOldFileAtTheirEndOnly) {
     const Folder folder;
     put(folder / "a", "OILERREC old");
     const RecordingHeader header = header_of("game", settings_of(), Game::controls);
@@ -252,7 +254,11 @@ TEST(Recordings, ReplaceAnOldFileAfterTheFirstSecondOnly) {
         old.add(step, {});
         old.add_state(step, game);
     }
-    EXPECT_TRUE(text_of(folder / "a").starts_with("OILERREC 3\n{"));
+    EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
+    EXPECT_EQ(read_recording(part_of(folder / "a")).steps, 60);
+    old.finish(60, game);
+    EXPECT_TRUE(read_recording(folder / "a").complete);
+    EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
     fresh.finish(0, game);
     EXPECT_FALSE(std::filesystem::exists(folder / "b")) << "nothing was played";
     fresh.add(0, {});
@@ -278,6 +284,61 @@ TEST(Recordings, ThatCannotBeWrittenLeaveTheOlderFile) {
     EXPECT_TRUE(holds(line, (folder / "a").string()));
     EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
     EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
+}
+
+// The limit lets through the first seconds. A second try to finish must not succeed with a gap.
+TEST(Recordings, StoppedByAFullDiskLeaveTheOlderFile) {
+    for (const bool has_older : {true, false}) {
+        const Folder folder;
+        if (has_older) put(folder / "a", "OILERREC old");
+        AnyGameOf<Game> game{settings_of()};
+        std::optional<RecordingWriter> writer;
+        writer.emplace(folder / "a", header_of("game", settings_of(), Game::controls));
+        const auto write_second = [&](std::int64_t second) {
+            for (std::int64_t step = 60 * second; step < 60 * second + 60; ++step) {
+                writer->add(step, {});
+                writer->add_state(step, game);
+            }
+        };
+        write_second(0);
+        ASSERT_TRUE(std::filesystem::exists(part_of(folder / "a")));
+        rlimit sizes{};
+        getrlimit(RLIMIT_FSIZE, &sizes);
+        const rlimit short_files{std::filesystem::file_size(part_of(folder / "a")) + 10,
+                                 sizes.rlim_max};
+        std::signal(SIGXFSZ, SIG_IGN);
+        setrlimit(RLIMIT_FSIZE, &short_files);
+        line_of_error(Exit::io, [&] { write_second(1); });
+        setrlimit(RLIMIT_FSIZE, &sizes);
+        line_of_error(Exit::io, [&] { writer->finish(120, game); });
+        writer.reset();
+        if (has_older) {
+            EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
+        }
+        EXPECT_EQ(names_in(folder.path()).size(), has_older ? 1U : 0U);
+    }
+}
+
+TEST(Recordings, ThatLostTheirFileAreAnError) {
+    const Folder folder;
+    put(folder / "a", "OILERREC old");
+    AnyGameOf<Game> game{settings_of()};
+    RecordingWriter writer(folder / "a", header_of("game", settings_of(), Game::controls));
+    for (std::int64_t step = 0; step < 60; ++step) writer.add_state(step, game);
+    std::filesystem::remove(part_of(folder / "a"));
+    put(part_of(folder / "a"), "of another program");
+    const std::string line = line_of_error(Exit::io, [&] { writer.finish(60, game); });
+    EXPECT_TRUE(holds(line, "a.part was replaced or removed meanwhile; choose another path"));
+    EXPECT_EQ(text_of(folder / "a"), "OILERREC old");
+    EXPECT_EQ(text_of(part_of(folder / "a")), "of another program");
+}
+
+TEST(Recordings, KeepAPartThatIsNone) {
+    const Folder folder;
+    put(part_of(folder / "a"), "mine");
+    const RecordingHeader header = header_of("game", settings_of(), Game::controls);
+    line_of_error(Exit::usage, [&] { RecordingWriter(folder / "a", header); });
+    EXPECT_EQ(text_of(part_of(folder / "a")), "mine");
 }
 
 TEST(Recordings, OfAnotherGameAreRefused) {

@@ -153,7 +153,9 @@ TEST(TimeLimit, EndsTheWaitForAPipe) {
                       "--quiet --time-limit 0.1 " +
                       option + "fifo",
                   4);
-        EXPECT_EQ(run.err, "hello: the time limit is reached: interrupted while reading fifo\n");
+        EXPECT_EQ(
+            run.err,
+            "hello: the time limit is reached: fifo: waited for data; start its writer first\n");
     }
 }
 

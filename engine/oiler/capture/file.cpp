@@ -40,6 +40,10 @@ std::string_view remedy(int error_number) {
             return "raise the limit of `ulimit -f`, or write less";
         case EBADF:
             return "do not close it, or name a file";
+        case ELOOP:
+            return "remove the loop of links or choose another place";
+        case EMFILE:
+            return "raise the limit of `ulimit -n`";
         default:
             return "choose another place";
     }
@@ -203,7 +207,8 @@ File::File(const fs::path& path, const FileKind& kind, Links links)
         std::error_code missing;
         if (fs::path followed = fs::canonical(path, missing); !missing)
             target_ = std::move(followed);
-        if (missing && fs::is_symlink(fs::symlink_status(path, missing))) fail_write(ENOENT);
+        std::error_code none;
+        if (missing && fs::is_symlink(fs::symlink_status(path, none))) fail_write(missing.value());
         in_place = open_in_place(path);
     }
     in_place_ = in_place.has_value();
@@ -217,14 +222,17 @@ File::File(const fs::path& path, const FileKind& kind, Links links)
 
 File::~File() {
     if (descriptor_ >= 0) close(descriptor_);
-    if (!temporary_.empty()) unlink(temporary_.c_str());
+    if (!temporary_.empty() && (!is_published_ || failure_ != 0)) unlink(temporary_.c_str());
 }
 
-void File::fail_write(int error_number) const {
+void File::fail_write(int error_number) {
+    failure_ = error_number;
     const std::string name = path_ == "-" ? "the standard output" : path_.string();
+    if (error_number == EINTR && descriptor_ < 0)
+        fail(Exit::interrupted, "{}: waited for a reader; start the reader first", name);
     if (error_number == EINTR)
         fail(Exit::interrupted,
-             "interrupted while writing {}: it is incomplete; run the command again", name);
+             "{}: waited for its reader and is incomplete; run the command again", name);
     fail(Exit::io, "cannot write {}: {}; {}", name, system_reason(error_number),
          remedy(error_number));
 }
@@ -245,6 +253,7 @@ void File::write(std::span<const std::byte> bytes) {
 void File::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
 void File::flush() {
+    if (failure_ != 0) fail_write(failure_);
     for (std::string_view left = buffer_; !left.empty();) {
         const std::string_view next = left.substr(0, largest_write_);
         const ssize_t written = ::write(descriptor_, next.data(), next.size());
@@ -262,13 +271,13 @@ bool File::keep_permissions() const {
     return true;
 }
 
-/// Links a file without a name to its final name or, if that exists, to a temporary one.
-void File::give_name() {
+/// Links a file without a name to a name or, if that exists, to a temporary one.
+void File::give_name(const fs::path& name) {
     const std::string own = path_of(descriptor_);
-    const auto link_to = [&](const char* name) {
-        return linkat(AT_FDCWD, own.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+    const auto link_to = [&](const char* path) {
+        return linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW);
     };
-    if (link_to(target_.c_str()) == 0) return;
+    if (link_to(name.c_str()) == 0) return;
     if (errno != EEXIST || make_temporary(folder_of(target_), temporary_, link_to) != 0)
         fail_write(errno);
 }
@@ -283,21 +292,36 @@ void File::close_descriptor() {
 void File::prepare_name() {
     assert(descriptor_ >= 0);
     flush();
-    if (in_place_ || is_named_) return;
+    if (in_place_) return;
+    if (is_published_) require_own_part();
     if (keep_permissions() && fsync(descriptor_) != 0) fail_write(errno);
-    if (temporary_.empty()) give_name();
+    if (temporary_.empty()) give_name(target_);
 }
 
 void File::rename_temporary() {
-    is_named_ = true;
     if (temporary_.empty()) return;
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(errno);
     temporary_.clear();
 }
 
 void File::publish() {
-    prepare_name();
-    rename_temporary();
+    flush();
+    if (in_place_) return;
+    keep_permissions();
+    const fs::path part = part_of(target_);
+    if (temporary_.empty()) give_name(part);
+    if (!temporary_.empty() && std::rename(temporary_.c_str(), part.c_str()) != 0)
+        fail_write(errno);
+    temporary_ = part;
+    is_published_ = true;
+}
+
+/// Another run may write the same file.
+void File::require_own_part() {
+    struct stat named = {};
+    if (lstat(temporary_.c_str(), &named) == 0 && is_same_file(descriptor_, named)) return;
+    fail(Exit::io, "cannot write {}: {} was replaced or removed meanwhile; choose another path",
+         path_.string(), temporary_.string());
 }
 
 void File::commit() {
@@ -305,6 +329,8 @@ void File::commit() {
     close_descriptor();
     rename_temporary();
 }
+
+fs::path part_of(const fs::path& path) { return fs::path(path) += ".part"; }
 
 std::string read_text(const fs::path& path, std::size_t most) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -319,7 +345,8 @@ std::string read_text(const fs::path& path, std::size_t most) {
         if (count < 0) reason = errno;
         close(descriptor);
     }
-    if (reason == EINTR) fail(Exit::interrupted, "interrupted while reading {}", path.string());
+    if (reason == EINTR)
+        fail(Exit::interrupted, "{}: waited for data; start its writer first", path.string());
     if (reason == EISDIR) fail(Exit::usage, "{}: it is a folder; give a file", path.string());
     if (reason != 0)
         fail(descriptor < 0 ? exit : Exit::io,

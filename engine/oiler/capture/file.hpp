@@ -18,9 +18,9 @@ enum class Links {
 };
 
 /// A file that is written completely or not at all, so that a failed, interrupted or killed run
-/// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() or
-/// publish() gives it its name; without them it disappears. A missing folder is made. What replaces
-/// an older file is on the disk before, so that a power failure leaves the old file or the new one.
+/// leaves no partial frame. Bytes go to a file without a name in the same folder. commit() gives it
+/// its name; without it the file disappears. A missing folder is made. What replaces an older file
+/// is on the disk before, so that a power failure leaves the old file or the new one.
 ///
 /// With Links::followed, "-" is the standard output. Devices, pipes and the targets of standard
 /// output and standard error (/dev/stdout) cannot be replaced and are written in place. With
@@ -43,30 +43,37 @@ public:
     /// For another program that writes the file.
     [[nodiscard]] int descriptor() const { return descriptor_; }
 
-    /// Flushes and names the file. Later writes add to it; flush() makes them readable.
+    /// Flushes and gives the file the name part_of(its path) until commit(), so that a killed
+    /// program leaves it. Later writes add to it; flush() makes them readable. A failed write
+    /// removes it.
     void publish();
     void flush();
-    /// Publishes and closes the file. No write may follow.
+    /// Gives the file its name and closes it. No write may follow.
     void commit();
 
 private:
     [[nodiscard]] int open_temporary();
-    [[nodiscard]] bool keep_permissions() const;
+    bool keep_permissions() const;
     void prepare_name();
-    void give_name();
+    void give_name(const std::filesystem::path& name);
+    void require_own_part();
     void rename_temporary();
     void close_descriptor();
-    [[noreturn]] void fail_write(int error_number) const;
+    [[noreturn]] void fail_write(int error_number);
 
     std::filesystem::path path_;       // as given by the user, for messages
     std::filesystem::path target_;     // path_, with symbolic links followed or not
-    std::filesystem::path temporary_;  // empty for a file without a name, and once it is named
+    std::filesystem::path temporary_;  // its name before commit(); empty: none
     std::size_t largest_write_;        // bytes; pipes take these completely or not at all
     int descriptor_ = -1;
     bool in_place_ = false;
-    bool is_named_ = false;
+    bool is_published_ = false;
+    int failure_ = 0;  // errno of the first failed write; later ones fail too
     std::string buffer_;
 };
+
+/// The name of a published file that is incomplete.
+[[nodiscard]] std::filesystem::path part_of(const std::filesystem::path& path);
 
 /// The text of a file. Throws Error{usage} for a missing file, a folder or more than `most` bytes,
 /// Error{io} if the machine refuses, Error{interrupted} if a signal ends the wait for a pipe.

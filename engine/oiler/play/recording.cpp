@@ -199,6 +199,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Record
         fail(Exit::usage, "--record {}: it is a folder; give a file", path.string());
     require_writable(path);
     const File probe(path, kinds::recording);
+    require_replaceable(part_of(std::filesystem::weakly_canonical(path)), kinds::recording);
 }
 
 void RecordingWriter::begin_record(std::int64_t step) {
@@ -239,6 +240,7 @@ void RecordingWriter::finish(std::int64_t steps, const AnyGame& game, bool diver
     begin_record(std::max(steps, last_step_));
     records_.push_back(static_cast<char>(quits ? quit_record : end_record));
     write_chunk();
+    file_->commit();
 }
 
 void RecordingWriter::write_chunk() {

@@ -55,7 +55,8 @@ struct PartHashes {
 /// kind, and numbers. engine/README.md lists them.
 class RecordingWriter {
 public:
-    /// An older file stays as it is for the first second, or until `finish`. Throws Error{io} or
+    /// After the first second the recording is in part_of(path), which a killed program leaves; an
+    /// older file stays as it is until `finish`. Throws Error{io} or
     /// Error{usage} if the file cannot be written.
     RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
 
@@ -76,9 +77,9 @@ private:
     void write_seal();
 
     std::filesystem::path path_;
-    std::string head_;  ///< the first two lines
+    std::string head_;          ///< the first two lines
     std::optional<File> file_;  ///< from the first chunk on
-    StateHash written_;  ///< the hash of the file
+    StateHash written_;         ///< the hash of the file
     std::int64_t steps_per_second_;
     std::int64_t hashed_step_ = -1;
     std::string records_;
