@@ -318,8 +318,11 @@ void File::publish() {
 
 /// Another run may write the same file.
 void File::require_own_part() {
+    struct stat own = {};
     struct stat named = {};
-    if (lstat(temporary_.c_str(), &named) == 0 && is_same_file(descriptor_, named)) return;
+    if (fstat(descriptor_, &own) != 0) fail_write(errno);
+    if (lstat(temporary_.c_str(), &named) != 0 && errno != ENOENT) fail_write(errno);
+    if (own.st_dev == named.st_dev && own.st_ino == named.st_ino) return;
     fail(Exit::io, "cannot write {}: {} was replaced or removed meanwhile; choose another path",
          path_.string(), temporary_.string());
 }
