@@ -56,8 +56,8 @@ struct PartHashes {
 class RecordingWriter {
 public:
     /// After the first second the recording is in part_of(path), which a killed program leaves; an
-    /// older file stays as it is until `finish`. Throws Error{io} or
-    /// Error{usage} if the file cannot be written.
+    /// older file stays as it is until `finish`. Throws Error{io} or Error{usage} if the file cannot
+    /// be written.
     RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
 
     /// Records the input of a step, before it.
