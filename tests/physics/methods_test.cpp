@@ -286,12 +286,12 @@ TYPED_TEST(Supports, OfANarrowWedgeAreBothPlanes) {
         const double s = std::sin(to_edge);
         const double speed = between(1, 20);
         const double along = between(-5, 5);
-        std::array<PlaneOf<T, 3>, 2> planes{};
+        std::array<TouchOf<T, 3>, 2> planes{};
         planes[0].normal = {T(0), T(0), T(1)};
         planes[1].normal = {T(std::sin(angle) * c), T(std::sin(angle) * s), T(-std::cos(angle))};
         const Vec<T, 3> push{T(-speed * c - along * s), T(-speed * s + along * c),
                              T(-between(0.01, 0.99) * speed * std::tan(angle))};
-        const auto support = Support<T, 3>::against(push, planes, 0b11);
+        const auto support = Support<T, 3>::against(push, planes, [](const auto&) { return true; });
         ASSERT_EQ(support.size(), 2U) << "case " << i;
         const Vec<T, 3> rest = support.without_push(push);
         const double round_off = 64 * std::numeric_limits<T>::epsilon() * speed / angle;

@@ -104,6 +104,85 @@ TEST(RandomRooms, HaveTheRadiusOfTheirCircle) {
     EXPECT_GT(closed, campaign_length());
 }
 
+// Of 32 planes and more, sets of three are 4960 and more.
+TEST(RoomWarning, IsGivenForTheFirstOfVeryManyPlanes) {
+    std::vector<Plane> planes(3000, Plane{.normal = {1, 0}, .offset = -9});
+    planes[1] = {.normal = {-1, 0}, .offset = -9};
+    EXPECT_EQ(lines_of(ball(2, 9.5, planes)).size(), 1U);
+    EXPECT_TRUE(lines_of(ball(2, 8.5, planes)).empty());
+}
+
+// ---- starts in obstacles
+
+Bodies ball_at(const Vec3& x, double radius, const Obstacle& obstacle, int axes = 2) {
+    Bodies bodies(axes, Precision::double_);
+    bodies.add_obstacle(obstacle);
+    bodies.add({.position = x, .contact = Contact{radius}});
+    return bodies;
+}
+
+TEST(StartWarning, NamesTheObstacleAndTheDepth) {
+    const Obstacle box{.shape = BoxShape{.centre = {1, 2.5}, .size = {2, 1}}};
+    const auto lines = lines_of(ball_at({1.5, 3.25}, 0.5, box));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "body 0 starts 0.25 m inside the box at (1, 2.5), and is lifted out of it at once: "
+              "move it");
+    EXPECT_TRUE(lines_of(ball_at({1.5, 3.5}, 0.5, box)).empty()) << "it lies on the box";
+    Bodies ghost = ball_at({1.5, 3.25}, 0.5, box);
+    ghost.set_contact(0, {});
+    EXPECT_TRUE(lines_of(ghost).empty());
+}
+
+// Depths: beside a face, at a corner (3-4-5), in the middle, on a diagonal of a turned square.
+TEST(StartWarning, KnowsTheDepthInEveryShape) {
+    const double quarter_turn = std::acos(-1.0) / 4;
+    struct Case {
+        Shape shape;
+        Vec3 x;
+        double touching;  ///< radius
+        int axes = 2;
+    };
+    const std::vector<Case> cases{
+        {CircleShape{{1, 1}, 0.5}, {4, 5}, 4.5},
+        {CircleShape{{1, 1, 1}, 0.5}, {2, 3, 3}, 2.5, 3},
+        {SegmentShape{{0, 0}, {4, 0}}, {2, 3}, 3},
+        {SegmentShape{{0, 0}, {4, 0}}, {7, 4}, 5},
+        {SegmentShape{{0, 0}, {4, 0}}, {-3, -4}, 5},
+        {BoxShape{{0, 0}, {4, 2}}, {1, 3}, 2},
+        {BoxShape{{0, 0}, {4, 2}}, {5, -5}, 5},
+        {BoxShape{{0, 0, 0}, {2, 2, 2}}, {3, 3, 2}, 3, 3},
+        {BoxShape{{1}, {2}}, {5}, 3, 1},
+        {BoxShape{{0, 0}, {2, 2}, quarter_turn}, {0, 3}, 3 - std::sqrt(2.0)},
+    };
+    for (const Case& one : cases) {
+        const auto lines = [&](double radius) {
+            return lines_of(ball_at(one.x, radius, {.shape = one.shape}, one.axes)).size();
+        };
+        EXPECT_EQ(lines(one.touching * (1 - 1e-6)), 0U) << one.touching;
+        EXPECT_EQ(lines(one.touching * (1 + 1e-6)), 1U) << one.touching;
+    }
+    EXPECT_EQ(
+        lines_of(ball_at({0.1, 0}, 0.5, {.shape = BoxShape{{0, 0}, {4, 2}}})).at(0).substr(0, 27),
+        "body 0 starts 1.5 m inside ");
+}
+
+TEST(StartWarning, IsNotGivenForOneWayObstacles) {
+    const Obstacle ledge{.shape = BoxShape{.centre = {0, 0}, .size = {2, 1}},
+                         .one_way = Vec3{0, 1}};
+    EXPECT_TRUE(lines_of(ball_at({0, 0}, 0.5, ledge)).empty());
+}
+
+TEST(StartWarning, TellsThatPointsPassSegments) {
+    const Obstacle segment{.shape = SegmentShape{{0, 0}, {4, 0}}};
+    const auto lines = lines_of(ball_at({2, 3}, 0, segment));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0],
+              "body 0 is a point, which passes segments: give its contact a radius above 0");
+    EXPECT_TRUE(lines_of(ball_at({2, 3}, 0.1, segment)).empty());
+    EXPECT_TRUE(lines_of(ball_at({2, 3}, 0, {.shape = CircleShape{{0, 0}, 1}})).empty());
+}
+
 // ---- bounces
 
 constexpr double g = 9.81;

@@ -93,7 +93,7 @@ TEST(Landing, FollowsManyImpactsInAStep) {
     world.step();
     ASSERT_EQ(world.impacts().size(), 50U);
     for (std::size_t i = 0; i < 50; ++i) {
-        EXPECT_EQ(world.impacts()[i].plane, (i + 1) % 2);
+        EXPECT_EQ(world.impacts()[i].obstacle.slot, (i + 1) % 2);
         EXPECT_NEAR(world.impacts()[i].time, static_cast<double>(i + 1) / 101, 100 * epsilon);
         EXPECT_EQ(std::abs(world.impacts()[i].after[0]), 101);
     }
@@ -374,7 +374,7 @@ TEST(Landing, RefusesWrongNumbers) {
     refused({.normal = {0, 1}, .restitution = std::nan("")});
     refused({.normal = {0, 1}, .friction = -1});
     refused({.normal = {0, 1}, .offset = std::nan("")});
-    EXPECT_TRUE(world.bodies().planes().empty());
+    EXPECT_FALSE(world.bodies().has_obstacles());
     EXPECT_THROW(world.spawn({.contact = Contact{-1}}), Error);
     EXPECT_EQ(world.bodies().size(), 0U);
 }

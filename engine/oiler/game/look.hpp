@@ -38,7 +38,7 @@ struct Look {
 /// A point of a picture or of the mouse, m, as a vector.
 [[nodiscard]] inline Vec3 to_vec(Point point) { return {point.x, point.y}; }
 
-/// A picture of the bodies that have a Look, over the planes of the world.
+/// A picture of the bodies that have a Look, and of the obstacles of the world.
 [[nodiscard]] Picture draw_looks(const World& world, const Camera& camera);
 
 }  // namespace oiler

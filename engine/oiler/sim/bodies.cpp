@@ -119,19 +119,6 @@ void drop_if_unused(Columns<T, Axes>& columns, std::size_t kind) {
     columns.forces[kind].clear();
 }
 
-template <class T, int Axes>
-PlaneOf<T, Axes> unit_plane(const Plane& given) {
-    const double size = length(given.normal);
-    PlaneOf<T, Axes> plane;
-    plane.normal = converted<Vec<T, Axes>>(given.normal / size);
-    plane.offset = static_cast<T>(given.offset / size);
-    plane.restitution = static_cast<T>(given.restitution);
-    // More friction would stop bodies within times that no step resolves.
-    constexpr double most_friction = 1 / std::numeric_limits<T>::epsilon();
-    plane.friction = static_cast<T>(std::min(given.friction, most_friction));
-    return plane;
-}
-
 }  // namespace
 
 Bodies::Bodies(int axes, Precision precision) : columns_(std::make_unique<AnyColumns>()) {
@@ -148,15 +135,17 @@ Bodies::Bodies(int axes, Precision precision) : columns_(std::make_unique<AnyCol
 
 Bodies::Bodies(const Bodies& other)
     : columns_(std::make_unique<AnyColumns>(*other.columns_)),
-      planes_(other.planes_),
       team_(other.team_),
-      link_slots_(other.link_slots_) {}
+      link_slots_(other.link_slots_),
+      obstacles_(other.obstacles_),
+      obstacle_slots_(other.obstacle_slots_) {}
 Bodies::Bodies(Bodies&&) noexcept = default;
 Bodies& Bodies::operator=(const Bodies& other) {
     *columns_ = *other.columns_;
-    planes_ = other.planes_;
     team_ = other.team_;
     link_slots_ = other.link_slots_;
+    obstacles_ = other.obstacles_;
+    obstacle_slots_ = other.obstacle_slots_;
     return *this;
 }
 Bodies& Bodies::operator=(Bodies&&) noexcept = default;
@@ -211,8 +200,7 @@ void Bodies::attach_at(std::size_t index, std::size_t row, const GivenForces& fo
     Limits(precision(), axes()).check(forces, mass(row));
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         for_each_kind<T, Axes>(
-            forces, columns.mass[row],
-            [&](std::size_t kind, bool is_given, auto numbers_of_force) {
+            forces, columns.mass[row], [&](std::size_t kind, bool is_given, auto numbers_of_force) {
                 if (!is_given) return;
                 const auto numbers = numbers_of_force();
                 make_room(columns.forces[kind], index + 1, numbers.size(), columns.size);
@@ -341,25 +329,6 @@ void Bodies::apply_impulse(std::size_t row, const Vec3& impulse) {
     set_velocity(row, velocity(row) + impulse / mass(row));
 }
 
-std::size_t Bodies::add_plane(const Plane& plane) {
-    Limits(precision(), axes()).check(plane);
-    require(planes_.size() < most_planes, "a world has at most 32 planes");
-    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        columns.contacts.planes.push_back(unit_plane<T, Axes>(plane));
-        columns.contacts.wake_all();
-    });
-    planes_.push_back(plane);
-    return planes_.size() - 1;
-}
-
-void Bodies::clear_planes() {
-    columns_->visit([](auto& columns) {
-        columns.contacts.planes.clear();
-        columns.contacts.wake_all();
-    });
-    planes_.clear();
-}
-
 void Bodies::set_contact(std::size_t row, const std::optional<Contact>& contact) {
     require_row(row);
     if (contact) Limits(precision(), axes()).check(*contact);
@@ -373,26 +342,6 @@ std::optional<Contact> Bodies::contact(std::size_t row) const {
         const auto radius = columns.contacts.radius[row];
         if (radius == columns.contacts.no_contact) return std::nullopt;
         return Contact{static_cast<double>(radius)};
-    });
-}
-
-std::size_t Bodies::impact_count() const {
-    return columns_->visit([](const auto& columns) { return columns.contacts.impacts.size(); });
-}
-
-BodyImpact Bodies::impact_at(std::size_t i, const Rate& rate) const {
-    require(i < impact_count(), "there are fewer impacts");
-    return columns_->visit([&](const auto& columns) {
-        const auto& [tick, row, index, impact] = columns.contacts.impacts[i];
-        const auto radius = columns.contacts.radius[row];
-        return BodyImpact{
-            impact.kind,
-            row,
-            impact.plane,
-            rate.time(tick) + static_cast<double>(impact.after_start),
-            converted<Vec3>(impact.x - columns.contacts.planes[impact.plane].normal * radius),
-            converted<Vec3>(impact.before),
-            converted<Vec3>(impact.after)};
     });
 }
 

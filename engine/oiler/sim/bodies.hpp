@@ -103,17 +103,49 @@ public:
     /// drift; the second half has the reverse order.
     [[nodiscard]] std::vector<std::size_t> damping_order() const;
 
-    /// Adds a plane that bodies with a contact meet, and returns its index. Throws Error{usage} for
-    /// a normal of 0, a restitution outside 0 to 1, a negative friction and numbers that are not
-    /// finite.
-    std::size_t add_plane(const Plane& plane);
+    /// Adds an obstacle that bodies with a contact meet. Throws Error{usage} for a normal of 0,
+    /// sizes that are not positive, a restitution outside 0 to 1, a negative friction, numbers
+    /// that are not finite, and for what needs more axes than the world has.
+    ObstacleHandle add_obstacle(const Obstacle& obstacle);
+    ObstacleHandle add_plane(const Plane& plane);
+    /// Removes the obstacle, which must be alive.
+    void remove_obstacle(ObstacleHandle handle);
     void clear_planes();
-    [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
-    /// Lets the body meet planes, or pass through them. Throws Error{usage} for a negative radius.
+    [[nodiscard]] bool alive(ObstacleHandle handle) const;
+    [[nodiscard]] bool has_obstacles() const;
+    /// The obstacles, in the order of their slots.
+    [[nodiscard]] std::vector<ObstacleHandle> obstacles() const;
+    /// The obstacle where it is after the last step.
+    [[nodiscard]] Obstacle obstacle(ObstacleHandle handle) const;
+    /// Changes the velocity, m/s, from the next step on.
+    void set_obstacle_velocity(ObstacleHandle handle, const Vec3& velocity);
+    /// Lets the centre of the obstacle arrive at a place, m, at the end of the next step, where it
+    /// stands if it is not moved again. On its way it pushes and carries bodies. It arrives with a
+    /// velocity, m/s, or else goes straight. The last call before a step counts.
+    void move_obstacle(ObstacleHandle handle, const Vec3& to,
+                       const std::optional<Vec3>& velocity = {});
+    /// Moves the centre of the obstacle to a place, m, at once. Bodies inside are lifted.
+    void teleport_obstacle(ObstacleHandle handle, const Vec3& to);
+    /// The obstacles that the body touches after the last step, with forces of now.
+    [[nodiscard]] std::vector<Touch> touches(std::size_t row) const;
+    /// Of those that bear the body, the one whose normal is most against the forces on it.
+    [[nodiscard]] std::optional<Touch> ground(std::size_t row) const;
+    /// Lets the body pass the one-way obstacles that it touches.
+    void drop_through(std::size_t row);
+    /// The first obstacle that a ball of `radius` m meets on a straight way, m. One-way obstacles
+    /// stop it from their own side only. At equal distances the lower slot is first.
+    [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
+                                             double radius = 0) const;
+    /// The obstacles that a ball overlaps, in the order of their slots.
+    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre, double radius) const;
+    /// The half-spaces among the obstacles, as they were added.
+    [[nodiscard]] std::vector<Plane> planes() const;
+    /// Lets the body meet obstacles, or pass through them. Throws Error{usage} for a negative
+    /// radius.
     void set_contact(std::size_t row, const std::optional<Contact>& contact);
     [[nodiscard]] std::optional<Contact> contact(std::size_t row) const;
-    /// The meetings with planes in the last call of step, in the order of time, then row. Valid
-    /// until bodies or planes change.
+    /// The meetings with obstacles in the last call of step, in the order of time, then row. Valid
+    /// until bodies or obstacles change.
     [[nodiscard]] std::size_t impact_count() const;
     [[nodiscard]] BodyImpact impact_at(std::size_t i, const Rate& rate) const;
 
@@ -176,15 +208,19 @@ public:
     void hash_into(StateHash& hash) const;
 
 private:
+    [[nodiscard]] ObstacleHandle handle_of(std::size_t slot) const;
+    template <class F>
+    void change_motion(ObstacleHandle handle, F f);
     void require_row(std::size_t row) const;
     void require_linkable(std::size_t row, const Link& link) const;
     void require_exact_flow(const Method& method) const;
     [[nodiscard]] double link_potential(std::size_t i) const;
 
     std::unique_ptr<AnyColumns> columns_;
-    std::vector<Plane> planes_;
     std::shared_ptr<Team> team_;
     HandleSlots link_slots_;
+    std::vector<std::optional<Obstacle>> obstacles_;  ///< by slot, as they were added
+    HandleSlots obstacle_slots_;
 };
 
 /// Calls f(force) for each force on the body in a row, per unit mass, also for those that are zero.

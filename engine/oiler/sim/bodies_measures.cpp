@@ -173,6 +173,7 @@ void Bodies::hash_into(StateHash& hash) const {
         hash.add(static_cast<std::uint64_t>(sizeof(T)));
         for (const auto* vector : {&columns.motion.x, &columns.motion.v})
             for (const Column<T>& column : *vector) hash_column(column, hash);
+        columns.contacts.obstacles.hash_into(hash);
         if (columns.applied.empty()) return;
         for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
     });

@@ -65,15 +65,21 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
     if (std::holds_alternative<ExactFlow>(method.rule)) require_exact_flow(method);
     return columns_->visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) -> std::optional<Divergence> {
+            auto& obstacles = columns.contacts.obstacles;
             columns.contacts.impacts.clear();
+            obstacles.begin(steps.rate, steps.first);
+            const auto whole = [&](const std::optional<Divergence>& diverged) {
+                obstacles.end(steps.first + steps.count);
+                return diverged;
+            };
             if (columns.applied.empty() || steps.count == 0)
-                return step_columns(columns, method, steps, team_.get());
+                return whole(step_columns(columns, method, steps, team_.get()));
             const Steps first{steps.rate, steps.first, 1, steps.damping};
             const auto diverged = step_columns(columns, method, first, team_.get());
             forget_forces();
             if (diverged) return diverged;
             const Steps rest{steps.rate, steps.first + 1, steps.count - 1, steps.damping};
-            return step_columns(columns, method, rest, team_.get());
+            return whole(step_columns(columns, method, rest, team_.get()));
         });
 }
 

@@ -8,6 +8,7 @@
 
 #include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
+#include "oiler/sim/obstacle.hpp"
 
 namespace oiler {
 
@@ -16,19 +17,20 @@ struct Body {
     double mass = 1;  ///< kg, positive
     Vec3 position{};  ///< m
     Vec3 velocity{};  ///< m/s
-    /// Absent: it passes through planes.
+    /// Absent: it passes through obstacles.
     std::optional<Contact> contact{};
 };
 
-/// A meeting of the body in a row with a plane.
+/// A meeting of the body in a row with an obstacle.
 struct BodyImpact {
     Meeting kind;
     std::size_t row;
-    std::size_t plane;  ///< in the order of adding
-    double time;        ///< s
-    Vec3 point;         ///< m, where the body touches the plane
-    Vec3 before;        ///< m/s
-    Vec3 after;         ///< m/s
+    ObstacleHandle obstacle;
+    double time;  ///< s
+    Vec3 point;   ///< m, where the body touches the obstacle
+    Vec3 normal;  ///< of the obstacle there
+    Vec3 before;  ///< m/s
+    Vec3 after;   ///< m/s
 };
 
 /// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and
@@ -103,8 +105,7 @@ template <BodyForce... Force>
                   "a body has at most one force of each kind");
     return [&]<class... Kind>(const std::tuple<std::optional<Kind>...>*) {
         return GivenForces(force_or_none<Kind>(force...)...);
-    }
-    (static_cast<const GivenForces*>(nullptr));
+    }(static_cast<const GivenForces*>(nullptr));
 }
 
 /// The index of a kind of force among GivenForces.

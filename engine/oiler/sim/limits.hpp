@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -37,7 +38,7 @@ public:
     /// Checks the forces per unit mass, as they are stored.
     void check(const GivenForces& forces, double mass) const;
     void check(const Link& link) const;
-    void check(const Plane& plane) const;
+    void check(const Obstacle& obstacle) const;
     void check(const Contact& contact) const;
 
     void check(double number, std::string_view what) const {
@@ -45,6 +46,13 @@ public:
     }
 
 private:
+    void check_shape(const HalfSpaceShape& shape) const;
+    void check_shape(const CircleShape& shape) const;
+    void check_shape(const SegmentShape& shape) const;
+    void check_shape(const BoxShape& shape) const;
+    [[nodiscard]] int axes() const {
+        return static_cast<int>(3 - std::ranges::count(largest_on_axis_, 0.0));
+    }
     [[noreturn, gnu::cold]] void refuse(double number, std::string_view what) const;
     [[noreturn, gnu::cold]] void refuse(const Vec3& vector, std::string_view what) const;
 

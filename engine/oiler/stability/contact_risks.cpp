@@ -22,6 +22,10 @@ struct Room {
 /// theorem).
 class RoomSearch {
 public:
+    /// Of many planes only the first ones are searched: the number of sets grows with its power of
+    /// axes + 1.
+    static constexpr std::size_t most_planes = 32;
+
     RoomSearch(const std::vector<Plane>& planes, int axes)
         : planes_(planes), most_(static_cast<std::size_t>(axes) + 1) {
         add_from(0);
@@ -30,7 +34,7 @@ public:
 
 private:
     void add_from(std::size_t first) {
-        for (std::size_t i = first; i < planes_.size(); ++i) {
+        for (std::size_t i = first; i < std::min(planes_.size(), most_planes); ++i) {
             chosen_.push_back(i);
             measure();
             if (chosen_.size() < most_) add_from(i + 1);
@@ -157,15 +161,16 @@ std::string describe(const Bounce& bounce, std::size_t plane, double gain, const
 void add_bounce_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                       std::vector<Risk>& risks) {
     const auto bounces = [](const Plane& plane) { return plane.restitution > 0; };
-    if (!std::ranges::any_of(bodies.planes(), bounces)) return;
+    const std::vector<Plane> planes = bodies.planes();
+    if (!std::ranges::any_of(planes, bounces)) return;
     const double gain = gain_of_bounce(method, steps.damping) * steps.rate.dt();
     if (std::abs(gain) < 1e-9 * steps.rate.dt()) return;
     const std::vector<bool> linked = bodies.linked_rows();
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         const auto contact = bodies.contact(row);
         if (!contact || linked[row]) continue;
-        for (std::size_t i = 0; i < bodies.planes().size(); ++i) {
-            const Plane& plane = bodies.planes()[i];
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            const Plane& plane = planes[i];
             const Bounce bounce = bounce_of(bodies, row, plane, contact->radius);
             if (!(bounce.pull > 0) || !spoils(bounce, plane.restitution, gain * bounce.pull))
                 continue;

@@ -192,6 +192,7 @@ std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const S
         add_drive_risks(bodies, method, steps, risks);
         add_point_risks(bodies, method, steps, risks);
         add_contact_risks(bodies, method, steps, risks);
+        add_obstacle_risks(bodies, risks);
     }
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });

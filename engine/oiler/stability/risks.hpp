@@ -66,6 +66,10 @@ void add_point_risks(const Bodies& bodies, const Method& method, const Steps& st
 void add_contact_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                        std::vector<Risk>& risks);
 
+/// Adds bodies that start inside a circle, a segment or a box that is met from all sides, and
+/// points among segments. Of many bodies and obstacles only the first bodies are tried.
+void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks);
+
 /// Adds bodies that a drive of more than an eighth of the rate moves otherwise than with finer
 /// steps: by 10 % of its effect and 5 % of the motion, within 512 steps.
 void add_drive_risks(const Bodies& bodies, const Method& method, const Steps& steps,

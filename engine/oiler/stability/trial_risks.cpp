@@ -131,7 +131,7 @@ bool is_linear(const Bodies& bodies) {
 }
 
 bool meets_planes(const Bodies& bodies) {
-    if (bodies.planes().empty()) return false;
+    if (!bodies.has_obstacles()) return false;
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (bodies.contact(row)) return true;
     return false;

@@ -120,13 +120,12 @@ void SettingRun::add_impacts(std::deque<TrueImpact>& impacts) const {
     const double rate = 1 / world.dt();
     for (const Impact& impact : world.impacts()) {
         const std::size_t row = world.row(impact.entity);
-        const Vec3& normal = world.bodies().planes()[impact.plane].normal;
         const double radius = world.bodies().contact(row)->radius;
         const double step = static_cast<double>(steps_) + rate * (impact.time - world.time());
         impacts.push_back({instants_.other_step(step),
                            game_->cuts(),
                            {impact.entity, world.jumps(impact.entity),
-                            impact.point + normal * (radius / length(normal))}});
+                            impact.point + impact.normal * radius}});
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "oiler/math/vec.hpp"
-#include "oiler/physics/contacts/plane.hpp"
+#include "oiler/sim/obstacle.hpp"
 
 namespace oiler {
 
@@ -20,14 +20,15 @@ struct Entity {
     [[nodiscard]] std::uint64_t id() const { return (std::uint64_t{generation} + 1) << 32 | index; }
 };
 
-/// A meeting of a body with a plane, for sounds and scores.
+/// A meeting of a body with an obstacle, for sounds and scores.
 struct Impact {
     Meeting kind;
     Entity entity;
-    std::size_t plane;  ///< its index, see World::add_plane
-    double time;        ///< s; within a step
-    Vec3 point;         ///< m, where the body touches the plane
-    Vec3 before;        ///< velocity, m/s
+    ObstacleHandle obstacle;  ///< may be gone, see World::alive
+    double time;              ///< s; within a step
+    Vec3 point;               ///< m, where the body touches the obstacle
+    Vec3 normal;              ///< of the obstacle there, of length 1
+    Vec3 before;              ///< velocity, m/s
     Vec3 after;
 };
 

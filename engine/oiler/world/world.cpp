@@ -215,12 +215,83 @@ void World::set_contact(Entity entity, const std::optional<Contact>& contact) {
     change("set_contact", entity, [&](std::size_t row) { bodies_->set_contact(row, contact); });
 }
 
-std::size_t World::add_plane(const Plane& plane) {
-    placed("add_plane", [&] { bodies_->add_plane(plane); });
-    return bodies_->planes().size() - 1;
+ObstacleHandle World::add_obstacle(const Obstacle& obstacle) {
+    ObstacleHandle handle;
+    placed("add_obstacle", [&] { handle = bodies_->add_obstacle(obstacle); });
+    return handle;
+}
+
+ObstacleHandle World::add_plane(const Plane& plane) {
+    ObstacleHandle handle;
+    placed("add_plane", [&] { handle = bodies_->add_plane(plane); });
+    return handle;
+}
+
+std::vector<ObstacleHandle> World::add_chain(std::span<const Vec3> points, bool closed,
+                                             const Obstacle& like) {
+    std::vector<ObstacleHandle> handles;
+    const std::size_t count = points.size() < 2 ? 0 : points.size() - (closed ? 0 : 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        Obstacle segment = like;
+        segment.shape = SegmentShape{points[i], points[(i + 1) % points.size()]};
+        handles.push_back(add_obstacle(segment));
+    }
+    return handles;
+}
+
+template <class F>
+void World::change(const char* call, ObstacleHandle obstacle, F f) {
+    if (!alive(obstacle))
+        throw Mistake(
+            fmt::format("{} of obstacle {} at tick {}: it is gone", call, obstacle.slot, tick_));
+    placed(call, f);
+}
+
+void World::remove_obstacle(ObstacleHandle obstacle) {
+    change("remove_obstacle", obstacle, [&] { bodies_->remove_obstacle(obstacle); });
 }
 
 void World::clear_planes() { bodies_->clear_planes(); }
+
+bool World::alive(ObstacleHandle obstacle) const { return bodies_->alive(obstacle); }
+
+Obstacle World::obstacle(ObstacleHandle obstacle) const { return bodies_->obstacle(obstacle); }
+
+void World::set_obstacle_velocity(ObstacleHandle obstacle, const Vec3& velocity) {
+    change("set_obstacle_velocity", obstacle,
+           [&] { bodies_->set_obstacle_velocity(obstacle, velocity); });
+}
+
+void World::move_obstacle(ObstacleHandle obstacle, const Vec3& to,
+                          const std::optional<Vec3>& velocity) {
+    change("move_obstacle", obstacle, [&] { bodies_->move_obstacle(obstacle, to, velocity); });
+}
+
+void World::teleport_obstacle(ObstacleHandle obstacle, const Vec3& to) {
+    change("teleport_obstacle", obstacle, [&] { bodies_->teleport_obstacle(obstacle, to); });
+}
+
+std::vector<Touch> World::touches(Entity entity) const {
+    require_of(entity, has_body(entity), "touches", no_body);
+    return bodies_->touches(rows_.place(entity.index));
+}
+
+std::optional<Touch> World::ground(Entity entity) const {
+    require_of(entity, has_body(entity), "ground", no_body);
+    return bodies_->ground(rows_.place(entity.index));
+}
+
+void World::drop_through(Entity entity) {
+    change("drop_through", entity, [&](std::size_t row) { bodies_->drop_through(row); });
+}
+
+std::optional<Hit> World::raycast(const Vec3& from, const Vec3& to, double radius) const {
+    return bodies_->raycast(from, to, radius);
+}
+
+std::vector<ObstacleHandle> World::overlaps(const Vec3& centre, double radius) const {
+    return bodies_->overlaps(centre, radius);
+}
 
 void World::set_gravity(const Vec3& acceleration) {
     placed("set_gravity", [&] { bodies_->set_gravity(acceleration); });
@@ -263,8 +334,8 @@ std::optional<Divergence> World::try_step(std::int64_t count) {
     impacts_.clear();
     for (std::size_t i = 0; i < bodies_->impact_count(); ++i) {
         const BodyImpact one = bodies_->impact_at(i, settings_.stepping.rate);
-        impacts_.push_back({one.kind, entity_of_row(one.row), one.plane, one.time, one.point,
-                            one.before, one.after});
+        impacts_.push_back({one.kind, entity_of_row(one.row), one.obstacle, one.time, one.point,
+                            one.normal, one.before, one.after});
     }
     const std::int64_t taken = divergence ? divergence->tick - 1 - tick_ : count;
     tick_ += taken;

@@ -207,7 +207,7 @@ public:
     void forget_forces();
     /// Changes the velocity at once by impulse/mass, impulse in N·s.
     void apply_impulse(Entity entity, const Vec3& impulse);
-    /// Lets the body meet planes, or pass through them.
+    /// Lets the body meet obstacles, or pass through them.
     void set_contact(Entity entity, const std::optional<Contact>& contact);
     /// Moves the body to a position; pictures do not interpolate the jump.
     void teleport(Entity entity, const Vec3& position);
@@ -215,11 +215,36 @@ public:
     /// gone.
     [[nodiscard]] std::uint32_t jumps(Entity entity) const;
 
-    /// Adds a plane, such as a floor, that bodies with a contact meet, and returns its index. See
-    /// Bodies::add_plane.
-    std::size_t add_plane(const Plane& plane);
+    /// Adds an obstacle that bodies with a contact meet. See Bodies::add_obstacle.
+    ObstacleHandle add_obstacle(const Obstacle& obstacle);
+    /// Adds a half-space, such as a floor.
+    ObstacleHandle add_plane(const Plane& plane);
+    /// Adds a segment between each two neighbours of the points, and from the last to the first if
+    /// `closed`. Bodies pass their joints smoothly. `like` has all but the shape.
+    std::vector<ObstacleHandle> add_chain(std::span<const Vec3> points, bool closed,
+                                          const Obstacle& like);
+    void remove_obstacle(ObstacleHandle obstacle);
     void clear_planes();
-    /// The meetings of bodies with planes in the last call of step, in the order of time.
+    [[nodiscard]] bool alive(ObstacleHandle obstacle) const;
+    /// The obstacle where it is after the last step.
+    [[nodiscard]] Obstacle obstacle(ObstacleHandle obstacle) const;
+    /// Changes its velocity, m/s, from the next step on.
+    void set_obstacle_velocity(ObstacleHandle obstacle, const Vec3& velocity);
+    /// Lets it arrive at a place, m, at the end of the next step. See Bodies::move_obstacle.
+    void move_obstacle(ObstacleHandle obstacle, const Vec3& to,
+                       const std::optional<Vec3>& velocity = {});
+    void teleport_obstacle(ObstacleHandle obstacle, const Vec3& to);
+    /// The obstacles that the body touches after the last step.
+    [[nodiscard]] std::vector<Touch> touches(Entity entity) const;
+    /// The obstacle on which the body stands or slides, if any.
+    [[nodiscard]] std::optional<Touch> ground(Entity entity) const;
+    /// Lets the body pass the one-way obstacles that it touches.
+    void drop_through(Entity entity);
+    /// The first obstacle that a ball of `radius` m meets on a straight way. See Bodies::raycast.
+    [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
+                                             double radius = 0) const;
+    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre, double radius) const;
+    /// The meetings of bodies with obstacles in the last call of step, in the order of time.
     [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 
     /// The entities whose bodies have their centres at most `radius` m from `point`, in the order
@@ -257,8 +282,8 @@ public:
     /// worst first: springs, drag, orbits, drives and bounces that it does not follow, and places
     /// where a force or a plane has no effect. After `most` lines, the last one counts the others.
     [[nodiscard]] std::vector<std::string> preflight(std::size_t most = 5) const;
-    /// The lines of preflight() that tell of runs that diverge or drift away, within so many steps if
-    /// they are more than one.
+    /// The lines of preflight() that tell of runs that diverge or drift away, within so many steps
+    /// if they are more than one.
     [[nodiscard]] std::vector<std::string> instabilities(std::int64_t steps,
                                                          std::size_t most = 5) const;
 
@@ -364,6 +389,8 @@ private:
     /// Calls f(row) and adds call, tick and entity to its errors.
     template <class F>
     void change(const char* call, Entity entity, F f);
+    template <class F>
+    void change(const char* call, ObstacleHandle obstacle, F f);
     [[noreturn]] void refuse(const char* call, Entity entity, const Error& error) const;
 
     void attach_given(const char* call, std::size_t index, Entity entity,

@@ -386,6 +386,33 @@ TEST(ExactMotions, AreAtTicksAsTheyAreAtTheirTimes) {
     for (const std::int64_t tick : {130, 129, 700, 0}) expect_at(tick);
 }
 
+// A ball over a floor has a closed form, and no other obstacle has one for bodies with a contact.
+TEST(ExactMotions, AreUnknownAmongObstaclesOtherThanStandingPlanes) {
+    const Obstacle floor{.shape = HalfSpaceShape{{0, 1}}, .restitution = 0.5};
+    const auto is_known = [&](const Obstacle& obstacle, const std::optional<Contact>& contact) {
+        Bodies bodies(2, Precision::extended);
+        bodies.set_gravity({0, -9.81});
+        bodies.add_obstacle(floor);
+        bodies.add_obstacle(obstacle);
+        bodies.add({.position = {0, 4}, .contact = contact});
+        return exact_motions(bodies, 2).has_value();
+    };
+    Obstacle moving{.shape = HalfSpaceShape{{1, 0}, -9}, .velocity = {0.5, 0}};
+    Obstacle one_way{.shape = HalfSpaceShape{{1, 0}, -9}, .one_way = Vec3{1, 0}};
+    Obstacle belt{.shape = HalfSpaceShape{{1, 0}, -9}, .belt = 1};
+    const std::vector<Obstacle> others{{.shape = CircleShape{{9, 9}, 0.5}},
+                                       {.shape = SegmentShape{{9, 9}, {9, 8}}},
+                                       {.shape = BoxShape{{9, 9}, {1, 1}}},
+                                       moving,
+                                       one_way,
+                                       belt};
+    EXPECT_TRUE(is_known({.shape = HalfSpaceShape{{1, 0}, -9}}, Contact{0.25}));
+    for (const Obstacle& other : others) {
+        EXPECT_FALSE(is_known(other, Contact{0.25})) << other.shape.index();
+        EXPECT_TRUE(is_known(other, {})) << other.shape.index();
+    }
+}
+
 constexpr long double g = 9.81L;
 
 /// The heights of the bounces of a ball that falls from h: h·e^(2n), at times that add up flights.

@@ -4,6 +4,7 @@
 #include "oiler/lab/reference/exact_motion.hpp"
 #include "oiler/lab/reference/path.hpp"
 #include "oiler/lab/reference/sampled_motion.hpp"
+#include "oiler/lab/reference/scales.hpp"
 #include "oiler/scene/read.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "support/oscillator.hpp"
@@ -357,6 +358,64 @@ TEST(PerturbedStarts, StayOnTheirPlanes) {
         EXPECT_NE(v[0], 4);
         EXPECT_GE(gap(1), -1e-15);
         EXPECT_NE(world.bodies().velocity(1)[0], 0);
+    }
+}
+
+// The first body touches the circle, the second could get into it: both stay where they are. The
+// third, which passes through obstacles, and the fourth, which is far, are moved.
+TEST(PerturbedStarts, StayOutOfObstacles) {
+    const std::string circle =
+        "[[obstacle]]\nshape = 'circle'\ncentre = [0.0, 0.0]\nradius = 1.0\n";
+    const Scene scene =
+        parse_scene("[scene]\naxes = 2\n[gravity]\nacceleration = [0.0, -9.81]\n" + circle +
+                        "[[body]]\nposition = [0.75, 1.0]\ncontact = 0.25\n"
+                        "[[body]]\nposition = [1.251, 0.0]\ncontact = 0.25\n"
+                        "[[body]]\nposition = [0.0, 1.0]\n"
+                        "[[body]]\nposition = [2.0, 0.0]\ncontact = 0.25\n",
+                    "test");
+    int pushed = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const World world = make_world(scene, Settings{}, {seed, 0.01, 0.02});
+        const auto at = [&](std::size_t row) { return world.bodies().position(row); };
+        EXPECT_EQ(at(0), (Vec3{0.75, 1}));
+        EXPECT_EQ(world.bodies().velocity(0), Vec3{});
+        EXPECT_GE(std::hypot(at(1)[0], at(1)[1]), 1.25);
+        pushed += at(1) == Vec3{1.251, 0};
+        EXPECT_NE(at(2), (Vec3{0, 1}));
+        EXPECT_NE(at(3), (Vec3{2, 0}));
+    }
+    EXPECT_GT(pushed, 4);
+    EXPECT_LT(pushed, 16);
+}
+
+TEST(Conservative, AreObstaclesThatStandAndTakeNothing) {
+    const Obstacle elastic{.shape = CircleShape{{0, 0}, 1}, .restitution = 1};
+    const auto conserve = [](const Obstacle& obstacle, bool meets = true) {
+        Bodies bodies(2, Precision::double_);
+        bodies.add_plane({.normal = {0, 1}, .offset = -5, .restitution = 1});
+        bodies.add_obstacle(obstacle);
+        bodies.add(
+            {.position = {0, 4}, .contact = meets ? std::optional(Contact{}) : std::nullopt});
+        return is_conservative(bodies);
+    };
+    const auto with = [&](auto change) {
+        Obstacle changed = elastic;
+        change(changed);
+        return changed;
+    };
+    EXPECT_TRUE(conserve(elastic));
+    const std::vector<Obstacle> lossy{with([](Obstacle& one) { one.restitution = 0.9; }),
+                                      with([](Obstacle& one) { one.friction = 0.1; }),
+                                      with([](Obstacle& one) { one.belt = 1; }),
+                                      with([](Obstacle& one) {
+                                          one.velocity = {1, 0};
+                                      }),
+                                      with([](Obstacle& one) {
+                                          one.swing = Swing{{1, 0}};
+                                      })};
+    for (const Obstacle& one : lossy) {
+        EXPECT_FALSE(conserve(one));
+        EXPECT_TRUE(conserve(one, false)) << "nobody meets it";
     }
 }
 

@@ -13,7 +13,7 @@ WorkMeter::WorkMeter(const Scene& scene, double most, const std::function<bool()
     const Bodies bodies = make_world(scene, Settings{scene.stepping}).bodies();
     linked_ = bodies.link_count() > 0;
     per_comparison_ = rest + comparison * static_cast<double>(bodies.size());
-    if (bodies.planes().empty()) return;
+    if (!bodies.has_obstacles()) return;
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (bodies.contact(row)) per_comparison_ += landing;
 }

@@ -134,9 +134,9 @@ public:
             add(links_text, "", "links", leave_out_links);
             leave_out_links(bare);
         }
-        if (!scene_.planes.empty()) {
-            add("planes", "", "planes", leave_out_planes);
-            leave_out_planes(bare);
+        if (scene_.has_obstacles()) {
+            add("obstacles", "", "obstacles", leave_out_obstacles);
+            leave_out_obstacles(bare);
         }
         all_.push_back({"", "", "moving", std::move(bare)});
         add_parts();
@@ -151,7 +151,12 @@ private:
     static void leave_out_hang(Scene& scene) {
         for (SceneGrid& grid : scene.grids) grid.hang = Hang::none;
     }
-    static void leave_out_planes(Scene& scene) { scene.planes.clear(); }
+    static void leave_out_obstacles(Scene& scene) {
+        scene.planes.clear();
+        scene.obstacles.clear();
+        scene.chains.clear();
+        scene.tiles.clear();
+    }
 
     static constexpr std::string_view links_text = "springs between bodies";
 

@@ -16,8 +16,8 @@ struct Ablation {
     std::string words;  ///< the part, as in the scene file
     /// `words` of a larger ablation, which leaves out this part and others; empty if none does.
     std::string part_of;
-    /// The name in the ledger of an ablation that is timed: the force's, "hang", "links", "planes"
-    /// or "moving". Empty for others.
+    /// The name in the ledger of an ablation that is timed: the force's, "hang", "links",
+    /// "obstacles" or "moving". Empty for others.
     std::string pass;
     Scene scene;
 };

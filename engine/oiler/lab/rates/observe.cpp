@@ -134,14 +134,16 @@ std::optional<Floor> floor_of(const Bodies& bodies, std::size_t row, const Vec3&
     if (!contact) return std::nullopt;
     std::optional<Floor> floor;
     double steepest = 0;
-    for (std::size_t i = 0; i < bodies.planes().size(); ++i) {
-        const Plane& plane = bodies.planes()[i];
-        const double facing = -dot(plane.normal, gravity) / length(plane.normal);
+    for (const ObstacleHandle handle : bodies.obstacles()) {
+        const Obstacle obstacle = bodies.obstacle(handle);
+        const auto* const plane = std::get_if<HalfSpaceShape>(&obstacle.shape);
+        if (!plane) continue;
+        const double facing = -dot(plane->normal, gravity) / length(plane->normal);
         if (!(facing > steepest)) continue;
         steepest = facing;
-        const Real3 normal = to_real(plane.normal);
+        const Real3 normal = to_real(plane->normal);
         const Real size = std::sqrt(squared_length(normal));
-        floor = {i, normal / size, plane.offset / size + static_cast<Real>(contact->radius)};
+        floor = {handle, normal / size, plane->offset / size + static_cast<Real>(contact->radius)};
     }
     return floor;
 }

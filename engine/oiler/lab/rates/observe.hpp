@@ -37,7 +37,7 @@ struct Trace {
 
 /// The floor under a body: the plane that faces gravity most.
 struct Floor {
-    std::size_t plane = 0;  ///< its index
+    ObstacleHandle plane{};
     Real3 normal{};         ///< of length 1
     Real offset = 0;        ///< m, with the body's radius
 };

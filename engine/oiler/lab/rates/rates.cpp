@@ -42,7 +42,7 @@ void add_impacts(Trace& trace, const Bodies& bodies, const Rate& rate, std::size
                  const Floor& floor) {
     for (std::size_t i = 0; i < bodies.impact_count(); ++i) {
         const BodyImpact impact = bodies.impact_at(i, rate);
-        if (impact.row == row && impact.plane == floor.plane &&
+        if (impact.row == row && impact.obstacle == floor.plane &&
             dot(floor.normal, to_real(impact.before)) < 0)
             trace.impacts.push_back(impact.time);
     }

@@ -123,17 +123,34 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
     return OrbitMotion{gm, centre, Ellipse<Real>(gm, from), area2 / gm / (1 + e)};
 }
 
-std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, Real until) {
+/// What bodies with a contact meet, as far as landing_motion knows it.
+struct Floors {
+    std::vector<Plane> planes{};
+    bool others = false;  ///< bounded, moving or one-way obstacles
+};
+Floors floors_of(const Bodies& bodies) {
+    Floors floors{.planes = bodies.planes()};
+    floors.others = std::ranges::any_of(bodies.obstacles(), [&](ObstacleHandle handle) {
+        const Obstacle one = bodies.obstacle(handle);
+        return !std::holds_alternative<HalfSpaceShape>(one.shape) || one.velocity != Vec3{} ||
+               one.swing || one.belt != 0 || one.one_way;
+    });
+    return floors;
+}
+
+std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, const Floors& floors,
+                                     Real until) {
     const Influence influence = influence_on(bodies, row);
     if (influence.other) return std::nullopt;
     const State3 start = bodies.state(row);
     const std::optional<Contact> contact = bodies.contact(row);
-    const bool lands = contact && !bodies.planes().empty();
+    if (contact && floors.others) return std::nullopt;
+    const bool lands = contact && !floors.planes.empty();
     if (!influence.attractors.empty()) return lands ? std::nullopt : orbit_motion(influence, start);
     if (influence.stiffness < 0 || influence.damping < 0) return std::nullopt;
     const LinearMotion free{influence.acceleration, influence.stiffness, influence.damping, start};
     if (!lands) return free;
-    auto landing = landing_motion(free, bodies.planes(), contact->radius, until);
+    auto landing = landing_motion(free, floors.planes, contact->radius, until);
     if (!landing) return std::nullopt;
     return std::move(*landing);
 }
@@ -179,9 +196,10 @@ std::vector<Kink> ExactMotion::kinks() const {
 
 std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies, double until) {
     if (bodies.link_count() > 0) return std::nullopt;
+    const Floors floors = floors_of(bodies);
     std::vector<ExactMotion> motions;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
-        std::optional<ExactMotion> motion = motion_of(bodies, row, until);
+        std::optional<ExactMotion> motion = motion_of(bodies, row, floors, until);
         if (!motion) return std::nullopt;
         motions.push_back(std::move(*motion));
     }

@@ -62,8 +62,9 @@ private:
 
 /// The closed form of each body's motion from its present state up to `until` s. It shares no code
 /// with the methods. Returns none if any body has none: with links, springs with rest lengths,
-/// quadratic drag, an attractor beside other forces or planes, an orbit that is not closed, or a
-/// landing that landing_motion does not know.
+/// quadratic drag, an attractor beside other forces or planes, an orbit that is not closed, a
+/// contact among obstacles other than planes that stand, or a landing that landing_motion does not
+/// know.
 [[nodiscard]] std::optional<std::vector<ExactMotion>> exact_motions(const Bodies& bodies,
                                                                     double until);
 

@@ -35,8 +35,15 @@ bool is_damped_along_lines(const Scene& scene) {
 
 /// Whether friction may turn with a body's velocity.
 bool slides_in_two_directions(const Scene& scene) {
-    const auto brakes = [](const ScenePlane& one) { return one.plane.friction > 0; };
-    return scene.axes == 3 && std::ranges::any_of(scene.planes, brakes);
+    const auto any_brakes = [](const auto& list, auto friction_of) {
+        return std::ranges::any_of(list, [&](const auto& one) { return friction_of(one) > 0; });
+    };
+    return scene.axes == 3 &&
+           (any_brakes(scene.planes, [](const ScenePlane& one) { return one.plane.friction; }) ||
+            any_brakes(scene.obstacles,
+                       [](const SceneObstacle& one) { return one.obstacle.friction; }) ||
+            any_brakes(scene.chains, [](const SceneChain& one) { return one.like.friction; }) ||
+            any_brakes(scene.tiles, [](const SceneTiles& one) { return one.friction; }));
 }
 
 /// A method of the highest order that holds on the scene, with a small error constant.
@@ -111,9 +118,8 @@ void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& tra
 void add_kinks(Trajectory& trajectory, const Bodies& bodies, const Rate& rate) {
     for (std::size_t i = 0; i < bodies.impact_count(); ++i) {
         const BodyImpact impact = bodies.impact_at(i, rate);
-        const Vec3& normal = bodies.planes()[impact.plane].normal;
         const double radius = bodies.contact(impact.row)->radius;
-        const Real3 x = to_real(impact.point + normal * (radius / length(normal)));
+        const Real3 x = to_real(impact.point + impact.normal * radius);
         trajectory.kinks.resize(trajectory.bodies);
         trajectory.kinks[impact.row].push_back(
             {impact.time, {x, to_real(impact.before)}, {x, to_real(impact.after)}});

@@ -9,6 +9,7 @@
 #include "oiler/core/random.hpp"
 #include "oiler/lab/reference/scales.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "oiler/stability/obstacle_gap.hpp"
 
 namespace oiler::lab {
 namespace {
@@ -20,10 +21,33 @@ constexpr double fewest_samples = 20;
 /// The limit of bodies × samples, which are kept in memory several times.
 constexpr double most_states = 1.5e6;
 
+constexpr double touching = 1e-9;  // m
+
+/// Whether obstacles other than planes keep a perturbed body where it was: it touched one of them,
+/// or would do so now.
+bool is_kept_by(const std::vector<Obstacle>& obstacles, const Bodies& bodies, std::size_t row,
+                const Vec3& perturbed) {
+    const auto contact = bodies.contact(row);
+    return contact && std::ranges::any_of(obstacles, [&](const Obstacle& one) {
+               const auto is_near = [&](const Vec3& x) {
+                   return gap(one.shape, x, contact->radius, bodies.axes()) <= touching;
+               };
+               return is_near(bodies.position(row)) || is_near(perturbed);
+           });
+}
+
+std::vector<Obstacle> bounded_obstacles(const Bodies& bodies) {
+    std::vector<Obstacle> bounded;
+    for (const ObstacleHandle handle : bodies.obstacles()) {
+        Obstacle one = bodies.obstacle(handle);
+        if (!std::holds_alternative<HalfSpaceShape>(one.shape)) bounded.push_back(std::move(one));
+    }
+    return bounded;
+}
+
 /// Keeps a perturbed body on the planes that it touches, and out of the others: a body that slides
 /// must not bounce.
 void keep_on_planes(const Bodies& bodies, std::size_t row, State<double, 3>& state) {
-    constexpr double touching = 1e-9;  // m
     const auto contact = bodies.contact(row);
     if (!contact) return;
     for (const Plane& plane : bodies.planes()) {
@@ -48,11 +72,13 @@ World make_world(const Scene& scene, const Settings& settings, const Perturbatio
             vector[axis] += most * (2 * random.fraction() - 1);
         return vector;
     };
+    const std::vector<Obstacle> bounded = bounded_obstacles(world.bodies());
     for (std::size_t row = 0; row < world.body_count(); ++row) {
         const Entity entity = world.entity_of_row(row);
         State<double, 3> state{moved(world.position(entity), perturbation.position),
                                moved(world.velocity(entity), perturbation.velocity)};
         keep_on_planes(world.bodies(), row, state);
+        if (is_kept_by(bounded, world.bodies(), row, state.x)) continue;
         world.teleport(entity, state.x);
         world.set_velocity(entity, state.v);
     }

@@ -93,11 +93,13 @@ bool is_conservative(const Bodies& bodies) {
             if (is_damped(bodies.forces_per_mass(row, index))) return false;
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         if (bodies.link_at(i).damping != 0) return false;
-    const auto lossless = [](const Plane& plane) {
-        return plane.restitution == 1 && plane.friction == 0;
+    const auto lossless = [&](ObstacleHandle handle) {
+        const Obstacle one = bodies.obstacle(handle);
+        return one.restitution == 1 && one.friction == 0 && one.belt == 0 &&
+               one.velocity == Vec3{} && !one.swing;
     };
     for (std::size_t row = 0; row < bodies.size(); ++row)
-        if (bodies.contact(row)) return std::ranges::all_of(bodies.planes(), lossless);
+        if (bodies.contact(row)) return std::ranges::all_of(bodies.obstacles(), lossless);
     return true;
 }
 

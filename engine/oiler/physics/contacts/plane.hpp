@@ -25,10 +25,6 @@ struct PlaneOf {
 /// normal are divided by its length. Axes that the world lacks are zero.
 using Plane = PlaneOf<double, 3>;
 
-/// A set of planes of a world: bit i stands for plane i.
-using PlaneSet = std::uint32_t;
-inline constexpr std::size_t most_planes = 32;
-
 /// The shape of a body that meets planes.
 struct Contact {
     double radius = 0;  ///< m, 0 for a point
@@ -70,22 +66,24 @@ template <std::floating_point T, int Axes>
     return braked(plane, along, kept) + plane.normal * kept;
 }
 
-/// The kinds of meetings of a body with a plane.
+/// The kinds of meetings of a body with an obstacle.
 enum class Meeting {
     bounce,
-    rest,   ///< the bounces have ended
-    lifted  ///< the body was below the plane, and was moved onto it
+    rest,    ///< the bounces have ended
+    lifted,  ///< the body was in the obstacle, and was moved out of it
+    crushed  ///< a moving obstacle leaves the body no room: it passes until they are apart
 };
 
-/// A meeting of a body with a plane, within a step.
+/// A meeting of a body with an obstacle, within a step.
 template <class T, int Axes>
 struct ImpactOf {
     Meeting kind;
-    std::size_t plane;    ///< its index
-    T after_start;        ///< s, since the start of the step
-    Vec<T, Axes> x;       ///< m, of the body
-    Vec<T, Axes> before;  ///< m/s
-    Vec<T, Axes> after;   ///< m/s
+    std::size_t obstacle;  ///< its index
+    T after_start;         ///< s, since the start of the step
+    Vec<T, Axes> x;        ///< m, of the body
+    Vec<T, Axes> normal;   ///< of the obstacle there
+    Vec<T, Axes> before;   ///< m/s
+    Vec<T, Axes> after;    ///< m/s
 };
 
 /// The distance from a plane that round-off hides in a step of `duration` s, m.

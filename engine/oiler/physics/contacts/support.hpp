@@ -13,19 +13,42 @@
 
 namespace oiler {
 
+/// An obstacle where a body is: the plane that touches its surface at the nearest point.
+template <std::floating_point T, int Axes>
+struct TouchOf : PlaneOf<T, Axes> {
+    Vec<T, Axes> velocity{};  ///< m/s, of the surface
+    /// m/s², towards the obstacle, of a body that follows its curve and its motion.
+    T inwards = 0;
+};
+
+/// Whether a push presses a body into an obstacle, and how much: the negative of an excess.
+template <std::floating_point T, int Axes>
+struct OfPull {
+    [[nodiscard]] T operator()(const TouchOf<T, Axes>& touch, const Vec<T, Axes>& a) const {
+        const T away = dot(touch.normal, a);
+        return touch.inwards == 0 ? away : away + touch.inwards;
+    }
+};
+template <std::floating_point T, int Axes>
+struct OfVelocity {
+    [[nodiscard]] T operator()(const TouchOf<T, Axes>& touch, const Vec<T, Axes>& v) const {
+        return leaving_speed(touch, v - touch.velocity);
+    }
+};
+
 /// Up to as many planes as axes, and sums of their normals.
 template <std::floating_point T, int Axes>
 class Normals {
 protected:
     using Vector = Vec<T, Axes>;
-    using Surface = PlaneOf<T, Axes>;
+    using Touch = TouchOf<T, Axes>;
 
     /// The sum of normals with these weights cancels excess(plane) in the direction of each plane.
     template <class Excess>
     [[nodiscard]] Vector weights(Excess excess) const {
         if (count_ < 2) {
             Vector weight{};
-            for (const Surface* const plane : std::span(planes_).first(count_))
+            for (const Touch* const plane : std::span(planes_).first(count_))
                 weight.axis[0] = -excess(*plane) / dot(plane->normal, plane->normal);
             return weight;
         }
@@ -44,52 +67,51 @@ protected:
         return sum;
     }
 
-    std::array<const Surface*, Axes> planes_{};
+    std::array<const Touch*, Axes> planes_{};
     std::size_t count_ = 0;
 };
 
-/// The planes that bear a body. They cancel pushes into them.
+/// The obstacles that bear a body. They cancel pushes into them.
 template <std::floating_point T, int Axes>
 class Support : Normals<T, Axes> {
 public:
     using Vector = Vec<T, Axes>;
-    using Surface = PlaneOf<T, Axes>;
+    using Touch = TouchOf<T, Axes>;
 
-    /// The touched planes into which `push` (an acceleration or a velocity) presses, also after the
-    /// others have taken their part: the solution of N_i ≥ 0, n_i·(push + ΣN_j·n_j) ≥ 0.
-    [[nodiscard]] static Support against(const Vector& push, std::span<const Surface> planes,
-                                         PlaneSet touched) {
-        Support support;
-        const T noise = 8 * std::numeric_limits<T>::epsilon() * largest(push);
-        for (std::size_t i = 0; i < 8 * Axes; ++i) {
-            if (support.drop_pulled(push)) continue;
-            const Surface* const pressed =
-                support.count_ < Axes
-                    ? support.most_pressed(support.without_push(push), planes, touched, noise)
-                    : nullptr;
-            if (!pressed) break;
-            support.planes_[support.count_++] = pressed;
-        }
-        return support;
+    /// The chosen touches into which an acceleration presses, also after the others have taken
+    /// their part: the solution of N_i ≥ 0, n_i·(a + ΣN_j·n_j) ≥ 0.
+    template <class Touches, class Chosen>
+    [[nodiscard]] static Support against(const Vector& a, const Touches& touches, Chosen chosen) {
+        return against(a, touches, chosen, OfPull<T, Axes>{});
+    }
+    /// The chosen touches into which a velocity goes.
+    template <class Touches, class Chosen>
+    [[nodiscard]] static Support against_velocity(const Vector& v, const Touches& touches,
+                                                  Chosen chosen) {
+        return against(v, touches, chosen, OfVelocity<T, Axes>{});
     }
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] std::size_t size() const { return count_; }
-    [[nodiscard]] const Surface& operator[](std::size_t i) const { return *planes_[i]; }
-    [[nodiscard]] bool has(const Surface& plane) const {
+    [[nodiscard]] const Touch& operator[](std::size_t i) const { return *planes_[i]; }
+    [[nodiscard]] bool has(const Touch& touch) const {
         const auto* const end = planes_.data() + count_;
-        return std::find(planes_.data(), end, &plane) != end;
+        return std::find(planes_.data(), end, &touch) != end;
     }
 
-    /// The reactions N of the planes against a push, in its unit; 0 for the others.
-    [[nodiscard]] Vector reactions(const Vector& push) const {
-        return weights([&](const Surface& plane) { return dot(plane.normal, push); });
+    /// The reactions N against an acceleration; 0 for the others.
+    [[nodiscard]] Vector reactions(const Vector& a) const {
+        return reactions(a, OfPull<T, Axes>{});
     }
-    /// The part of a push along all planes; 0 if they bear every direction.
-    [[nodiscard]] Vector without_push(const Vector& push) const {
-        return count_ == Axes ? Vector{} : push + sum_of_normals(reactions(push));
+    /// An acceleration along all touches; 0 if they bear every direction.
+    [[nodiscard]] Vector without_push(const Vector& a) const {
+        return without(a, OfPull<T, Axes>{});
     }
-    /// The nearest place to x where the body touches all planes; gap_of(plane) is the gap at x, m.
+    /// The velocity of a body that goes along all touches, with their own velocities.
+    [[nodiscard]] Vector following(const Vector& v) const {
+        return without(v, OfVelocity<T, Axes>{});
+    }
+    /// The nearest place to x where the body touches all of them; gap_of(touch) is the gap at x, m.
     template <class Gap>
     [[nodiscard]] Vector onto(const Vector& x, Gap gap_of) const {
         return x + sum_of_normals(weights(gap_of));
@@ -104,29 +126,52 @@ public:
     }
 
 private:
-    /// Removes the plane with the smallest reaction if it is not positive.
-    bool drop_pulled(const Vector& push) {
+    template <class Touches, class Chosen, class Excess>
+    [[nodiscard]] static Support against(const Vector& push, const Touches& touches, Chosen chosen,
+                                         Excess excess) {
+        Support support;
+        const T noise = 8 * std::numeric_limits<T>::epsilon() * largest(push);
+        for (std::size_t i = 0; i < 8 * Axes; ++i) {
+            if (support.drop_pulled(push, excess)) continue;
+            if (support.count_ == Axes) break;
+            const Vector along = support.without(push, excess);
+            const Touch* pressed = nullptr;
+            T least = -noise;
+            for (const auto& touch : touches) {
+                const T one = excess(touch, along);
+                // In a wedge, large reactions may leave a rest of round-off.
+                if (one >= least || !chosen(touch) || support.has(touch)) continue;
+                pressed = &touch;
+                least = one;
+            }
+            if (!pressed) break;
+            support.planes_[support.count_++] = pressed;
+        }
+        return support;
+    }
+    template <class Excess>
+    [[nodiscard]] Vector reactions(const Vector& push, Excess excess) const {
+        return weights([&](const Touch& touch) { return excess(touch, push); });
+    }
+    template <class Excess>
+    [[nodiscard]] Vector without(const Vector& push, Excess excess) const {
+        const bool bears_all =
+            count_ == Axes && std::all_of(planes_.begin(), planes_.end(), stands);
+        return bears_all ? Vector{} : push + sum_of_normals(reactions(push, excess));
+    }
+    [[nodiscard]] static bool stands(const Touch* touch) {
+        return touch->velocity == Vector{} && touch->inwards == 0;
+    }
+    /// Removes the touch with the smallest reaction if it is not positive.
+    template <class Excess>
+    bool drop_pulled(const Vector& push, Excess excess) {
         if (count_ == 0) return false;
-        const Vector reaction = reactions(push);
+        const Vector reaction = reactions(push, excess);
         const T* const first = reaction.axis.data();
         const T* const least = std::min_element(first, first + count_);
         if (*least > 0) return false;
         std::swap(planes_[static_cast<std::size_t>(least - first)], planes_[--count_]);
         return true;
-    }
-    /// The plane into which a push presses most, of those that do not bear the body yet: into the
-    /// others, a wedge's large reactions may leave a rest of round-off.
-    [[nodiscard]] const Surface* most_pressed(const Vector& push, std::span<const Surface> planes,
-                                              PlaneSet touched, T noise) const {
-        const Surface* most = nullptr;
-        T least = -noise;
-        for (std::size_t i = 0; i < planes.size(); ++i) {
-            const T one = dot(planes[i].normal, push);
-            if ((touched >> i & 1U) == 0 || one >= least || has(planes[i])) continue;
-            most = &planes[i];
-            least = one;
-        }
-        return most;
     }
 
     using Normals<T, Axes>::count_;
@@ -138,11 +183,13 @@ private:
 /// The direction of a slide, against which friction acts.
 template <std::floating_point T, int Axes>
 struct Friction {
-    Vec<T, Axes> direction;  ///< at the start of a step, of length 1
+    Vec<T, Axes> direction;  ///< at the start of a step, of length 1, relative to the surface
+    Vec<T, Axes> surface;    ///< m/s
     bool turns;              ///< whether the body may slide in two directions
 
     [[nodiscard]] Vec<T, Axes> against(const Vec<T, Axes>& v) const {
-        return turns && dot(v, direction) > 0 ? -normalised(v) : -direction;
+        const Vec<T, Axes> slip = v - surface;
+        return turns && dot(slip, direction) > 0 ? -normalised(slip) : -direction;
     }
 };
 
@@ -166,18 +213,18 @@ template <std::floating_point T, int Axes>
             v * both + pull * ((3 * along * both + speed * speed) / (4 * surplus))};
 }
 
-/// The moves of a point from below planes onto them: onto the lowest one, then onto that and the
-/// lowest of the others, so that a narrow wedge takes few moves.
+/// The moves of a point out of obstacles: out of the one that it is deepest in, then out of that
+/// and the deepest of the others, so that a narrow wedge takes few moves.
 template <std::floating_point T, int Axes>
 class Lift : Normals<T, Axes> {
 public:
-    using Surface = PlaneOf<T, Axes>;
+    using Touch = TouchOf<T, Axes>;
 
-    /// The least move onto a plane, and onto planes of earlier moves that it would leave.
-    /// `gap_of(plane)` is the gap before the move, m.
+    /// The least move onto an obstacle, and onto those of earlier moves that it would leave.
+    /// `gap_of(touch)` is the gap before the move, m.
     template <class Gap>
-    [[nodiscard]] Vec<T, Axes> onto(const Surface& plane, Gap gap_of) {
-        keep(plane);
+    [[nodiscard]] Vec<T, Axes> onto(const Touch& touch, Gap gap_of) {
+        keep(touch);
         for (;;) {
             const Vec<T, Axes> ways = this->weights(gap_of);
             const T* const first = ways.axis.data();
@@ -190,15 +237,15 @@ public:
     }
 
 private:
-    /// Makes the plane the last one.
-    void keep(const Surface& plane) {
+    /// Makes the touch the last one.
+    void keep(const Touch& touch) {
         const auto end = planes_.begin() + count_;
-        const auto found = std::find(planes_.begin(), end, &plane);
+        const auto found = std::find(planes_.begin(), end, &touch);
         if (found != end)
             drop(static_cast<std::size_t>(found - planes_.begin()));
         else if (count_ == Axes)
             drop(0);
-        planes_[count_++] = &plane;
+        planes_[count_++] = &touch;
     }
     void drop(std::size_t i) {
         std::copy(planes_.begin() + i + 1, planes_.begin() + count_, planes_.begin() + i);
@@ -209,33 +256,34 @@ private:
     using Normals<T, Axes>::planes_;
 };
 
-/// Moves a point at `x` onto the planes that it is below, and calls moved(plane) after each move.
-/// `gap_of(plane, x)` is the gap (m), and noise_of(plane) its round-off.
-template <std::floating_point T, int Axes, class Gap, class Noise, class Moved>
-void lift_onto(std::span<const PlaneOf<T, Axes>> planes, Vec<T, Axes>& x, Gap gap_of,
-               Noise noise_of, Moved moved) {
+/// Moves a point at `x` out of the touches that it is in, and calls moved(touch) after each move,
+/// which may renew them. `gap_of(touch, x)` is the gap (m), and noise_of(touch) its round-off.
+template <std::floating_point T, int Axes, class Touches, class Gap, class Noise, class Moved>
+void lift_onto(Touches& touches, Vec<T, Axes>& x, Gap gap_of, Noise noise_of, Moved moved) {
     constexpr int most_moves = 64;
-    using Surface = PlaneOf<T, Axes>;
-    const auto lowest = [&] {
-        const Surface* farthest = nullptr;
+    const auto deepest = [&] {
+        auto* farthest = touches.data();
+        farthest = nullptr;
         T least = 0;
-        for (const Surface& plane : planes) {
-            const T one = gap_of(plane, x);
-            if (one >= least || one >= -noise_of(plane)) continue;
-            farthest = &plane;
+        for (auto& touch : touches) {
+            const T one = gap_of(touch, x);
+            if (one >= least || one >= -noise_of(touch)) continue;
+            farthest = &touch;
             least = one;
         }
         return farthest;
     };
     Lift<T, Axes> lift;
     for (int move = 0; move < most_moves; ++move) {
-        const Surface* const plane = lowest();
-        if (!plane) break;
-        x += lift.onto(*plane, [&](const Surface& one) { return gap_of(one, x); });
-        moved(*plane);
+        auto* const touch = deepest();
+        if (!touch) break;
+        x += lift.onto(*touch, [&](const TouchOf<T, Axes>& one) {
+            return gap_of(static_cast<const std::remove_pointer_t<decltype(touch)>&>(one), x);
+        });
+        moved(*touch);
     }
-    for (const Surface& plane : planes)
-        if (const T below = -gap_of(plane, x); below > 0) x += plane.normal * below;
+    for (auto& touch : touches)
+        if (const T below = -gap_of(touch, x); below > 0) x += touch.normal * below;
 }
 
 }  // namespace oiler

@@ -51,11 +51,11 @@ public:
     void damp_before(Motion& state) {
         brake_before(state);
         physics_.damp_before(state);
-        state.v = support_.without_push(state.v);
+        state.v = support_.following(state.v);
     }
     void damp_after(Motion& state) {
         physics_.damp_after(state);
-        state.v = support_.without_push(state.v);
+        state.v = support_.following(state.v);
         brake_after(state);
     }
     [[nodiscard]] Vector solve(const Motion& at, T tau, const Vector& residual) {
@@ -81,8 +81,10 @@ private:
     void brake(Motion& state, double t) {
         if (!by_flow_) return;
         const T lost = support_.grip(physics_.accelerate(state, t)) * braking_.half_step;
-        const T speed = length(state.v);
-        state.v = lost < speed ? state.v * (1 - lost / speed) : Vector{};
+        const Vector slip = state.v - friction_.surface;
+        const T speed = length(slip);
+        state.v = lost < speed ? slip * (1 - lost / speed) : Vector{};
+        if (friction_.surface != Vector{}) state.v += friction_.surface;
     }
     [[nodiscard]] Vector along(const Vector& a, const Vector& v) const {
         const T grip = support_.grip(a);
@@ -240,13 +242,18 @@ private:
     bool solved_ = true;
 };
 
-/// Steps blocks with contacts one step at a time: first without planes, then again the rows that
+/// Steps blocks with contacts one step at a time: first without obstacles, then again the rows that
 /// may have met one.
 template <std::floating_point T, int Axes>
 class BlockStepper {
 public:
-    BlockStepper(const StepCall<T, Axes>& call, std::vector<RowImpact<T, Axes>>& impacts)
-        : call_(call), columns_(call.columns), steps_(call.steps), impacts_(impacts) {}
+    BlockStepper(const StepCall<T, Axes>& call, std::vector<RowImpact<T, Axes>>& impacts,
+                 std::vector<Near<T, Axes>>& nears)
+        : call_(call),
+          columns_(call.columns),
+          steps_(call.steps),
+          impacts_(impacts),
+          nears_(nears) {}
 
     [[nodiscard]] std::optional<Divergence> step(std::size_t begin, std::size_t end) {
         std::optional<Divergence> first;
@@ -265,8 +272,6 @@ public:
     }
 
 private:
-    using Surface = PlaneOf<T, Axes>;
-
     [[nodiscard]] const Parameter<T>& radius() const { return columns_.contacts.radius; }
     [[nodiscard]] bool has_contact(std::size_t row) const {
         return radius()[row] != Contacts<T, Axes>::no_contact;
@@ -286,7 +291,7 @@ private:
             if (settled(begin, end)) return std::nullopt;
             save(begin, end);
             auto diverged = step_rows(step, begin, end);
-            find_meetings(begin, end);
+            find_meetings(begin, end, one.first);
             for (std::size_t row = begin; row < end; ++row)
                 if (meets_[row - begin]) keep_earlier(diverged, land(row, row - begin, one));
             if (diverged) return diverged;
@@ -307,17 +312,31 @@ private:
         }
     }
 
-    /// Marks the rows that may have met a plane in the last step, see may_meet.
-    void find_meetings(std::size_t begin, std::size_t end) {
+    /// Marks the rows that may have met an obstacle in the last step, see may_meet.
+    void find_meetings(std::size_t begin, std::size_t end, std::int64_t tick) {
         meets_ = {};
         const auto x = generate<Axes>([&](auto i) { return columns_.motion.x[i].data() + begin; });
         const auto v = generate<Axes>([&](auto i) { return columns_.motion.v[i].data() + begin; });
         const NumberView<T> radii(radius());
         const T dt = steps_.rate.template dt<T>();
-        for (const Surface& plane : columns_.contacts.planes)
+        const auto& obstacles = columns_.contacts.obstacles;
+        obstacles.for_each_half_space([&](const PlaneOf<T, Axes>& plane) {
             for (std::size_t i = 0; i < end - begin; ++i)
                 meets_[i] |= may_meet(plane, radii.template at<T>(begin + i), state(x_, v_, i),
                                       state(x, v, i), dt);
+        });
+        if (!obstacles.any_bounded() && !obstacles.any_moves()) return;
+        const bool all = obstacles.any_half_space_moves();
+        for (std::size_t i = 0; i < end - begin; ++i) {
+            meets_[i] |= all && has_contact(begin + i);
+            if (meets_[i] != 0 || !has_contact(begin + i)) continue;
+            const State<T, Axes> from = state(x_, v_, i);
+            const State<T, Axes> to = state(x, v, i);
+            const T radius = radii.template at<T>(begin + i);
+            const T most =
+                largest_way(from, to, dt) + radius + obstacles.hidden_way(from.x, radius);
+            meets_[i] = obstacles.any_box_near((from.x + to.x) * T(0.5), most, tick, dt);
+        }
     }
     template <class From>
     [[nodiscard]] static State<T, Axes> state(const From& x, const From& v, std::size_t i) {
@@ -330,14 +349,9 @@ private:
         auto& settled = columns_.contacts.settled[row];
         if (!settled) {
             ShortSteps<T, Axes> body(call_, shorter_, row, step.rate.time(step.first));
-            std::size_t index = 0;
-            const auto report = [&](const ImpactOf<T, Axes>& impact) {
-                impacts_.push_back({step.first, row, index++, impact});
-            };
-            Landing landing(std::span<const Surface>(columns_.contacts.planes), radius()[row], body,
-                            report);
-            const Landed landed = landing.step(state, step.rate.template dt<T>());
-            settled = landed == Landed::settled && columns_.applied.empty();
+            const Landed landed = land(state, row, step, body);
+            settled = landed == Landed::settled && columns_.applied.empty() &&
+                      !columns_.contacts.obstacles.any_moves();
             if (row == 0) columns_.evaluations += body.evaluations();
             if (!body.solved()) return Divergence{step.first + 1, row, 0, Divergence::Of::solution};
             if (landed == Landed::unresolved)
@@ -346,6 +360,31 @@ private:
         }
         store(state, columns_.motion, row);
         return std::nullopt;
+    }
+    /// Steps a row among the obstacles near it. The first search goes twice as far as the free
+    /// step; a body that gets farther is stepped again, with a wider search.
+    Landed land(State<T, Axes>& state, std::size_t row, const Steps& step,
+                ShortSteps<T, Axes>& body) {
+        const State<T, Axes> start = state;
+        const std::size_t known = impacts_.size();
+        const T dt = step.rate.template dt<T>();
+        const State<T, Axes> end = load<T>(columns_.motion, row);
+        T way = columns_.contacts.obstacles.any_bounded()
+                    ? (length(start.v) + length(end.v - start.v)) * 2 * dt
+                    : std::numeric_limits<T>::infinity();
+        for (;; way = 2 * (way + length(state.x - start.x))) {
+            columns_.contacts.obstacles.find_near(start.x, way, radius()[row], step.first, dt,
+                                                  nears_);
+            impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(known), impacts_.end());
+            std::size_t index = 0;
+            const auto report = [&](const ImpactOf<T, Axes>& impact) {
+                impacts_.push_back({step.first, row, index++, impact});
+            };
+            state = start;
+            Landing landing(std::span<Near<T, Axes>>(nears_), way, radius()[row], body, report);
+            const Landed landed = landing.step(state, dt);
+            if (landed != Landed::strayed) return landed;
+        }
     }
     [[nodiscard]] Damping damping() const { return steps_.damping.value_or(call_.method.damping); }
     void put_to_sleep(State<T, Axes>& state, std::size_t row, std::int64_t tick) {
@@ -358,6 +397,7 @@ private:
     Columns<T, Axes>& columns_;
     const Steps& steps_;
     std::vector<RowImpact<T, Axes>>& impacts_;
+    std::vector<Near<T, Axes>>& nears_;
     ShorterPlan<T> shorter_;
     std::array<std::array<T, row_padding>, Axes> x_;  ///< at the start of the step
     std::array<std::array<T, row_padding>, Axes> v_;
@@ -371,11 +411,13 @@ std::optional<Divergence> step_landing_rows(const StepCall<T, Axes>& call) {
     auto& contacts = call.columns.contacts;
     contacts.settled.resize(call.columns.size);
     contacts.impacts_of_parts.resize(call.team ? call.team->size() : 1);
-    const auto diverged =
-        in_parts(call.columns.size, call.steps.count, call.team,
-                 [&](std::size_t begin, std::size_t end, std::size_t part) {
-                     return BlockStepper(call, contacts.impacts_of_parts[part]).step(begin, end);
-                 });
+    contacts.nears_of_parts.resize(contacts.impacts_of_parts.size());
+    const auto diverged = in_parts(call.columns.size, call.steps.count, call.team,
+                                   [&](std::size_t begin, std::size_t end, std::size_t part) {
+                                       return BlockStepper(call, contacts.impacts_of_parts[part],
+                                                           contacts.nears_of_parts[part])
+                                           .step(begin, end);
+                                   });
     contacts.gather_impacts();
     return diverged;
 }

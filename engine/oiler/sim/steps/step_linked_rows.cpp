@@ -20,48 +20,61 @@
 namespace oiler {
 namespace {
 
-/// The landing of a linked row at the end of a step of `dt` s from tick `tick`: a row below a plane
-/// is moved onto it, and bounces with the normal speed that it had at the start of the step.
-/// `before` is the state at the start of the step. Returns whether the state changed.
+/// The landing of a linked row at the end of a step of `dt` s from tick `tick`: a row in an
+/// obstacle is moved out of it, and bounces with the normal speed that it had at the start of the
+/// step. `before` is the state at the start of the step. Returns whether the state changed.
 template <std::floating_point T, int Axes>
 bool land_linked_row(Columns<T, Axes>& columns, const State<T, Axes>& before, std::size_t row,
-                     std::int64_t tick, T dt) {
-    using Surface = PlaneOf<T, Axes>;
+                     std::int64_t tick, T dt, std::vector<Near<T, Axes>>& nears) {
     auto& contacts = columns.contacts;
-    const std::span<const Surface> planes(contacts.planes);
     const T radius = contacts.radius[row];
-    const auto gap_of = [&](const Surface& plane, const Vec<T, Axes>& x) {
-        return gap(plane, x, radius);
-    };
     State<T, Axes> state = load<T>(columns.motion, row);
-    PlaneSet met = 0;
+    contacts.obstacles.find_near(state.x, length(state.x - before.x), radius, tick + 1, dt, nears);
+    const auto gap_of = [&](const Near<T, Axes>& near, const Vec<T, Axes>& x) {
+        return gap(near, x, T(0), radius);
+    };
+    bool any = false;
     std::size_t index = 0;
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Surface& plane = planes[i];
-        const T below = -gap_of(plane, state.x);
-        if (!(below > 0)) continue;
-        met |= PlaneSet{1} << i;
-        state.x += plane.normal * below;
-        const Vec<T, Axes> v = state.v;
-        const T speed = -leaving_speed(plane, v);
+    for (Near<T, Axes>& near : nears) {
+        renew_normal(near, state.x, T(0));
+        const T below = -gap_of(near, state.x);
+        if (!(below > 0) || passes(near, before.x, dt, radius)) continue;
+        any = near.met = true;
+        state.x += near.normal * below;
+        const Vec<T, Axes> v = state.v - near.velocity;
+        const T speed = -leaving_speed(near, v);
         if (!(speed > 0)) continue;
-        const T fallen = -leaving_speed(plane, before.v);
-        const T kept = plane.restitution * std::max(fallen, T(0));
+        const T fallen = -leaving_speed(near, before.v - near.velocity);
+        const T kept = near.restitution * std::max(fallen, T(0));
         // Whether all later flights would end within a step.
-        const bool rests = 2 * kept <= (1 - plane.restitution) * (speed - fallen);
-        state.v = pushed_off(plane, landed(plane, v, speed), rests ? T(0) : kept);
+        const bool rests = 2 * kept <= (1 - near.restitution) * (speed - fallen);
+        const Vec<T, Axes> into = state.v;
+        state.v = with_surface(near, pushed_off(near, landed(near, v, speed), rests ? T(0) : kept));
         if (fallen > hidden_speed(v))
             contacts.impacts.push_back(
-                {tick, row, index++, {Meeting::bounce, i, dt, state.x, v, state.v}});
+                {tick,
+                 row,
+                 index++,
+                 {Meeting::bounce, near.index, dt, state.x, near.normal, into, state.v}});
     }
-    if (met == 0) return false;
-    if (planes.size() > 1) {
-        // A bounce or a move off one plane may go into another.
-        state.v = Support<T, Axes>::against(state.v, planes, met).without_push(state.v);
-        lift_onto(
-            planes, state.x, gap_of,
-            [&](const Surface& plane) { return hidden_distance(plane, state, radius, dt); },
-            [](const Surface&) {});
+    if (!any) return false;
+    if (nears.size() > 1) {
+        // A bounce or a move off one obstacle may go into another.
+        state.v = Support<T, Axes>::against_velocity(state.v, nears, [](const auto& near) {
+                      return near.met;
+                  }).following(state.v);
+        lift_onto<T, Axes>(
+            nears, state.x,
+            [&](const Near<T, Axes>& near, const Vec<T, Axes>& x) {
+                return passes(near, before.x, dt, radius) ? std::numeric_limits<T>::infinity()
+                                                          : gap_of(near, x);
+            },
+            [&](const Near<T, Axes>& near) {
+                return hidden_distance(near.obstacle, state, radius, dt);
+            },
+            [&](Near<T, Axes>&) {
+                for (Near<T, Axes>& near : nears) renew_normal(near, state.x, T(0));
+            });
     }
     // Friction holds a body at rest where it is.
     if (before.v == Vec<T, Axes>{} && state.v == Vec<T, Axes>{}) state.x = before.x;
@@ -75,8 +88,10 @@ template <std::floating_point T, int Axes>
 bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& before,
                       std::int64_t tick, T dt) {
     bool any = false;
+    std::vector<Near<T, Axes>>& nears = columns.contacts.nears_of_parts.front();
     for (std::size_t row = 0; row < columns.size; ++row)
-        any |= land_linked_row(columns, load<T>(before, row), row, tick, dt);
+        if (columns.contacts.radius[row] != Contacts<T, Axes>::no_contact)
+            any |= land_linked_row(columns, load<T>(before, row), row, tick, dt, nears);
     return any;
 }
 
@@ -271,8 +286,7 @@ private:
         bool any = false;
         for_each_index<force_count>([&](auto i) {
             using Force = std::tuple_element_t<i, ForceList<T, Axes>>;
-            if (holds.template operator()<Force>())
-                any = any || !columns_.forces[i].empty();
+            if (holds.template operator()<Force>()) any = any || !columns_.forces[i].empty();
         });
         return any;
     }

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
-#include "oiler/physics/contacts/plane.hpp"
 #include "oiler/physics/forces/forces.hpp"
 #include "oiler/physics/plan.hpp"
 #include "oiler/physics/rate.hpp"
 #include "oiler/physics/state.hpp"
 #include "oiler/sim/store/column.hpp"
 #include "oiler/sim/store/links.hpp"
+#include "oiler/sim/store/obstacles.hpp"
 #include "oiler/sim/store/row_views.hpp"
 
 namespace oiler {
@@ -133,20 +133,21 @@ struct RowImpact {
     }
 };
 
-/// The planes of a world and the rows that meet them.
+/// The obstacles of a world and the rows that meet them.
 template <std::floating_point T, int Axes>
 struct Contacts {
     static constexpr T no_contact = -std::numeric_limits<T>::infinity();
 
-    std::vector<PlaneOf<T, Axes>> planes;
-    Parameter<T> radius;                ///< m; no_contact for rows that pass through planes
+    Obstacles<T, Axes> obstacles;
+    Parameter<T> radius;                ///< m; no_contact for rows that pass through obstacles
     std::size_t rows = 0;               ///< the number of rows with a contact
     std::vector<std::uint8_t> settled;  ///< per row, see Landed; rows at the end may be missing
     std::vector<RowImpact<T, Axes>> impacts;                        ///< of the last call, in order
     std::vector<std::vector<RowImpact<T, Axes>>> impacts_of_parts;  ///< memory of a step
+    std::vector<std::vector<Near<T, Axes>>> nears_of_parts{1};      ///< memory of a step
 
-    /// Whether any body may meet a plane.
-    [[nodiscard]] bool possible() const { return rows > 0 && !planes.empty(); }
+    /// Whether any body may meet an obstacle.
+    [[nodiscard]] bool possible() const { return rows > 0 && !obstacles.empty(); }
 
     [[nodiscard]] static T radius_of(const std::optional<Contact>& contact) {
         return contact ? static_cast<T>(contact->radius) : no_contact;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "oiler/physics/contacts/obstacle.hpp"
+#include "oiler/physics/contacts/support.hpp"
+
+namespace oiler {
+
+/// An obstacle that a body may meet in a step, and the plane that touches it at the nearest point.
+template <std::floating_point T, int Axes>
+struct Near : TouchOf<T, Axes> {
+    ObstacleOf<T, Axes> obstacle;  ///< where it is at the start of the step
+    std::size_t index = 0;         ///< of the obstacle in its world
+    Feature sides = 0;             ///< the feature of a box that the body is beside
+    bool hidden = false;           ///< the nearest point is in another obstacle
+    bool met = false;              ///< the body has bounced on it in this step
+    bool resting = false;          ///< the body has not left it since its last rest on it
+    bool dips = false;    ///< a leg of a method of order 1 is in it, although its speed leaves
+    int bounces = 0;      ///< in this step
+    bool lifted = false;  ///< the body has just been lifted out of it
+    bool passed = false;  ///< the body went through it from a side from which it is not met
+    bool bears = false;   ///< it may bear the body: touched, and not left
+    bool leaves = false;  ///< touched, and left
+
+    /// The depth, m, from which on a body of `radius` m passes, instead of being lifted: it came
+    /// from a side from which it does not meet the obstacle, or was crushed.
+    [[nodiscard]] T deepest(T noise, T radius) const {
+        if (obstacle.is_one_way()) return noise;
+        return obstacle.course.moves() ? std::max(noise, radius / 16)
+                                       : std::numeric_limits<T>::infinity();
+    }
+    [[nodiscard]] bool is_moved() const { return obstacle.course.moves() || obstacle.belt != 0; }
+
+    Near(const ObstacleOf<T, Axes>& of, std::size_t at)
+        : TouchOf<T, Axes>{of.surface, surface_velocity(of, of.surface.normal, T(0)), T(0)},
+          obstacle(of),
+          index(at) {}
+};
+
+/// The gap (m) of a body at x, `start` s after the start of the step.
+template <std::floating_point T, int Axes>
+[[nodiscard]] T gap(const Near<T, Axes>& near, const Vec<T, Axes>& x, T start, T radius) {
+    return gap(near.obstacle, place_beside(near.obstacle, x, start), radius);
+}
+
+/// Renews the touching plane of a box for a body at x, `start` s after the start of the step.
+template <std::floating_point T, int Axes>
+void renew_normal(Near<T, Axes>& near, const Vec<T, Axes>& x, T start) {
+    if (near.obstacle.bounded)
+        near.normal = normal(near.obstacle, place_beside(near.obstacle, x, start));
+    if (near.is_moved()) near.velocity = surface_velocity(near.obstacle, near.normal, start);
+}
+/// Renews the feature of a box beside which a body at x, as seen from the box, heads somewhere. On
+/// the border of a face, the normal is that of the face.
+template <std::floating_point T, int Axes>
+void renew_sides(Near<T, Axes>& near, const Vec<T, Axes>& x, const Vec<T, Axes>& heading, T noise) {
+    near.sides = feature(near.obstacle, x, heading, noise);
+    for (std::size_t i = 0; i < Axes; ++i)
+        if (near.sides == Feature{1} << i) {
+            const Vec<T, Axes>& side = near.obstacle.frame.row[i];
+            near.normal = dot(side, near.normal) < 0 ? -side : side;
+        }
+}
+/// A velocity relative to the surface, seen from the world. A zero keeps its sign.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Vec<T, Axes> with_surface(const TouchOf<T, Axes>& touch, const Vec<T, Axes>& v) {
+    return touch.velocity == Vec<T, Axes>{} ? v : v + touch.velocity;
+}
+/// Whether a body that was at x, a step of `dt` s ago, passes a one-way obstacle.
+template <std::floating_point T, int Axes>
+[[nodiscard]] bool passes(const Near<T, Axes>& near, const Vec<T, Axes>& x, T dt, T radius) {
+    const ObstacleOf<T, Axes>& obstacle = near.obstacle;
+    const Vec<T, Axes> seen = place_beside(obstacle, x, -dt);
+    const T noise = hidden_distance(obstacle, State<T, Axes>{x, {}}, radius, T(0));
+    return gap(obstacle, seen, radius) < -near.deepest(2 * noise, radius) ||
+           (obstacle.is_one_way() && !bears_from(obstacle, normal(obstacle, seen)));
+}
+
+/// Hides obstacles whose nearest point to a body lies in another one that the body touches: that
+/// one is as near, so that a body does not notice the joints between boxes. Of two that have the
+/// nearest points of each other, a face hides a corner, else the lower index the higher one. No
+/// half-space is hidden.
+///
+/// The features are known. `touches(near)` tells whether the body at x, `start` s after the start
+/// of the step, touches it.
+template <std::floating_point T, int Axes, class Touches>
+void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start, T radius,
+                 Touches touches) {
+    using One = Near<T, Axes>;
+    const auto contains = [&](const One& one, const One& other) {
+        const Vec<T, Axes> point = x - other.normal * (gap(other, x, start, radius) + radius);
+        const T noise = hidden_distance(one.obstacle, State<T, Axes>{x, {}}, radius, T(0));
+        return gap(one, point, start, T(0)) <= noise;
+    };
+    const auto precedes = [&](const One& one, const One& other) {
+        const bool corner = is_round(one.sides);
+        return corner == is_round(other.sides) ? one.index < other.index : !corner;
+    };
+    for (One& near : nears) near.hidden = false;
+    for (One& near : nears) {
+        if (!near.obstacle.bounded || !touches(near)) continue;
+        near.hidden = std::ranges::any_of(nears, [&](const One& other) {
+            return &other != &near && !other.hidden && touches(other) && contains(other, near) &&
+                   !(contains(near, other) && precedes(near, other));
+        });
+    }
+}
+
+}  // namespace oiler

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "oiler/core/require.hpp"
+#include "oiler/physics/contacts/near.hpp"
+#include "oiler/physics/contacts/root.hpp"
+#include "oiler/sim/any_columns.hpp"
+#include "oiler/sim/bodies.hpp"
+#include "oiler/sim/limits.hpp"
+#include "oiler/sim/links/link_force.hpp"
+
+namespace oiler {
+namespace {
+
+template <class T, int Axes>
+Vec<T, Axes> acceleration_of(const Bodies& bodies, const Columns<T, Axes>& columns, std::size_t row,
+                             const State<T, Axes>& state) {
+    Vec<T, Axes> a{};
+    const double time = columns.contacts.obstacles.time();
+    for_each_force<T>(columns, row,
+                      [&](const auto& force) { a += oiler::accelerate(force, state, time); });
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const LinkEnds ends = bodies.link_ends(i);
+        if (ends.row != row && ends.other != row) continue;
+        const Link link = bodies.link_at(i);
+        const std::size_t other = ends.row == row ? ends.other.value_or(row) : ends.row;
+        const State<T, Axes> at = ends.other
+                                      ? load<T>(columns.motion, other)
+                                      : State<T, Axes>{converted<Vec<T, Axes>>(ends.point), {}};
+        const LinkForce<T, Axes> force(static_cast<T>(link.stiffness), static_cast<T>(link.damping),
+                                       static_cast<T>(link.rest_length), link.rest_length == 0);
+        a += force.accelerate({state.x - at.x, state.v - at.v}) * (1 / T(columns.mass[row]));
+    }
+    return a;
+}
+
+/// The obstacles that a body touches after the last step, as the next step will find them.
+template <class T, int Axes>
+class TouchSearch {
+public:
+    TouchSearch(const Bodies& bodies, const Columns<T, Axes>& columns, std::size_t row)
+        : obstacles_(columns.contacts.obstacles),
+          radius_(columns.contacts.radius[row]),
+          state_(load<T>(columns.motion, row)),
+          a_(acceleration_of(bodies, columns, row, state_)) {
+        if (radius_ == Contacts<T, Axes>::no_contact) return;
+        obstacles_.find_near(state_.x, T(0), radius_, obstacles_.tick(), obstacles_.dt(), nears_);
+        for (Near<T, Axes>& near : nears_) {
+            renew_normal(near, state_.x, T(0));
+            near.velocity =
+                obstacles_.velocity_now(near.index) + belt_velocity(near.obstacle, near.normal);
+            if (near.obstacle.bounded)
+                renew_sides(near, state_.x, state_.v - near.velocity,
+                            hidden_distance(near.obstacle, state_, radius_, T(0)));
+        }
+        const auto touches = [&](const Near<T, Axes>& near) { return this->touches(near); };
+        hide_joints(std::span(nears_), state_.x, T(0), radius_, touches);
+        std::erase_if(nears_, [&](const auto& near) { return near.hidden || !touches(near); });
+        for (Near<T, Axes>& near : nears_) near.bears = !leaves(near);
+    }
+
+    [[nodiscard]] const std::vector<Near<T, Axes>>& touches() const { return nears_; }
+    /// The forces on the body, per unit mass, m/s².
+    [[nodiscard]] const Vec<T, Axes>& acceleration() const { return a_; }
+    [[nodiscard]] Support<T, Axes> support() const {
+        return Support<T, Axes>::against(a_, nears_, [](const auto& near) { return near.bears; });
+    }
+
+private:
+    [[nodiscard]] T speed() const { return largest(a_) * obstacles_.dt(); }
+    [[nodiscard]] bool touches(const Near<T, Axes>& near) const {
+        const T noise = hidden_distance(near.obstacle, state_, radius_, obstacles_.dt()) +
+                        8 * std::numeric_limits<T>::epsilon() * speed() * obstacles_.dt();
+        const T distance = gap(near, state_.x, T(0), radius_);
+        if (distance > noise) return false;
+        return !near.obstacle.is_one_way() ||
+               (distance >= -2 * noise && bears_from(near.obstacle, near.normal));
+    }
+    [[nodiscard]] bool leaves(const Near<T, Axes>& near) const {
+        const T noise = hidden_speed(state_.v) + hidden_speed(near.velocity) +
+                        8 * std::numeric_limits<T>::epsilon() * speed();
+        return leaving_speed(near, state_.v - near.velocity) > noise;
+    }
+
+    const Obstacles<T, Axes>& obstacles_;
+    T radius_;
+    State<T, Axes> state_;
+    Vec<T, Axes> a_;
+    std::vector<Near<T, Axes>> nears_;
+};
+
+/// The place along a way where a ball first touches a convex obstacle; 0 if it starts in it.
+template <class T, int Axes>
+std::optional<T> fraction_to(const ObstacleOf<T, Axes>& obstacle, const Vec<T, Axes>& from,
+                             const Vec<T, Axes>& way, T radius) {
+    const auto distance = [&](T at) { return gap(obstacle, from + way * at, radius); };
+    const auto nearing = [&](T at) { return -dot(normal(obstacle, from + way * at), way); };
+    const T start = distance(0);
+    if (start < 0) return T(0);
+    if (!(nearing(0) > 0)) return std::nullopt;
+    // The gap is convex along the way: it falls up to the nearest place.
+    T nearest = 1;
+    if (nearing(1) < 0)
+        nearest = narrow_bracket<T>(nearing, {0, 1}, nearing(0), nearing(1), T(0)).before;
+    const T least = distance(nearest);
+    if (!(least < 0)) return std::nullopt;
+    return narrow_bracket<T>(distance, {0, nearest}, start, least, T(0)).before;
+}
+
+}  // namespace
+
+std::vector<Touch> Bodies::touches(std::size_t row) const {
+    require_row(row);
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        const TouchSearch<T, Axes> search(*this, columns, row);
+        const auto support = search.support();
+        std::vector<Touch> touches;
+        for (const Near<T, Axes>& near : search.touches())
+            touches.push_back({handle_of(near.index), converted<Vec3>(near.normal),
+                               converted<Vec3>(near.velocity), support.has(near)});
+        return touches;
+    });
+}
+
+std::optional<Touch> Bodies::ground(std::size_t row) const {
+    const Vec3 pull = columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        return converted<Vec3>(TouchSearch<T, Axes>(*this, columns, row).acceleration());
+    });
+    std::optional<Touch> ground;
+    for (const Touch& touch : touches(row))
+        if (touch.bears && (!ground || dot(touch.normal, pull) < dot(ground->normal, pull)))
+            ground = touch;
+    return ground;
+}
+
+void Bodies::drop_through(std::size_t row) {
+    require_row(row);
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
+        const TouchSearch<T, Axes> search(*this, columns, row);
+        State<T, Axes> state = load<T>(columns.motion, row);
+        const T radius = columns.contacts.radius[row];
+        for (const Near<T, Axes>& near : search.touches()) {
+            if (!near.obstacle.is_one_way()) continue;
+            const T noise =
+                hidden_distance(near.obstacle, state, radius, columns.contacts.obstacles.dt());
+            state.x -= near.obstacle.one_way * std::max(radius * T(1e-6), 8 * noise);
+        }
+        store(state, columns.motion, row);
+        columns.state_changed(row);
+    });
+}
+
+std::optional<Hit> Bodies::raycast(const Vec3& from, const Vec3& to, double radius) const {
+    const Limits limits(precision(), axes());
+    limits.check(from, "the start of a ray");
+    limits.check(to, "the end of a ray");
+    limits.check(Contact{radius});
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        using Vector = Vec<T, Axes>;
+        const auto& obstacles = columns.contacts.obstacles;
+        const Vector start = converted<Vector>(from);
+        const Vector way = converted<Vector>(to) - start;
+        std::optional<Hit> first;
+        for (std::size_t slot = 0; slot < obstacles.slots(); ++slot) {
+            const auto obstacle = obstacles.now(slot);
+            if (obstacle.layers == 0) continue;
+            const auto fraction = fraction_to(obstacle, start, way, static_cast<T>(radius));
+            if (!fraction || (first && !(*fraction < first->fraction))) continue;
+            const Vector centre = start + way * *fraction;
+            const Vector n = normal(obstacle, centre);
+            if (obstacle.is_one_way() && (*fraction == 0 || !bears_from(obstacle, n))) continue;
+            const bool is_inside = *fraction == 0 && gap(obstacle, start, T(radius)) < 0;
+            first = Hit{handle_of(slot), static_cast<double>(*fraction),
+                        converted<Vec3>(centre - n * static_cast<T>(radius)),
+                        is_inside ? Vec3{} : converted<Vec3>(n)};
+        }
+        return first;
+    });
+}
+
+std::vector<ObstacleHandle> Bodies::overlaps(const Vec3& centre, double radius) const {
+    const Limits limits(precision(), axes());
+    limits.check(centre, "the centre of a query");
+    limits.check(Contact{radius});
+    return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
+        const auto& obstacles = columns.contacts.obstacles;
+        std::vector<ObstacleHandle> found;
+        for (std::size_t slot = 0; slot < obstacles.slots(); ++slot)
+            if (const auto obstacle = obstacles.now(slot);
+                obstacle.layers != 0 &&
+                gap(obstacle, converted<Vec<T, Axes>>(centre), static_cast<T>(radius)) < 0)
+                found.push_back(handle_of(slot));
+        return found;
+    });
+}
+
+}  // namespace oiler

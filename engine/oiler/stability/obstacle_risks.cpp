@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "oiler/core/error.hpp"
+#include "oiler/stability/obstacle_gap.hpp"
+#include "oiler/stability/risks.hpp"
+
+namespace oiler {
+namespace {
+
+/// Limit of bodies × obstacles that are tried.
+constexpr std::size_t most_pairs = 4'000'000;
+
+std::string_view name_of(const CircleShape&) { return "circle"; }
+std::string_view name_of(const SegmentShape&) { return "segment"; }
+std::string_view name_of(const BoxShape&) { return "box"; }
+std::string_view name_of(const HalfSpaceShape&) { return "plane"; }
+
+Vec3 centre_of(const CircleShape& circle) { return circle.centre; }
+Vec3 centre_of(const SegmentShape& segment) { return (segment.from + segment.to) / 2; }
+Vec3 centre_of(const BoxShape& box) { return box.centre; }
+Vec3 centre_of(const HalfSpaceShape&) { return {}; }
+
+/// "the box at (1, 2.5)".
+std::string describe(const Shape& shape, int axes) {
+    std::string at;
+    const Vec3 centre = std::visit([](const auto& one) { return centre_of(one); }, shape);
+    for (int i = 0; i < axes; ++i) at += fmt::format("{}{:.4g}", i > 0 ? ", " : "", centre[i]);
+    return fmt::format("the {} at ({})",
+                       std::visit([](const auto& one) { return name_of(one); }, shape), at);
+}
+
+std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
+    std::vector<Obstacle> met;
+    for (const ObstacleHandle handle : bodies.obstacles()) {
+        Obstacle one = bodies.obstacle(handle);
+        if (!std::holds_alternative<HalfSpaceShape>(one.shape) && !one.one_way)
+            met.push_back(std::move(one));
+    }
+    return met;
+}
+
+std::string start_inside(const Obstacle& obstacle, double depth, int axes) {
+    return fmt::format(
+        "body {{}} starts {:.3g} m inside {}, and is lifted out of it at once: move it", depth,
+        describe(obstacle.shape, axes));
+}
+
+bool is_segment(const Obstacle& obstacle) {
+    return std::holds_alternative<SegmentShape>(obstacle.shape);
+}
+
+}  // namespace
+
+void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks) {
+    constexpr double hidden = 1e-9;  // of the numbers of the gap
+    const std::vector<Obstacle> obstacles = met_from_all_sides(bodies);
+    if (obstacles.empty()) return;
+    const bool any_segment = std::ranges::any_of(obstacles, is_segment);
+    const auto tell = [&](std::size_t row, std::string message) {
+        risks.push_back({.row = row, .of = Risk::Of::told, .message = std::move(message)});
+    };
+    const std::size_t rows = std::min(bodies.size(), most_pairs / obstacles.size());
+    for (std::size_t row = 0; row < rows; ++row) {
+        const auto contact = bodies.contact(row);
+        if (!contact) continue;
+        if (contact->radius == 0 && any_segment)
+            tell(row,
+                 "body {} is a point, which passes segments: give its contact a radius above 0");
+        const Vec3 x = bodies.position(row);
+        for (const Obstacle& obstacle : obstacles) {
+            const double inside = -gap(obstacle.shape, x, contact->radius, bodies.axes());
+            if (!(inside > hidden * (largest(x) + contact->radius))) continue;
+            tell(row, start_inside(obstacle, inside, bodies.axes()));
+            break;
+        }
+    }
+}
+
+}  // namespace oiler
