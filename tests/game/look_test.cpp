@@ -77,6 +77,40 @@ TEST(Look, PlanesAreGround) {
     EXPECT_EQ(left, 5) << "x ≤ 5 is free";
 }
 
+TEST(Look, ObstaclesAreDrawnWhereTheyAre) {
+    World world(2, Settings{});
+    const Vec3 velocity{3, -4};
+    world.add_obstacle({.shape = CircleShape{{1, 2}, 0.5}, .velocity = velocity});
+    world.add_obstacle({.shape = BoxShape{{4, 2}, {2, 1}}, .velocity = velocity});
+    world.add_obstacle({.shape = SegmentShape{{0, 5}, {2, 6}}, .velocity = velocity});
+    const Picture before = draw_looks(world, {});
+    world.step(25);  // a quarter of a second
+    const Picture after = draw_looks(world, {});
+    const Picture half = between(before, after, 0.5F);
+    ASSERT_EQ(after.discs.size(), 1U);
+    EXPECT_EQ(after.discs[0].centre, (Point{1.75F, 1}));
+    EXPECT_EQ(after.discs[0].radius, 0.5F);
+    EXPECT_EQ(half.discs[0].centre, (Point{1.375F, 1.5F}));
+    ASSERT_EQ(after.polygons.size(), 1U);
+    EXPECT_EQ(after.polygons[0].points,
+              (std::vector<Point>{{3.75F, 0.5F}, {5.75F, 0.5F}, {5.75F, 1.5F}, {3.75F, 1.5F}}));
+    EXPECT_EQ(half.polygons[0].points[0], (Point{3.375F, 1}));
+    ASSERT_EQ(after.polylines.size(), 2U) << "the rim of the circle, and the segment";
+    EXPECT_EQ(after.polylines[1].points, (std::vector<Point>{{0.75F, 4}, {2.75F, 5}}));
+    EXPECT_EQ(half.polylines[1].points[0], (Point{0.375F, 4.5F}));
+}
+
+// The line is on the sides within 60° of the direction: of a box two, if it is diagonal.
+TEST(Look, OneWayObstaclesHaveALineOnTheirSide) {
+    World world(2, Settings{});
+    world.add_obstacle({.shape = BoxShape{{0, 0}, {2, 2}}, .one_way = Vec3{1, 1}});
+    const Picture picture = draw_looks(world, {});
+    ASSERT_EQ(picture.polylines.size(), 2U);
+    EXPECT_EQ(picture.polylines[0].points, (std::vector<Point>{{1, -1}, {1, 1}}));
+    EXPECT_EQ(picture.polylines[1].points, (std::vector<Point>{{1, 1}, {-1, 1}}));
+    EXPECT_LT(picture.polygons.at(0).colour.a, 255);
+}
+
 TEST(Look, IsPartOfTheStateHash) {
     const auto hash_with = [](const Look& look) {
         World world(1, Settings{});

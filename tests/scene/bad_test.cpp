@@ -91,6 +91,16 @@ const Values no_counts{{"6", "6"},
                        {"[3.0, 2.0]", "3"},
                        {"[1000000000, 1]", "1000000000"},
                        {"[\"3\", \"2\"]", "the text \"3\""}};
+const Values no_points{{"0.5", "0.5"},
+                       {"\"0, 1\"", "the text \"0, 1\""},
+                       {"{}", "a table"},
+                       {"[0.0, 1.0]", "0"},
+                       {"[[0.0, 0.0], [1.0]]", "a list of 1"},
+                       {"[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]", "a list of 3"},
+                       {"[[0.0, nan], [1.0, 1.0]]", "nan"},
+                       {"[[0.0, 0.0], [\"1\", 1.0]]", "the text \"1\""}};
+const Values no_lines{{"7", "7"},      {"true", "true"},         {"\"###\"", "the text \"###\""},
+                      {"[1, 2]", "1"}, {"[\"##\", 0.5]", "0.5"}, {"[[\"##\"]]", "a list of 1"}};
 const Values no_method = no_text + texts({""}) + with_hint("rk5", "rk4") +
                          with_hint("Velocity_Verlet", "velocity_verlet") +
                          with_hint("semi implicit euler", "semi_implicit_euler");
@@ -111,12 +121,20 @@ const Values too_fast{
 const Values too_many{{"0", "0"}, {"1000001", "1000001"}, {"1000000000", "1000000000"}};
 
 const std::vector<Refusal> refusals{
-    {"a text in quotes", "scene.title body.name spring.body spring.to wind.body drive.body",
+    {"a text in quotes",
+     "scene.title body.name spring.body spring.to wind.body drive.body obstacle.name "
+     "tiles.one_way",
      no_text},
+    {"one of circle, box, segment", "obstacle.shape",
+     no_text + texts({"ellipse", ""}) + with_hint("Circle", "circle")},
+    {"a list of points, each a list of 2 numbers, for the 2 axes, in m", "chain.points", no_points},
+    {"a list of texts in quotes", "tiles.rows", no_lines},
     {words_of_colour,
-     "body.colour spring.colour attractor.colour plane.colour grid.colour scatter.colour",
+     "body.colour spring.colour attractor.colour plane.colour grid.colour scatter.colour "
+     "obstacle.colour chain.colour tiles.colour",
      no_colour},
-    {"true or false", "grid.diagonals", texts({"yes"}) + Values{{"1", "1"}, {"[]", "a list of 0"}}},
+    {"true or false", "grid.diagonals chain.closed",
+     texts({"yes"}) + Values{{"1", "1"}, {"[]", "a list of 0"}}},
     {"one of none, corners, top", "grid.hang",
      no_text + texts({"bottom"}) + with_hint("corner", "corners")},
     {"one of float, double", "scene.precision", no_text + texts({"half", "single", "long double"})},
@@ -130,27 +148,35 @@ const std::vector<Refusal> refusals{
      no_whole + Values{{"9223372036854775807", "9223372036854775807"}}},
     {"a list of 2 numbers, for the 2 axes, in m",
      "body.position spring.anchor attractor.position grid.origin scatter.position_from "
-     "scatter.position_to camera.centre",
+     "scatter.position_to camera.centre obstacle.centre obstacle.size obstacle.from obstacle.to "
+     "tiles.origin",
      no_vector},
     {"a list of 2 numbers, for the 2 axes, in m/s",
-     "body.velocity wind.velocity grid.velocity scatter.velocity_from scatter.velocity_to",
+     "body.velocity wind.velocity grid.velocity scatter.velocity_from scatter.velocity_to "
+     "obstacle.velocity chain.velocity",
      no_vector},
     {"a list of 2 numbers, for the 2 axes, in m/s²", "gravity.acceleration", no_vector},
     {"a list of 2 numbers, for the 2 axes, in N", "drive.amplitude", no_vector},
-    {"a list of 2 numbers, for the 2 axes", "plane.normal", no_vector},
+    {"a list of 2 numbers, for the 2 axes", "plane.normal obstacle.one_way chain.one_way",
+     no_vector},
     {"a number, in m", "plane.offset", no_number + long_texts},
-    {"a number, in rad", "drive.phase", no_number},
+    {"a number, in rad", "drive.phase obstacle.angle", no_number},
+    {"a number, in m/s", "obstacle.belt chain.belt", no_number},
     {"a number above 0, in kg", "body.mass grid.mass scatter.mass", no_number + to_0},
     {"a number above 0, in m",
-     "body.radius attractor.radius grid.spacing grid.radius scatter.radius budget.position_error",
+     "body.radius attractor.radius grid.spacing grid.radius scatter.radius budget.position_error "
+     "obstacle.radius tiles.tile",
      no_number + to_0},
     {"a number above 0, in m³/s²", "attractor.gm", no_number + to_0},
     {"a number above 0", "budget.energy_drift", no_number + to_0},
     {"a number above 0 to 1000000000, in s", "scene.duration", no_number + to_0 + too_long},
     {"a number from 1e-30 to 1e+30, in m", "camera.height",
      no_number + to_0 + Values{{"1e300", "1e+300"}}},
-    {"a number from 0 to 1", "plane.restitution", no_number + below_0 + Values{{"1.1", "1.1"}}},
-    {"a number of at least 0", "plane.friction", no_number + below_0},
+    {"a number from 0 to 1",
+     "plane.restitution obstacle.restitution chain.restitution tiles.restitution",
+     no_number + below_0 + Values{{"1.1", "1.1"}}},
+    {"a number of at least 0", "plane.friction obstacle.friction chain.friction tiles.friction",
+     no_number + below_0},
     {"a number of at least 0, in m",
      "body.contact spring.rest_length grid.rest_length grid.contact scatter.contact",
      no_number + below_0},
@@ -244,7 +270,8 @@ TEST(BadKeys, EveryKeyNamesWhatItExpectsAndWhatItGot) {
 const std::string required =
     "scene.axes gravity.acceleration spring.body spring.stiffness wind.body wind.velocity "
     "wind.drag drive.body drive.amplitude drive.frequency attractor.gm plane.normal grid.count "
-    "grid.spacing grid.stiffness scatter.count scatter.position_from scatter.position_to";
+    "grid.spacing grid.stiffness scatter.count scatter.position_from scatter.position_to "
+    "obstacle.shape chain.points tiles.tile tiles.rows";
 
 TEST(BadKeys, EveryKeyOfTheTableIsTried) {
     std::map<std::string, int> tried;
@@ -289,6 +316,13 @@ TEST(BadKeys, MisspeltKeysAreRefusedWithTheRightOne) {
         {"drive", "bod body amplitud amplitude frequenzy frequency phaze phase"},
         {"attractor", "postion position raduis radius color colour"},
         {"plane", "norml normal offsett offset restituton restitution frictoin friction"},
+        {"obstacle", "nam name shap shape center centre raduis radius siz size angel angle"},
+        {"obstacle", "fron from too to restituton restitution frictoin friction bellt belt"},
+        {"obstacle", "velocitty velocity oneway one_way color colour"},
+        {"chain", "point points close closed restituton restitution frictoin friction"},
+        {"chain", "bellt belt velocitty velocity one-way one_way color colour"},
+        {"tiles", "orgin origin tiles tile row rows oneway one_way restituton restitution"},
+        {"tiles", "frictoin friction color colour"},
         {"grid", "cuont count orgin origin spaceing spacing velocitys velocity masss mass"},
         {"grid", "linear-drag linear_drag quadraticdrag quadratic_drag contacts contact"},
         {"grid", "stifness stiffness dampening damping restlength rest_length hangs hang"},

@@ -8,6 +8,7 @@
 namespace oiler::test {
 
 /// A scene with every key. Every number has an effect: all bodies move, and no force on them is 0.
+/// Each body of the scatter meets an obstacle in the first step: a tile, the chain and the circle.
 inline const std::string everything = R"(
 [scene]
 title = "Everything"
@@ -73,6 +74,48 @@ colour = "black"
 [[plane]]
 normal = [-1.0, 0.25]
 offset = -0.5
+restitution = 0.5
+friction = 0.3
+colour = "green"
+
+[[obstacle]]
+name = "peg"
+shape = "circle"
+centre = [-0.7, 1.2313]
+radius = 0.3
+restitution = 0.5
+friction = 0.03
+belt = 0.5
+velocity = [0.1, -0.2]
+one_way = [0.0, -1.0]
+colour = "green"
+
+[[obstacle]]
+shape = "box"
+centre = [-3.0, -1.0]
+size = [1.0, 0.5]
+angle = 0.5
+
+[[obstacle]]
+shape = "segment"
+from = [-3.0, 1.0]
+to = [-2.0, 1.5]
+
+[[chain]]
+points = [[0.0, 0.3], [0.02, 0.8], [1.0, 1.0]]
+closed = false
+restitution = 0.5
+friction = 0.3
+belt = 0.5
+velocity = [0.1, -0.2]
+one_way = [-1.0, 0.0]
+colour = "green"
+
+[[tiles]]
+origin = [-0.35, -0.0624]
+tile = 0.2
+rows = ["##......=", ". "]
+one_way = "="
 restitution = 0.5
 friction = 0.3
 colour = "green"

@@ -256,6 +256,73 @@ TEST(MakeWorld, TakesThePrecisionOfTheRun) {
                       "a position of -"));
 }
 
+std::vector<Obstacle> obstacles_in(const World& world) {
+    std::vector<Obstacle> all;
+    for (const ObstacleHandle handle : world.bodies().obstacles())
+        all.push_back(world.bodies().obstacle(handle));
+    return all;
+}
+
+const std::string obstacle_scene = "[scene]\naxes = 2\n[[body]]\nposition = [0, 9]\n";
+
+// A triangle has three sides, an open chain of three points two.
+TEST(MakeWorld, AChainIsItsSegments) {
+    for (const bool closed : {false, true}) {
+        const std::string text = obstacle_scene +
+                                 "[[chain]]\npoints = [[0, 0], [4, 0], [0, 3]]\nfriction = 0.25\n" +
+                                 (closed ? "closed = true\n" : "");
+        const std::vector<Obstacle> sides = obstacles_in(world_of(text));
+        std::vector<Shape> expected{SegmentShape{{0, 0}, {4, 0}}, SegmentShape{{4, 0}, {0, 3}}};
+        if (closed) expected.emplace_back(SegmentShape{{0, 3}, {0, 0}});
+        ASSERT_EQ(sides.size(), expected.size());
+        for (std::size_t i = 0; i < sides.size(); ++i)
+            EXPECT_EQ(sides[i], (Obstacle{.shape = expected[i], .friction = 0.25})) << i;
+    }
+}
+
+TEST(MakeWorld, TilesAreBoxesFromTheTopRowOn) {
+    const World world = world_of(obstacle_scene +
+                                 "[[tiles]]\norigin = [10, -1]\ntile = 0.5\n"
+                                 "rows = [\"x\", \" =.\", \"#. x\"]\none_way = \"=\"\n"
+                                 "restitution = 0.75\n");
+    const auto tile = [](double x, double y, bool one_way) {
+        Obstacle box{.shape = BoxShape{.centre = {x, y}, .size = {0.5, 0.5}}, .restitution = 0.75};
+        if (one_way) box.one_way = Vec3{0, 1};
+        return box;
+    };
+    EXPECT_EQ(obstacles_in(world),
+              (std::vector<Obstacle>{tile(10.25, 0.25, false), tile(10.75, -0.25, true),
+                                     tile(10.25, -0.75, false), tile(11.75, -0.75, false)}));
+}
+
+TEST(MakeWorld, TilesWithThreeAxesAreCubes) {
+    const World world = world_of(
+        "[scene]\naxes = 3\n[[body]]\n[[tiles]]\norigin = [0, 0, 5]\ntile = 2\nrows = [\"#\"]\n");
+    EXPECT_EQ(obstacles_in(world),
+              (std::vector<Obstacle>{{.shape = BoxShape{.centre = {1, 1, 6}, .size = {2, 2, 2}}}}));
+}
+
+TEST(MakeWorld, OrdersObstaclesByTables) {
+    const std::vector<Obstacle> all = obstacles_in(world_of(everything));
+    std::vector<std::size_t> kinds;
+    for (const Obstacle& one : all) kinds.push_back(one.shape.index());
+    const std::vector<std::size_t> plane_circle_box_segment_chain_tiles{0, 1, 3, 2, 2, 2, 3, 3, 3};
+    EXPECT_EQ(kinds, plane_circle_box_segment_chain_tiles);
+}
+
+// A ball of radius 0.25 m falls 1 m from rest onto a tile of top 0.5 m, which returns half of its
+// speed: it rises to a quarter of the height, after 3/2 of the time of its fall.
+TEST(MakeWorld, BodiesBounceOffTiles) {
+    World world = world_of(
+        "[scene]\naxes = 2\nrate = 200\nmethod = 'velocity_verlet'\n[gravity]\n"
+        "acceleration = [0, -8]\n[[body]]\nposition = [0.75, 1.75]\ncontact = 0.25\n"
+        "[[tiles]]\ntile = 0.5\nrows = [\"##\"]\nrestitution = 0.5\n");
+    world.step(150);  // the fall takes √(2/8) = 0.5 s
+    EXPECT_NEAR(world.bodies().position(0)[1], 0.75 + 0.25, 1e-12);
+    EXPECT_NEAR(world.bodies().velocity(0)[1], 0, 1e-12);
+    EXPECT_NEAR(world.bodies().position(0)[0], 0.75, 1e-12);
+}
+
 Picture drawn(const Scene& scene) {
     const World world = make_world(scene, Settings{scene.stepping});
     return draw_scene(scene, world, camera_of(scene, world));
@@ -267,9 +334,18 @@ bool holds_disc(const Picture& picture, Point centre, float radius, Colour colou
     });
 }
 
+template <class Element>
+void expect_distinct_keys(const std::vector<Element>& elements) {
+    for (auto a = elements.begin(); a != elements.end(); ++a)
+        for (auto b = a + 1; b != elements.end(); ++b)
+            if (a->key.object != 0) {
+                EXPECT_NE(a->key, b->key);
+            }
+}
+
 TEST(DrawScene, ShowsBodiesAttractorsAndAnchors) {
     const Picture picture = drawn(parsed(everything));
-    EXPECT_EQ(picture.discs.size(), 12U + 1 + 1);
+    EXPECT_EQ(picture.discs.size(), 12U + 1 + 1 + 1);
     EXPECT_TRUE(holds_disc(picture, {0.5F, 0.25F}, 0.3F, palette::orange));
     EXPECT_TRUE(holds_disc(picture, {5, 5}, 0.2F, palette::black));
     EXPECT_TRUE(holds_disc(picture, {0, 1}, 12 / 200.0F, palette::ink));
@@ -279,27 +355,102 @@ TEST(DrawScene, ShowsBodiesAttractorsAndAnchors) {
     EXPECT_EQ(picture.labels.at(1).text, "velocity_verlet at 100 Hz, double   t = 0.00 s");
 }
 
-// A plane and two springs. A grid of 3 × 2 bodies has threads for two rows, three columns and four
-// diagonals.
-TEST(DrawScene, ShowsSpringsFromEndToEnd) {
-    const Picture picture = drawn(parsed(everything));
-    ASSERT_EQ(picture.polylines.size(), 1U + 2 + 2 + 3 + 2 + 2);
-    EXPECT_EQ(picture.polylines[1].points.front(), (Point{0, 1}));
-    EXPECT_EQ(picture.polylines[1].points.back(), (Point{0.5F, 0.25F}));
-    EXPECT_EQ(picture.polylines[2].points.front(), (Point{2, 0}));
-    EXPECT_EQ(picture.polylines[3].points, (std::vector<Point>{{6, 0}, {7, 0}, {8, 0}}));
-    EXPECT_EQ(picture.polylines[5].points, (std::vector<Point>{{6, 0}, {6, 1}}));
-    EXPECT_EQ(picture.polylines[8].points, (std::vector<Point>{{6, 0}, {7, 1}}));
-    EXPECT_EQ(picture.polylines[10].points, (std::vector<Point>{{7, 0}, {6, 1}}));
+bool holds_line(const Picture& picture, const std::vector<Point>& points, Colour colour) {
+    return std::ranges::any_of(picture.polylines, [&](const Polyline& line) {
+        return line.points == points && line.colour == colour;
+    });
+}
+bool holds_polygon(const Picture& picture, const std::vector<Point>& points, Colour colour) {
+    return std::ranges::any_of(picture.polygons, [&](const Polygon& polygon) {
+        return polygon.colour == colour && polygon.points == points;
+    });
 }
 
-template <class Element>
-void expect_distinct_keys(const std::vector<Element>& elements) {
-    for (auto a = elements.begin(); a != elements.end(); ++a)
-        for (auto b = a + 1; b != elements.end(); ++b)
-            if (a->key.object != 0) {
-                EXPECT_NE(a->key, b->key);
-            }
+TEST(DrawScene, ShowsObstacles) {
+    const Picture picture = drawn(
+        parsed(obstacle_scene +
+               "[[obstacle]]\nshape = 'circle'\ncentre = [1, 2]\nradius = 0.5\ncolour = 'green'\n"
+               "[[obstacle]]\nshape = 'box'\ncentre = [4, 2]\nsize = [2, 1]\n"
+               "[[obstacle]]\nshape = 'segment'\nfrom = [0, 5]\nto = [2, 6]\n"
+               "[[chain]]\npoints = [[0, 0], [4, 0], [0, 3]]\nclosed = true\ncolour = 'ink'\n"
+               "[[tiles]]\norigin = [8, 0]\ntile = 1\nrows = [\"##.#\"]\n"));
+    EXPECT_TRUE(holds_disc(picture, {1, 2}, 0.5F, palette::green));
+    EXPECT_TRUE(
+        holds_polygon(picture, {{3, 1.5F}, {5, 1.5F}, {5, 2.5F}, {3, 2.5F}}, palette::grey));
+    EXPECT_TRUE(holds_line(picture, {{0, 5}, {2, 6}}, palette::grey));
+    EXPECT_TRUE(holds_line(picture, {{0, 0}, {4, 0}, {0, 3}, {0, 0}}, palette::ink));
+    EXPECT_TRUE(holds_polygon(picture, {{8, 0}, {10, 0}, {10, 1}, {8, 1}}, palette::grey));
+    EXPECT_TRUE(holds_polygon(picture, {{11, 0}, {12, 0}, {12, 1}, {11, 1}}, palette::grey));
+    EXPECT_EQ(picture.polygons.size(), 3U) << "tiles beside each other are one polygon";
+    EXPECT_FLOAT_EQ(picture.camera.centre.x, 6) << "the camera sees the obstacles from 0 to 12 m";
+}
+
+TEST(DrawScene, ShowsTheSideFromWhichOneWayObstaclesAreMet) {
+    const Picture picture = drawn(
+        parsed(obstacle_scene +
+               "[[obstacle]]\nshape = 'box'\ncentre = [4, 2]\nsize = [2, 1]\none_way = [0, 1]\n"
+               "[[obstacle]]\nshape = 'circle'\ncentre = [0, 0]\nradius = 2\none_way = [0, 3]\n"
+               "[[chain]]\npoints = [[0, 5], [2, 5], [2, 8]]\none_way = [0, 1]\n"
+               "[[tiles]]\norigin = [8, 0]\ntile = 1\nrows = [\"#==\"]\none_way = '='\n"));
+    const Colour faded = palette::faded(palette::grey, 90);
+    EXPECT_TRUE(holds_polygon(picture, {{3, 1.5F}, {5, 1.5F}, {5, 2.5F}, {3, 2.5F}}, faded));
+    EXPECT_TRUE(holds_line(picture, {{5, 2.5F}, {3, 2.5F}}, palette::grey)) << "the top only";
+    EXPECT_TRUE(holds_disc(picture, {0, 0}, 2, faded));
+    // An arc of 60° on both sides of the top.
+    const auto arc = std::ranges::find_if(
+        picture.polylines, [](const Polyline& line) { return line.points.size() == 25; });
+    ASSERT_NE(arc, picture.polylines.end());
+    EXPECT_NEAR(arc->points.front().x, std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(arc->points.front().y, 1, 1e-6);
+    EXPECT_NEAR(arc->points[12].y, 2, 1e-6);
+    // Below the level part of the chain there is a strip; none beside the steep one.
+    const float shade = picture.camera.height / 60;
+    EXPECT_TRUE(holds_polygon(picture, {{0, 5}, {2, 5}, {2, 5 - shade}, {0, 5 - shade}}, faded));
+    EXPECT_TRUE(holds_polygon(picture, {{8, 0}, {9, 0}, {9, 1}, {8, 1}}, palette::grey));
+    EXPECT_TRUE(holds_polygon(picture, {{9, 0}, {11, 0}, {11, 1}, {9, 1}}, faded));
+    EXPECT_EQ(picture.polygons.size(), 1U + 1 + 2);
+    EXPECT_EQ(picture.polylines.size(), 1U + 1 + 1 + 1);
+}
+
+// In one step of 1/100 s each obstacle moves by 0.03 m to the right and 0.04 m down.
+TEST(DrawScene, MovingObstaclesAreDrawnWhereTheyAreAndInterpolated) {
+    const std::string moves = "velocity = [3, -4]\n";
+    const Scene scene =
+        parsed(obstacle_scene + "[[obstacle]]\nshape = 'circle'\ncentre = [1, 2]\nradius = 0.5\n" +
+               moves + "[[obstacle]]\nshape = 'box'\ncentre = [4, 2]\nsize = [2, 1]\n" + moves +
+               "[[chain]]\npoints = [[0, 0], [4, 0], [0, 3]]\n" + moves);
+    World world = make_world(scene, Settings{scene.stepping});
+    const Camera camera = camera_of(scene, world);
+    const Picture before = draw_scene(scene, world, camera);
+    world.step();
+    const Picture after = draw_scene(scene, world, camera);
+    const Picture half = between(before, after, 0.5F);
+    const auto expect_moved = [](Point from, Point at, float share) {
+        EXPECT_NEAR(at.x, from.x + 0.03F * share, 1e-6F);
+        EXPECT_NEAR(at.y, from.y - 0.04F * share, 1e-6F);
+    };
+    for (const auto& [picture, share] : {std::pair{&after, 1.0F}, {&half, 0.5F}}) {
+        expect_moved(before.discs[0].centre, picture->discs[0].centre, share);
+        for (std::size_t i = 0; i < 4; ++i)
+            expect_moved(before.polygons[0].points[i], picture->polygons[0].points[i], share);
+        for (std::size_t i = 0; i < 3; ++i)
+            expect_moved(before.polylines[0].points[i], picture->polylines[0].points[i], share);
+    }
+    expect_distinct_keys(before.polylines);
+}
+
+// A plane, an arc, a segment, a chain, the top of a tile, and two springs. A grid of 3 × 2 bodies
+// has threads for two rows, three columns and four diagonals.
+TEST(DrawScene, ShowsSpringsFromEndToEnd) {
+    const Picture picture = drawn(parsed(everything));
+    ASSERT_EQ(picture.polylines.size(), 1U + 4 + 2 + 2 + 3 + 2 + 2);
+    EXPECT_EQ(picture.polylines[5].points.front(), (Point{0, 1}));
+    EXPECT_EQ(picture.polylines[5].points.back(), (Point{0.5F, 0.25F}));
+    EXPECT_EQ(picture.polylines[6].points.front(), (Point{2, 0}));
+    EXPECT_EQ(picture.polylines[7].points, (std::vector<Point>{{6, 0}, {7, 0}, {8, 0}}));
+    EXPECT_EQ(picture.polylines[9].points, (std::vector<Point>{{6, 0}, {6, 1}}));
+    EXPECT_EQ(picture.polylines[12].points, (std::vector<Point>{{6, 0}, {7, 1}}));
+    EXPECT_EQ(picture.polylines[14].points, (std::vector<Point>{{7, 0}, {6, 1}}));
 }
 
 TEST(DrawScene, GivesEachMovingElementItsOwnKey) {
@@ -322,7 +473,7 @@ TEST(DrawScene, InterpolatesBetweenTwoSteps) {
     for (std::size_t i = 0; i < half.discs.size(); ++i)
         EXPECT_FLOAT_EQ(half.discs[i].centre.x,
                         before.discs[i].centre.x / 2 + after.discs[i].centre.x / 2);
-    EXPECT_NE(half.polylines[1].points.back(), before.polylines[1].points.back());
+    EXPECT_NE(half.polylines[5].points.back(), before.polylines[5].points.back());
 }
 
 TEST(Camera, FitsTheStartOfTheScene) {

@@ -36,6 +36,8 @@ std::string other_value(const SceneKey& key) {
     if (is(key, "scene", "precision")) return "\"float\"";
     if (is(key, "scene", "damping")) return "\"drift\"";
     if (is(key, "grid", "hang")) return "\"top\"";
+    if (is(key, "chain", "closed")) return "true";
+    if (is(key, "tiles", "one_way")) return "\"#\"";
     switch (key.kind) {
         case KeyKind::text:
             return "\"other\"";
@@ -47,6 +49,10 @@ std::string other_value(const SceneKey& key) {
             return "false";
         case KeyKind::vector:
             return "[0.625, 0.125]";
+        case KeyKind::points:
+            return "[[0.0, 0.25], [0.125, 0.75]]";
+        case KeyKind::lines:
+            return "[\"=#\", \"#\"]";
         case KeyKind::counts:
             return "[2, 3]";
         case KeyKind::word:
@@ -77,17 +83,29 @@ bool look_the_same(const Picture& a, const Picture& b) {
     const auto same_line = [](const Polyline& one, const Polyline& other) {
         return one.points == other.points && one.colour == other.colour;
     };
+    const auto same_polygon = [](const Polygon& one, const Polygon& other) {
+        return one.points == other.points && one.colour == other.colour;
+    };
     return a.camera.centre == b.camera.centre && a.camera.height == b.camera.height &&
            a.labels.at(0).text == b.labels.at(0).text &&
            std::ranges::equal(a.discs, b.discs, same_disc) &&
+           std::ranges::equal(a.polygons, b.polygons, same_polygon) &&
            std::ranges::equal(a.polylines, b.polylines, same_line);
 }
 
-/// Keys without effect on the state or the picture: they only limit a run.
-bool shows_nothing(const SceneKey& key) { return key.table == "budget" || key.name == "duration"; }
-/// Keys that springs refer to or that the length of vectors depends on.
+/// Keys without effect on the state or the picture: they limit a run, or are for messages.
+bool shows_nothing(const SceneKey& key) {
+    return key.table == "budget" || key.name == "duration" || is(key, "obstacle", "name");
+}
+/// Keys that springs refer to, or on which other keys depend.
 bool cannot_change_alone(const SceneKey& key) {
-    return is(key, "body", "name") || is(key, "scene", "axes");
+    return is(key, "body", "name") || is(key, "scene", "axes") || is(key, "obstacle", "shape");
+}
+/// Keys that a table may have to have, as others say.
+bool is_needed_by_some(const SceneKey& key) {
+    constexpr std::array<std::string_view, 5> of_shapes{"centre", "radius", "size", "from", "to"};
+    return is(key, "spring", "anchor") || is(key, "spring", "to") ||
+           (key.table == "obstacle" && std::ranges::count(of_shapes, key.name) > 0);
 }
 
 TEST(Read, ReadsTheStepping) {
@@ -119,9 +137,7 @@ TEST(Read, EveryKeyHasAnEffect) {
 
 TEST(Read, EveryDefaultIsThatOfTheList) {
     for (const SceneKey& key : scene_keys()) {
-        if (key.required() || is(key, "body", "name") || is(key, "spring", "anchor") ||
-            is(key, "spring", "to"))
-            continue;
+        if (key.required() || is(key, "body", "name") || is_needed_by_some(key)) continue;
         const Scene without = parsed(altered(everything, key.table, key.name, ""));
         const Scene with = parsed(altered(everything, key.table, key.name, key.value));
         EXPECT_EQ(without == with, key.absent.empty()) << name_of(key);
@@ -166,6 +182,30 @@ TEST(Read, EveryRangeIsThatOfTheList) {
     }
 }
 
+void expect_obstacles(const Scene& scene) {
+    Obstacle surface{.restitution = 0.5,
+                     .friction = 0.3,
+                     .belt = 0.5,
+                     .velocity = {0.1, -0.2},
+                     .one_way = Vec3{0, -1}};
+    surface.shape = CircleShape{{-0.7, 1.2313}, 0.3};
+    surface.friction = 0.03;
+    EXPECT_EQ(scene.obstacles,
+              (std::vector<SceneObstacle>{
+                  {"peg", surface, palette::green},
+                  {"", {.shape = BoxShape{{-3, -1}, {1, 0.5}, 0.5}}, palette::grey},
+                  {"", {.shape = SegmentShape{{-3, 1}, {-2, 1.5}}}, palette::grey}}));
+    surface.shape = SegmentShape{{0, 0.3}, {0.02, 0.8}};
+    surface.one_way = Vec3{-1, 0};
+    surface.friction = 0.3;
+    EXPECT_EQ(scene.chains,
+              (std::vector<SceneChain>{
+                  {{{0, 0.3}, {0.02, 0.8}, {1, 1}}, false, surface, palette::green}}));
+    EXPECT_EQ(scene.tiles,
+              (std::vector<SceneTiles>{
+                  {{-0.35, -0.0624}, 0.2, {"##......=", ". "}, "=", 0.5, 0.3, palette::green}}));
+}
+
 TEST(Read, ReadsEveryValueOfAFile) {
     const Scene scene = parsed(everything);
     EXPECT_EQ(scene.title, "Everything");
@@ -186,6 +226,7 @@ TEST(Read, ReadsEveryValueOfAFile) {
     ASSERT_EQ(scene.planes.size(), 1U);
     EXPECT_EQ(scene.planes[0].plane, (Plane{{-1, 0.25}, -0.5, 0.5, 0.3}));
     EXPECT_EQ(scene.planes[0].colour, palette::green);
+    expect_obstacles(scene);
     EXPECT_EQ(scene.bodies[0].matter.radius, 0.3);
     EXPECT_EQ(scene.bodies[0].matter.colour, palette::orange);
     EXPECT_EQ(scene.bodies[0].position, (Vec3{0.5, 0.25}));

@@ -40,6 +40,10 @@ std::string type_text(const SceneKey& key) {
             return "true or false";
         case KeyKind::vector:
             return "vector";
+        case KeyKind::points:
+            return "list of vectors";
+        case KeyKind::lines:
+            return "list of texts";
         case KeyKind::counts:
             return "one or two whole numbers" + range_text(key.range);
         case KeyKind::colour:

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "oiler/picture/shapes.hpp"
+#include "oiler/scene/draw_obstacles.hpp"
+#include "oiler/sim/bodies.hpp"
 
 namespace oiler {
 namespace {
@@ -16,10 +18,8 @@ namespace {
 constexpr float large_radius = 1 / 40.0F;
 constexpr float small_radius = 1 / 200.0F;
 
-Point to_point(const Vec3& v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
-
 Point position_of(const World& world, std::size_t row) {
-    return to_point(world.position_of_row(row));
+    return point_of(world.position_of_row(row));
 }
 
 ElementKey key_of(const World& world, std::size_t row, std::size_t part = 0) {
@@ -37,12 +37,29 @@ struct Box {
     }
 };
 
+/// Adds the corners of all obstacles that have an end.
+void add_obstacles(const World& world, Box& box) {
+    for (const ObstacleHandle handle : world.bodies().obstacles()) {
+        const Obstacle obstacle = world.bodies().obstacle(handle);
+        if (const auto* const circle = std::get_if<CircleShape>(&obstacle.shape))
+            for (const double sign : {-1.0, 1.0})
+                box.add(point_of(circle->centre + sign * circle->radius * Vec3{1, 1}));
+        if (const auto* const solid = std::get_if<BoxShape>(&obstacle.shape))
+            for (const Point corner : rectangle(point_of(solid->centre), point_of(solid->size),
+                                                static_cast<float>(solid->angle)))
+                box.add(corner);
+        if (const auto* const segment = std::get_if<SegmentShape>(&obstacle.shape))
+            for (const Vec3& end : {segment->from, segment->to}) box.add(point_of(end));
+    }
+}
+
 Box box_of(const Scene& scene, const World& world) {
     Box box;
     for (std::size_t row = 0; row < world.body_count(); ++row) box.add(position_of(world, row));
     for (const SceneSpring& spring : scene.springs)
-        if (!spring.to) box.add(to_point(spring.anchor));
-    for (const SceneAttractor& attractor : scene.attractors) box.add(to_point(attractor.position));
+        if (!spring.to) box.add(point_of(spring.anchor));
+    for (const SceneAttractor& attractor : scene.attractors) box.add(point_of(attractor.position));
+    add_obstacles(world, box);
     return box;
 }
 
@@ -55,7 +72,7 @@ public:
     }
 
     Picture run() {
-        draw_planes();
+        draw_obstacles(scene_, world_, picture_);
         draw_attractors();
         draw_springs();
         for (const SceneBody& body : scene_.bodies) draw_discs(1, body.matter, large_radius);
@@ -74,31 +91,9 @@ private:
         return given ? static_cast<float>(*given) : part * picture_.camera.height;
     }
 
-    /// Draws planes as lines across the picture.
-    void draw_planes() {
-        const Camera& camera = picture_.camera;
-        const float reach = camera.height * (canvas_width / canvas_height + 1);
-        for (const ScenePlane& one : scene_.planes) {
-            const Plane& plane = one.plane;
-            const Point n = to_point(plane.normal);
-            const float size2 = n.x * n.x + n.y * n.y;
-            if (size2 == 0) continue;
-            const float beyond =
-                static_cast<float>(plane.offset) - n.x * camera.centre.x - n.y * camera.centre.y;
-            const Point at{camera.centre.x + n.x * beyond / size2,
-                           camera.centre.y + n.y * beyond / size2};
-            const float size = std::sqrt(size2);
-            const Point along{-n.y / size * reach, n.x / size * reach};
-            picture_.polylines.push_back(
-                {.points = {{at.x - along.x, at.y - along.y}, {at.x + along.x, at.y + along.y}},
-                 .width = 2,
-                 .colour = one.colour});
-        }
-    }
-
     void draw_attractors() {
         for (const SceneAttractor& attractor : scene_.attractors)
-            picture_.discs.push_back({.centre = to_point(attractor.position),
+            picture_.discs.push_back({.centre = point_of(attractor.position),
                                       .radius = radius(attractor.radius, large_radius),
                                       .colour = attractor.colour});
     }
@@ -118,7 +113,7 @@ private:
         for (std::size_t i = 0; i < scene_.springs.size(); ++i) {
             const SceneSpring& spring = scene_.springs[i];
             const Point from =
-                spring.to ? position_of(world_, *spring.to) : to_point(spring.anchor);
+                spring.to ? position_of(world_, *spring.to) : point_of(spring.anchor);
             if (!spring.to)
                 picture_.discs.push_back(
                     {.centre = from, .radius = radius({}, small_radius), .colour = palette::ink});
@@ -177,7 +172,7 @@ Camera camera_of(const Scene& scene, const World& world) {
     const float height =
         std::max(box.high.y - box.low.y, (box.high.x - box.low.x) * canvas_height / canvas_width);
     camera.height = height > 0 ? margin * height : default_height;
-    if (scene.camera.centre) camera.centre = to_point(*scene.camera.centre);
+    if (scene.camera.centre) camera.centre = point_of(*scene.camera.centre);
     if (scene.camera.height) camera.height = static_cast<float>(*scene.camera.height);
     return camera;
 }

@@ -35,9 +35,19 @@ Words method_words() {
 Words precision_words() { return {name_of(Precision::single), name_of(Precision::double_)}; }
 Words damping_words() { return {name_of(Damping::in_kick), name_of(Damping::in_drift)}; }
 Words hang_words() { return {"none", "corners", "top"}; }
+Words shape_words() { return {"circle", "box", "segment"}; }
 
 constexpr std::string_view required = "required";
 constexpr std::string_view fits = "fits the start";
+constexpr std::string_view of_round = "a circle and a box need it";
+constexpr std::string_view gives_back = "part of the speed into it that a bounce gives back";
+constexpr std::string_view coulomb =
+    "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides";
+constexpr std::string_view clockwise =
+    "speed of its surface, clockwise: on top to the right; with two axes";
+constexpr std::string_view all_sides = "met from all sides";
+constexpr std::string_view side =
+    "direction of the side from which bodies meet it, within 60°; they pass from other sides";
 
 using enum KeyKind;
 constexpr double most = double{most_bodies};
@@ -54,6 +64,9 @@ constexpr auto known_tables = std::to_array<SceneTable>({
     {"drive", force},
     {"attractor", repeated},
     {"plane", repeated},
+    {"obstacle", repeated},
+    {"chain", repeated},
+    {"tiles", repeated},
     {"grid", repeated},
     {"scatter", repeated},
     {"camera", once},
@@ -85,8 +98,8 @@ constexpr std::array known_keys{
              "b of the force −b·v"},
     SceneKey{"body", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "",
              "c of the force −c·|v|·v"},
-    SceneKey{"body", "contact", number, "m", not_negative, "0.5", "passes through planes",
-             "radius of its contact with planes; 0 for a point"},
+    SceneKey{"body", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
+             "radius of its contact with obstacles; 0 for a point"},
     SceneKey{"body", "radius", number, "m", positive, "0.5",
              "`contact` above 0, else 1/40 of the camera's height", "of the disc in the picture"},
     SceneKey{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_names},
@@ -121,9 +134,47 @@ constexpr std::array known_keys{
     SceneKey{"plane", "offset", number, "m", any, "0.0", "", "the plane is where n·x = offset"},
     SceneKey{"plane", "restitution", number, "", from_to(0, 1), "0.0", "",
              "part of the speed into the plane that a bounce gives back"},
-    SceneKey{"plane", "friction", number, "", not_negative, "0.0", "",
-             "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides"},
+    SceneKey{"plane", "friction", number, "", not_negative, "0.0", "", coulomb},
     SceneKey{"plane", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+    SceneKey{"obstacle", "name", text, "", any, "\"peg\"", "no name", "for messages"},
+    SceneKey{"obstacle", "shape", word, "", any, "\"circle\"", required,
+             "with three axes a circle is a sphere", shape_words},
+    SceneKey{"obstacle", "centre", vector, "m", any, "[0.0, 0.0]", of_round, ""},
+    SceneKey{"obstacle", "radius", number, "m", positive, "0.5", "a circle needs it", ""},
+    SceneKey{"obstacle", "size", vector, "m", any, "[2.0, 1.0]", "a box needs it",
+             "lengths of the sides, each above 0"},
+    SceneKey{"obstacle", "angle", number, "rad", any, "0.0", "", "of a box, anticlockwise"},
+    SceneKey{"obstacle", "from", vector, "m", any, "[0.0, 0.0]", "a segment needs it", "one end"},
+    SceneKey{"obstacle", "to", vector, "m", any, "[1.0, 0.5]", "a segment needs it",
+             "the other end; bodies with `contact = 0.0` pass segments"},
+    SceneKey{"obstacle", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
+    SceneKey{"obstacle", "friction", number, "", not_negative, "0.0", "", coulomb},
+    SceneKey{"obstacle", "belt", number, "m/s", any, "0.0", "", clockwise},
+    SceneKey{"obstacle", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
+             "moves, and carries bodies"},
+    SceneKey{"obstacle", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
+    SceneKey{"obstacle", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+    SceneKey{"chain", "points", points, "m", any, "[[0.0, 0.0], [1.0, 0.5]]", required,
+             "ends of its segments"},
+    SceneKey{"chain", "closed", flag, "", any, "false", "",
+             "adds a segment from the last point to the first one"},
+    SceneKey{"chain", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
+    SceneKey{"chain", "friction", number, "", not_negative, "0.0", "", coulomb},
+    SceneKey{"chain", "belt", number, "m/s", any, "0.0", "", clockwise},
+    SceneKey{"chain", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
+             "moves, and carries bodies"},
+    SceneKey{"chain", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
+    SceneKey{"chain", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+    SceneKey{"tiles", "origin", vector, "m", any, "[0.0, 0.0]", "",
+             "lower left corner of the last row"},
+    SceneKey{"tiles", "tile", number, "m", positive, "1.0", required, "side of a tile"},
+    SceneKey{"tiles", "rows", lines, "", any, "[\"#.=#\", \"####\"]", required,
+             "the top row first; every character is a tile, except a space and a full stop"},
+    SceneKey{"tiles", "one_way", text, "", any, "\"=\"", "no tile",
+             "characters of `rows` whose tiles are met only from above"},
+    SceneKey{"tiles", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
+    SceneKey{"tiles", "friction", number, "", not_negative, "0.0", "", coulomb},
+    SceneKey{"tiles", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
     SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
              "bodies in a row, number of rows"},
     SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "",
@@ -143,7 +194,7 @@ constexpr std::array known_keys{
     SceneKey{"grid", "hang", word, "", any, "\"none\"", "",
              "anchored springs: none, at both ends of the top row, at the whole top row",
              hang_words},
-    SceneKey{"grid", "contact", number, "m", not_negative, "0.5", "passes through planes",
+    SceneKey{"grid", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
              "per body; linked bodies bounce at the end of a step, with order 1"},
     SceneKey{"grid", "radius", number, "m", positive, "0.1",
              "`contact` above 0, else 1/200 of the camera's height", ""},
@@ -158,7 +209,7 @@ constexpr std::array known_keys{
     SceneKey{"scatter", "mass", number, "kg", positive, "1.0", "", "per body"},
     SceneKey{"scatter", "linear_drag", number, "N·s/m", not_negative, "0.0", "", "per body"},
     SceneKey{"scatter", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "per body"},
-    SceneKey{"scatter", "contact", number, "m", not_negative, "0.5", "passes through planes",
+    SceneKey{"scatter", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
              "per body"},
     SceneKey{"scatter", "radius", number, "m", positive, "0.1",
              "`contact` above 0, else 1/200 of the camera's height", ""},
@@ -207,6 +258,11 @@ std::string in_range(const ValueRange& range) {
     return "";
 }
 
+std::string numbers_of(int axes) {
+    return axes == 1 ? "a list of one number, for the one axis"
+                     : fmt::format("a list of {0} numbers, for the {0} axes", axes);
+}
+
 std::string kind_text(const SceneKey& key, int axes) {
     switch (key.kind) {
         case text:
@@ -218,8 +274,11 @@ std::string kind_text(const SceneKey& key, int axes) {
         case flag:
             return "true or false";
         case vector:
-            return axes == 1 ? "a list of one number, for the one axis"
-                             : fmt::format("a list of {0} numbers, for the {0} axes", axes);
+            return numbers_of(axes);
+        case points:
+            return "a list of points, each " + numbers_of(axes);
+        case lines:
+            return "a list of texts in quotes";
         case counts:
             return "a list of one or two whole numbers" + in_range(key.range);
         case colour:

@@ -19,6 +19,8 @@ enum class KeyKind {
     number,  ///< with or without a fraction
     flag,
     vector,  ///< a number for each axis
+    points,  ///< a list of vectors
+    lines,   ///< a list of texts
     counts,  ///< one whole number or two
     word,    ///< one of a few texts
     colour,  ///< one of a few words, or "#rrggbb"

@@ -28,7 +28,7 @@ public:
     World run() {
         world_.reserve(static_cast<std::size_t>(scene_.body_count()));
         if (scene_.gravity) world_.set_gravity(*scene_.gravity);
-        for (const ScenePlane& plane : scene_.planes) world_.add_plane(plane.plane);
+        add_obstacles();
         add_bodies();
         for (const SceneGrid& grid : scene_.grids) add_grid(grid);
         for (const SceneScatter& scatter : scene_.scatters) add_scatter(scatter);
@@ -51,6 +51,16 @@ private:
         for (std::size_t index = 1; index < scene_.attractors.size(); ++index)
             world_.attach_at(index, entity, to_force(scene_.attractors[index]));
         return entity;
+    }
+
+    void add_obstacles() {
+        const auto add_all = [&](const std::vector<Obstacle>& obstacles) {
+            for (const Obstacle& obstacle : obstacles) world_.add_obstacle(obstacle);
+        };
+        for (const ScenePlane& plane : scene_.planes) world_.add_plane(plane.plane);
+        for (const SceneObstacle& one : scene_.obstacles) world_.add_obstacle(one.obstacle);
+        for (const SceneChain& chain : scene_.chains) add_all(segments_of(chain));
+        for (const SceneTiles& tiles : scene_.tiles) add_all(boxes_of(tiles, scene_.axes));
     }
 
     void add_bodies() {

@@ -10,11 +10,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "oiler/core/error.hpp"
 #include "oiler/core/nearest.hpp"
 #include "oiler/core/require.hpp"
+#include "oiler/scene/read_obstacles.hpp"
 #include "oiler/scene/section.hpp"
 #include "oiler/toml/document.hpp"
 
@@ -76,6 +79,11 @@ public:
         each("attractor", [&](const Section& section) { read_attractor(section); });
         read_forces();
         each("plane", [&](const Section& section) { read_plane(section); });
+        each("obstacle", [&](const Section& section) { read_named_obstacle(section); });
+        each("chain",
+             [&](const Section& section) { scene_.chains.push_back(read_chain(scene_, section)); });
+        each("tiles",
+             [&](const Section& section) { scene_.tiles.push_back(read_tiles(scene_, section)); });
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
         each("camera", [&](const Section& section) { read_camera(section); });
@@ -245,6 +253,18 @@ private:
         check_plane(scene_, section, read.plane);
     }
 
+    void read_named_obstacle(const Section& section) {
+        SceneObstacle read = read_obstacle(scene_, section);
+        if (section.has("name") && read.name.empty())
+            refuse(section.place("name"),
+                   "obstacle.name: expected a name, got an empty text; leave it out");
+        if (!read.name.empty() && !obstacle_names_.insert(read.name).second)
+            refuse(section.place("name"),
+                   "obstacle.name: another obstacle has the name \"{}\"; give another name",
+                   printable(read.name));
+        scene_.obstacles.push_back(std::move(read));
+    }
+
     void read_grid(const Section& section) {
         SceneGrid& grid = scene_.grids.emplace_back();
         section.read("count", grid.count);
@@ -288,6 +308,7 @@ private:
     Place method_place_{};
     Place force_place_{};                       // last anchored spring or attractor
     std::map<std::string, std::size_t> names_;  // name of a body → its index
+    std::set<std::string> obstacle_names_;
     Scene scene_;
 };
 

@@ -37,4 +37,36 @@ std::vector<std::size_t> anchored_nodes(const SceneGrid& grid) {
     return nodes;
 }
 
+std::vector<Obstacle> segments_of(const SceneChain& chain) {
+    std::vector<Obstacle> segments;
+    const std::size_t count = chain.points.size() - (chain.closed ? 0 : 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3& to = chain.points[(i + 1) % chain.points.size()];
+        segments.push_back(chain.like);
+        segments.back().shape = SegmentShape{chain.points[i], to};
+    }
+    return segments;
+}
+
+std::vector<Obstacle> boxes_of(const SceneTiles& tiles, int axes) {
+    std::vector<Obstacle> boxes;
+    const auto at = [&](std::size_t cells) {
+        return (static_cast<double>(cells) + 0.5) * tiles.tile;
+    };
+    for (std::size_t row = 0; row < tiles.rows.size(); ++row)
+        for (std::size_t column = 0; column < tiles.rows[row].size(); ++column) {
+            const char c = tiles.rows[row][column];
+            if (!is_tile(c)) continue;
+            BoxShape box{.centre =
+                             tiles.origin + Vec3{at(column), at(tiles.rows.size() - 1 - row)}};
+            if (axes == 3) box.centre[2] += at(0);
+            for (int axis = 0; axis < axes; ++axis) box.size[axis] = tiles.tile;
+            Obstacle obstacle{
+                .shape = box, .restitution = tiles.restitution, .friction = tiles.friction};
+            if (tiles.one_way.find(c) != std::string::npos) obstacle.one_way = Vec3{0, 1};
+            boxes.push_back(obstacle);
+        }
+    return boxes;
+}
+
 }  // namespace oiler

@@ -12,6 +12,7 @@
 #include "oiler/physics/stepping.hpp"
 #include "oiler/picture/palette.hpp"
 #include "oiler/sim/body.hpp"
+#include "oiler/sim/obstacle.hpp"
 
 namespace oiler {
 
@@ -27,7 +28,7 @@ struct SceneMatter {
     double linear_drag = 0;     ///< N·s/m
     double quadratic_drag = 0;  ///< N·s²/m²
     Colour colour = palette::blue;
-    std::optional<double> contact{};  ///< m; if absent, it passes through planes
+    std::optional<double> contact{};  ///< m; if absent, it passes through obstacles
     std::optional<double> radius{};   ///< m; if absent, the picture chooses it
     friend bool operator==(const SceneMatter&, const SceneMatter&) = default;
 };
@@ -88,6 +89,45 @@ struct ScenePlane {
     Colour colour = palette::grey;
     friend bool operator==(const ScenePlane&, const ScenePlane&) = default;
 };
+
+/// A circle, a segment or a box that bodies with a contact meet.
+struct SceneObstacle {
+    std::string name{};  ///< may be empty
+    Obstacle obstacle{};
+    Colour colour = palette::grey;
+    friend bool operator==(const SceneObstacle&, const SceneObstacle&) = default;
+};
+
+/// A polyline of segments.
+struct SceneChain {
+    std::vector<Vec3> points{};  ///< m
+    bool closed = false;         ///< has a segment from the last point to the first one
+    Obstacle like{};             ///< the first segment; the others differ from it by their ends
+    Colour colour = palette::grey;
+    friend bool operator==(const SceneChain&, const SceneChain&) = default;
+};
+
+/// Equal boxes in rows of text, one for each character but " " and ".". Rows may differ in length.
+struct SceneTiles {
+    Vec3 origin{};                    ///< m, the lower left corner of the last row
+    double tile = 1;                  ///< m, the side of a box
+    std::vector<std::string> rows{};  ///< the top row first
+    std::string one_way{};            ///< characters that are met only from above
+    double restitution = 0;
+    double friction = 0;
+    Colour colour = palette::grey;
+    friend bool operator==(const SceneTiles&, const SceneTiles&) = default;
+};
+
+/// The segments of a chain, from its first point on.
+[[nodiscard]] std::vector<Obstacle> segments_of(const SceneChain& chain);
+
+/// The boxes of tiles, row by row from the top, each from the left. In a scene of three axes they
+/// are cubes.
+[[nodiscard]] std::vector<Obstacle> boxes_of(const SceneTiles& tiles, int axes);
+
+/// Whether a character of SceneTiles::rows is a box.
+[[nodiscard]] constexpr bool is_tile(char c) { return c != ' ' && c != '.'; }
 
 /// The bodies of a grid that have an anchored spring at their initial position.
 enum class Hang { none, corners, top };
@@ -159,7 +199,7 @@ struct SceneBudget {
 };
 
 /// A scene as its file describes it. All numbers are within the limits of scene_keys().
-/// make_world() expands grids and scatters into bodies.
+/// make_world() expands grids and scatters into bodies, and chains and tiles into obstacles.
 struct Scene {
     std::string title{};
     Stepping stepping{};  ///< the rate is a whole number of steps per second
@@ -171,6 +211,9 @@ struct Scene {
     std::vector<SceneForce> forces{};
     std::vector<SceneAttractor> attractors{};
     std::vector<ScenePlane> planes{};
+    std::vector<SceneObstacle> obstacles{};
+    std::vector<SceneChain> chains{};
+    std::vector<SceneTiles> tiles{};
     std::vector<SceneGrid> grids{};
     std::vector<SceneScatter> scatters{};
     SceneCamera camera{};
@@ -183,6 +226,9 @@ struct Scene {
         for (const SceneGrid& grid : grids) count += grid.size();
         for (const SceneScatter& scatter : scatters) count += scatter.count;
         return count;
+    }
+    [[nodiscard]] bool has_obstacles() const {
+        return !planes.empty() || !obstacles.empty() || !chains.empty() || !tiles.empty();
     }
     /// Name of a body for messages; "body 3" if it has none.
     [[nodiscard]] std::string name_of_body(std::size_t row) const {

@@ -79,9 +79,12 @@ void Section::refuse_unknown(const Value& member) const {
 
 std::string Section::example(const SceneKey& key) const {
     constexpr std::array<std::string_view, 3> vectors{"[1.0]", "[1.0, 2.0]", "[1.0, 2.0, 3.0]"};
-    const bool is_vector = key.kind == KeyKind::vector;
-    return fmt::format("{} = {}", key.name,
-                       is_vector ? vectors[static_cast<std::size_t>(axes_ - 1)] : key.value);
+    constexpr std::array<std::string_view, 3> more{"[2.0]", "[2.0, 1.0]", "[2.0, 1.0, 3.0]"};
+    const auto i = static_cast<std::size_t>(axes_ - 1);
+    if (key.kind == KeyKind::vector) return fmt::format("{} = {}", key.name, vectors[i]);
+    if (key.kind == KeyKind::points)
+        return fmt::format("{} = [{}, {}]", key.name, vectors[i], more[i]);
+    return fmt::format("{} = {}", key.name, key.value);
 }
 
 void Section::refuse_value(const SceneKey& key, const Value& value, std::string_view hint) const {
@@ -127,18 +130,30 @@ const std::string& Section::text(const SceneKey& key, const Value& value) const 
     return value.text;
 }
 
+const std::string& Section::printed(const SceneKey& key, const Value& value,
+                                    std::size_t longest) const {
+    const std::string& read = text(key, value);
+    if (read.size() > longest)
+        refuse({file_, value.line}, "{}.{}: expected a text of at most {} bytes, got {}", name_,
+               key.name, longest, read.size());
+    for (const char c : read)
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+            refuse({file_, value.line}, "{}.{}: control character 0x{:02x}; leave it out", name_,
+                   key.name, static_cast<unsigned char>(c));
+    return read;
+}
+
+Vec3 Section::vector(const SceneKey& key, const Value& value) const {
+    if (value.kind != ValueKind::list || value.items.size() != static_cast<std::size_t>(axes_))
+        refuse_value(key, value);
+    Vec3 read{};
+    for (std::size_t i = 0; i < value.items.size(); ++i) read.axis[i] = number(key, value.items[i]);
+    return read;
+}
+
 void Section::read(std::string_view key, std::string& target) const {
     constexpr std::size_t longest = 200;
-    const Value* const value = find(entry(key));
-    if (!value) return;
-    target = text(entry(key), *value);
-    if (target.size() > longest)
-        refuse({file_, value->line}, "{}.{}: expected a text of at most {} bytes, got {}", name_,
-               key, longest, target.size());
-    for (const char c : target)
-        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
-            refuse({file_, value->line}, "{}.{}: control character 0x{:02x}; leave it out", name_,
-                   key, static_cast<unsigned char>(c));
+    if (const Value* const value = find(entry(key))) target = printed(entry(key), *value, longest);
 }
 
 void Section::read(std::string_view key, std::int64_t& target) const {
@@ -157,12 +172,22 @@ void Section::read(std::string_view key, bool& target) const {
 }
 
 void Section::read(std::string_view key, Vec3& target) const {
+    if (const Value* const value = find(entry(key))) target = vector(entry(key), *value);
+}
+
+void Section::read(std::string_view key, std::vector<Vec3>& target) const {
     const Value* const value = find(entry(key));
     if (!value) return;
-    if (value->kind != ValueKind::list || value->items.size() != static_cast<std::size_t>(axes_))
-        refuse_value(entry(key), *value);
-    for (std::size_t i = 0; i < value->items.size(); ++i)
-        target.axis[i] = number(entry(key), value->items[i]);
+    if (value->kind != ValueKind::list) refuse_value(entry(key), *value);
+    for (const Value& item : value->items) target.push_back(vector(entry(key), item));
+}
+
+void Section::read(std::string_view key, std::vector<std::string>& target) const {
+    const Value* const value = find(entry(key));
+    if (!value) return;
+    if (value->kind != ValueKind::list) refuse_value(entry(key), *value);
+    for (const Value& item : value->items)
+        target.push_back(printed(entry(key), item, most_toml_bytes));
 }
 
 void Section::read(std::string_view key, std::array<std::int64_t, 2>& target) const {
@@ -233,11 +258,17 @@ void check_force(const Scene& scene, const Section& section, const SceneForce& f
 }
 
 void check_plane(const Scene& scene, const Section& section, const Plane& plane) {
-    if (scene.planes.size() > most_planes)
-        refuse(section.place(), "plane: expected at most {} planes; leave some out", most_planes);
-    check_at(scene, section, "normal", Plane{.normal = plane.normal});
-    check_at(scene, section, "offset", Plane{.normal = plane.normal, .offset = plane.offset});
-    check_at(scene, section, "friction", plane);
+    Obstacle obstacle{.shape = HalfSpaceShape{plane.normal}};
+    check_obstacle(scene, section, "normal", obstacle);
+    obstacle.shape = HalfSpaceShape{plane.normal, plane.offset};
+    check_obstacle(scene, section, "offset", obstacle);
+    obstacle.friction = plane.friction;
+    check_obstacle(scene, section, "friction", obstacle);
+}
+
+void check_obstacle(const Scene& scene, const Section& section, std::string_view key,
+                    const Obstacle& obstacle) {
+    check_at(scene, section, key, obstacle);
 }
 
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid) {

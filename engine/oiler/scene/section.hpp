@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "oiler/math/vec.hpp"
 #include "oiler/picture/picture.hpp"
@@ -31,6 +32,8 @@ public:
     void read(std::string_view key, Vec3& target) const;
     void read(std::string_view key, Colour& target) const;
     void read(std::string_view key, std::array<std::int64_t, 2>& target) const;
+    void read(std::string_view key, std::vector<Vec3>& target) const;
+    void read(std::string_view key, std::vector<std::string>& target) const;
     template <class T>
     void read(std::string_view key, std::optional<T>& target) const {
         T given{};
@@ -58,6 +61,9 @@ private:
     [[nodiscard]] double number(const SceneKey& key, const Value& value) const;
     [[nodiscard]] std::int64_t whole(const SceneKey& key, const Value& value) const;
     [[nodiscard]] const std::string& text(const SceneKey& key, const Value& value) const;
+    [[nodiscard]] const std::string& printed(const SceneKey& key, const Value& value,
+                                             std::size_t longest) const;
+    [[nodiscard]] Vec3 vector(const SceneKey& key, const Value& value) const;
 
     std::string_view file_;
     std::string_view name_;
@@ -75,6 +81,9 @@ void check_matter(const Scene& scene, const Section& section, const SceneMatter&
 void check_spring(const Scene& scene, const Section& section, const SceneSpring& spring);
 void check_force(const Scene& scene, const Section& section, const SceneForce& force);
 void check_plane(const Scene& scene, const Section& section, const Plane& plane);
+/// Checks an obstacle of which only the values of `key`, and the values checked before, are given.
+void check_obstacle(const Scene& scene, const Section& section, std::string_view key,
+                    const Obstacle& obstacle);
 void check_grid(const Scene& scene, const Section& section, const SceneGrid& grid);
 void check_scatter(const Scene& scene, const Section& section, const SceneScatter& scatter);
 

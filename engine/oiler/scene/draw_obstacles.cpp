@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/scene/draw_obstacles.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "oiler/picture/shapes.hpp"
+#include "oiler/picture/solids.hpp"
+#include "oiler/sim/bodies.hpp"
+
+namespace oiler {
+namespace {
+
+/// Draws the obstacles in the order in which make_world adds them.
+class ObstacleDrawing {
+public:
+    ObstacleDrawing(const World& world, Picture& picture)
+        : bodies_(world.bodies()), handles_(bodies_.obstacles()), picture_(picture) {}
+
+    void draw(const Scene& scene) {
+        for (const ScenePlane& one : scene.planes) draw_plane(one.colour);
+        for (const SceneObstacle& one : scene.obstacles) draw_one(one.colour);
+        for (const SceneChain& chain : scene.chains) draw_chain(chain);
+        for (const SceneTiles& tiles : scene.tiles) draw_tiles(tiles);
+    }
+
+private:
+    [[nodiscard]] Obstacle take(Colour colour, Solid& solid) {
+        const ObstacleHandle handle = handles_[next_++];
+        Obstacle obstacle = bodies_.obstacle(handle);
+        solid = {
+            .key = key_of_obstacle(handle.slot, handle.generation), .fill = colour, .line = colour};
+        if (obstacle.one_way) solid.one_way = point_of(*obstacle.one_way);
+        return obstacle;
+    }
+    [[nodiscard]] float shade() const { return picture_.camera.height / 60; }
+
+    void draw_plane(Colour colour) {
+        Solid solid;
+        const auto plane = std::get<HalfSpaceShape>(take(colour, solid).shape);
+        const Camera& camera = picture_.camera;
+        const float reach = camera.height * (canvas_width / canvas_height + 1);
+        const Point n = point_of(plane.normal);
+        const float size2 = n.x * n.x + n.y * n.y;
+        if (size2 == 0) return;
+        const float beyond =
+            static_cast<float>(plane.offset) - n.x * camera.centre.x - n.y * camera.centre.y;
+        const Point at{camera.centre.x + n.x * beyond / size2,
+                       camera.centre.y + n.y * beyond / size2};
+        const float size = std::sqrt(size2);
+        const Point along{-n.y / size * reach, n.x / size * reach};
+        picture_.polylines.push_back(
+            {.points = {{at.x - along.x, at.y - along.y}, {at.x + along.x, at.y + along.y}},
+             .width = 2,
+             .colour = colour});
+    }
+
+    void draw_one(Colour colour) {
+        Solid solid;
+        const Obstacle obstacle = take(colour, solid);
+        if (const auto* const circle = std::get_if<CircleShape>(&obstacle.shape))
+            draw_circle(solid, point_of(circle->centre), static_cast<float>(circle->radius),
+                        picture_);
+        if (const auto* const box = std::get_if<BoxShape>(&obstacle.shape))
+            draw_block(solid,
+                       rectangle(point_of(box->centre), point_of(box->size),
+                                 static_cast<float>(box->angle)),
+                       picture_);
+        if (const auto* const segment = std::get_if<SegmentShape>(&obstacle.shape))
+            draw_wall(solid, {point_of(segment->from), point_of(segment->to)}, shade(), picture_);
+    }
+
+    void draw_chain(const SceneChain& chain) {
+        Solid solid;
+        std::vector<Point> points;
+        for (std::size_t left = chain.points.size() - (chain.closed ? 0 : 1); left > 0; --left) {
+            Solid of_segment;
+            const auto segment = std::get<SegmentShape>(take(chain.colour, of_segment).shape);
+            if (points.empty()) {
+                solid = of_segment;
+                points.push_back(point_of(segment.from));
+            }
+            points.push_back(point_of(segment.to));
+        }
+        draw_wall(solid, std::move(points), shade(), picture_);
+    }
+
+    /// Tiles stand. They are drawn from the text, as runs of equal ones.
+    void draw_tiles(const SceneTiles& tiles) {
+        for (std::size_t row = 0; row < tiles.rows.size(); ++row) {
+            const std::string& text = tiles.rows[row];
+            std::size_t end = 0;
+            for (std::size_t begin = 0; begin < text.size(); begin = end) {
+                end = begin + 1;
+                if (!is_tile(text[begin])) continue;
+                const bool one_way = is_one_way(tiles, text[begin]);
+                while (end < text.size() && is_tile(text[end]) &&
+                       is_one_way(tiles, text[end]) == one_way)
+                    ++end;
+                draw_run(tiles, tiles.rows.size() - 1 - row, begin, end);
+                next_ += end - begin;
+            }
+        }
+    }
+    void draw_run(const SceneTiles& tiles, std::size_t up, std::size_t begin, std::size_t end) {
+        // The outline hides the seam between the polygons of two rows.
+        Solid solid{.fill = tiles.colour, .line = tiles.colour, .outline = 0.75F};
+        if (is_one_way(tiles, tiles.rows[tiles.rows.size() - 1 - up][begin]))
+            solid.one_way = {0, 1};
+        const auto across = static_cast<double>(begin + end) / 2;
+        const auto height = static_cast<double>(up) + 0.5;
+        const Vec3 centre = tiles.origin + Vec3{across, height} * tiles.tile;
+        const auto side = static_cast<float>(tiles.tile);
+        draw_block(solid,
+                   rectangle(point_of(centre), {static_cast<float>(end - begin) * side, side}),
+                   picture_);
+    }
+    static bool is_one_way(const SceneTiles& tiles, char c) {
+        return tiles.one_way.find(c) != std::string::npos;
+    }
+
+    const Bodies& bodies_;
+    std::vector<ObstacleHandle> handles_;
+    std::size_t next_ = 0;
+    Picture& picture_;
+};
+
+}  // namespace
+
+void draw_obstacles(const Scene& scene, const World& world, Picture& picture) {
+    if (scene.has_obstacles()) ObstacleDrawing(world, picture).draw(scene);
+}
+
+}  // namespace oiler
