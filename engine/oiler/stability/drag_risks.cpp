@@ -53,27 +53,6 @@ Dragged drag_of(const Bodies& bodies, std::size_t row) {
     return of;
 }
 
-/// A copy of one body with its forces, without links.
-Bodies alone(const Bodies& bodies, std::size_t row) {
-    Bodies copy(bodies.axes(), Precision::double_);
-    for (std::size_t i = 0; i < std::max<std::size_t>(1, bodies.most_forces_of_a_kind()); ++i) {
-        GivenForces forces = bodies.forces_per_mass(row, i);
-        auto& gravity = std::get<std::optional<Gravity>>(forces);
-        if (gravity) copy.set_gravity(gravity->acceleration);
-        gravity.reset();
-        if (i == 0)
-            copy.add({.position = bodies.position(row), .velocity = bodies.velocity(row)}, forces);
-        else
-            std::apply(
-                [&](const auto& skipped, const auto&... force) {
-                    static_cast<void>(skipped);
-                    ((force ? copy.attach_at(i, 0, *force) : void()), ...);
-                },
-                forces);
-    }
-    return copy;
-}
-
 /// Whether a step that has turned a body alone round, relative to the air, is wrong: finer steps
 /// with exact drag do not turn it.
 bool is_thrown_back(Bodies before, const Vec3& u, const Vec3& air, const Rate& rate) {
@@ -191,7 +170,7 @@ private:
     void add_by_trial(std::size_t row, const Dragged& of, std::vector<Risk>& risks) {
         constexpr int most_trials = 10'000;
         if (!of.has_springs && of.speed == 0 && of.gravity == 0) return;
-        auto body = std::make_shared<const Bodies>(alone(bodies_, row));
+        auto body = std::make_shared<const Bodies>(alone(bodies_, row, Precision::double_));
         Risk risk = risk_at(row, of, largest_speed(of, *body));
         if (is_weak(of.linear + of.quadratic * risk.at)) return;
         if (++trials_ > most_trials) return add_by_speed(row, of, risks);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "oiler/core/error.hpp"
 #include "oiler/stability/risks.hpp"
@@ -12,23 +13,58 @@ namespace {
 constexpr double enough_steps = 8;
 /// Steps per period with which methods of order 2 keep the amplitude to 2.3 %.
 constexpr double recommended_steps = 12;
+/// Steps per period of the finer run, and the most of its steps in one step.
+constexpr double fine_steps = 4 * recommended_steps;
+constexpr double most_parts = 1024;
 
-/// The highest frequency of the drives on a body, Hz.
-double drive_frequency(const Bodies& bodies, std::size_t row) {
+/// Calls f(index, drive) for each drive on a body, per unit mass.
+template <class F>
+void for_each_drive_on(const Bodies& bodies, std::size_t row, F f) {
+    for (std::size_t index = 0; index < bodies.most_forces_of_a_kind(); ++index)
+        if (const auto drive = std::get<std::optional<Drive>>(bodies.forces_per_mass(row, index));
+            drive && squared_length(drive->amplitude) > 0)
+            f(index, *drive);
+}
+
+/// The highest frequency of the drives on a body that are slower than a limit, Hz.
+double drive_frequency(const Bodies& bodies, std::size_t row, double limit = INFINITY) {
     double highest = 0;
-    for_each_force_on(bodies, row, [&]<class Force>(const Force& force) {
-        if constexpr (std::is_same_v<Force, Drive>)
-            if (squared_length(force.amplitude) > 0)
-                highest = std::max(highest, std::abs(force.frequency));
+    for_each_drive_on(bodies, row, [&](std::size_t, const Drive& drive) {
+        if (const double frequency = std::abs(drive.frequency); frequency < limit)
+            highest = std::max(highest, frequency);
     });
+    return highest;
+}
+
+double highest_frequency(const Bodies& bodies, double limit) {
+    double highest = 0;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        highest = std::max(highest, drive_frequency(bodies, row, limit));
     return highest;
 }
 
 /// The same bodies with and without their drives, stepped side by side.
 class DrivenPair {
 public:
-    explicit DrivenPair(const Bodies& bodies) : driven_(bodies), free_(bodies) {
+    explicit DrivenPair(const Bodies& bodies)
+        : driven_(bodies), free_(bodies), oscillation_(bodies.size()) {
         for (std::size_t row = 0; row < bodies.size(); ++row) free_.detach<Drive>(row);
+    }
+    /// Replaces the drives from a frequency on by their mean: F·sin(ωt + φ) adds F·cos(φ)/(mω) to
+    /// the velocity at the start, and then oscillates by F/(mω²).
+    void average_from(double limit, double time) {
+        for (std::size_t row = 0; row < driven_.size(); ++row)
+            for_each_drive_on(Bodies(driven_), row, [&](std::size_t index, const Drive& drive) {
+                if (std::abs(drive.frequency) < limit) return;
+                constexpr double turn = 2 * std::numbers::pi;
+                const double omega = turn * drive.frequency;
+                const double angle = turn * std::fmod(drive.frequency * time, 1) + drive.phase;
+                driven_.set_velocity(
+                    row, driven_.velocity(row) + drive.amplitude * (std::cos(angle) / omega));
+                oscillation_[row] +=
+                    length(drive.amplitude) / (omega * omega) * (1 + std::abs(std::sin(angle)));
+                driven_.attach_at(index, row, Drive{.frequency = drive.frequency});
+            });
     }
     [[nodiscard]] bool step(const Method& method, const Steps& steps) {
         return !driven_.try_step(method, steps) && !free_.try_step(method, steps);
@@ -36,12 +72,13 @@ public:
     [[nodiscard]] Vec3 position(std::size_t row) const { return driven_.position(row); }
     /// The way by which the drives have moved a body, m.
     [[nodiscard]] double effect(std::size_t row) const {
-        return std::sqrt(squared_length(driven_.position(row) - free_.position(row)));
+        return length(driven_.position(row) - free_.position(row)) + oscillation_[row];
     }
 
 private:
     Bodies driven_;
     Bodies free_;
+    std::vector<double> oscillation_;  ///< m
 };
 
 /// The largest effects of the drives on a body in a run and in one with finer steps.
@@ -57,19 +94,21 @@ struct DriveEffect {
     }
 };
 
-/// Runs a few hundred steps; empty if a run diverges.
+/// Runs so many steps or fewer, which take some tens of milliseconds; empty if a run diverges.
 std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& method,
-                                       const Steps& steps, double frequency) {
-    constexpr std::int64_t most_steps = 512;
+                                       const Steps& steps) {
     constexpr double most_work = 400'000;
-    const auto parts = static_cast<std::int64_t>(
-        std::clamp(std::ceil(4 * recommended_steps * frequency * steps.rate.dt()), 4.0, 1024.0));
+    const double dt = steps.rate.dt();
+    const double limit = most_parts / (fine_steps * dt);
+    const double per_step = std::ceil(fine_steps * highest_frequency(bodies, limit) * dt);
+    const auto parts = static_cast<std::int64_t>(std::clamp(per_step, 4.0, most_parts));
     const double work = static_cast<double>(parts) * static_cast<double>(bodies.size());
     const std::int64_t count =
-        std::min(most_steps, static_cast<std::int64_t>(std::max(most_work / work, 16.0)));
+        std::min(steps.count, static_cast<std::int64_t>(std::max(most_work / work, 16.0)));
     const Rate fine_rate{steps.rate.steps * parts, steps.rate.seconds};
     DrivenPair run(bodies);
     DrivenPair fine(bodies);
+    fine.average_from(limit, static_cast<double>(steps.first) * dt);
     std::vector<DriveEffect> effects(bodies.size());
     for (std::int64_t tick = steps.first; tick < steps.first + count; ++tick) {
         if (!run.step(method, {steps.rate, tick, 1, steps.damping}) ||
@@ -77,23 +116,42 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
             return {};
         for (std::size_t row = 0; row < effects.size(); ++row) {
             DriveEffect& one = effects[row];
-            const Vec3 moved = fine.position(row) - bodies.position(row);
             one.run = std::max(one.run, run.effect(row));
             one.fine = std::max(one.fine, fine.effect(row));
-            one.extent = std::max(one.extent, std::sqrt(squared_length(moved)));
+            one.extent =
+                std::max({one.extent, one.fine, length(fine.position(row) - bodies.position(row))});
         }
     }
     return effects;
 }
 
-Risk risk_of(std::size_t row, double frequency, const DriveEffect& effect, const Rate& rate) {
-    return {.row = row,
-            .of = Risk::Of::told,
-            .message = fmt::format(
-                "drive of body {{}}: {:.4g} Hz has {:.3g} steps per period and moves the body by "
-                "{:.3g} m instead of {:.3g} m: rate ≥ {:.0f} Hz",
-                frequency, 1 / (frequency * rate.dt()), effect.run, effect.fine,
-                std::ceil(recommended_steps * frequency))};
+bool follows_drives(const Bodies& bodies, std::size_t row, const Method& method,
+                    const Steps& steps) try {
+    bodies.require_applicable(method, steps);
+    const std::vector<DriveEffect> effects = drive_effects(bodies, method, steps);
+    return !effects.empty() && !effects[row].is_wrong();
+} catch (const Error&) {
+    return false;
+}
+
+/// The lowest rate of at least the recommended steps that is tried with success, or `exact`.
+std::string remedy_of(const Bodies& bodies, std::size_t row, double frequency, const Method& method,
+                      const Steps& steps) {
+    constexpr double longest = 4096;
+    for (double hertz = std::ceil(recommended_steps * frequency); hertz <= highest_rate;
+         hertz = std::ceil(1.25 * hertz)) {
+        const double count = static_cast<double>(steps.count) * hertz * steps.rate.dt();
+        const Steps finer{{std::llround(hertz)},
+                          0,
+                          static_cast<std::int64_t>(std::min(count, longest)),
+                          steps.damping};
+        if (follows_drives(bodies, row, method, finer))
+            return fmt::format("rate ≥ {:.0f} Hz", hertz);
+    }
+    const Method& exact = find_method("exact");
+    if (follows_drives(bodies, row, exact, {steps.rate, steps.first, steps.count}))
+        return "take exact";
+    return fmt::format("no rate up to {:.0f} Hz follows it: lower its frequency", highest_rate);
 }
 
 }  // namespace
@@ -101,17 +159,24 @@ Risk risk_of(std::size_t row, double frequency, const DriveEffect& effect, const
 void add_drive_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                      std::vector<Risk>& risks) {
     constexpr std::size_t most_bodies = 2000;
+    constexpr std::int64_t most_steps = 512;
     if (std::holds_alternative<ExactFlow>(method.rule) || bodies.size() > most_bodies) return;
     if (!any_body_has(bodies, []<class Force>() { return std::is_same_v<Force, Drive>; })) return;
-    std::vector<double> frequencies;
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        frequencies.push_back(drive_frequency(bodies, row));
-    const double highest = std::ranges::max(frequencies);
-    if (highest * steps.rate.dt() * enough_steps <= 1) return;
-    const std::vector<DriveEffect> effects = drive_effects(bodies, method, steps, highest);
-    for (std::size_t row = 0; row < effects.size(); ++row)
-        if (frequencies[row] * steps.rate.dt() * enough_steps > 1 && effects[row].is_wrong())
-            risks.push_back(risk_of(row, frequencies[row], effects[row], steps.rate));
+    const double dt = steps.rate.dt();
+    if (highest_frequency(bodies, INFINITY) * dt * enough_steps <= 1) return;
+    const Steps tried{steps.rate, steps.first, most_steps, steps.damping};
+    const std::vector<DriveEffect> effects = drive_effects(bodies, method, tried);
+    for (std::size_t row = 0; row < effects.size(); ++row) {
+        const double frequency = drive_frequency(bodies, row);
+        if (!(frequency * dt * enough_steps > 1) || !effects[row].is_wrong()) continue;
+        risks.push_back({.row = row,
+                         .of = Risk::Of::told,
+                         .message = fmt::format(
+                             "drive of body {{}}: {:.4g} Hz has {:.3g} steps per period and moves "
+                             "the body by {:.3g} m instead of {:.3g} m: {}",
+                             frequency, 1 / (frequency * dt), effects[row].run, effects[row].fine,
+                             remedy_of(bodies, row, frequency, method, tried))});
+    }
 }
 
 }  // namespace oiler

@@ -203,6 +203,14 @@ WeightedVectors vector_of(const Component& component, const MatrixSum& sum,
 
 }  // namespace
 
+WeightedVectors to_vectors(const std::vector<double>& numbers, const Component& component) {
+    WeightedVectors vectors(component.rows.size());
+    const auto axes = static_cast<std::size_t>(component.axes);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        vectors[i / axes][static_cast<int>(i % axes)] = numbers[i];
+    return vectors;
+}
+
 std::vector<Mode> stiffness_modes(const Component& component) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
         matrix_of(component, component.springs, 1));

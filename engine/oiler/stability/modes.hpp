@@ -13,6 +13,10 @@ struct Mode {
     std::vector<double> vector;
 };
 
+/// The vector of a mode, body by body.
+[[nodiscard]] WeightedVectors to_vectors(const std::vector<double>& numbers,
+                                         const Component& component);
+
 /// The modes of the stiffness matrix of a component by their ω², 1/s², the highest last.
 [[nodiscard]] std::vector<Mode> stiffness_modes(const Component& component);
 

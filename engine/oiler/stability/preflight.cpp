@@ -12,32 +12,6 @@
 namespace oiler {
 namespace {
 
-bool is_attraction(const Risk& risk) {
-    return risk.of == Risk::Of::attractor || risk.of == Risk::Of::periapsis;
-}
-
-bool is_rounding(const Risk& risk) {
-    return risk.of == Risk::Of::rounded_position || risk.of == Risk::Of::rounded_velocity;
-}
-
-/// The remedy in words: the lowest rate above the limit, with a margin of 10⁻⁹ for rounding, or a
-/// method.
-std::string remedy_for(double limit, const Rate& rate, const Risk& risk) {
-    constexpr double most = 1e6;  // the highest rate of the programs, Hz
-    const double at_limit =
-        static_cast<double>(rate.steps) / (limit * static_cast<double>(rate.seconds));
-    const double above = std::floor(at_limit * (1 + 1e-9)) + 1;
-    const bool has_rate = limit > 0 && above <= most;
-    if (is_attraction(risk) && !has_rate && !risk.remedy)
-        return "give the body another position or velocity";
-    if (!risk.remedy)
-        return has_rate ? fmt::format("rate ≥ {:.0f} Hz", above) : "take another method";
-    return has_rate ? fmt::format("rate ≥ {:.0f} Hz, or {}", above, risk.remedy->name)
-                    : fmt::format("take {}", risk.remedy->name);
-}
-
-double size(const Risk& risk) { return std::max(risk.omega_dt, risk.damping_dt); }
-
 std::string describe_subject(const Risk& risk, const NameOfRow& name) {
     using enum Risk::Of;
     if (risk.linked)
@@ -72,16 +46,6 @@ std::string describe_measure(const Risk& risk) {
            (oscillates && risk.damping_dt > 0
                 ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
                 : std::string());
-}
-
-/// The factor on dt up to which steps are stable.
-double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
-    const Damping damping = steps.damping.value_or(method.damping);
-    if (risk.of == Risk::Of::explosion) return trial_limit(risk, method, steps);
-    if (risk.of == Risk::Of::quadratic_drag || risk.of == Risk::Of::linear_drag)
-        return drag_limit(risk, method, steps);
-    if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate);
-    return spring_limit(risk, method, damping, steps.rate.dt());
 }
 
 std::string describe_rounding(const Risk& risk, const NameOfRow& name) {
@@ -126,7 +90,7 @@ std::string describe_loss(const Risk& risk, const Method& method, const Steps& s
                           const NameOfRow& name) {
     const Method& verlet = find_method("velocity_verlet");
     const double limit = limit_of(risk, method, steps);
-    std::string remedy = remedy_for(limit, steps.rate, risk);
+    std::string remedy = remedy_for(limit, risk, method, steps);
     if (&method != &verlet && follows(*risk.orbit, verlet, verlet.damping, steps.rate))
         remedy = limit > 0 ? remedy + ", or velocity_verlet" : "take velocity_verlet";
     const std::string when =
@@ -144,7 +108,7 @@ std::string describe_explosion(const Risk& risk, const Method& method, const Ste
             : "diverges";
     return fmt::format("body {}: a trial with {} {} at step {} (t = {:.3g} s): {}", name(risk.row),
                        method.name, what, risk.tick, time,
-                       remedy_for(limit_of(risk, method, steps), steps.rate, risk));
+                       remedy_for(limit_of(risk, method, steps), risk, method, steps));
 }
 
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
@@ -166,37 +130,6 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     // The orbit of a body that hit its attractor is no longer known.
     if (is_attraction(cause) && !std::isfinite(cause.omega_dt)) return by_default;
     return describe(cause, method, steps, name);
-}
-
-bool is_finite(const Bodies& bodies) {
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        if (!std::isfinite(squared_length(bodies.position(row))) ||
-            !std::isfinite(squared_length(bodies.velocity(row))))
-            return false;
-    return true;
-}
-
-/// The risks without the methods that are a remedy. The state of a run that has diverged is not
-/// tried.
-std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const Steps& steps) {
-    const double dt = steps.rate.dt();
-    Region region(method, steps.damping.value_or(method.damping));
-    std::vector<Risk> risks;
-    if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
-    add_drag_risks(bodies, region, steps, risks);
-    add_attractor_risks(bodies, region, steps.rate, risks);
-    const bool finite = is_finite(bodies);
-    if (finite && risks.empty()) add_trial_risks(bodies, region, steps, risks);
-    add_rounding_risks(bodies, method, dt, risks);
-    if (finite) {
-        add_drive_risks(bodies, method, steps, risks);
-        add_point_risks(bodies, method, steps, risks);
-        add_contact_risks(bodies, method, steps, risks);
-        add_obstacle_risks(bodies, risks);
-    }
-    std::stable_sort(risks.begin(), risks.end(),
-                     [](const Risk& a, const Risk& b) { return size(a) > size(b); });
-    return risks;
 }
 
 /// Whether a risk makes no run unusable, or is a rounding that the present method has as well.
@@ -228,6 +161,10 @@ const char* remedy_of(const Risk& risk) {
 
 std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
     std::vector<Risk> risks = find_risks(bodies, method, steps);
+    std::shared_ptr<const Bodies> scene;
+    for (Risk& risk : risks)
+        if (risk.of != Risk::Of::told)
+            risk.scene = scene ? scene : scene = std::make_shared<const Bodies>(bodies);
     for (const char* name : {"implicit_midpoint", "implicit_euler"}) {
         const auto helps = [&](const Risk& risk) {
             return risk.of != Risk::Of::told && !is_attraction(risk) &&
@@ -260,7 +197,7 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
             who, measure, method.name);
     const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
     return fmt::format("{}: {}, {} needs < {:.4g}: {}", who, measure, method.name, limit * measured,
-                       remedy_for(limit, steps.rate, risk));
+                       remedy_for(limit, risk, method, steps));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,

@@ -61,6 +61,7 @@ struct Risk {
     /// Few bodies with uneven damping: their step matrix decides.
     std::shared_ptr<const Component> component{};
     std::shared_ptr<const Bodies> tried{};  ///< a body without its links, or all bodies
+    std::shared_ptr<const Bodies> scene{};  ///< all bodies, on which a rate is tried
     std::optional<Orbit> orbit{};           ///< an orbit that was tried
     double revolution = 0;                  ///< of the orbit, in which it is lost
     /// The line of the risk, with {} in place of the body's name and of the linked body's.
@@ -77,6 +78,12 @@ struct Risk {
 /// `steps` if they are more than one. It changes no state.
 [[nodiscard]] std::vector<Risk> preflight(const Bodies& bodies, const Method& method,
                                           const Steps& steps);
+
+/// Finds the oscillations whose energy the method halves within 20 s, by more than damping takes.
+/// Parts of the energy belong to the modes at the present positions. Components of more than 100
+/// freedoms, worlds of more than 2000 bodies and bodies that meet obstacles are left out.
+[[nodiscard]] std::vector<Risk> find_losses(const Bodies& bodies, const Method& method,
+                                            const Steps& steps);
 
 /// Describes a risk: "spring of body 3: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 74 Hz, or
 /// implicit_euler". Finding the limit takes some tens of milliseconds.

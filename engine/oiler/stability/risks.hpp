@@ -2,13 +2,45 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "oiler/core/step_clock.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/preflight.hpp"
 
 namespace oiler {
+
+/// The highest rate of the programs, Hz.
+inline constexpr double highest_rate = StepClock::largest_rate;
+
+/// The larger of ω·dt and c·dt.
+[[nodiscard]] inline double size(const Risk& risk) {
+    return std::max(risk.omega_dt, risk.damping_dt);
+}
+[[nodiscard]] bool is_attraction(const Risk& risk);
+[[nodiscard]] bool is_rounding(const Risk& risk);
+
+[[nodiscard]] bool is_finite(const Bodies& bodies);
+/// Whether all forces are linear in position and velocity, apart from drives.
+[[nodiscard]] bool is_linear(const Bodies& bodies);
+/// A copy of one body with its forces, without links and contact, of 1 kg.
+[[nodiscard]] Bodies alone(const Bodies& bodies, std::size_t row, Precision precision);
+
+/// The risks without the methods that are a remedy. The state of a run that has diverged is not
+/// tried.
+[[nodiscard]] std::vector<Risk> find_risks(const Bodies& bodies, const Method& method,
+                                           const Steps& steps);
+
+/// Whether a method steps the bodies without a risk that makes a run unusable, apart from rounding.
+[[nodiscard]] bool holds(const Bodies& bodies, const Method& method, const Steps& steps);
+
+/// The factor on dt up to which steps are stable.
+[[nodiscard]] double limit_of(const Risk& risk, const Method& method, const Steps& steps);
+/// The remedy of a risk with that limit in words: a rate that its bodies hold, or a method.
+[[nodiscard]] std::string remedy_for(double limit, const Risk& risk, const Method& method,
+                                     const Steps& steps);
 
 /// Adds the springs, dampers and linear drag that are outside the region: one risk per body without
 /// links and one per component of linked bodies.
@@ -53,7 +85,7 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
 /// in the parts of the method's drifts or kicks, each of which is rounded. It adds up while no
 /// acceleration turns a part into the next unit, over a second or 64 steps. Errors below 0.2 % of
 /// the motion, or 2 % of the acceleration, are left out, and so are forces of links.
-void add_rounding_risks(const Bodies& bodies, const Method& method, double dt,
+void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                         std::vector<Risk>& risks);
 
 /// Adds springs with a rest length whose ends are in one point and stay there: they have no

@@ -157,12 +157,13 @@ private:
 
 }  // namespace
 
-void add_rounding_risks(const Bodies& bodies, const Method& method, double dt,
+void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                         std::vector<Risk>& risks) {
     if (bodies.precision() != Precision::single) return;
     const AddedParts parts = parts_of(method);
     for (std::size_t row = 0; row < bodies.size(); ++row)
-        if (const auto risk = RowRounding(bodies, row, parts, dt).find()) risks.push_back(*risk);
+        if (const auto risk = RowRounding(bodies, row, parts, steps.rate.dt()).find())
+            risks.push_back(*risk);
 }
 
 }  // namespace oiler

@@ -23,14 +23,6 @@ bool is_stable_step(const Component& component, const Method& method, Damping da
     return spectral_radius_of_step(component, method, damping, dt) <= 1 + radius_round_off;
 }
 
-WeightedVectors to_vectors(const std::vector<double>& numbers, const Component& component) {
-    WeightedVectors vectors(component.rows.size());
-    const auto axes = static_cast<std::size_t>(component.axes);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        vectors[i / axes][static_cast<int>(i % axes)] = numbers[i];
-    return vectors;
-}
-
 /// An upper bound of the highest eigenvalue: no mode is faster than the stiffest coupling with all
 /// couplings at its two ends (Anderson and Morley, Eigenvalues of the Laplacian of a graph, 1985,
 /// with masses).

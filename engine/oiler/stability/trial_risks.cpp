@@ -123,13 +123,6 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Method& method
     return gains ? explosion_of(bodies, course, steps) : std::nullopt;
 }
 
-bool is_linear(const Bodies& bodies) {
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        if (bodies.link_at(i).rest_length != 0) return false;
-    return !any_body_has(bodies,
-                         []<class Force>() { return !Linear<Force> && !DependsOnTime<Force>; });
-}
-
 bool meets_planes(const Bodies& bodies) {
     if (!bodies.has_obstacles()) return false;
     for (std::size_t row = 0; row < bodies.size(); ++row)
@@ -151,6 +144,13 @@ std::vector<Risk> spring_risks_of(Bodies bodies, Region& region, Steps steps,
 }
 
 }  // namespace
+
+bool is_linear(const Bodies& bodies) {
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).rest_length != 0) return false;
+    return !any_body_has(bodies,
+                         []<class Force>() { return !Linear<Force> && !DependsOnTime<Force>; });
+}
 
 void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
                      std::vector<Risk>& risks) {

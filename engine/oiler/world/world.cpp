@@ -361,7 +361,10 @@ std::vector<std::string> World::describe(std::span<const Risk> risks, std::size_
 }
 
 std::vector<std::string> World::preflight(std::size_t most) const {
-    return describe(risks(1), most);
+    std::vector<Risk> all = risks(1);
+    std::ranges::move(find_losses(*bodies_, *settings_.stepping.method, next_steps(1)),
+                      std::back_inserter(all));
+    return describe(all, most);
 }
 
 std::vector<std::string> World::instabilities(std::int64_t steps, std::size_t most) const {

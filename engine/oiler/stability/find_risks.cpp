@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "oiler/stability/risks.hpp"
+
+namespace oiler {
+
+Bodies alone(const Bodies& bodies, std::size_t row, Precision precision) {
+    Bodies copy(bodies.axes(), precision);
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, bodies.most_forces_of_a_kind()); ++i) {
+        GivenForces forces = bodies.forces_per_mass(row, i);
+        auto& gravity = std::get<std::optional<Gravity>>(forces);
+        if (gravity) copy.set_gravity(gravity->acceleration);
+        gravity.reset();
+        if (i == 0)
+            copy.add({.position = bodies.position(row), .velocity = bodies.velocity(row)}, forces);
+        else
+            std::apply(
+                [&](const auto& skipped, const auto&... force) {
+                    static_cast<void>(skipped);
+                    ((force ? copy.attach_at(i, 0, *force) : void()), ...);
+                },
+                forces);
+    }
+    return copy;
+}
+
+bool is_finite(const Bodies& bodies) {
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (!std::isfinite(squared_length(bodies.position(row))) ||
+            !std::isfinite(squared_length(bodies.velocity(row))))
+            return false;
+    return true;
+}
+
+std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const Steps& steps) {
+    const double dt = steps.rate.dt();
+    Region region(method, steps.damping.value_or(method.damping));
+    std::vector<Risk> risks;
+    if (!is_implicit(method)) add_spring_risks(bodies, region, dt, risks);
+    add_drag_risks(bodies, region, steps, risks);
+    add_attractor_risks(bodies, region, steps.rate, risks);
+    const bool finite = is_finite(bodies);
+    if (finite && risks.empty()) add_trial_risks(bodies, region, steps, risks);
+    const bool holds = risks.empty();
+    add_rounding_risks(bodies, method, steps, risks);
+    if (finite) {
+        if (holds) add_drive_risks(bodies, method, steps, risks);
+        add_point_risks(bodies, method, steps, risks);
+        add_contact_risks(bodies, method, steps, risks);
+        add_obstacle_risks(bodies, risks);
+    }
+    std::stable_sort(risks.begin(), risks.end(),
+                     [](const Risk& a, const Risk& b) { return size(a) > size(b); });
+    return risks;
+}
+
+bool holds(const Bodies& bodies, const Method& method, const Steps& steps) {
+    return std::ranges::all_of(find_risks(bodies, method, steps), [](const Risk& risk) {
+        return risk.of == Risk::Of::told || is_rounding(risk);
+    });
+}
+
+}  // namespace oiler

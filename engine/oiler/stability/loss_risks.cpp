@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "oiler/core/error.hpp"
+#include "oiler/stability/modes.hpp"
+#include "oiler/stability/risks.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr double longest = 20;  ///< s, in which a loss is warned of
+
+/// An oscillation of a component at the start.
+struct Part {
+    double omega = 0;    ///< rad/s
+    double energy = 0;   ///< J
+    double damping = 0;  ///< 1/s, by which the energy falls
+    WeightedVectors vector{};
+};
+
+/// The rates at which the method's error takes the energies of undamped oscillations, 1/s.
+std::vector<double> losses_of(const std::vector<Part>& parts, const Method& method, Damping damping,
+                              double dt) {
+    std::vector<Oscillation> steps;
+    for (const Part& part : parts) steps.push_back({part.omega * dt * part.omega * dt, 0});
+    std::vector<double> losses;
+    for (const StepMatrix& step : step_matrices(method, damping, steps)) {
+        const double radius = static_cast<double>(std::log(spectral_radius(step)));
+        losses.push_back(std::clamp(-2 * radius / dt, 0.0, 1e9));
+    }
+    return losses;
+}
+
+/// The time in which the method takes half of the energy that damping leaves, if damping takes less
+/// until then.
+std::optional<double> half_time(const std::vector<Part>& parts, const std::vector<double>& losses) {
+    const auto left = [&](double time, bool by_method) {
+        double sum = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            sum += parts[i].energy *
+                   std::exp(-time * (parts[i].damping + (by_method ? losses[i] : 0)));
+        return sum;
+    };
+    const auto is_taken = [&](double time) { return left(time, true) <= left(time, false) / 2; };
+    if (!is_taken(longest)) return std::nullopt;
+    const double time =
+        edge_between(0, longest, 1e-6, [&](double earlier) { return !is_taken(earlier); });
+    return left(time, false) >= left(0, false) / 2 ? std::optional(time) : std::nullopt;
+}
+
+/// The accelerations of all bodies at rest, without drives and obstacles, m/s².
+std::optional<std::vector<Vec3>> accelerations_of(Bodies bodies) {
+    for (const ObstacleHandle obstacle : bodies.obstacles()) bodies.remove_obstacle(obstacle);
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        bodies.detach<Drive>(row);
+        bodies.set_velocity(row, {});
+    }
+    if (bodies.try_step(find_method("explicit_euler"), {.rate = {1}})) return std::nullopt;
+    std::vector<Vec3> accelerations;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        accelerations.push_back(bodies.velocity(row));
+    return accelerations;
+}
+
+class LossTest {
+public:
+    LossTest(const Bodies& bodies, const Method& method, const Steps& steps,
+             std::vector<Vec3> accelerations)
+        : bodies_(bodies),
+          method_(method),
+          steps_(steps),
+          damping_(steps.damping.value_or(method.damping)),
+          accelerations_(std::move(accelerations)) {}
+
+    [[nodiscard]] std::optional<Risk> find_risk(const Component& component) const {
+        constexpr std::size_t most_modes = 100;
+        if (component.freedoms() > most_modes || meets_obstacles(component)) return std::nullopt;
+        const std::vector<Part> parts = parts_of(component);
+        const double dt = steps_.rate.dt();
+        const std::vector<double> losses = losses_of(parts, method_, damping_, dt);
+        const auto time = half_time(parts, losses);
+        if (!time) return std::nullopt;
+        std::size_t most = 0;
+        const auto taken = [&](std::size_t i) {
+            return parts[i].energy * -std::expm1(-*time * losses[i]);
+        };
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            if (taken(i) > taken(most)) most = i;
+        return risk_of(component, parts, most, *time);
+    }
+
+private:
+    [[nodiscard]] bool meets_obstacles(const Component& component) const {
+        return bodies_.has_obstacles() && std::ranges::any_of(component.rows, [&](std::size_t row) {
+                   return bodies_.contact(row).has_value();
+               });
+    }
+    /// The component of some vectors of the rows along a mode, times √mass.
+    template <class VectorOfRow>
+    [[nodiscard]] static double along(const Component& component, const WeightedVectors& mode,
+                                      VectorOfRow vector_of_row) {
+        double sum = 0;
+        for (std::size_t i = 0; i < mode.size(); ++i)
+            sum += dot(mode[i], vector_of_row(component.rows[i])) / component.inverse_root_mass[i];
+        return sum;
+    }
+    /// The oscillations of more than a millionth of the coordinates.
+    [[nodiscard]] std::vector<Part> parts_of(const Component& component) const {
+        double coordinate = 0;
+        double mass = 0;
+        for (const std::size_t row : component.rows) {
+            coordinate = std::max(coordinate, largest(bodies_.position(row)));
+            mass += bodies_.mass(row);
+        }
+        std::vector<Part> parts;
+        for (const Mode& mode : stiffness_modes(component)) {
+            if (!(mode.value > 0)) continue;
+            Part part{.omega = std::sqrt(mode.value), .vector = to_vectors(mode.vector, component)};
+            const double v = along(component, part.vector,
+                                   [&](std::size_t row) { return bodies_.velocity(row); });
+            const double a =
+                along(component, part.vector, [&](std::size_t row) { return accelerations_[row]; });
+            part.energy = (v * v + a * a / mode.value) / 2;
+            if (!(std::sqrt(2 * part.energy / mass) > 1e-6 * coordinate * part.omega)) continue;
+            part.damping = std::max(quotient(component, {0, 1, false}, part.vector), 0.0);
+            parts.push_back(std::move(part));
+        }
+        return parts;
+    }
+
+    /// The lowest rate at which the loss takes longer.
+    [[nodiscard]] std::optional<double> rate_for(const std::vector<Part>& parts) const {
+        const auto keeps = [&](double dt) {
+            return !half_time(parts, losses_of(parts, method_, damping_, dt));
+        };
+        if (!keeps(1 / highest_rate)) return std::nullopt;
+        const double dt = edge_between(1 / highest_rate, steps_.rate.dt(), 1e-3, keeps);
+        return std::ceil(1 / dt);
+    }
+    [[nodiscard]] std::string remedy_of(const std::vector<Part>& parts) const {
+        const auto rate = rate_for(parts);
+        const std::string hertz = rate ? fmt::format("rate ≥ {:.0f} Hz", *rate) : "";
+        for (const char* name : {"velocity_verlet", "implicit_midpoint"})
+            if (holds(bodies_, find_method(name), {steps_.rate, steps_.first, steps_.count}))
+                return fmt::format("take {}{}{}", name, rate ? ", or " : "", hertz);
+        return rate ? hertz : "take another method";
+    }
+    [[nodiscard]] Risk risk_of(const Component& component, const std::vector<Part>& parts,
+                               std::size_t most, double time) const {
+        Risk risk{.row = component.rows.front(), .of = Risk::Of::told};
+        if (const Coupling* const spring = component.most_strained(parts[most].vector)) {
+            risk.row = component.rows[spring->a];
+            if (spring->b != Coupling::ground) risk.linked = component.rows[spring->b];
+        }
+        risk.message = fmt::format(
+            "{}: {} takes half of the energy of its oscillation of {:.3g} Hz in {:.3g} s: {}",
+            risk.linked ? "link of bodies {} and {}" : "spring of body {}", method_.name,
+            parts[most].omega / (2 * std::numbers::pi), time, remedy_of(parts));
+        return risk;
+    }
+
+    const Bodies& bodies_;
+    const Method& method_;
+    Steps steps_;
+    Damping damping_;
+    std::vector<Vec3> accelerations_;
+};
+
+}  // namespace
+
+std::vector<Risk> find_losses(const Bodies& bodies, const Method& method, const Steps& steps) {
+    constexpr std::size_t most_bodies = 2000;
+    constexpr std::size_t most_risks = 5;
+    std::vector<Risk> risks;
+    if (method.symplectic || std::holds_alternative<ExactFlow>(method.rule)) return risks;
+    if (bodies.size() > most_bodies || !is_finite(bodies)) return risks;
+    auto accelerations = accelerations_of(bodies);
+    if (!accelerations) return risks;
+    const LossTest test(bodies, method, steps, *std::move(accelerations));
+    const std::vector<bool> linked = bodies.linked_rows();
+    const auto add = [&](const Component& component) {
+        if (risks.size() >= most_risks) return;
+        if (auto risk = test.find_risk(component)) risks.push_back(std::move(*risk));
+    };
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (!linked[row]) add(component_of_row(bodies, row));
+    for (const Component& component : linked_components(bodies, component_labels(bodies)))
+        add(component);
+    return risks;
+}
+
+}  // namespace oiler
