@@ -167,6 +167,29 @@ TEST(StartWarning, KnowsTheDepthInEveryShape) {
         "body 0 starts 1.5 m inside ");
 }
 
+// 0.3 m above the second plane of offset 0.4/2 the ball of 0.5 m is 0.4 m too low.
+TEST(StartWarning, IsGivenBelowAPlane) {
+    Bodies bodies = ball_at({-5, 0.3}, 0.5, {.shape = HalfSpaceShape{{1, 0}, -10}});
+    EXPECT_TRUE(lines_of(bodies).empty());
+    bodies.add_plane({.normal = {0, 2}, .offset = 0.4});
+    EXPECT_EQ(lines_of(bodies),
+              std::vector<std::string>{
+                  "body 0 starts 0.4 m inside plane 1, and is lifted out of it at once: move it"});
+    EXPECT_FALSE(bodies.try_step(find_method("velocity_verlet"), {{60}}));
+    EXPECT_NEAR(bodies.position(0)[1], 0.7, 1e-12);
+    EXPECT_TRUE(lines_of(bodies).empty()) << "it lies on the plane";
+}
+
+// The nearest float to 0.1 is below 0.1.
+TEST(StartWarning, IsNotGivenForTheRoundingOfFloat) {
+    for (const double x : {0.1, 0.3, 7.7, 1000.1}) {
+        Bodies bodies(2, Precision::single);
+        bodies.add_plane({.normal = {0, 1}, .offset = x});
+        bodies.add({.position = {0, x + 0.1}, .contact = Contact{0.1}});
+        EXPECT_TRUE(lines_of(bodies).empty()) << x;
+    }
+}
+
 TEST(StartWarning, IsNotGivenForOneWayObstacles) {
     const Obstacle ledge{.shape = BoxShape{.centre = {0, 0}, .size = {2, 1}},
                          .one_way = Vec3{0, 1}};

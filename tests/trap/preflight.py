@@ -10,12 +10,15 @@ Dormand and Prince with an error of 1e-9; bouncing balls have a closed form. A r
   energy changes by half;
 - it reverses: a step turns the velocity relative to the air, and the true motion does not;
 - it freezes: it rests although the true motion moves on, or a body lies inside a plane;
-- rounding changes its motion by 2 %.
+- it dies: in the last quarter of a run of springs, its kinetic energy is less than a third;
+- an orbit's farthest point is wrong by 30 %;
+- rounding changes its motion by 2 %, or an oscillation by a fifth of its extent.
 
 A bad run without a warning is missed. A warning of a run that is not bad, nor in ten times as many
 steps and 10,000 more, is a false alarm, unless a driven body is 5 % of its reach away from its
-place. Exits with 1 if more than 1 % are missed or more than 5 %
-are false."""
+place, springs have lost 30 % of their kinetic energy, an orbit's farthest point is wrong by 15 % or
+an oscillation in float by 5 %. Exits with 1 if more than 1 % are missed or more than 5 % are
+false."""
 
 import argparse
 import collections
@@ -58,6 +61,7 @@ class Scene:
         self.gravity = [0.0] * axes
         self.bodies, self.springs, self.drives, self.winds = [], [], [], []
         self.attractors, self.planes = [], []
+        self.left, self.wrong, self.departure = 1.0, 0.0, 0.0
 
     def body(self, x, v, mass=1.0, linear=0.0, quadratic=0.0, contact=None):
         pad = [0.0] * self.axes
@@ -409,6 +413,12 @@ def far(dice):
     x = dice.log(10, 1e8)
     scene.body([x, 0.0], [dice.log(1e-4, 1e3)])
     scene.ticks = 600
+    if dice.chance(0.5):
+        scene.bodies.clear()
+        omega = scene.rate * dice.log(0.01, 0.2)
+        scene.body([rounded(x) + dice.log(0.01, 100), 0.0], [0.0])
+        scene.spring(0, [rounded(x), 0.0], rounded(omega * omega))
+        scene.ticks = 512
     return scene
 
 
@@ -541,6 +551,32 @@ def orbital_energy(scene, state):
     return (v[0] * v[0] + v[1] * v[1]) / 2 - gm / math.hypot(*x)
 
 
+def kinetic(scene, states):
+    """The mean kinetic energy, J."""
+    masses = [body[2] for body in scene.bodies for _ in range(scene.axes)]
+    return sum(m * v * v for _, vs in states for m, v in zip(masses, vs)) / (2 * len(states))
+
+
+def judge_loss(scene, run, truth):
+    """The kinetic energy that is left in the last quarter, relative to the true one."""
+    quarter = len(truth) // 4
+    true = kinetic(scene, truth[-quarter:])
+    if not true > 0.05 * kinetic(scene, truth[:quarter]):
+        return ""
+    scene.left = kinetic(scene, run.states[-quarter:]) / true
+    return f"dies: {scene.left:.2g} of the energy is left" if scene.left < 1 / 3 else ""
+
+
+def departure(oiler, path, scene, run):
+    """The largest distance from a run in double, relative to its extent."""
+    text = path.read_text()
+    path.write_text(text.replace('precision = "float"', 'precision = "double"'))
+    other = Run(oiler, path, scene, scene.ticks)
+    path.write_text(text)
+    return max(distance(x, y) for (x, _), (y, _) in zip(run.states, other.states)) / \
+        reach(other.states, other.states[0][0])
+
+
 def judge_orbit(scene, run):
     """The energy at the farthest point of each revolution, where its error is small."""
     first, gm = orbital_energy(scene, run.states[0]), scene.attractors[0][1]
@@ -554,7 +590,9 @@ def judge_orbit(scene, run):
             return f"falls in, revolution {i // period + 1}"
         if abs(orbital_energy(scene, state) / first - 1) > 0.5:
             return f"loses its orbit, revolution {i // period + 1}"
-    return ""
+    first_round = run.states[: period + period // 4 + 1]
+    scene.wrong = abs(max(math.hypot(*x) for x, _ in first_round) / farthest - 1)
+    return f"its farthest point is {100 * scene.wrong:.2g} % wrong" if scene.wrong > 0.3 else ""
 
 
 def judge(scene, run):
@@ -572,6 +610,8 @@ def judge(scene, run):
         return "inside a plane" if inside > 1e-3 * radius else ""
     if scene.kind == "point":
         return "freezes" if scene.stays and reach(run.states, start) == 0 else ""
+    if scene.kind == "far" and scene.springs:
+        return f"departs by {100 * scene.departure:.2g} %" if scene.departure > 0.2 else ""
     if scene.kind == "far":
         moved = run.states[-1][0][0] - start[0]
         true = scene.bodies[0][1][0] * scene.ticks / scene.rate
@@ -593,11 +633,15 @@ def judge(scene, run):
         return f"follows its drive {ratio:.3g} times as far"
     if scene.kind in ("linear drag", "quadratic drag", "wind"):
         return reversal(scene, run, truth)
+    if scene.kind in ("springs", "edge", "pendulum", "net", "linked"):
+        return judge_loss(scene, run, truth)
     return ""
 
 
 def is_bad_later(oiler, path, scene):
     """Whether ten times as many steps explode, or move farther than the true motion did."""
+    if scene.left < 0.7 or scene.wrong > 0.15 or scene.departure > 0.05:
+        return True
     if scene.kind in ("linear drag", "quadratic drag", "wind", "room", "far", "bounce"):
         return False
     if scene.kind == "point":
@@ -623,6 +667,8 @@ def examine(oiler, folder, seed):
         return scene.kind, "refused", f"{words}: {run.message}"
     if run.exit not in (0, 5):
         return scene.kind, "crash", f"{words}: exit {run.exit}: {run.message}"
+    if scene.kind == "far" and scene.springs and run.exit == 0:
+        scene.departure = departure(oiler, path, scene, run)
     try:
         bad = judge(scene, run)
     except TooLong:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "oiler/core/error.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {
@@ -161,6 +162,73 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
     AttractorTest test(bodies, region, rate);
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (auto risk = test.find_risk(row, linked[row])) risks.push_back(std::move(*risk));
+}
+
+namespace {
+
+/// The farthest point of the first revolution, m, if it is wrong by a fifth.
+std::optional<double> wrong_farthest(const Orbit& orbit, const Method& method, const Steps& steps) {
+    constexpr double most = 100'000;
+    const double count = 1.25 * orbit.period() / steps.rate.dt();
+    if (!(count < most)) return std::nullopt;
+    Bodies bodies(3, Precision::double_);
+    bodies.add({.position = orbit.centre + orbit.r, .velocity = orbit.v},
+               Attractor{orbit.centre, orbit.gm});
+    double farthest = length(orbit.r);
+    for (std::int64_t tick = 0; static_cast<double>(tick) < count; ++tick) {
+        if (bodies.try_step(method, {steps.rate, tick, 1, steps.damping})) return INFINITY;
+        farthest = std::max(farthest, length(bodies.position(0) - orbit.centre));
+    }
+    const bool is_wrong = std::abs(farthest / orbit.farthest() - 1) > 0.2;
+    return is_wrong ? std::optional(farthest) : std::nullopt;
+}
+
+/// The orbit of a body that one attractor alone holds.
+std::optional<Orbit> orbit_of(const Bodies& bodies, std::size_t row) {
+    const Attraction attraction = attraction_of(bodies, row);
+    if (!attraction.is_alone) return std::nullopt;
+    const Attractor& attractor = attraction.attractors.front();
+    const Orbit orbit{attractor.centre, bodies.position(row) - attractor.centre,
+                      bodies.velocity(row), attractor.gm};
+    const bool returns = attractor.gm > 0 && orbit.energy() < 0 && orbit.closest() > 0;
+    return returns ? std::optional(orbit) : std::nullopt;
+}
+
+/// The first rate, in steps of 5 %, that keeps the farthest point and follows the orbit.
+std::string rate_for(const Orbit& orbit, const Method& method, const Steps& steps) {
+    const Damping damping = steps.damping.value_or(method.damping);
+    for (double hertz = std::ceil(1 / steps.rate.dt()) + 1; hertz <= highest_rate;
+         hertz = std::ceil(1.05 * hertz)) {
+        const Steps tried{{std::llround(hertz)}, 0, 1, steps.damping};
+        if (!wrong_farthest(orbit, method, tried) && follows(orbit, method, damping, tried.rate))
+            return fmt::format("rate ≥ {:.0f} Hz", hertz);
+    }
+    return "take another method";
+}
+
+}  // namespace
+
+void add_orbit_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
+                           std::vector<Risk>& risks) {
+    if (!any_body_has(bodies, []<class Force>() { return std::is_same_v<Force, Attractor>; }))
+        return;
+    const std::vector<bool> linked = bodies.linked_rows();
+    for (std::size_t row = 0; row < bodies.size() && risks.size() < most_distortions; ++row) {
+        const auto orbit = linked[row] ? std::nullopt : orbit_of(bodies, row);
+        const auto farthest = orbit ? wrong_farthest(*orbit, method, steps) : std::nullopt;
+        if (!farthest) continue;
+        risks.push_back(
+            {.row = row,
+             .of = Risk::Of::told,
+             .message = fmt::format("attractor of body {{}}: {} leads it as far as {:.3g} m from "
+                                    "the attractor instead of {:.3g} m: {}",
+                                    method.name, *farthest, orbit->farthest(),
+                                    rate_for(*orbit, method, steps))});
+    }
+}
+
+bool keeps_shape(const Orbit& orbit, const Method& method, const Steps& steps) {
+    return !wrong_farthest(orbit, method, steps);
 }
 
 bool follows(const Orbit& orbit, const Method& method, Damping damping, const Rate& rate) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "oiler/stability/risks.hpp"
 
@@ -60,6 +61,19 @@ bool holds(const Bodies& bodies, const Method& method, const Steps& steps) {
     return std::ranges::all_of(find_risks(bodies, method, steps), [](const Risk& risk) {
         return risk.of == Risk::Of::told || is_rounding(risk);
     });
+}
+
+void add_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
+                     std::vector<Risk>& risks) {
+    constexpr std::size_t most_bodies = 2000;
+    if (bodies.size() > most_bodies || !is_finite(bodies)) return;
+    if (std::ranges::any_of(risks, [](const Risk& one) { return one.of != Risk::Of::told; }))
+        return;
+    std::vector<Risk> distortions;
+    add_oscillation_losses(bodies, method, steps, distortions);
+    add_orbit_distortions(bodies, method, steps, distortions);
+    add_float_distortions(bodies, method, steps, distortions);
+    std::ranges::move(distortions, std::back_inserter(risks));
 }
 
 }  // namespace oiler

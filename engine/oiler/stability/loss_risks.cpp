@@ -170,25 +170,22 @@ private:
 
 }  // namespace
 
-std::vector<Risk> find_losses(const Bodies& bodies, const Method& method, const Steps& steps) {
-    constexpr std::size_t most_bodies = 2000;
-    constexpr std::size_t most_risks = 5;
-    std::vector<Risk> risks;
-    if (method.symplectic || std::holds_alternative<ExactFlow>(method.rule)) return risks;
-    if (bodies.size() > most_bodies || !is_finite(bodies)) return risks;
+void add_oscillation_losses(const Bodies& bodies, const Method& method, const Steps& steps,
+                            std::vector<Risk>& risks) {
+    if (method.symplectic || std::holds_alternative<ExactFlow>(method.rule)) return;
     auto accelerations = accelerations_of(bodies);
-    if (!accelerations) return risks;
+    if (!accelerations) return;
     const LossTest test(bodies, method, steps, *std::move(accelerations));
     const std::vector<bool> linked = bodies.linked_rows();
     const auto add = [&](const Component& component) {
-        if (risks.size() >= most_risks) return;
+        if (risks.size() >= most_distortions) return;
         if (auto risk = test.find_risk(component)) risks.push_back(std::move(*risk));
     };
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (!linked[row]) add(component_of_row(bodies, row));
+    if (bodies.link_count() == 0) return;
     for (const Component& component : linked_components(bodies, component_labels(bodies)))
         add(component);
-    return risks;
 }
 
 }  // namespace oiler

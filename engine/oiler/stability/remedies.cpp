@@ -21,10 +21,12 @@ Bodies island_of(const Bodies& bodies, std::size_t row) {
 }
 
 /// Whether a rate and two higher ones step the bodies without a risk that makes a run unusable.
-bool holds_from(const Bodies& bodies, const Method& method, const Steps& steps, double hertz) {
+bool holds_from(const Bodies& bodies, const Risk& risk, const Method& method, const Steps& steps,
+                double hertz) {
     return std::ranges::all_of(std::array{1.0, 1.1, 1.25}, [&](double factor) {
-        return holds(bodies, method,
-                     {{std::llround(hertz * factor)}, 0, steps.count, steps.damping});
+        const Steps tried{{std::llround(hertz * factor)}, 0, steps.count, steps.damping};
+        return (!risk.orbit || keeps_shape(*risk.orbit, method, tried)) &&
+               holds(bodies, method, tried);
     });
 }
 
@@ -38,10 +40,9 @@ std::optional<double> rate_above(double limit, const Risk& risk, const Method& m
     double hertz = std::floor(at_limit * (1 + 1e-9)) + 1;
     if (!(limit > 0) || !(hertz <= highest_rate)) return std::nullopt;
     if (is_linear(*risk.scene)) return hertz;
-    if (!is_finite(*risk.scene)) return std::nullopt;
     const Bodies island = island_of(*risk.scene, risk.row);
     for (int trial = 0; trial < most_trials && hertz <= highest_rate; ++trial) {
-        if (holds_from(island, method, steps, hertz)) return hertz;
+        if (holds_from(island, risk, method, steps, hertz)) return hertz;
         hertz = std::ceil(hertz * 1.1);
     }
     return std::nullopt;
@@ -67,6 +68,9 @@ double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
 }
 
 std::string remedy_for(double limit, const Risk& risk, const Method& method, const Steps& steps) {
+    if (limit > 0 && !is_linear(*risk.scene) && !is_finite(*risk.scene))
+        return fmt::format("take a higher rate, or {}",
+                           risk.remedy ? risk.remedy->name : "another method");
     const std::optional<double> rate = rate_above(limit, risk, method, steps);
     if (is_attraction(risk) && !rate && !risk.remedy)
         return "give the body another position or velocity";

@@ -118,6 +118,24 @@ void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
 /// if it is below 0.1.
 [[nodiscard]] double trial_limit(const Risk& risk, const Method& method, const Steps& steps);
 
+/// The most distortions of a kind.
+inline constexpr std::size_t most_distortions = 5;
+
+/// Adds the oscillations whose energy the method halves. The energy is that of the modes at the
+/// present positions, in components of up to 100 freedoms whose bodies meet no obstacles.
+void add_oscillation_losses(const Bodies& bodies, const Method& method, const Steps& steps,
+                            std::vector<Risk>& risks);
+
+/// Adds the orbits whose farthest point is wrong by a fifth in the first revolution.
+void add_orbit_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
+                           std::vector<Risk>& risks);
+[[nodiscard]] bool keeps_shape(const Orbit& orbit, const Method& method, const Steps& steps);
+
+/// Adds the bodies in float that depart from a run in double by a tenth of their motion within 512
+/// steps, where the last place is not much shorter than their steps. Links are left out.
+void add_float_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
+                           std::vector<Risk>& risks);
+
 /// The rate of steps of dt·`factor`, to seven digits or more.
 [[nodiscard]] Rate scaled_rate(const Rate& rate, double factor);
 

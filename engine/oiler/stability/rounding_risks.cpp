@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oiler/core/error.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {
@@ -164,6 +165,67 @@ void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps&
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (const auto risk = RowRounding(bodies, row, parts, steps.rate.dt()).find())
             risks.push_back(*risk);
+}
+
+namespace {
+
+/// A run of one body in float beside one in double.
+struct Departure {
+    double distance = 0;  ///< m, the largest between both
+    double time = 0;      ///< s, of that distance
+    double extent = 0;    ///< m, of the motion in double
+};
+
+Departure departure_of(const Bodies& bodies, std::size_t row, const Method& method,
+                       const Steps& steps) {
+    constexpr std::int64_t most_steps = 512;
+    const std::int64_t count = steps.count > 1 ? std::min(steps.count, most_steps) : most_steps;
+    Bodies single = alone(bodies, row, Precision::single);
+    Bodies exact = alone(bodies, row, Precision::double_);
+    const Vec3 start = exact.position(0);
+    Departure found;
+    for (std::int64_t tick = 0; tick < count; ++tick) {
+        const Steps step{steps.rate, steps.first + tick, 1, steps.damping};
+        if (single.try_step(method, step) || exact.try_step(method, step)) return {};
+        const double distance = length(single.position(0) - exact.position(0));
+        found.extent = std::max(found.extent, length(exact.position(0) - start));
+        if (distance > found.distance)
+            found = {distance, static_cast<double>(tick + 1) * steps.rate.dt(), found.extent};
+    }
+    return found;
+}
+
+/// The unit of the last place of a body's largest coordinate, m, if slow parts of its motion of the
+/// next second are shorter; else 0.
+double coarse_unit(const Bodies& bodies, std::size_t row, double dt) {
+    const State<double, 3> state{bodies.position(row), bodies.velocity(row)};
+    const double unit = last_place(largest(state.x));
+    const double speed =
+        length(state.v) + length(motion_of(bodies, row, state, 0).acceleration) * std::max(1.0, dt);
+    return unit > 0.01 * speed * dt ? unit : 0;
+}
+
+}  // namespace
+
+void add_float_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
+                           std::vector<Risk>& risks) {
+    if (bodies.precision() != Precision::single) return;
+    const std::vector<bool> linked = bodies.linked_rows();
+    for (std::size_t row = 0; row < bodies.size() && risks.size() < most_distortions; ++row) {
+        if (linked[row] || (bodies.has_obstacles() && bodies.contact(row))) continue;
+        const double unit = coarse_unit(bodies, row, steps.rate.dt());
+        if (unit == 0) continue;
+        const Departure found = departure_of(bodies, row, method, steps);
+        if (!(found.distance > 0.1 * found.extent && found.extent > 3 * unit)) continue;
+        risks.push_back(
+            {.row = row,
+             .of = Risk::Of::told,
+             .message = fmt::format(
+                 "position of body {{}}: its steps are rounded to {:.3g} m, the last place in "
+                 "float, and after {:.3g} s it is {:.2g} m away from its place in double, in a "
+                 "motion of {:.2g} m: take precision double, or an origin nearer to it",
+                 unit, found.time, found.distance, found.extent)});
+    }
 }
 
 }  // namespace oiler

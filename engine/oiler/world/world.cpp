@@ -362,8 +362,7 @@ std::vector<std::string> World::describe(std::span<const Risk> risks, std::size_
 
 std::vector<std::string> World::preflight(std::size_t most) const {
     std::vector<Risk> all = risks(1);
-    std::ranges::move(find_losses(*bodies_, *settings_.stepping.method, next_steps(1)),
-                      std::back_inserter(all));
+    add_distortions(*bodies_, *settings_.stepping.method, next_steps(1), all);
     return describe(all, most);
 }
 

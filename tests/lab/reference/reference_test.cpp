@@ -523,5 +523,33 @@ TEST(ReferenceByFineSteps, OfLinkedBodiesThatLandIsRightForAShortTime) {
     EXPECT_GT(most, 0);
 }
 
+// A stiff link beside slow springs. Samples for a loose tolerance once were too few for it, and the
+// motion was called chaotic after 0.04 s.
+TEST(Reference, OfALooseToleranceIsMeaningfulToTheEnd) {
+    const std::string text =
+        "[scene]\naxes = 2\nrate = 60\nduration = 4.0\n"
+        "[[body]]\nname = \"a\"\nposition = [-0.1457, -2.3678]\nvelocity = [2.4597, 0.2699]\n"
+        "mass = 2.0592\n"
+        "[[body]]\nname = \"b\"\nposition = [2.9957, 1.3848]\nvelocity = [2.2288, -0.7874]\n"
+        "mass = 1.2368\nquadratic_drag = 1.8131\n"
+        "[[spring]]\nbody = \"a\"\nanchor = [-1.2234, 1.3691]\nstiffness = 1.226\ndamping = "
+        "0.3409\n"
+        "[[spring]]\nbody = \"b\"\nanchor = [-1.0539, -2.1406]\nstiffness = 746.195\n"
+        "[[spring]]\nbody = \"b\"\nto = \"a\"\nstiffness = 1504.664\nrest_length = 0.769\n";
+    const Scene scene = parse_scene(text, "test.toml");
+    const Reference fine = make_reference(scene, {.wanted = 1e-8});
+    ASSERT_EQ(fine.meaningful_until, 4);
+    for (const double wanted : {1e-2, 1e-3, 1e-4}) {
+        const Reference reference = make_reference(scene, {.wanted = wanted});
+        EXPECT_EQ(reference.meaningful_until, 4) << wanted << ": " << reference.why_no_longer;
+        for (double t = 0; t <= 4; t += 0.01)
+            for (const std::size_t row : {0, 1})
+                EXPECT_LE(std::sqrt(static_cast<double>(squared_length(
+                              reference.motion->at(row, t).x - fine.motion->at(row, t).x))),
+                          wanted)
+                    << wanted << " " << t;
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

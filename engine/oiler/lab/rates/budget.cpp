@@ -15,9 +15,8 @@ std::string describe(const BudgetEntry& entry, const char* unit) {
     if (std::isinf(entry.measured))
         return fmt::format("{} of {:g}{}: exceeded, the run is unstable", entry.name, entry.most,
                            unit);
-    return fmt::format("{} {}{:.3g}{} of {:g}{}: {}", entry.name,
-                       entry.is_limit() ? "below " : "", entry.measured, unit,
-                       entry.most, unit, entry.kept ? "kept" : "exceeded");
+    return fmt::format("{} {}{:.3g}{} of {:g}{}: {}", entry.name, entry.is_limit() ? "below " : "",
+                       entry.measured, unit, entry.most, unit, entry.kept ? "kept" : "exceeded");
 }
 
 BudgetEntry make_entry(const char* name, const char* unit, double most, bool stable,

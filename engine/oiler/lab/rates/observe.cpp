@@ -150,6 +150,11 @@ std::optional<Floor> floor_of(const Bodies& bodies, std::size_t row, const Vec3&
 
 }  // namespace
 
+bool approaches(const Real3& normal, const Real3& velocity) {
+    constexpr Real grazing = 1e-3L;
+    return dot(normal, velocity) < -grazing * std::sqrt(squared_length(velocity));
+}
+
 Observer::Observer(const Scene& scene, const Reference& reference, std::size_t row) {
     if (scene.gravity && largest(*scene.gravity) > 0) {
         int up = 0;
@@ -169,6 +174,8 @@ Observer::Observer(const Scene& scene, const Reference& reference, std::size_t r
     apex_until_ = up_ ? end_of_first_apex(truth) : 0;
     find_oscillation_or_rest(reference, row, truth);
     truth_ = observe(truth);
+    bounces_aside_ = std::isnan(truth_.first_impact) && !truth.meetings.empty();
+    if (bounces_aside_) truth_.first_impact = truth.meetings.front();
     // A ball that does not bounce has the time of its impact.
     if (std::isnan(truth_.bounce_1)) truth_.rest_time = unknown;
     // They stand in for the period of an oscillation that has none.
@@ -183,9 +190,13 @@ Trace Observer::true_trace(const Reference& reference, std::size_t row) const {
     for (int axis = 0; axis < 3; ++axis)
         trace.paths[static_cast<std::size_t>(axis)] =
             path_of(reference, row, axis, floor_ ? 16 : 1);
-    if (!floor_) return trace;
     for (const Kink& kink : reference.motion->kinks(row)) {
         const double time = static_cast<double>(kink.time);
+        const Real3 change = kink.after.v - kink.before.v;
+        if (time <= reference.meaningful_until && squared_length(change) > 0 &&
+            approaches(change / std::sqrt(squared_length(change)), kink.before.v))
+            trace.meetings.push_back(time);
+        if (!floor_) continue;
         const bool is_on_floor = std::abs(dot(floor_->normal, kink.after.x) - floor_->offset) <=
                                  static_cast<Real>(dead_band * reference.extent);
         if (is_on_floor && time <= reference.meaningful_until &&
@@ -319,6 +330,8 @@ Observed Observer::observe(const Trace& trace) const {
     Observed observed;
     observe_jump(observed, trace);
     observe_bounces(observed, trace);
+    if (bounces_aside_)
+        observed.first_impact = trace.meetings.empty() ? unknown : trace.meetings.front();
     observe_oscillation(observed, trace);
     observe_rest(observed, trace);
     return observed;

@@ -29,17 +29,21 @@ struct Observed {
     double settle_time = unknown;
 };
 
-/// The motion of a body: its three coordinates, and the times of its impacts on the floor, s.
+/// The motion of a body: its three coordinates, and the times of its impacts, s.
 struct Trace {
     std::array<Path, 3> paths{};
-    std::vector<double> impacts{};
+    std::vector<double> impacts{};   ///< on the floor
+    std::vector<double> meetings{};  ///< with any obstacle
 };
+
+/// Whether a body that an obstacle turns or stops approaches it, rather than slides along it.
+[[nodiscard]] bool approaches(const Real3& normal, const Real3& velocity);
 
 /// The floor under a body: the plane that faces gravity most.
 struct Floor {
     ObstacleHandle plane{};
-    Real3 normal{};         ///< of length 1
-    Real offset = 0;        ///< m, with the body's radius
+    Real3 normal{};   ///< of length 1
+    Real offset = 0;  ///< m, with the body's radius
 };
 
 /// The axes, the floor, the oscillation and the rest along which a body is measured.
@@ -80,7 +84,8 @@ private:
     double noise_ = 0;       ///< m: lower flights are no bounces, closer apexes equally high
     double apex_until_ = 0;  ///< s
     std::optional<PeriodicCoordinate> oscillation_;
-    bool is_regular_ = false;  ///< the oscillation has an amplitude, else only a range
+    bool bounces_aside_ = false;  ///< the first impact is on no floor
+    bool is_regular_ = false;     ///< the oscillation has an amplitude, else only a range
     std::optional<Rest> rest_;
     Observed truth_;
 };

@@ -39,11 +39,13 @@ constexpr ObservedQuantity quantities[]{
 
 /// Adds the impacts of the last steps.
 void add_impacts(Trace& trace, const Bodies& bodies, const Rate& rate, std::size_t row,
-                 const Floor& floor) {
+                 const std::optional<Floor>& floor) {
     for (std::size_t i = 0; i < bodies.impact_count(); ++i) {
         const BodyImpact impact = bodies.impact_at(i, rate);
-        if (impact.row == row && impact.obstacle == floor.plane &&
-            dot(floor.normal, to_real(impact.before)) < 0)
+        if (impact.row != row) continue;
+        const Real3 before = to_real(impact.before);
+        if (approaches(to_real(impact.normal), before)) trace.meetings.push_back(impact.time);
+        if (floor && impact.obstacle == floor->plane && dot(floor->normal, before) < 0)
             trace.impacts.push_back(impact.time);
     }
 }
@@ -66,7 +68,7 @@ std::optional<Trace> run(const Scene& scene, const Stepping& choice, const Refer
             trace.paths[static_cast<std::size_t>(axis)].t.push_back(world.time());
             trace.paths[static_cast<std::size_t>(axis)].x.push_back(at[axis]);
         }
-        if (floor) add_impacts(trace, world.bodies(), choice.rate, row, *floor);
+        add_impacts(trace, world.bodies(), choice.rate, row, floor);
     }
     return trace;
 } catch (const Error& error) {

@@ -148,7 +148,7 @@ Path path_of(const Reference& reference, std::size_t row, int axis, std::int64_t
     const std::vector<Kink> kinks = reference.motion->kinks(row);
     auto kink = kinks.begin();
     const auto add_motion_at = [&](double t) {
-        for (; kink != kinks.end() && kink->time < t; ++kink) {
+        for (; kink != kinks.end() && kink->time <= t; ++kink) {
             add(static_cast<double>(kink->time), kink->before);
             add(static_cast<double>(kink->time), kink->after);
         }
