@@ -24,20 +24,27 @@ std::vector<std::string> lines_of(const Bodies& bodies) {
     return warnings(bodies, find_method("velocity_verlet"), rate);
 }
 
+/// The lines about the room between planes, wherever the ball starts.
+std::vector<std::string> room_lines(const Bodies& bodies) {
+    std::vector<std::string> lines = lines_of(bodies);
+    std::erase_if(lines, [](const std::string& line) { return holds(line, " starts "); });
+    return lines;
+}
+
 TEST(RoomWarning, NamesPlanesAndRadius) {
     const std::vector<Plane> slab{
         {.normal = {1, 0}, .offset = -9}, {.normal = {0, 1}}, {.normal = {0, -2}, .offset = -1.6}};
-    const auto lines = lines_of(ball(2, 0.5, slab));
+    const auto lines = room_lines(ball(2, 0.5, slab));
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
               "body 0: planes 1 and 2 leave room for a radius of 0.4 m, and its contact of 0.5 m "
               "does not fit: move them apart, or give it a smaller contact");
-    EXPECT_TRUE(lines_of(ball(2, 0.4, slab)).empty());
+    EXPECT_TRUE(room_lines(ball(2, 0.4, slab)).empty());
 }
 
 TEST(RoomWarning, SaysThatPlanesContradict) {
     const auto lines =
-        lines_of(ball(1, 0, {{.normal = {1}, .offset = 3}, {.normal = {-1}, .offset = 3}}));
+        room_lines(ball(1, 0, {{.normal = {1}, .offset = 3}, {.normal = {-1}, .offset = 3}}));
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_TRUE(
         lines[0].starts_with("body 0: planes 0 and 1 contradict each other: every point is "
@@ -60,16 +67,17 @@ TEST(RoomWarning, KnowsTheInradius) {
             cube.push_back({.normal = side, .offset = -1});
     const std::pair<int, std::vector<Plane>> rooms[]{{2, triangle}, {3, tetrahedron}, {3, cube}};
     for (const auto& [axes, planes] : rooms) {
-        EXPECT_TRUE(lines_of(ball(axes, 0.999999, planes)).empty()) << planes.size();
-        EXPECT_EQ(lines_of(ball(axes, 1.000001, planes)).size(), 1U) << planes.size();
+        EXPECT_TRUE(room_lines(ball(axes, 0.999999, planes)).empty()) << planes.size();
+        EXPECT_EQ(room_lines(ball(axes, 1.000001, planes)).size(), 1U) << planes.size();
     }
 }
 
 TEST(RoomWarning, IsNotGivenForOpenPlanes) {
     EXPECT_TRUE(
-        lines_of(ball(2, 100, {{.normal = {0, 1}}, {.normal = {1, -1}, .offset = 50}})).empty());
-    EXPECT_TRUE(lines_of(ball(3, 100, {{.normal = {0, 1}}, {.normal = {1, 0}}, {.normal = {0, 1}}}))
-                    .empty());
+        room_lines(ball(2, 100, {{.normal = {0, 1}}, {.normal = {1, -1}, .offset = 50}})).empty());
+    EXPECT_TRUE(
+        room_lines(ball(3, 100, {{.normal = {0, 1}}, {.normal = {1, 0}}, {.normal = {0, 1}}}))
+            .empty());
     Bodies ghost(1, Precision::double_);
     ghost.add_plane({.normal = {1}, .offset = 3});
     ghost.add_plane({.normal = {-1}, .offset = 3});
@@ -98,8 +106,8 @@ TEST(RandomRooms, HaveTheRadiusOfTheirCircle) {
             widest = std::max(widest, angles[i] - angles[i - 1]);
         const bool is_closed = widest < std::acos(-1.0);
         closed += is_closed;
-        EXPECT_TRUE(lines_of(ball(2, radius * (1 - 1e-6), planes)).empty()) << seed;
-        EXPECT_EQ(!lines_of(ball(2, radius * (1 + 1e-6), planes)).empty(), is_closed) << seed;
+        EXPECT_TRUE(room_lines(ball(2, radius * (1 - 1e-6), planes)).empty()) << seed;
+        EXPECT_EQ(!room_lines(ball(2, radius * (1 + 1e-6), planes)).empty(), is_closed) << seed;
     }
     EXPECT_GT(closed, campaign_length());
 }
@@ -108,8 +116,8 @@ TEST(RandomRooms, HaveTheRadiusOfTheirCircle) {
 TEST(RoomWarning, IsGivenForTheFirstOfVeryManyPlanes) {
     std::vector<Plane> planes(3000, Plane{.normal = {1, 0}, .offset = -9});
     planes[1] = {.normal = {-1, 0}, .offset = -9};
-    EXPECT_EQ(lines_of(ball(2, 9.5, planes)).size(), 1U);
-    EXPECT_TRUE(lines_of(ball(2, 8.5, planes)).empty());
+    EXPECT_EQ(room_lines(ball(2, 9.5, planes)).size(), 1U);
+    EXPECT_TRUE(room_lines(ball(2, 8.5, planes)).empty());
 }
 
 // ---- starts in obstacles

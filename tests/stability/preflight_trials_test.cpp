@@ -133,10 +133,11 @@ TEST(DriveWarning, NamesOnlyRatesThatThereAre) {
         if (frequency < 83.3e3) {
             EXPECT_LE(rate_in(lines[0]), 1'000'000) << lines[0];
         } else {
-            EXPECT_FALSE(holds(lines[0], "rate ≥ ")) << lines[0];
+            EXPECT_TRUE(
+                lines[0].ends_with(": no rate up to 1000000 Hz follows it: lower its frequency"))
+                << lines[0];
         }
     }
-    EXPECT_TRUE(warnings(driven(1, 84e3 + 1), verlet, {60})[0].ends_with("take exact"));
 }
 
 // ω² = 2·9000 /s², h = 2.24; 3.4 Hz has 17.6 steps.
@@ -183,7 +184,7 @@ TEST(RateOfARemedy, HoldsAnOrbit) {
     for (const char* name : {"pefrl", "velocity_verlet", "ruth3", "position_verlet"})
         for (const std::int64_t hertz : {20, 30, 50}) {
             Bodies bodies(2, Precision::double_);
-            bodies.add({.position = {0.1, 0}, .velocity = {0, std::sqrt(19.0)}},
+            bodies.add({.position = {1 - 0.9, 0}, .velocity = {0, std::sqrt(1.9 / (1 - 0.9))}},
                        Attractor{.gm = 1});
             const auto lines = warnings(bodies, find_method(name), {hertz});
             if (lines.empty()) continue;

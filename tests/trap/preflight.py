@@ -25,6 +25,7 @@ import collections
 import json
 import math
 import random
+import struct
 import subprocess
 import sys
 import tempfile
@@ -39,6 +40,10 @@ USUAL = ["semi_implicit_euler", "velocity_verlet", "rk4", "implicit_midpoint"]
 
 def rounded(number):
     return float(f"{number:.4g}")
+
+
+def in_float(number):
+    return struct.unpack("f", struct.pack("f", number))[0]
 
 
 class Dice(random.Random):
@@ -416,8 +421,10 @@ def far(dice):
     if dice.chance(0.5):
         scene.bodies.clear()
         omega = scene.rate * dice.log(0.01, 0.2)
-        scene.body([rounded(x) + dice.log(0.01, 100), 0.0], [0.0])
-        scene.spring(0, [rounded(x), 0.0], rounded(omega * omega))
+        anchor = in_float(x)
+        start = in_float(anchor + max(dice.log(0.01, 100), anchor * 2**-22))
+        scene.body([start, 0.0], [0.0])
+        scene.spring(0, [anchor, 0.0], rounded(omega * omega))
         scene.ticks = 512
     return scene
 
@@ -558,12 +565,13 @@ def kinetic(scene, states):
 
 
 def judge_loss(scene, run, truth):
-    """The kinetic energy that is left in the last quarter, relative to the true one."""
+    """The kinetic energy that is left in the last quarter, relative to the first and the truth."""
     quarter = len(truth) // 4
-    true = kinetic(scene, truth[-quarter:])
-    if not true > 0.05 * kinetic(scene, truth[:quarter]):
+    last, first = kinetic(scene, truth[-quarter:]), kinetic(scene, truth[:quarter])
+    if not last > 0.05 * first:
         return ""
-    scene.left = kinetic(scene, run.states[-quarter:]) / true
+    before = kinetic(scene, run.states[:quarter])
+    scene.left = kinetic(scene, run.states[-quarter:]) / before * first / last if before else 0.0
     return f"dies: {scene.left:.2g} of the energy is left" if scene.left < 1 / 3 else ""
 
 

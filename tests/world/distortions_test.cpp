@@ -80,11 +80,31 @@ TEST(LostOscillation, IsToldOfLinkedBodies) {
     World world(2, {.method = &find_method("implicit_euler"), .rate = {60}});
     const Entity a = world.spawn({.position = {0, 0}, .velocity = {5, 1}});
     const Entity b = world.spawn({.position = {1.5, 0}, .velocity = {5, 1}});
-    world.link(a, b, {.stiffness = 72, .rest_length = 1});
+    world.link(a, b, {.stiffness = 72});
     const auto lines = world.preflight();
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_TRUE(lines[0].starts_with("link of bodies 0 and 1: implicit_euler takes ")) << lines[0];
     EXPECT_NEAR(number_after(lines[0], " Hz in "), std::log(2) / std::log(1.04) / 60, 0.002);
+}
+
+/// A body of 1 kg on a coil of 1 m and 144 N/m, 1.5 m below its anchor, with another that rests.
+World on_a_coil(const char* method) {
+    World world(2, {.method = &find_method(method), .rate = {60}});
+    world.spawn({.position = {0, -1.5}}, CoilSpring{.stiffness = 144, .rest_length = 1});
+    world.spawn({.position = {5, 5}});
+    return world;
+}
+
+// 18 J, of which the run has less than half from 1/60·ln 2/ln(1 + h²) s on, h = 0.2.
+TEST(LostOscillation, OfACoilIsToldFromATrial) {
+    const auto lines = on_a_coil("implicit_euler").preflight();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].starts_with("springs of all bodies: implicit_euler takes half of "))
+        << lines[0];
+    EXPECT_TRUE(lines[0].ends_with(": take velocity_verlet")) << lines[0];
+    EXPECT_NEAR(number_after(lines[0], "motion in "), std::log(2) / std::log(1.04) / 60, 0.02);
+    EXPECT_TRUE(on_a_coil("velocity_verlet").preflight().empty());
+    EXPECT_TRUE(on_a_coil("rk4").preflight().empty()) << "half of it in 3.6 hours";
 }
 
 // ---- orbits
@@ -114,6 +134,7 @@ TEST(DistortedOrbit, IsToldWithItsFarthestPoint) {
             for (const std::int64_t hertz : {20, 120, 200, 400}) {
                 const World world = orbiting(name, hertz, e);
                 const auto lines = world.preflight();
+                if (!lines.empty() && !holds(lines[0], " leads it as far as ")) continue;
                 const double run = farthest(world, hertz);
                 const double wrong = std::abs(run / (1 + e) - 1);
                 if (lines.empty()) {
@@ -121,7 +142,6 @@ TEST(DistortedOrbit, IsToldWithItsFarthestPoint) {
                     continue;
                 }
                 EXPECT_GT(wrong, 0.2) << lines[0];
-                if (!holds(lines[0], " leads it as far as ")) continue;
                 EXPECT_NEAR(number_after(lines[0], "as far as "), run, 0.1 * run) << lines[0];
                 EXPECT_NEAR(number_after(lines[0], "instead of "), 1 + e, 0.005) << lines[0];
                 const auto rate = static_cast<std::int64_t>(number_after(lines[0], "rate ≥ "));

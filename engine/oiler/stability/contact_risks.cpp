@@ -89,13 +89,35 @@ std::string describe(const Room& room, double radius) {
         planes, room.radius, radius);
 }
 
+/// The first plane in which a ball starts deeper than rounding explains; empty if it is in none.
+std::string start_below(const std::vector<Plane>& planes, const Vec3& x, double radius,
+                        double hidden) {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const double depth =
+            radius - (dot(planes[i].normal, x) - planes[i].offset) / length(planes[i].normal);
+        if (depth > hidden * (largest(x) + radius))
+            return fmt::format(
+                "body {{}} starts {:.3g} m inside plane {}, and is lifted out of it at once: move "
+                "it",
+                depth, i);
+    }
+    return {};
+}
+
 void add_room_risks(const Bodies& bodies, std::vector<Risk>& risks) {
-    const Room room = RoomSearch(bodies.planes(), bodies.axes()).room();
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        if (const auto contact = bodies.contact(row);
-            contact && contact->radius > room.radius + 1e-9 * std::abs(room.radius))
-            risks.push_back(
-                {.row = row, .of = Risk::Of::told, .message = describe(room, contact->radius)});
+    const std::vector<Plane> planes = bodies.planes();
+    const Room room = RoomSearch(planes, bodies.axes()).room();
+    const double hidden = bodies.precision() == Precision::single ? 1e-6 : 1e-9;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        const auto contact = bodies.contact(row);
+        if (!contact) continue;
+        const bool fits = contact->radius <= room.radius + 1e-9 * std::abs(room.radius);
+        std::string message =
+            fits ? start_below(planes, bodies.position(row), contact->radius, hidden)
+                 : describe(room, contact->radius);
+        if (!message.empty())
+            risks.push_back({.row = row, .of = Risk::Of::told, .message = std::move(message)});
+    }
 }
 
 /// The speed that a bounce gains by the method's error, in units of the acceleration into the plane

@@ -126,15 +126,12 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
 }
 
 bool follows_drives(const Bodies& bodies, std::size_t row, const Method& method,
-                    const Steps& steps) try {
-    bodies.require_applicable(method, steps);
+                    const Steps& steps) {
     const std::vector<DriveEffect> effects = drive_effects(bodies, method, steps);
     return !effects.empty() && !effects[row].is_wrong();
-} catch (const Error&) {
-    return false;
 }
 
-/// The lowest rate of at least the recommended steps that is tried with success, or `exact`.
+/// The lowest rate of at least the recommended steps that is tried with success.
 std::string remedy_of(const Bodies& bodies, std::size_t row, double frequency, const Method& method,
                       const Steps& steps) {
     constexpr double longest = 4096;
@@ -148,9 +145,6 @@ std::string remedy_of(const Bodies& bodies, std::size_t row, double frequency, c
         if (follows_drives(bodies, row, method, finer))
             return fmt::format("rate ≥ {:.0f} Hz", hertz);
     }
-    const Method& exact = find_method("exact");
-    if (follows_drives(bodies, row, exact, {steps.rate, steps.first, steps.count}))
-        return "take exact";
     return fmt::format("no rate up to {:.0f} Hz follows it: lower its frequency", highest_rate);
 }
 

@@ -78,6 +78,7 @@ public:
         constexpr std::size_t most_modes = 100;
         if (component.freedoms() > most_modes || meets_obstacles(component)) return std::nullopt;
         const std::vector<Part> parts = parts_of(component);
+        if (parts.empty()) return std::nullopt;
         const double dt = steps_.rate.dt();
         const std::vector<double> losses = losses_of(parts, method_, damping_, dt);
         const auto time = half_time(parts, losses);
@@ -168,11 +169,77 @@ private:
     std::vector<Vec3> accelerations_;
 };
 
+bool has_springs(const Bodies& bodies) {
+    return bodies.link_count() > 0 || any_body_has(bodies, []<class Force>() {
+               return LineSpring<Force> || std::is_same_v<Force, Spring>;
+           });
+}
+
+/// The energies of a run and of one with finer steps, step by step, J.
+struct Energies {
+    std::vector<double> run{};
+    std::vector<double> fine{};
+    double motion = 0;  ///< of the finer run: the range of its kinetic energy, or a quarter of it
+};
+
+/// Steps for 20 s, or as long as takes some tens of milliseconds; empty if a run diverges.
+Energies energies_of(const Bodies& bodies, const Method& method, const Steps& steps) {
+    constexpr std::int64_t finer = 8;
+    constexpr double most_work = 400'000;
+    const double work = static_cast<double>(bodies.size() + 2 * bodies.link_count()) *
+                        (is_implicit(method) ? 10 : 1);
+    const double count = std::min(longest / steps.rate.dt(), most_work / work);
+    Bodies run = bodies;
+    Bodies fine = bodies;
+    Energies all;
+    double least = INFINITY;
+    double most = 0;
+    for (std::int64_t tick = 0; static_cast<double>(tick) <= count; ++tick) {
+        const Energy energy = fine.energy();
+        all.run.push_back(run.energy().total());
+        all.fine.push_back(energy.total());
+        least = std::min(least, energy.kinetic);
+        most = std::max(most, energy.kinetic);
+        if (run.try_step(method, {steps.rate, tick, 1, steps.damping}) ||
+            fine.try_step(find_method("pefrl"),
+                          {{steps.rate.steps * finer, steps.rate.seconds}, tick * finer, finer}))
+            return {};
+    }
+    all.motion = std::max(most - least, most / 4);
+    return all;
+}
+
+/// Adds a loss by half of the energy of the motion, by more than damping takes, in a trial of
+/// bodies whose forces are not linear.
+void add_loss_of_trial(const Bodies& bodies, const Method& method, const Steps& steps,
+                       std::vector<Risk>& risks) {
+    const Energies all = energies_of(bodies, method, steps);
+    for (std::size_t tick = 0; tick < all.run.size(); ++tick) {
+        const double loss = all.fine[tick] - all.run[tick];
+        if (!(loss >= all.motion / 2) || !(loss > 1e-9 * std::abs(all.fine[tick]))) continue;
+        if (loss < all.fine.front() - all.fine[tick]) return;
+        const bool may_verlet = holds(bodies, find_method("velocity_verlet"), {steps.rate});
+        risks.push_back({.row = 0,
+                         .of = Risk::Of::told,
+                         .message = fmt::format(
+                             "{}: {} takes half of the energy of the motion in {:.3g} s: take {}",
+                             bodies.size() == 1 ? "spring of body {}" : "springs of all bodies",
+                             method.name, static_cast<double>(tick) * steps.rate.dt(),
+                             may_verlet ? "velocity_verlet" : "a higher rate")});
+        return;
+    }
+}
+
 }  // namespace
 
 void add_oscillation_losses(const Bodies& bodies, const Method& method, const Steps& steps,
                             std::vector<Risk>& risks) {
     if (method.symplectic || std::holds_alternative<ExactFlow>(method.rule)) return;
+    constexpr std::size_t most_tried = 64;
+    const bool is_tried =
+        bodies.size() <= most_tried && !has_sources(bodies) && has_springs(bodies);
+    if (is_tried && !is_linear(bodies) && !meets_obstacles(bodies))
+        return add_loss_of_trial(bodies, method, steps, risks);
     auto accelerations = accelerations_of(bodies);
     if (!accelerations) return;
     const LossTest test(bodies, method, steps, *std::move(accelerations));

@@ -25,16 +25,8 @@ Vec3 centre_of(const SegmentShape& segment) { return (segment.from + segment.to)
 Vec3 centre_of(const BoxShape& box) { return box.centre; }
 Vec3 centre_of(const HalfSpaceShape&) { return {}; }
 
-/// An obstacle, and its index among the planes if it is one.
-struct Met {
-    Obstacle obstacle;
-    std::size_t plane = 0;
-};
-
-/// "the box at (1, 2.5)", or "plane 0".
-std::string describe(const Met& met, int axes) {
-    const Shape& shape = met.obstacle.shape;
-    if (std::holds_alternative<HalfSpaceShape>(shape)) return fmt::format("plane {}", met.plane);
+/// "the box at (1, 2.5)".
+std::string describe(const Shape& shape, int axes) {
     std::string at;
     const Vec3 centre = std::visit([](const auto& one) { return centre_of(one); }, shape);
     for (int i = 0; i < axes; ++i) at += fmt::format("{}{:.4g}", i > 0 ? ", " : "", centre[i]);
@@ -42,32 +34,32 @@ std::string describe(const Met& met, int axes) {
                        std::visit([](const auto& one) { return name_of(one); }, shape), at);
 }
 
-std::vector<Met> met_from_all_sides(const Bodies& bodies) {
-    std::vector<Met> met;
-    std::size_t planes = 0;
+std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
+    std::vector<Obstacle> met;
     for (const ObstacleHandle handle : bodies.obstacles()) {
         Obstacle one = bodies.obstacle(handle);
-        const bool is_plane = std::holds_alternative<HalfSpaceShape>(one.shape);
-        if (!one.one_way) met.push_back({std::move(one), planes});
-        planes += is_plane;
+        if (!std::holds_alternative<HalfSpaceShape>(one.shape) && !one.one_way)
+            met.push_back(std::move(one));
     }
     return met;
 }
 
-std::string start_inside(const Met& met, double depth, int axes) {
+std::string start_inside(const Obstacle& obstacle, double depth, int axes) {
     return fmt::format(
         "body {{}} starts {:.3g} m inside {}, and is lifted out of it at once: move it", depth,
-        describe(met, axes));
+        describe(obstacle.shape, axes));
 }
 
-bool is_segment(const Met& met) { return std::holds_alternative<SegmentShape>(met.obstacle.shape); }
+bool is_segment(const Obstacle& obstacle) {
+    return std::holds_alternative<SegmentShape>(obstacle.shape);
+}
 
 }  // namespace
 
 void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks) {
     // Of the numbers of the gap.
     const double hidden = bodies.precision() == Precision::single ? 1e-6 : 1e-9;
-    const std::vector<Met> obstacles = met_from_all_sides(bodies);
+    const std::vector<Obstacle> obstacles = met_from_all_sides(bodies);
     if (obstacles.empty()) return;
     const bool any_segment = std::ranges::any_of(obstacles, is_segment);
     const auto tell = [&](std::size_t row, std::string message) {
@@ -81,10 +73,10 @@ void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks) {
             tell(row,
                  "body {} is a point, which passes segments: give its contact a radius above 0");
         const Vec3 x = bodies.position(row);
-        for (const Met& met : obstacles) {
-            const double inside = -gap(met.obstacle.shape, x, contact->radius, bodies.axes());
+        for (const Obstacle& obstacle : obstacles) {
+            const double inside = -gap(obstacle.shape, x, contact->radius, bodies.axes());
             if (!(inside > hidden * (largest(x) + contact->radius))) continue;
-            tell(row, start_inside(met, inside, bodies.axes()));
+            tell(row, start_inside(obstacle, inside, bodies.axes()));
             break;
         }
     }

@@ -25,6 +25,10 @@ inline constexpr double highest_rate = StepClock::largest_rate;
 [[nodiscard]] bool is_finite(const Bodies& bodies);
 /// Whether all forces are linear in position and velocity, apart from drives.
 [[nodiscard]] bool is_linear(const Bodies& bodies);
+/// Whether the air or a drive may give energy to the bodies.
+[[nodiscard]] bool has_sources(const Bodies& bodies);
+/// Whether any body meets the obstacles.
+[[nodiscard]] bool meets_obstacles(const Bodies& bodies);
 /// A copy of one body with its forces, without links and contact, of 1 kg.
 [[nodiscard]] Bodies alone(const Bodies& bodies, std::size_t row, Precision precision);
 
@@ -93,8 +97,8 @@ void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps&
 void add_point_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                      std::vector<Risk>& risks);
 
-/// Adds bodies for whose contact the planes leave no room, and bodies whose bounces the method
-/// spoils, because it gains or loses about the acceleration times dt in each.
+/// Adds bodies for whose contact the planes leave no room, that start in a plane, and whose bounces
+/// the method spoils, because it gains or loses about the acceleration times dt in each.
 void add_contact_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                        std::vector<Risk>& risks);
 

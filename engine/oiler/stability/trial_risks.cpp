@@ -56,13 +56,6 @@ struct Explosion {
     double gain;        ///< relative to the energies of finer steps; infinite: it diverges
 };
 
-/// Whether the air or a drive may give energy to the bodies.
-bool has_sources(const Bodies& bodies) {
-    return any_body_has(bodies, []<class Force>() {
-        return std::is_same_v<Force, Drive> || std::is_same_v<Force, Wind>;
-    });
-}
-
 /// Whether attraction holds all potential energy, so that the total energy is that of binding.
 bool is_only_attracted(const Bodies& bodies) {
     const auto attracts = []<class Force>() { return std::is_same_v<Force, Attractor>; };
@@ -123,13 +116,6 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Method& method
     return gains ? explosion_of(bodies, course, steps) : std::nullopt;
 }
 
-bool meets_planes(const Bodies& bodies) {
-    if (!bodies.has_obstacles()) return false;
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        if (bodies.contact(row)) return true;
-    return false;
-}
-
 /// The spring risks of the first of eight states up to the explosion that has any.
 std::vector<Risk> spring_risks_of(Bodies bodies, Region& region, Steps steps,
                                   std::int64_t explosion) {
@@ -145,6 +131,19 @@ std::vector<Risk> spring_risks_of(Bodies bodies, Region& region, Steps steps,
 
 }  // namespace
 
+bool has_sources(const Bodies& bodies) {
+    return any_body_has(bodies, []<class Force>() {
+        return std::is_same_v<Force, Drive> || std::is_same_v<Force, Wind>;
+    });
+}
+
+bool meets_obstacles(const Bodies& bodies) {
+    if (!bodies.has_obstacles()) return false;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (bodies.contact(row)) return true;
+    return false;
+}
+
 bool is_linear(const Bodies& bodies) {
     for (std::size_t i = 0; i < bodies.link_count(); ++i)
         if (bodies.link_at(i).rest_length != 0) return false;
@@ -156,7 +155,7 @@ void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
                      std::vector<Risk>& risks) {
     const Method& method = region.method();
     if (std::holds_alternative<ExactFlow>(method.rule) || bodies.size() == 0) return;
-    if (is_linear(bodies) || meets_planes(bodies)) return;
+    if (is_linear(bodies) || meets_obstacles(bodies)) return;
     const auto explosion = explosion_of(bodies, method, steps, samples_of(bodies, method, steps));
     if (!explosion) return;
     risks = spring_risks_of(bodies, region, steps, explosion->tick);
