@@ -87,7 +87,7 @@ void add_distortions(const Bodies& bodies, const Method& method, const Steps& st
                      std::vector<Risk>& risks);
 
 /// Describes a risk: "spring of body 3: ω·dt = 2.4, semi_implicit_euler needs < 2: rate ≥ 74 Hz, or
-/// implicit_euler". Finding the limit takes some tens of milliseconds.
+/// implicit_euler". Finding the limit takes some tens of milliseconds, a rate of a net up to 2 s.
 [[nodiscard]] std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                                    const NameOfRow& name);
 
