@@ -75,6 +75,32 @@ TEST(MovingObstacles, CarryARider) {
     }
 }
 
+// A rider lands on a platform that swings up and down, or sideways beneath him if it has no
+// friction. Upwards the reaction is 9.81 − 0.3·(2π/1.5)² = 4.5 m/s² at least.
+// Round-off at some 1 m is below 1e-15 m, over few operations per step that do not add up.
+TEST(MovingObstacles, CarryOneWhoLandsOnASwing) {
+    for (const int rate : {20, 60, 120})
+        for (const double friction : {0.0, 1.0})
+            for (const Vec3& way : {Vec3{0, 0.3}, Vec3{0.3}}) {
+                World world = world_of("velocity_verlet", rate, 2, {0, -g});
+                world.add_obstacle({.shape = BoxShape{{0, -0.5}, {4, 1}},
+                                    .friction = friction,
+                                    .swing = Swing{way, 1.5}});
+                const Entity rider = world.spawn({.position = {0, 1.5}, .contact = Contact{0.5}});
+                world.step(rate);
+                const double from = world.position(rider)[0];
+                for (int i = 0; i < 3 * rate; ++i) {
+                    world.step();
+                    const double phase = std::sin(2 * std::numbers::pi * world.time() / 1.5);
+                    ASSERT_TRUE(world.ground(rider)) << rate << " " << friction;
+                    ASSERT_NEAR(world.position(rider)[1], 0.5 + way[1] * phase, 1e-14);
+                    if (friction == 0) {
+                        ASSERT_NEAR(world.position(rider)[0], from, 1e-15);
+                    }
+                }
+            }
+}
+
 // Velocities that change between steps are accelerations over the step: below g the rider stays.
 TEST(MovingObstacles, CarryARiderOverChangesOfVelocity) {
     World world = world_of("velocity_verlet", 60, 2, {0, -g});

@@ -80,8 +80,10 @@ private:
                (distance >= -2 * noise && bears_from(near.obstacle, near.normal));
     }
     [[nodiscard]] bool leaves(const Near<T, Axes>& near) const {
+        // Where an oscillation turns back, its speed is round-off of its largest one.
+        const T fastest = near.obstacle.course.most_speed(obstacles_.dt());
         const T noise = hidden_speed(state_.v) + hidden_speed(near.velocity) +
-                        8 * std::numeric_limits<T>::epsilon() * speed();
+                        8 * std::numeric_limits<T>::epsilon() * (speed() + 2 * fastest);
         return leaving_speed(near, state_.v - near.velocity) > noise;
     }
 

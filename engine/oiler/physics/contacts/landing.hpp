@@ -485,15 +485,23 @@ private:
         return course.way(start_ + tau) - course.way(start_) +
                belt_velocity(first.obstacle, first.normal) * tau;
     }
+    /// An acceleration `tau` s from now, less what the obstacle's own has changed by since now. The
+    /// touches of the support know the obstacle's acceleration of now.
+    [[nodiscard]] Vec as_of_now(const Support& support, const Vec& a, T tau) const {
+        const Course<T, Axes>& course = near_of(support).obstacle.course;
+        if (tau == 0 || !course.accelerates()) return a;
+        return a - (course.acceleration_at(start_ + tau) - course.acceleration_at(start_));
+    }
     /// The acceleration of a body that is not held by friction, relative to the surface, m/s².
     [[nodiscard]] Vec pull_along(const Support& support, const Vec& a, T tau = 0) const {
+        const Vec pull = support.without_push(as_of_now(support, a, tau));
         const Course<T, Axes>& course = near_of(support).obstacle.course;
-        const Vec pull = support.without_push(a);
-        return course.accelerates() ? pull - course.acceleration_at(start_ + tau) : pull;
+        return course.accelerates() ? pull - course.acceleration_at(start_) : pull;
     }
     /// Grip minus the pull along the obstacles, m/s²; negative if friction does not hold the body.
     [[nodiscard]] T surplus_of_grip(const Support& support, const Vec& a, T tau = 0) const {
-        return support.grip(a) + 4 * epsilon * largest(a) - length(pull_along(support, a, tau));
+        return support.grip(as_of_now(support, a, tau)) + 4 * epsilon * largest(a) -
+               length(pull_along(support, a, tau));
     }
     [[nodiscard]] bool sticks(const Support& support, const State& state, const Vec& a) const {
         return state.v == carrier(support) && surplus_of_grip(support, a) >= 0;
@@ -525,11 +533,7 @@ private:
         return advance(state, leg);
     }
     [[nodiscard]] T least_reaction(const Support& support, const Vec& a, T tau = 0) const {
-        const Course<T, Axes>& course = near_of(support).obstacle.course;
-        const Vec change = course.accelerates() ? course.acceleration_at(start_ + tau) -
-                                                      course.acceleration_at(start_)
-                                                : Vec{};
-        const Vec reaction = support.reactions(a - change);
+        const Vec reaction = support.reactions(as_of_now(support, a, tau));
         return *std::min_element(reaction.axis.begin(),
                                  reaction.axis.begin() + static_cast<int>(support.size()));
     }
