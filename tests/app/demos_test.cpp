@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plays the demos cannon, bounce, stability_map and cloth, and films spring_damper.
+// Plays the demos cannon, bounce, stability_map, cloth, platformer and galton, and films
+// spring_damper.
 #include <fmt/format.h>
 
 #include "app/played.hpp"
@@ -257,6 +258,81 @@ TEST(Cloth, AReplayOfItsScriptIsEqual) {
     const std::string tape = " '" + (folder / "tape").string() + "'";
     ASSERT_EQ(shell("cloth --steps 340 --record" + tape + with_script(folder, script)).exit, 0);
     shell("cloth --quiet --threads 2 --steps 340 --replay" + tape, 0);
+}
+
+// Plays the demos platformer and galton.
+
+/// The trace of the hero, who starts at (-12.5, 0.4) m.
+std::vector<TraceRow> hero_of(int steps, const std::string& script) {
+    const Folder folder;
+    return trace_of(fmt::format("platformer --steps {}", steps) + with_script(folder, script));
+}
+
+TEST(Platformer, ItsScriptFindsAllCoins) {
+    const Folder folder;
+    const std::string script =
+        with_script(folder, text_of(OILER_SOURCE "/demos/scripts/platformer.txt"));
+    const std::string tape = " '" + (folder / "tape").string() + "'";
+    const auto readings = report_of("platformer --steps 1520" + script).at("readings");
+    EXPECT_EQ(readings.at("coins"), 6);
+    EXPECT_EQ(readings.at("falls"), 0);
+    shell("platformer --steps 1520 --record" + tape + script, 0);
+    shell("platformer --quiet --threads 2 --steps 1520 --replay" + tape, 0);
+}
+
+// A jump rises by 12.6²/(2·30) m; a step of the input's release keeps half of the speed. A trace
+// has rows at the steps, at most half a step from the apex: 30/2·(1/240)² = 0.3 mm.
+TEST(Platformer, JumpsAsHighAsTheButtonIsHeld) {
+    const auto apex = [](const std::vector<TraceRow>& rows) {
+        double top = 0;
+        for (const TraceRow& row : rows) top = std::max(top, row.y - 0.4);
+        return top;
+    };
+    const std::string to_open_ground = "0 hold Right\n50 release Right\n";
+    EXPECT_NEAR(apex(hero_of(160, to_open_ground + "70 hold Space\n150 release Space\n")),
+                12.6 * 12.6 / 60, 3e-4);
+    // The first step rises 12.6/120 − 15/120² m, then half the speed is left.
+    EXPECT_NEAR(apex(hero_of(160, to_open_ground + "70 press Space\n")),
+                12.6 / 120 - 15.0 / 14400 + 6.3 * 6.3 / 60, 3e-4);
+}
+
+// He falls from the end of the ground at x = -1.5 m in a run. The press 0.05 s after that jumps,
+// the one after 0.15 s does not.
+TEST(Platformer, JumpsUpToATenthOfASecondAfterTheLedge) {
+    const auto off_at = [] {
+        for (const TraceRow& row : hero_of(240, "0 hold Right\n"))
+            if (row.x > -1.6 && row.vy < 0) return row.tick;
+        return 0;
+    }();
+    ASSERT_GT(off_at, 0);
+    const auto speed_after = [&](int late) {
+        return hero_of(off_at + late + 2,
+                       fmt::format("0 hold Right\n{} hold Space\n", off_at + late))
+            .back()
+            .vy;
+    };
+    EXPECT_GT(speed_after(6), 12);
+    EXPECT_LT(speed_after(18), 0);
+}
+
+// The platform swings by 2.6 m in 5 s: its friction holds him, so that both move alike.
+TEST(Platformer, IsCarriedByThePlatform) {
+    std::string script = text_of(OILER_SOURCE "/demos/scripts/platformer.txt");
+    script = script.substr(0, script.find("720 hold Right"));
+    const auto rows = hero_of(760, script);
+    const auto place = [](double tick) {
+        return 2.6 * std::sin(2 * std::numbers::pi * tick / 120 / 5);
+    };
+    for (std::size_t i = 680; i < rows.size(); ++i)
+        EXPECT_NEAR(rows[i].x - rows[680].x, place(rows[i].tick) - place(rows[680].tick), 1e-12);
+}
+
+// 200 balls fall 0.1 s, 12 steps, apart. The law's deviation is 0.79 m; of 200 balls, the
+// deviation is uncertain by 5 %, and bounces make the bell wider by some 4 %: within 20 %.
+TEST(Galton, ItsBellIsAboutTheBinomialLaws) {
+    const auto readings = report_of("galton --quiet --steps 3840").at("readings");
+    EXPECT_GT(readings.at("balls"), 190);
+    EXPECT_NEAR(readings.at("deviation").get<double>(), 0.7906, 0.16);
 }
 
 // Films the demo spring_damper, whose wall, mass and curves stay beside each other.

@@ -20,10 +20,10 @@ capture() {
         failed=1
 }
 
-for demo in hello jump spring_damper projectile bounce integrator_race jump_rates; do
+for demo in hello jump spring_damper projectile bounce galton integrator_race jump_rates; do
     capture "$demo" "$programs/$demo"
 done
-for demo in cannon cloth stability_map; do
+for demo in cannon cloth platformer stability_map; do
     capture "$demo" "$programs/$demo" --script "$here/../../demos/scripts/$demo.txt"
 done
 for scene in article_spring article_spring_undamped chain cloth jump orbit salvo stiff_and_soft; do
