@@ -203,6 +203,13 @@ public:
     [[gnu::always_inline]] friend Batch quotient_of_nonzero(const Batch& a, const Batch& b) {
         return masked_quotient(a, a, b);
     }
+    /// `value` in lanes where a > limit; 0 elsewhere.
+    [[gnu::always_inline]] friend Batch value_above(const Batch& value, const Batch& a,
+                                                    const Batch& limit) {
+        return Batch(generate<packs>([&](auto i) {
+            return Pack::select(a.pack_[i] > limit.pack_[i], value.pack_[i], Pack(T(0)));
+        }));
+    }
     /// `instead` in lanes where 0 < |v| < limit, all |sizes| < limit and rate > 0; elsewhere
     /// `value`.
     template <class... Sizes>

@@ -164,6 +164,12 @@ template <std::floating_point T>
     return a == 0 ? T(0) : a / b;
 }
 
+/// `value` if a > limit; otherwise 0.
+template <std::floating_point T>
+[[gnu::always_inline]] constexpr T value_above(T value, T a, T limit) {
+    return a > limit ? value : T(0);
+}
+
 template <std::floating_point T>
 [[nodiscard]] bool is_finite(T number) {
     return std::isfinite(number);

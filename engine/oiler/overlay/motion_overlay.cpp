@@ -29,6 +29,8 @@ Vec3 acceleration_by_forces(const Bodies& bodies, std::size_t row, double time) 
     return sum;
 }
 
+double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
+
 /// The force, N, of a link on its first end.
 Vec3 force_of(const Bodies& bodies, std::size_t link) {
     const LinkEnds ends = bodies.link_ends(link);
@@ -37,6 +39,7 @@ Vec3 force_of(const Bodies& bodies, std::size_t link) {
     const State<double, 3> other =
         ends.other ? state_of(bodies, *ends.other) : State<double, 3>{ends.point, {}};
     const State<double, 3> between{first.x - other.x, first.v - other.v};
+    if (numbers.pulls_only && length(between.x) <= numbers.rest_length) return {};
     if (numbers.rest_length == 0)
         return between.x * -numbers.stiffness - between.v * numbers.damping;
     return CoilSpring{{}, numbers.stiffness, numbers.damping, numbers.rest_length}.accelerate(
@@ -44,8 +47,6 @@ Vec3 force_of(const Bodies& bodies, std::size_t link) {
 }
 
 constexpr std::size_t most_springs = 10'000;
-
-double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
 DrawnSpring::End end_at(const World& world, std::size_t row) {
     return {world.entity_of_row(row), world.position_of_row(row)};
@@ -179,7 +180,10 @@ void add_arrows(Picture& picture, const DrawnBodies& bodies, const std::vector<B
     }
 }
 
-double DrawnSpring::stretch() const { return length(to.at - from.at) - rest_length; }
+double DrawnSpring::stretch() const {
+    const double stretch = length(to.at - from.at) - rest_length;
+    return pulls_only ? std::max(stretch, 0.0) : stretch;
+}
 
 std::vector<DrawnSpring> springs_of(const World& world) {
     std::vector<DrawnSpring> springs;
@@ -189,7 +193,7 @@ std::vector<DrawnSpring> springs_of(const World& world) {
         springs.push_back(
             {end_at(world, ends.row),
              ends.other ? end_at(world, *ends.other) : DrawnSpring::End{{}, ends.point},
-             bodies.link_at(i).rest_length});
+             bodies.link_at(i).rest_length, bodies.link_at(i).pulls_only});
     }
     for (std::size_t row = 0; row < std::min(bodies.size(), most_springs); ++row)
         add_anchored(world, row, springs);

@@ -44,7 +44,8 @@ struct DrawnSpring {
     };
     End from{};
     End to{};
-    double rest_length = 0;  ///< m
+    double rest_length = 0;   ///< m
+    bool pulls_only = false;  ///< a rope, which has no strain while it is slack
 
     [[nodiscard]] double stretch() const;  ///< m, negative if it is compressed
     [[nodiscard]] bool has_strain() const { return rest_length > 0; }

@@ -34,6 +34,20 @@ std::vector<Point> coil(Point from, Point to, int turns, float radius) {
     return points;
 }
 
+std::vector<Point> rope(Point from, Point to, float length) {
+    constexpr int parts = 24;
+    const float dx = to.x - from.x;
+    const float dy = to.y - from.y;
+    // The length of a flat parabola of this sag is chord + 8·sag²/(3·chord).
+    const float sag = std::sqrt(3.0F / 16 * std::max(0.0F, length * length - (dx * dx + dy * dy)));
+    std::vector<Point> points;
+    for (int i = 0; i <= parts; ++i) {
+        const float part = static_cast<float>(i) / parts;
+        points.push_back({from.x + dx * part, from.y + dy * part - 4 * sag * part * (1 - part)});
+    }
+    return points;
+}
+
 std::vector<Point> rectangle(Point centre, Point size, float angle) {
     const float c = std::cos(angle) / 2;
     const float s = std::sin(angle) / 2;

@@ -11,6 +11,11 @@ namespace oiler {
 /// the points. The number of points does not depend on its length, so that it interpolates.
 [[nodiscard]] std::vector<Point> coil(Point from, Point to, int turns, float radius);
 
+/// A rope of `length` that hangs between two points, straight if they are that far apart. Its curve
+/// is a parabola, which is up to a seventh too short as the ends meet. The number of points does
+/// not depend on its length.
+[[nodiscard]] std::vector<Point> rope(Point from, Point to, float length);
+
 /// The corners of a rectangle, counter-clockwise, turned by `angle` rad. For a polygon.
 [[nodiscard]] std::vector<Point> rectangle(Point centre, Point size, float angle = 0);
 

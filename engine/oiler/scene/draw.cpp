@@ -114,13 +114,16 @@ private:
             const SceneSpring& spring = scene_.springs[i];
             const Point from =
                 spring.to ? position_of(world_, *spring.to) : point_of(spring.anchor);
+            const Point to = position_of(world_, spring.body);
             if (!spring.to)
                 picture_.discs.push_back(
                     {.centre = from, .radius = radius({}, small_radius), .colour = palette::ink});
             picture_.polylines.push_back(
                 {.key = key_of(world_, spring.body, i + 1),
-                 .points = coil(from, position_of(world_, spring.body), turns,
-                                0.6F * large_radius * picture_.camera.height),
+                 .points =
+                     spring.pulls_only
+                         ? rope(from, to, static_cast<float>(spring.rest_length))
+                         : coil(from, to, turns, 0.6F * large_radius * picture_.camera.height),
                  .width = 1.25F,
                  .colour = spring.colour});
         }

@@ -73,8 +73,9 @@ private:
         for (const SceneSpring& spring : scene_.springs) {
             const Entity entity = entities[spring.body];
             if (spring.to)
-                world_.link(entity, entities[*spring.to],
-                            {spring.stiffness, spring.damping, spring.rest_length});
+                world_.link(entity, entities[*spring.to], link_of(spring));
+            else if (spring.pulls_only)
+                world_.link_to_point(entity, spring.anchor, link_of(spring));
             else if (spring.rest_length > 0)
                 world_.attach_at(coils[spring.body]++, entity,
                                  CoilSpring{spring.anchor, spring.stiffness, spring.damping,

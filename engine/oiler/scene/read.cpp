@@ -207,6 +207,7 @@ private:
         section.read("stiffness", spring.stiffness);
         section.read("damping", spring.damping);
         section.read("rest_length", spring.rest_length);
+        section.read("pulls_only", spring.pulls_only);
         section.read("colour", spring.colour);
         check_spring(scene_, section, spring);
     }

@@ -6,6 +6,12 @@
 
 namespace oiler {
 
+Link link_of(const SceneSpring& spring) {
+    return {spring.stiffness, spring.damping, spring.rest_length, spring.pulls_only};
+}
+
+bool Scene::has_ropes() const { return std::ranges::any_of(springs, &SceneSpring::pulls_only); }
+
 std::vector<GridLink> links_of(const SceneGrid& grid) {
     const double length = grid.rest_length.value_or(grid.spacing);
     const Link along{grid.stiffness, grid.damping, length};

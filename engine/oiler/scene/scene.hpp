@@ -49,9 +49,14 @@ struct SceneSpring {
     double stiffness = 0;             ///< N/m
     double damping = 0;               ///< N·s/m
     double rest_length = 0;           ///< m
+    bool pulls_only = false;          ///< a rope
     Colour colour = palette::grey;
+
+    /// Whether its world has a link, and no force of the body alone.
+    [[nodiscard]] bool is_link() const { return to || pulls_only; }
     friend bool operator==(const SceneSpring&, const SceneSpring&) = default;
 };
+[[nodiscard]] Link link_of(const SceneSpring& spring);
 
 template <class List>
 struct VariantOf;
@@ -227,6 +232,7 @@ struct Scene {
         for (const SceneScatter& scatter : scatters) count += scatter.count;
         return count;
     }
+    [[nodiscard]] bool has_ropes() const;
     [[nodiscard]] bool has_obstacles() const {
         return !planes.empty() || !obstacles.empty() || !chains.empty() || !tiles.empty();
     }

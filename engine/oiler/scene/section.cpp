@@ -242,6 +242,7 @@ void check_spring(const Scene& scene, const Section& section, const SceneSpring&
     check_at(scene, section, "damping", given(Spring{.damping = spring.damping}), mass);
     check_at(scene, section, "rest_length",
              Link{spring.stiffness, spring.damping, spring.rest_length});
+    check_at(scene, section, "pulls_only", link_of(spring));
 }
 
 void check_force(const Scene& scene, const Section& section, const SceneForce& force) {
@@ -299,7 +300,7 @@ void check_scatter(const Scene& scene, const Section& section, const SceneScatte
 void check_forces(const Scene& scene, const Place& place) {
     std::vector<std::int64_t> springs(scene.bodies.size() + 1);
     for (const SceneSpring& spring : scene.springs)
-        if (!spring.to) ++springs[spring.body];
+        if (!spring.is_link()) ++springs[spring.body];
     for (const SceneForce& force : scene.forces) ++springs[force.body];
     const std::int64_t forces = std::ranges::max(springs) + std::ssize(scene.attractors);
     if (forces * scene.body_count() > most_forces)

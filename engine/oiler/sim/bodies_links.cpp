@@ -46,7 +46,8 @@ LinkHandle Bodies::link(std::size_t a, std::size_t b, const Link& link) {
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         columns.links.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
                                  handle.slot, static_cast<T>(link.stiffness),
-                                 static_cast<T>(link.damping), static_cast<T>(link.rest_length)});
+                                 static_cast<T>(link.damping), static_cast<T>(link.rest_length),
+                                 link.pulls_only});
         columns.forces_changed();
     });
     return handle;
@@ -59,7 +60,7 @@ LinkHandle Bodies::link_to_point(std::size_t row, const Vec3& point, const Link&
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         columns.point_links.push_back({static_cast<std::uint32_t>(row), handle.slot,
                                        static_cast<T>(link.stiffness), static_cast<T>(link.damping),
-                                       static_cast<T>(link.rest_length),
+                                       static_cast<T>(link.rest_length), link.pulls_only,
                                        converted<Vec<T, Axes>>(point)});
         columns.forces_changed();
     });
@@ -105,7 +106,7 @@ std::size_t Bodies::link_count() const {
 Link Bodies::link_at(std::size_t i) const {
     const auto numbers = [](const auto& link) {
         return Link{static_cast<double>(link.stiffness), static_cast<double>(link.damping),
-                    static_cast<double>(link.rest_length)};
+                    static_cast<double>(link.rest_length), link.pulls_only};
     };
     return columns_->visit([&](const auto& columns) { return with_link(columns, i, numbers); });
 }

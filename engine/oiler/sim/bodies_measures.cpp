@@ -81,9 +81,7 @@ double Bodies::link_potential(std::size_t i) const {
             for (std::size_t axis = 0; axis < Axes; ++axis)
                 between.x.axis[axis] -= ends.point.axis[axis];
         }
-        return LinkForce<double, Axes>(link.stiffness, link.damping, link.rest_length,
-                                       link.rest_length == 0)
-            .potential(between);
+        return LinkForce<double, Axes>(link).potential(between);
     });
 }
 

@@ -25,14 +25,12 @@ Vec<T, Axes> acceleration_of(const Bodies& bodies, const Columns<T, Axes>& colum
     for (std::size_t i = 0; i < bodies.link_count(); ++i) {
         const LinkEnds ends = bodies.link_ends(i);
         if (ends.row != row && ends.other != row) continue;
-        const Link link = bodies.link_at(i);
         const std::size_t other = ends.row == row ? ends.other.value_or(row) : ends.row;
         const State<T, Axes> at = ends.other
                                       ? load<T>(columns.motion, other)
                                       : State<T, Axes>{converted<Vec<T, Axes>>(ends.point), {}};
-        const LinkForce<T, Axes> force(static_cast<T>(link.stiffness), static_cast<T>(link.damping),
-                                       static_cast<T>(link.rest_length), link.rest_length == 0);
-        a += force.accelerate({state.x - at.x, state.v - at.v}) * (1 / T(columns.mass[row]));
+        a += LinkForce<T, Axes>(bodies.link_at(i)).accelerate({state.x - at.x, state.v - at.v}) *
+             (1 / T(columns.mass[row]));
     }
     return a;
 }

@@ -36,10 +36,16 @@ struct BodyImpact {
 /// A spring between two bodies: force −k·(d − L·d̂) − b·(ḋ·d̂)·d̂ on the first, d = x₁ − x₂, and
 /// the opposite on the second; 0 at d = 0. Without a rest length it is damped in all directions:
 /// force −k·d − b·ḋ.
+///
+/// A rope pulls only: while |d| ≤ L it is slack and has neither force nor damping; while it is taut
+/// it is a link like any other. The step in which it becomes taut or slack is not divided: the
+/// force has a kink there, so that a method has order 2 at most, and order 1 if the rope is damped,
+/// because damping begins with a jump. Implicit methods take the damping of a step from its start.
 struct Link {
-    double stiffness = 0;    ///< k, N/m
-    double damping = 0;      ///< b, N·s/m
-    double rest_length = 0;  ///< L, m
+    double stiffness = 0;     ///< k, N/m
+    double damping = 0;       ///< b, N·s/m
+    double rest_length = 0;   ///< L, m; above 0 for a rope
+    bool pulls_only = false;  ///< a rope
 };
 
 /// A handle of a link. It becomes stale when the link is removed, by unlink or with either body.

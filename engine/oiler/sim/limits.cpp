@@ -49,6 +49,10 @@ void Limits::check(const Link& link) const {
         fail(Exit::usage, "a link's damping of {} N·s/m: give 0 or more", link.damping);
     if (link.rest_length < 0)
         fail(Exit::usage, "a link's rest length of {} m: give 0 or more", link.rest_length);
+    if (link.pulls_only && link.rest_length == 0)
+        fail(Exit::usage,
+             "a link that pulls only has a rest length of 0 m and would never be slack: give its "
+             "length, or leave pulls_only out");
 }
 
 void Limits::check(const Obstacle& obstacle) const {

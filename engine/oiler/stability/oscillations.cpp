@@ -62,11 +62,13 @@ void add_link(const Bodies& bodies, std::size_t i, std::size_t a, std::size_t b,
         bodies.position(to.rows[a]) -
         (b == Coupling::ground ? bodies.link_ends(i).point : bodies.position(to.rows[b]));
     const bool everywhere = link.rest_length == 0;
-    to.springs.push_back(
-        along_line(a, b, d, link.stiffness,
-                   everywhere ? link.stiffness : tension(link.stiffness, link.rest_length, d)));
-    if (link.damping > 0)
-        to.dampers.push_back(along_line(a, b, d, link.damping, everywhere ? link.damping : 0));
+    const auto add = [&](std::vector<Coupling>& couplings, double coefficient, double all) {
+        couplings.push_back(along_line(a, b, d, coefficient, all));
+        couplings.back().is_rope = link.pulls_only;
+    };
+    add(to.springs, link.stiffness,
+        everywhere ? link.stiffness : tension(link.stiffness, link.rest_length, d));
+    if (link.damping > 0) add(to.dampers, link.damping, everywhere ? link.damping : 0);
 }
 
 }  // namespace

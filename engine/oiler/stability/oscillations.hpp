@@ -47,6 +47,7 @@ struct Coupling {
     Vec3 direction{};
     double along = 0;  ///< N/m or N·s/m
     double all = 0;    ///< N/m or N·s/m, in all directions
+    bool is_rope = false;
 };
 
 /// Bodies that links connect, or one body, with their springs and dampers linearised at the present
@@ -54,7 +55,8 @@ struct Coupling {
 /// across the line too. The negative stiffness across a compressed spring is left out, because it
 /// vanishes as soon as the spring relaxes. A spring of length 0 has no direction and acts in all.
 /// So the stiffness along a line is part of the sum whichever way a player rotates the bodies.
-/// Negative stiffness and damping diverge with any method and are left out too.
+/// Negative stiffness and damping diverge with any method and are left out too. All ropes are taut,
+/// as they may be later.
 struct Component {
     int axes = 1;
     std::vector<std::size_t> rows{};

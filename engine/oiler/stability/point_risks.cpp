@@ -34,7 +34,7 @@ PointSprings point_springs(const Bodies& bodies) {
     for (std::size_t i = 0; i < bodies.link_count(); ++i) {
         const LinkEnds ends = bodies.link_ends(i);
         const Link link = bodies.link_at(i);
-        if (link.stiffness > 0 && link.rest_length > 0 &&
+        if (link.stiffness > 0 && link.rest_length > 0 && !link.pulls_only &&
             has_no_direction(bodies.position(ends.row) - end_of_link(bodies, ends)))
             found.links.push_back(i);
     }

@@ -14,6 +14,10 @@ namespace {
 
 std::string describe_subject(const Risk& risk, const NameOfRow& name) {
     using enum Risk::Of;
+    if (risk.is_rope)
+        return risk.linked ? fmt::format("taut rope of bodies {} and {}", name(risk.row),
+                                         name(*risk.linked))
+                           : fmt::format("taut rope of body {}", name(risk.row));
     if (risk.linked)
         return fmt::format("link of bodies {} and {}", name(risk.row), name(*risk.linked));
     if (risk.of == quadratic_drag || risk.of == terminal_speed)

@@ -49,6 +49,7 @@ struct Risk {
 
     std::size_t row;
     std::optional<std::size_t> linked{};  ///< the other row of a link
+    bool is_rope = false;                 ///< which is assumed to be taut
     double omega_dt = 0;    ///< ω·dt; for linked bodies an upper bound, by at most 1 %
     double damping_dt = 0;  ///< c·dt, c = 2ζω
     Of of = Of::springs;

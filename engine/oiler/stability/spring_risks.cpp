@@ -155,6 +155,7 @@ private:
                   .oscillations = oscillations_};
         if (const Coupling* const most = component_->most_strained(vectors_[i])) {
             risk.row = component_->rows[most->a];
+            risk.is_rope = most->is_rope;
             if (most->b != Coupling::ground) risk.linked = component_->rows[most->b];
         }
         return risk;

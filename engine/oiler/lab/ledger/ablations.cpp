@@ -29,7 +29,7 @@ void for_each_matter(Scene& scene, F f) {
 }
 
 std::string_view kind_of(const SceneSpring& spring) {
-    if (spring.to) return "links";
+    if (spring.is_link()) return "links";
     return spring.rest_length > 0 ? "coil_spring" : "spring";
 }
 
@@ -131,7 +131,7 @@ public:
             leave_out_hang(bare);
         }
         if (linked) {
-            add(links_text, "", "links", leave_out_links);
+            add(links_text(), "", "links", leave_out_links);
             leave_out_links(bare);
         }
         if (scene_.has_obstacles()) {
@@ -158,7 +158,9 @@ private:
         scene.tiles.clear();
     }
 
-    static constexpr std::string_view links_text = "springs between bodies";
+    [[nodiscard]] std::string_view links_text() const {
+        return scene_.has_ropes() ? "springs between bodies, and ropes" : "springs between bodies";
+    }
 
     template <class Change>
     void add(std::string_view words, std::string_view part_of, std::string_view pass,
@@ -184,7 +186,7 @@ private:
         const std::string& name = scene_.bodies[spring.body].name;
         const std::string words = fmt::format("[[spring]] {} (of \"{}\")", i + 1, name);
         const std::string_view kind = kind_of(spring);
-        add(words, kind == "links" ? links_text : describe(kind).words, "",
+        add(words, kind == "links" ? links_text() : describe(kind).words, "",
             [&](Scene& scene) { scene.springs.erase(scene.springs.begin() + signed_of(i)); });
         if (spring.damping > 0)
             add("`damping` of " + words, words, "",
@@ -192,7 +194,7 @@ private:
     }
     void add_grid(std::size_t i) {
         if (scene_.grids[i].damping > 0)
-            add(fmt::format("`damping` of [[grid]] {}", i + 1), links_text, "",
+            add(fmt::format("`damping` of [[grid]] {}", i + 1), links_text(), "",
                 [&](Scene& scene) { scene.grids[i].damping = 0; });
     }
     static std::ptrdiff_t signed_of(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }

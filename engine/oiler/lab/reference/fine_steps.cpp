@@ -138,13 +138,15 @@ bool any_linked_kink(const Trajectory& trajectory, const Bodies& bodies) {
 class Table {
 public:
     Table(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
-          const ReferenceEffort& effort, Precision precision, const Method& method)
+          const ReferenceEffort& effort, Precision precision, const Method& method,
+          bool first_order)
         : scene_(scene),
           start_(start),
           samples_(samples),
           effort_(effort),
           precision_(precision),
-          method_(method) {}
+          method_(method),
+          first_order_(first_order) {}
 
     /// Returns false and empties the table if the run diverged or was stopped.
     bool add_run(std::int64_t rate) {
@@ -156,14 +158,17 @@ public:
         comparable_ = !row_.empty();
         if (comparable_) before_ = row_.back();
         std::vector<Trajectory> row{std::move(*run)};
-        // The phase of an impact within its step makes errors uneven, so that extrapolation does
-        // not gain.
-        const std::size_t columns = row.front().kinks.empty() ? most_columns : 1;
+        const std::size_t columns = extrapolates(row.front()) ? most_columns : 1;
         for (std::size_t k = 0; k < std::min(row_.size(), columns - 1); ++k)
             row.push_back(extrapolated(row[k], std::move(row_[k]), std::exp2(Real(power(k))) - 1));
         row_ = std::move(row);
         ++runs_;
         return true;
+    }
+    /// The phase of an impact within its step, or of a rope that becomes taut, makes errors uneven,
+    /// so that extrapolation does not gain.
+    [[nodiscard]] bool extrapolates(const Trajectory& run) const {
+        return !first_order_ && run.kinks.empty();
     }
     [[nodiscard]] bool has_uncertainties() const { return comparable_ && runs_ >= fewest_runs; }
     [[nodiscard]] const Trajectory& best() const { return row_.back(); }
@@ -183,7 +188,7 @@ public:
     [[nodiscard]] const Method& method() const { return method_; }
     [[nodiscard]] bool has_too_many_impacts() const { return has_too_many_impacts_; }
     /// Whether any run had order 1.
-    [[nodiscard]] bool linked_bodies_land() const { return linked_bodies_land_; }
+    [[nodiscard]] bool first_order() const { return first_order_; }
 
 private:
     /// The power of dt in the error of column k.
@@ -207,7 +212,7 @@ private:
                 trajectory.states.push_back(follower.bodies().state(row));
             if (!std::isfinite(follower.bodies().energy().total())) return std::nullopt;
         }
-        linked_bodies_land_ = linked_bodies_land_ || any_linked_kink(trajectory, follower.bodies());
+        first_order_ = first_order_ || any_linked_kink(trajectory, follower.bodies());
         return trajectory;
     }
 
@@ -221,7 +226,7 @@ private:
     Trajectory before_{};  ///< the best at twice the step
     std::size_t runs_ = 0;
     bool comparable_ = false;
-    bool linked_bodies_land_ = false;
+    bool first_order_;
     bool has_too_many_impacts_ = false;
 };
 
@@ -230,12 +235,12 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
         uncertainties, [&](double position) { return position <= most; }, &Uncertainty::position);
 }
 
-/// The error that is enough. A loose tolerance must not make a scene look chaotic, and the samples
-/// need a part of the usable error. Order 1 reaches no more than that.
-double sufficient_error(const ReferenceEffort& effort, double extent, bool linked_bodies_land) {
+/// The error that is enough. A loose tolerance must not make a scene look chaotic.
+double sufficient_error(const ReferenceEffort& effort, double extent, bool first_order) {
     const double usable = resolution * extent / margin;
-    if (effort.wanted > 0) return std::min(effort.wanted, usable / 2);
-    return linked_bodies_land ? usable / 2 : least_wanted * extent;
+    // Order 1 reaches no more than that, and the samples need a part of it.
+    if (first_order) return std::min(effort.wanted > 0 ? effort.wanted : usable, usable / 2);
+    return effort.wanted > 0 ? std::min(effort.wanted, usable) : least_wanted * extent;
 }
 
 /// The difference of two runs of linked bodies that land depends on where in a step they land, and
@@ -250,14 +255,16 @@ void raise_to_half(std::vector<Uncertainty>& uncertainties,
     }
 }
 
+FineSteps first_order_steps(const Scene& scene, const Perturbation& start,
+                            const SampleTimes& samples, const ReferenceEffort& effort);
+
 FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbation& start,
                         const SampleTimes& samples, const ReferenceEffort& effort,
-                        const Method& method, bool linked_bodies_land = false) {
-    Table table(scene, start, samples, effort, precision, method);
+                        const Method& method, bool first_order = false) {
+    Table table(scene, start, samples, effort, precision, method, first_order);
     const double work_per_step = RunWork(scene).per_step(method);
-    const double most_work =
-        linked_bodies_land ? effort.most_work / landing_share : effort.most_work;
-    FineSteps finest{.linked_bodies_land = linked_bodies_land};
+    const double most_work = first_order ? effort.most_work / landing_share : effort.most_work;
+    FineSteps finest{.first_order = first_order};
     bool affordable = false;
     std::int64_t most_usable = -1;
     int vain = 0;
@@ -269,19 +276,18 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
         const bool has_run = table.add_run(rate);
         if (table.has_too_many_impacts()) break;
         // No method has more than order 1 then, and round-off is less than the error.
-        if (table.linked_bodies_land() && !linked_bodies_land)
-            return fine_steps_in(Precision::double_, scene, start, samples, effort,
-                                 find_method("velocity_verlet"), true);
+        if (table.first_order() && !first_order)
+            return first_order_steps(scene, start, samples, effort);
         if (!has_run || !table.has_uncertainties()) continue;
         effort.progress(work / most_work);
         std::vector<Uncertainty> uncertainties = table.uncertainties();
-        if (linked_bodies_land) raise_to_half(uncertainties, finest.uncertainties);
+        if (first_order) raise_to_half(uncertainties, finest.uncertainties);
         const double uncertainty = uncertainties.back().position;
         const double extent = extent_of(table.best());
-        const double enough = sufficient_error(effort, extent, linked_bodies_land);
+        const double enough = sufficient_error(effort, extent, first_order);
         const std::int64_t usable = count_within(uncertainties, resolution * extent / margin);
         const bool better =
-            finest.uncertainties.empty() || usable > most_usable || linked_bodies_land ||
+            finest.uncertainties.empty() || usable > most_usable || first_order ||
             (usable == most_usable && uncertainty < finest.uncertainties.back().position / 2);
         vain = better ? 0 : vain + 1;
         if (!better) continue;
@@ -293,7 +299,7 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
                 "fine steps in {} by {} at {} Hz{}; the last halving changes the end by {:.2g} m",
                 precision == Precision::extended ? "long double" : "double", table.method().name,
                 rate,
-                table.finest_run().kinks.empty()
+                table.extrapolates(table.finest_run())
                     ? ", extrapolated from runs at that rate, its half and so on"
                     : "",
                 uncertainty),
@@ -301,12 +307,18 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
             .stepping = {&table.method(), {rate}, precision},
             .sufficient_error = enough,
             .sufficient = uncertainty <= enough,
-            .linked_bodies_land = linked_bodies_land};
+            .first_order = first_order};
         if (finest.sufficient) break;
     }
     finest.affordable = affordable;
     finest.has_too_many_impacts = table.has_too_many_impacts();
     return finest;
+}
+
+FineSteps first_order_steps(const Scene& scene, const Perturbation& start,
+                            const SampleTimes& samples, const ReferenceEffort& effort) {
+    return fine_steps_in(Precision::double_, scene, start, samples, effort,
+                         find_method("velocity_verlet"), true);
 }
 
 }  // namespace
@@ -318,11 +330,11 @@ double most_samples(const Scene& scene, const ReferenceEffort& effort) {
 
 FineSteps fine_steps(const Scene& scene, const Perturbation& start, const SampleTimes& samples,
                      const ReferenceEffort& effort) {
+    if (scene.has_ropes()) return first_order_steps(scene, start, samples, effort);
     const Method& method = finest_method(scene);
     if (effort.wanted > 0) {
         FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort, method);
-        if (quick.sufficient || quick.linked_bodies_land || quick.has_too_many_impacts ||
-            effort.stopped())
+        if (quick.sufficient || quick.first_order || quick.has_too_many_impacts || effort.stopped())
             return quick;
     }
     return fine_steps_in(Precision::extended, scene, start, samples, effort, method);

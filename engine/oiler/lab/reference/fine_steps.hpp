@@ -23,8 +23,9 @@ struct FineSteps {
     double sufficient_error = 0;  ///< m, that is wanted at the end
     bool sufficient = false;      ///< whether the error at the end is no more
     bool affordable = false;      ///< whether the coarsest run was within the work limit
-    /// With order 1, so that the error falls slowly.
-    bool linked_bodies_land = false;
+    /// Linked bodies land, or ropes become taut: the error falls slowly, with order 1 by any
+    /// method.
+    bool first_order = false;
     bool has_too_many_impacts = false;
 };
 

@@ -139,7 +139,7 @@ private:
             }
         }
         if (effort_.stopped()) return;
-        linked_bodies_land_ = fine.linked_bodies_land;
+        first_order_ = fine.first_order;
         follow(fine);
         reference_.uncertainties = std::move(fine.uncertainties);
         for (std::size_t sample = 0; sample < between.size(); ++sample) {
@@ -159,11 +159,10 @@ private:
         constexpr std::int64_t most_times = 8;
         // Of polynomials of degree 7; less where a linked body lands and changes the forces on
         // others.
-        const double order = fine.linked_bodies_land ? 2 : 8;
-        const double own = fine.sufficient_error;
-        const double wanted = fine.linked_bodies_land ? own / 2 : own;
-        const bool may_refine = effort_.wanted > 0 || fine.linked_bodies_land;
-        if (effort_.stopped() || !may_refine || between.empty() || between.back() <= wanted ||
+        const double order = fine.first_order ? 2 : 8;
+        const double wanted = fine.first_order ? fine.sufficient_error / 2 : effort_.wanted;
+        const double own = fine.first_order ? fine.sufficient_error : wanted;
+        if (effort_.stopped() || !(wanted > 0) || between.empty() || between.back() <= wanted ||
             fine.uncertainties.back().position > own)
             return std::nullopt;
         const double times = std::ceil(2 * std::pow(between.back() / wanted, 1 / order));
@@ -263,11 +262,14 @@ private:
         }
     }
     [[nodiscard]] std::string explain(double most, bool by_round_off) const {
-        if (linked_bodies_land_)
+        if (first_order_)
             return fmt::format(
-                "the reference's own error then exceeds {:.2g} m: linked bodies land with order 1 "
-                "by every method, which takes too fine steps",
-                most / margin);
+                "the reference's own error then exceeds {:.2g} m: {} by every method, which takes "
+                "too "
+                "fine steps",
+                most / margin,
+                scene_.has_ropes() ? "ropes become taut with order 1 or 2"
+                                   : "linked bodies land with order 1");
         return by_round_off
                    ? fmt::format(
                          "round-off of double alone then moves bodies by more than {:.2g} m: the "
@@ -311,7 +313,7 @@ private:
     const ReferenceEffort& effort_;
     Bodies start_;
     Reference reference_;
-    bool linked_bodies_land_ = false;
+    bool first_order_ = false;
     std::vector<double> round_off_;  ///< m, of a run of the fine steps in double, up to each sample
 };
 

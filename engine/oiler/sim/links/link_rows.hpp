@@ -114,9 +114,10 @@ template <class V, class T, int Axes>
     if (what == Evaluate::all) gather(motion.v, v);
     for_overlapping_lanes<V>(
         group.count, [&]<class N>(N n, std::size_t i) __attribute__((always_inline)) {
-            const LinkForce<N, Axes> link(
-                load_from<N>(&links.stiffness[first + i]), load_from<N>(&links.damping[first + i]),
-                load_from<N>(&links.rest_length[first + i]), group.of.rest_length == 0);
+            const LinkForce<N, Axes> link(load_from<N>(&links.stiffness[first + i]),
+                                          load_from<N>(&links.damping[first + i]),
+                                          load_from<N>(&links.rest_length[first + i]),
+                                          group.of.rest_length == 0, group.of.pulls_only);
             const Vec<N, Axes> d = load_rows(n, x, i);
             const Vec<N, Axes> f =
                 what == Evaluate::field ? link.field(d) : link.accelerate({d, load_rows(n, v, i)});
@@ -251,7 +252,8 @@ template <class T, int Axes>
         const std::size_t link = reverse ? group.count - 1 - i : i;
         const std::size_t at = *group.scattered + link;
         const LinkRow<T> row{links.a[at],         links.b[at],       0,
-                             links.stiffness[at], links.damping[at], links.rest_length[at]};
+                             links.stiffness[at], links.damping[at], links.rest_length[at],
+                             group.of.pulls_only};
         damp_lanes<T, Lanes::all>(LinkGroup<T>{row, group.first + link, 1, {}}, 0, prepared,
                                   motion);
     }

@@ -13,7 +13,7 @@ namespace oiler {
 template <std::floating_point T, int Axes>
 void sort_point_links(std::vector<PointLinkRow<T, Axes>>& links) {
     const auto key = [](const PointLinkRow<T, Axes>& link) {
-        return std::tuple(link.row, link.rest_length, link.stiffness, link.damping,
+        return std::tuple(link.row, link.pulls_only, link.rest_length, link.stiffness, link.damping,
                           link.point.axis);
     };
     std::stable_sort(links.begin(), links.end(),
@@ -36,11 +36,6 @@ template <std::floating_point T, int Axes>
     return points;
 }
 
-template <std::floating_point T, int Axes>
-[[nodiscard]] LinkForce<T, Axes> force_of(const PointLinkRow<T, Axes>& link) {
-    return {link.stiffness, link.damping, link.rest_length, link.rest_length == 0};
-}
-
 /// The state of a link's row relative to its point.
 template <std::floating_point T, int Axes>
 [[nodiscard]] State<T, Axes> relative(const MotionColumns<T, Axes>& motion,
@@ -58,7 +53,7 @@ void push_point_links(const PointLinks<T, Axes>& points, const MotionColumns<T, 
     for (const PointLinkRow<T, Axes>& link : points.links) {
         if (!rows.holds(link.row)) continue;
         const State<T, Axes> state = relative(motion, link);
-        const LinkForce<T, Axes> force = force_of(link);
+        const LinkForce<T, Axes> force(link);
         const Vec<T, Axes> push =
             what == Evaluate::field ? force.field(state.x) : force.accelerate(state);
         store(Vec<T, Axes>(load<T>(to, link.row) + push * inverse_mass[link.row]), to, link.row);
@@ -75,7 +70,7 @@ void damp_point_links(const PointLinks<T, Axes>& points, MotionColumns<T, Axes>&
         const PointLinkRow<T, Axes>& link = points.links[at];
         if (link.damping == 0) continue;
         const Vec<T, Axes> loss =
-            force_of(link).velocity_loss(relative(motion, link), points.loss[at]);
+            LinkForce<T, Axes>(link).velocity_loss(relative(motion, link), points.loss[at]);
         store(Vec<T, Axes>(load<T>(motion.v, link.row) - loss), motion.v, link.row);
     }
 }

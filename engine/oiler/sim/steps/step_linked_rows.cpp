@@ -10,6 +10,7 @@
 #include "oiler/physics/contacts/landing.hpp"
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/kernels/kernels.hpp"
+#include "oiler/sim/links/held_dampers.hpp"
 #include "oiler/sim/links/link_rows.hpp"
 #include "oiler/sim/links/link_solver.hpp"
 #include "oiler/sim/links/point_links.hpp"
@@ -110,7 +111,8 @@ public:
           damping_(damping_of(call.plan())) {
         const auto* const splitting = std::get_if<SplittingPlan<T>>(&call.plan());
         if (damping_ == Damping::in_kick) cache_.field_valid = false;
-        prepare(splitting ? splitting->half_step : T(0));
+        prepare(splitting ? splitting->half_step : T(0),
+                std::holds_alternative<ImplicitPlan<T>>(call.plan()) && has_ropes());
         // Dampers are stepped one after the other, and threads that read each other's rows are
         // slower than one.
         if ((damping_ == Damping::in_drift && cache_.links.any_damped) ||
@@ -143,6 +145,11 @@ public:
         in_ranges([&](const RowRange& rows) { kernels_.add_scaled(to, what, s, rows); });
     }
     Stages<MotionColumns<T, Axes>>& stages() { return cache_.stages; }
+
+    /// To be called before an implicit step.
+    void hold_ropes() {
+        if (cache_.holds_ropes) cache_.held = held_dampers(columns_);
+    }
 
     void damp_before(MotionColumns<T, Axes>& motion) {
         if (any_force([]<class Force>() { return DependsOnTime<Force>; }))
@@ -217,13 +224,38 @@ public:
 
 private:
     /// Fills the cache for the current bodies, forces and links.
-    void prepare(T half_step) {
-        if (cache_.valid && cache_.links.half_step == half_step) return;
+    void prepare(T half_step, bool holds_ropes) {
+        if (cache_.valid && cache_.links.half_step == half_step &&
+            cache_.holds_ropes == holds_ropes)
+            return;
         cache_ = {};
-        cache_.links = prepare_links(columns_.links, columns_.mass, columns_.size, half_step);
-        cache_.point_links = prepare_point_links(columns_.point_links, half_step, cache_.links);
+        cache_.holds_ropes = holds_ropes;
+        auto links = columns_.links;
+        auto point_links = columns_.point_links;
+        if (holds_ropes) {
+            for (auto& link : links) undamp_rope(link);
+            for (auto& link : point_links) undamp_rope(link);
+        }
+        cache_.links = prepare_links(std::move(links), columns_.mass, columns_.size, half_step);
+        cache_.point_links = prepare_point_links(std::move(point_links), half_step, cache_.links);
         cache_.acceleration = cache_.field = columns_.motion.v;
         cache_.valid = true;
+    }
+
+    [[nodiscard]] bool has_ropes() const {
+        const auto pulls_only = [](const auto& link) { return link.pulls_only; };
+        return std::ranges::any_of(columns_.links, pulls_only) ||
+               std::ranges::any_of(columns_.point_links, pulls_only);
+    }
+    template <class AnyLink>
+    static void undamp_rope(AnyLink& link) {
+        if (link.pulls_only) link.damping = 0;
+    }
+    /// The matrix of a link in an implicit step.
+    template <class AnyLink>
+    static Matrix<T, Axes> link_matrix(AnyLink link, const State<T, Axes>& between, T tau) {
+        undamp_rope(link);
+        return velocity_matrix(LinkForce<T, Axes>(link).jacobian(between), T(0), tau);
     }
 
     template <class F>
@@ -265,6 +297,8 @@ private:
             kernels_.push_links(cache_.links, motion, what, rows, out);
             push_point_links<T, Axes>(cache_.point_links, motion, what, cache_.links.inverse_mass,
                                       rows, out);
+            if (what == Evaluate::all)
+                push_held<T, Axes>(cache_.held, motion, cache_.links.inverse_mass, rows, out);
         });
     }
     void evaluate_field(const MotionColumns<T, Axes>& motion, double t) {
@@ -312,20 +346,26 @@ private:
         for_each_row([&](auto& physics, std::size_t row) {
             add(row, row, velocity_matrix(physics.forces().jacobian(load<T>(at, row)), T(1), tau));
         });
-        for (const LinkRow<T>& link : columns_.links) {
-            const Matrix<T, Axes> block =
-                velocity_matrix(LinkForce<T, Axes>(link).jacobian(between(at, link)), T(0), tau);
-            const T a = cache_.links.inverse_mass[link.a];
-            const T b = cache_.links.inverse_mass[link.b];
-            add(link.a, link.a, block * a);
-            add(link.a, link.b, block * -a);
-            add(link.b, link.b, block * b);
-            add(link.b, link.a, block * -b);
-        }
+        const auto& inverse_mass = cache_.links.inverse_mass;
+        const auto add_pair = [&](std::size_t a, std::size_t b, const Matrix<T, Axes>& block) {
+            add(a, a, block * inverse_mass[a]);
+            add(a, b, block * -inverse_mass[a]);
+            add(b, b, block * inverse_mass[b]);
+            add(b, a, block * -inverse_mass[b]);
+        };
+        for (const LinkRow<T>& link : columns_.links)
+            add_pair(link.a, link.b, link_matrix(link, between(at, link), tau));
         for (const PointLinkRow<T, Axes>& link : columns_.point_links)
             add(link.row, link.row,
-                velocity_matrix(force_of(link).jacobian(relative(at, link)), T(0), tau) *
-                    cache_.links.inverse_mass[link.row]);
+                link_matrix(link, relative(at, link), tau) * inverse_mass[link.row]);
+        for (const HeldDamper<T, Axes>& damper : cache_.held) {
+            const Matrix<T, Axes> block =
+                velocity_matrix(force_of(damper).jacobian(relative(at, damper)), T(0), tau);
+            if (damper.other)
+                add_pair(damper.row, *damper.other, block);
+            else
+                add(damper.row, damper.row, block * inverse_mass[damper.row]);
+        }
         return entries;
     }
 
@@ -352,6 +392,7 @@ std::optional<Divergence> step_linked_rows(const StepCall<T, Axes>& call) {
             for (std::int64_t j = 0; j < steps.count; ++j) {
                 const std::int64_t tick = steps.first + j + 1;
                 if (lands) columns.link_cache.before = columns.motion;
+                physics.hold_ropes();
                 if constexpr (!std::is_same_v<Rule, ExactPlan<T>>)
                     if (!advance(rule, columns.motion, physics, steps.rate.time(tick - 1)))
                         return Divergence{tick, 0, 0, Divergence::Of::solution};

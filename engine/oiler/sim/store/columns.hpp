@@ -223,6 +223,8 @@ struct LinkCache {
     bool valid = false;  ///< false after a change of bodies, masses, forces or links
     PreparedLinks<T> links;
     PointLinks<T, Axes> point_links;
+    bool holds_ropes = false;  ///< the prepared ropes have no damping, see HeldDamper
+    std::vector<HeldDamper<T, Axes>> held;
     Stages<MotionColumns<T, Axes>> stages;  ///< scratch
     VecColumns<T, Axes> acceleration;       ///< m/s², scratch
     VecColumns<T, Axes> field;              ///< m/s², at the positions of the last kick

@@ -12,8 +12,8 @@ namespace {
 template <class T>
 void sort(std::vector<LinkRow<T>>& links) {
     const auto key = [](const LinkRow<T>& link) {
-        return std::tuple(std::int64_t{link.b} - std::int64_t{link.a}, link.rest_length,
-                          link.stiffness, link.damping, link.a);
+        return std::tuple(link.pulls_only, std::int64_t{link.b} - std::int64_t{link.a},
+                          link.rest_length, link.stiffness, link.damping, link.a);
     };
     std::stable_sort(
         links.begin(), links.end(),
@@ -24,7 +24,8 @@ template <class T>
 bool continues(const LinkGroup<T>& run, const LinkRow<T>& link) {
     return run.count < most_links_per_run && link.a == run.of.a + run.count &&
            link.b == run.of.b + run.count && link.stiffness == run.of.stiffness &&
-           link.damping == run.of.damping && link.rest_length == run.of.rest_length;
+           link.damping == run.of.damping && link.rest_length == run.of.rest_length &&
+           link.pulls_only == run.of.pulls_only;
 }
 
 template <class T>
@@ -43,6 +44,7 @@ bool may_join(const std::vector<LinkGroup<T>>& groups, const LinkRow<T>& link) {
     if (groups.empty()) return false;
     const LinkGroup<T>& last = groups.back();
     return last.scattered && last.count < most_scattered_links &&
+           last.of.pulls_only == link.pulls_only &&
            (last.of.rest_length == 0) == (link.rest_length == 0);
 }
 

@@ -27,6 +27,7 @@ struct LinkRow {
     T stiffness;         ///< N/m
     T damping;           ///< N·s/m
     T rest_length;       ///< m
+    bool pulls_only;
 
     template <class F>
     void for_each_row(F f) {
@@ -50,7 +51,8 @@ struct LinkGroup {
     }
 };
 
-/// Links between any two rows. In a group, all have rest lengths or none has.
+/// Links between any two rows. In a group, all have rest lengths or none has, and all are ropes or
+/// none is.
 template <class T>
 struct ScatteredLinks {
     std::vector<std::uint32_t> a;
@@ -89,6 +91,7 @@ struct PointLinkRow {
     T stiffness;         ///< N/m
     T damping;           ///< N·s/m
     T rest_length;       ///< m
+    bool pulls_only;
     Vec<T, Axes> point;  ///< m
 
     template <class F>
@@ -103,6 +106,16 @@ template <std::floating_point T, int Axes>
 struct PointLinks {
     std::vector<PointLinkRow<T, Axes>> links;
     std::vector<T> loss;  ///< per link: 1 − e^(−b·τ/m) over a half-step
+};
+
+/// The damper of a rope that is taut at the start of an implicit step, to whose end it acts. A
+/// damper that begins within the step would be a jump, for which the step may have no solution.
+template <std::floating_point T, int Axes>
+struct HeldDamper {
+    std::uint32_t row;
+    std::optional<std::uint32_t> other;  ///< absent for a point
+    T damping;                           ///< N·s/m
+    Vec<T, Axes> point;                  ///< m
 };
 
 /// Prepares links between rows of these masses (kg) for dampers over `half_step` (s).
