@@ -63,6 +63,20 @@ TEST(BodyMotion, IsInterpolatedForBodiesThatBothHave) {
     EXPECT_EQ(quarter[0].acceleration, (Vec3{0, 6}));
 }
 
+TEST(Springs, ThatAreSlackRopesHaveNeitherStrainNorForce) {
+    World world(2);
+    const Entity slack = world.spawn(Body{.position = {1, 0}});
+    const Entity taut = world.spawn(Body{.position = {3, 0}});
+    const Link rope{.stiffness = 5, .rest_length = 2, .pulls_only = true};
+    world.link_to_point(slack, {}, rope);
+    world.link_to_point(taut, {}, rope);
+    EXPECT_EQ(springs_of(world)[0].stretch(), 0);
+    EXPECT_EQ(springs_of(world)[1].stretch(), 1);
+    const std::vector<BodyMotion> motions = motions_of(world, {slack, taut});
+    EXPECT_EQ(motions[0].acceleration, Vec3{});
+    EXPECT_EQ(motions[1].acceleration, (Vec3{-5, 0}));
+}
+
 TEST(Springs, AreThoseOfTheWorld) {
     World world(2);
     const Entity a = world.spawn(Body{.position = {3, 4}}, Spring{.stiffness = 1});

@@ -305,5 +305,31 @@ TEST(Bitmap, NamesWhatIsWrong) {
     expect_error(Exit::usage, "not 0x2", [&] { (void)make_bitmap({0, 2}, {}); });
 }
 
+float length_of(const std::vector<Point>& line) {
+    float sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+        sum += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
+    return sum;
+}
+
+TEST(Rope, HangsBetweenItsEndsWithItsLength) {
+    // 5 m apart: straight from a length of 5 m down, then sagging.
+    for (const float length : {1.0F, 5.0F}) {
+        const std::vector<Point> taut = rope({0, 0}, {3, 4}, length);
+        EXPECT_NEAR(length_of(taut), 5, 1e-5);
+        EXPECT_NEAR(taut[12].y, 2, 1e-6);
+    }
+    for (const float length : {5.1F, 6.0F, 20.0F, 500.0F}) {
+        const std::vector<Point> slack = rope({0, 0}, {3, 0}, length);
+        EXPECT_EQ(slack.size(), rope({0, 0}, {3, 4}, 5).size());
+        EXPECT_LE(length_of(slack), length);
+        EXPECT_GE(length_of(slack), length * 6 / 7);
+        EXPECT_LT(slack[12].y, 0);
+        EXPECT_NEAR(slack.back().x, 3, 1e-6);
+    }
+    // The arc length of a parabola of chord 1 and sag 0.1, from its integral: 1.02606.
+    EXPECT_NEAR(length_of(rope({0, 0}, {1, 0}, std::sqrt(1 + 0.16F / 3))), 1.02606F, 1e-4);
+}
+
 }  // namespace
 }  // namespace oiler::test

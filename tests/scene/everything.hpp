@@ -47,6 +47,7 @@ anchor = [0.0, 1.0]
 stiffness = 15.0
 damping = 0.1
 rest_length = 0.4
+pulls_only = false
 colour = "green"
 
 [[spring]]

@@ -46,6 +46,25 @@ TEST(MakeWorld, OrdersRowsAsTheSceneDoes) {
     }
 }
 
+// Also to an anchor: the body then has no force of its own.
+TEST(MakeWorld, LinksBodiesByRopes) {
+    const World world = world_of(
+        "[scene]\naxes = 2\n[[body]]\nname = 'a'\n[[body]]\nname = 'b'\nposition = [1, 0]\n"
+        "[[spring]]\nbody = 'a'\nanchor = [0, 3]\nstiffness = 5\ndamping = 0.5\n"
+        "rest_length = 2\npulls_only = true\n"
+        "[[spring]]\nbody = 'a'\nto = 'b'\nstiffness = 6\nrest_length = 1.5\n"
+        "pulls_only = true\n");
+    const Bodies& bodies = world.bodies();
+    ASSERT_EQ(bodies.link_count(), 2U);
+    EXPECT_EQ(bodies.most_forces_of_a_kind(), 0U);
+    EXPECT_EQ(bodies.link_ends(0), (LinkEnds{0, 1}));
+    EXPECT_EQ(bodies.link_at(0).stiffness, 6);
+    EXPECT_EQ(bodies.link_ends(1), (LinkEnds{0, std::nullopt, {0, 3}}));
+    EXPECT_EQ(bodies.link_at(1).damping, 0.5);
+    EXPECT_EQ(bodies.link_at(1).rest_length, 2);
+    EXPECT_TRUE(bodies.link_at(0).pulls_only && bodies.link_at(1).pulls_only);
+}
+
 // Forces are stored per unit mass: 1.5 kg for the body, 0.5 kg in grid and scatter.
 TEST(MakeWorld, GivesEachBodyTheForcesThatTheSceneNames) {
     const World world = world_of(everything);

@@ -301,6 +301,14 @@ TEST(PointWarning, IsGivenIfTheSpringStaysWithoutDirection) {
     EXPECT_FALSE(is_point());
 }
 
+// While it is slack it needs no direction.
+TEST(PointWarning, IsNotGivenForRopes) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({});
+    bodies.link_to_point(0, {}, {.stiffness = 10, .rest_length = 0.5, .pulls_only = true});
+    EXPECT_TRUE(warnings(bodies, find_method("velocity_verlet"), rate).empty());
+}
+
 TEST(PointWarning, IsGivenForLinks) {
     const Method& verlet = find_method("velocity_verlet");
     Bodies bodies(2, Precision::double_);

@@ -9,6 +9,7 @@
 #include "oiler/scene/read.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
+#include "support/rope_fall.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
@@ -314,6 +315,31 @@ TEST(EnergyScale, IsZeroWithoutMotionSoThatDriftsAreInJoules) {
     const Reference reference = make_reference(scene, effort());
     EXPECT_EQ(reference.energy_scale, 0);
     EXPECT_EQ(reference.share_of_energy(3), 3);
+}
+
+// The rope becomes taut and slack within steps, so that no run has more than order 2 or, with
+// damping, 1. Extrapolation would claim more.
+TEST(Ropes, HaveAReferenceThatKnowsItsError) {
+    for (const double damping : {0.0, 4.0}) {
+        Scene scene;
+        scene.axes = 1;
+        scene.duration = 1.5;
+        scene.gravity = Vec3{-Fall::g};
+        scene.bodies = {{.velocity = {1}}};
+        scene.springs = {
+            {.stiffness = 200, .damping = damping, .rest_length = 2, .pulls_only = true}};
+        const Fall fall(link_of(scene.springs[0]), 1);
+        const Motions exact{[&](Real t) {
+            const auto [x, v] = fall.at(t);
+            return State3{{x, 0, 0}, {v, 0, 0}};
+        }};
+        const Reference reference = make_reference(scene, effort());
+        EXPECT_FALSE(reference.closed_form);
+        EXPECT_FALSE(holds(reference.words, "extrapolated")) << reference.words;
+        EXPECT_EQ(reference.meaningful_until, scene.duration);
+        EXPECT_LT(reference.uncertainties.back().position, 1e-4) << reference.words;
+        expect_within_uncertainties(reference, exact);
+    }
 }
 
 /// A double pendulum of springs as stiff as rods. Neighbouring motions diverge e-fold in less than
