@@ -133,7 +133,7 @@ const std::vector<Refusal> refusals{
      "body.colour spring.colour attractor.colour plane.colour grid.colour scatter.colour "
      "obstacle.colour chain.colour tiles.colour",
      no_colour},
-    {"true or false", "grid.diagonals chain.closed",
+    {"true or false", "spring.pulls_only grid.diagonals chain.closed",
      texts({"yes"}) + Values{{"1", "1"}, {"[]", "a list of 0"}}},
     {"one of none, corners, top", "grid.hang",
      no_text + texts({"bottom"}) + with_hint("corner", "corners")},

@@ -96,15 +96,15 @@ TEST(Ledger, OfProjectilesCountsTheirBytes) {
     EXPECT_EQ(names_of_passes(ledger), (Strings{"gravity", "linear_drag", "moving"}));
 }
 
-// A 3 × 2 net has 7 springs; each has two rows and a handle of 4 bytes, and three numbers of 8. It
-// hangs from two more; each has a row and a handle, three numbers, and a point of two.
+// A 3 × 2 net has 7 springs; each has two rows and a handle of 4 bytes, three numbers of 8 and 8 for its kind. It
+// hangs from two more; each has a row and a handle, three numbers, its kind, and a point of two.
 TEST(Ledger, CountsLinksAndAnchoredNodes) {
     const Ledger ledger =
         ledger_of(two_axes +
                   "[[grid]]\ncount = [3, 2]\nspacing = 1.0\nstiffness = 50.0\n"
                   "hang = \"corners\"\nvelocity = [0.1, 0.0]\nrest_length = 0.9\n");
     EXPECT_EQ(ledger.links, 9);
-    constexpr double bytes = 7 * 40 + 2 * 48;
+    constexpr double bytes = 7 * 48 + 2 * 56;
     EXPECT_DOUBLE_EQ(ledger.bytes_per_link, bytes / 9);
     EXPECT_EQ(names_of_passes(ledger), (Strings{"hang", "links", "moving"}));
     EXPECT_DOUBLE_EQ(ledger.bytes_per_body(), 16 + 16 + 12 + bytes / 6);
