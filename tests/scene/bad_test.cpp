@@ -133,7 +133,7 @@ const std::vector<Refusal> refusals{
      "body.colour spring.colour attractor.colour plane.colour grid.colour scatter.colour "
      "obstacle.colour chain.colour tiles.colour",
      no_colour},
-    {"true or false", "spring.pulls_only grid.diagonals chain.closed",
+    {"true or false", "spring.pulls_only grid.diagonals chain.closed obstacle.solid",
      texts({"yes"}) + Values{{"1", "1"}, {"[]", "a list of 0"}}},
     {"one of none, corners, top", "grid.hang",
      no_text + texts({"bottom"}) + with_hint("corner", "corners")},
@@ -149,7 +149,7 @@ const std::vector<Refusal> refusals{
     {"a list of 2 numbers, for the 2 axes, in m",
      "body.position spring.anchor attractor.position grid.origin scatter.position_from "
      "scatter.position_to camera.centre obstacle.centre obstacle.size obstacle.from obstacle.to "
-     "tiles.origin",
+     "obstacle.swing chain.swing tiles.origin",
      no_vector},
     {"a list of 2 numbers, for the 2 axes, in m/s",
      "body.velocity wind.velocity grid.velocity scatter.velocity_from scatter.velocity_to "
@@ -160,13 +160,14 @@ const std::vector<Refusal> refusals{
     {"a list of 2 numbers, for the 2 axes", "plane.normal obstacle.one_way chain.one_way",
      no_vector},
     {"a number, in m", "plane.offset", no_number + long_texts},
-    {"a number, in rad", "drive.phase obstacle.angle", no_number},
+    {"a number, in rad", "drive.phase obstacle.angle obstacle.phase chain.phase", no_number},
     {"a number, in m/s", "obstacle.belt chain.belt", no_number},
     {"a number above 0, in kg", "body.mass grid.mass scatter.mass", no_number + to_0},
     {"a number above 0, in m",
      "body.radius attractor.radius grid.spacing grid.radius scatter.radius budget.position_error "
      "obstacle.radius tiles.tile",
      no_number + to_0},
+    {"a number above 0, in s", "obstacle.period chain.period", no_number + to_0},
     {"a number above 0, in m³/s²", "attractor.gm", no_number + to_0},
     {"a number above 0", "budget.energy_drift", no_number + to_0},
     {"a number above 0 to 1000000000, in s", "scene.duration", no_number + to_0 + too_long},
@@ -319,6 +320,8 @@ TEST(BadKeys, MisspeltKeysAreRefusedWithTheRightOne) {
         {"obstacle", "nam name shap shape center centre raduis radius siz size angel angle"},
         {"obstacle", "fron from too to restituton restitution frictoin friction bellt belt"},
         {"obstacle", "velocitty velocity oneway one_way color colour"},
+        {"obstacle", "swng swing preiod period phaze phase sold solid"},
+        {"chain", "swng swing preiod period phaze phase"},
         {"chain", "point points close closed restituton restitution frictoin friction"},
         {"chain", "bellt belt velocitty velocity one-way one_way color colour"},
         {"tiles", "orgin origin tiles tile row rows oneway one_way restituton restitution"},

@@ -88,7 +88,11 @@ restitution = 0.5
 friction = 0.03
 belt = 0.5
 velocity = [0.1, -0.2]
+swing = [0.001, 0.0005]
+period = 20.0
+phase = 0.2
 one_way = [0.0, -1.0]
+solid = true
 colour = "green"
 
 [[obstacle]]
@@ -109,6 +113,9 @@ restitution = 0.5
 friction = 0.3
 belt = 0.5
 velocity = [0.1, -0.2]
+swing = [0.001, 0.0005]
+period = 20.0
+phase = 0.2
 one_way = [-1.0, 0.0]
 colour = "green"
 

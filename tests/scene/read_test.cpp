@@ -36,7 +36,7 @@ std::string other_value(const SceneKey& key) {
     if (is(key, "scene", "precision")) return "\"float\"";
     if (is(key, "scene", "damping")) return "\"drift\"";
     if (is(key, "grid", "hang")) return "\"top\"";
-    if (is(key, "chain", "closed")) return "true";
+    if (is(key, "chain", "closed") || is(key, "spring", "pulls_only")) return "true";
     if (is(key, "tiles", "one_way")) return "\"#\"";
     switch (key.kind) {
         case KeyKind::text:
@@ -93,9 +93,11 @@ bool look_the_same(const Picture& a, const Picture& b) {
            std::ranges::equal(a.polylines, b.polylines, same_line);
 }
 
-/// Keys without effect on the state or the picture: they limit a run, or are for messages.
+/// Keys without effect on the state or the picture: they limit a run, are for messages, or make a
+/// rope of a spring that is longer than at rest.
 bool shows_nothing(const SceneKey& key) {
-    return key.table == "budget" || key.name == "duration" || is(key, "obstacle", "name");
+    return key.table == "budget" || key.name == "duration" || key.name == "pulls_only" ||
+           is(key, "obstacle", "name");
 }
 /// Keys that springs refer to, or on which other keys depend.
 bool cannot_change_alone(const SceneKey& key) {
@@ -104,7 +106,7 @@ bool cannot_change_alone(const SceneKey& key) {
 /// Keys that a table may have to have, as others say.
 bool is_needed_by_some(const SceneKey& key) {
     constexpr std::array<std::string_view, 5> of_shapes{"centre", "radius", "size", "from", "to"};
-    return is(key, "spring", "anchor") || is(key, "spring", "to") ||
+    return is(key, "spring", "anchor") || is(key, "spring", "to") || key.name == "swing" ||
            (key.table == "obstacle" && std::ranges::count(of_shapes, key.name) > 0);
 }
 
@@ -187,6 +189,7 @@ void expect_obstacles(const Scene& scene) {
                      .friction = 0.3,
                      .belt = 0.5,
                      .velocity = {0.1, -0.2},
+                     .swing = Swing{{0.001, 0.0005}, 20, 0.2},
                      .one_way = Vec3{0, -1}};
     surface.shape = CircleShape{{-0.7, 1.2313}, 0.3};
     surface.friction = 0.03;

@@ -231,14 +231,14 @@ TEST(Obstacles, AddNoEnergyAndLetNothingIn) {
                 random_obstacle(dice, dice.chance(0.3) ? 1 : dice.uniform(0, 1), friction));
         Vec3 at{dice.uniform(-3, 3), dice.uniform(1, 3)};
         const double radius = dice.uniform(0.02, 0.4);
-        while (!world.overlaps(at, radius + 1e-6).empty()) at[1] += 0.1;
+        while (!world.overlaps(at, {radius + 1e-6}).empty()) at[1] += 0.1;
         const Entity ball = world.spawn({.position = at,
                                          .velocity = {dice.uniform(-10, 10), dice.uniform(-10, 10)},
                                          .contact = Contact{radius}});
         const double energy = world.energy().total();
         for (int i = 0; i < 60; ++i) {
             world.step();
-            ASSERT_TRUE(world.overlaps(world.position(ball), radius - 1e-12).empty()) << seed;
+            ASSERT_TRUE(world.overlaps(world.position(ball), {radius - 1e-12}).empty()) << seed;
             ASSERT_LE(world.energy().total(), energy + 1e-9 * (1 + std::abs(energy))) << seed;
         }
     }

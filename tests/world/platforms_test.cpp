@@ -199,12 +199,12 @@ TEST(Raycast, FindsTheFirstObstacle) {
     EXPECT_NEAR(hit->fraction, 0.4, 1e-15);
     EXPECT_NEAR(hit->point[0], 4, 1e-15);
     EXPECT_NEAR(hit->normal[0], -1, 1e-15);
-    EXPECT_NEAR(world.raycast({0, 0}, {10, 0}, 0.5)->fraction, 0.35, 1e-15);
+    EXPECT_NEAR(world.raycast({0, 0}, {10, 0}, {0.5})->fraction, 0.35, 1e-15);
     EXPECT_EQ(world.raycast({0, 1.8}, {10, 0.6})->obstacle, box);
     EXPECT_FALSE(world.raycast({0, 3}, {10, 3}));
     EXPECT_FALSE(world.raycast({0, 0}, {-10, 0}));
     EXPECT_EQ(world.raycast({5, 0.5}, {10, 0})->fraction, 0);
-    EXPECT_EQ(world.overlaps({7, 0}, 1.5), (std::vector{circle, box}));
+    EXPECT_EQ(world.overlaps({7, 0}, {1.5}), (std::vector{circle, box}));
 }
 
 TEST(ObstacleHandles, KnowWhenTheyAreStale) {

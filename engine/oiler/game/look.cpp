@@ -22,6 +22,7 @@ public:
         // Ground that stands is drawn where the camera is: it does not move.
         const bool is_plane = std::holds_alternative<HalfSpaceShape>(obstacle.shape);
         if (is_plane && obstacle.velocity == Vec3{} && !obstacle.swing) solid_.key = {};
+        if (!obstacle.solid) solid_.fill = palette::faded(solid_.fill, 0x40);
         if (obstacle.one_way) solid_.one_way = to_point(*obstacle.one_way);
         std::visit(*this, obstacle.shape);
     }

@@ -146,7 +146,7 @@ template <std::floating_point T>
 
 /// The largest |coordinate|; NaN if any is NaN.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T largest(const Vec<T, Axes>& a) {
+[[nodiscard]] [[gnu::always_inline]] inline T largest(const Vec<T, Axes>& a) {
     T size = 0;
     for (const T& number : a.axis) size = larger(size, std::abs(number));
     return size;
@@ -191,6 +191,15 @@ template <std::floating_point T, class... Sizes>
 [[nodiscard]] T replace_where_sleeping(T value, T instead, T rate, T limit, T v, Sizes... sizes) {
     const bool slow = (any_nonzero_below(v, limit) && ... && (std::abs(sizes) < limit));
     return slow && rate > 0 ? instead : value;
+}
+
+/// A vector in another precision and number of axes; 0 on axes that `from` lacks.
+template <class To, class V, int Axes>
+[[nodiscard]] To converted(const Vec<V, Axes>& from) {
+    To to{};
+    for (std::size_t i = 0; i < std::min(to.axis.size(), from.axis.size()); ++i)
+        to.axis[i] = static_cast<std::decay_t<decltype(to.axis[i])>>(from.axis[i]);
+    return to;
 }
 
 }  // namespace oiler

@@ -30,6 +30,7 @@ private:
         Obstacle obstacle = bodies_.obstacle(handle);
         solid = {
             .key = key_of_obstacle(handle.slot, handle.generation), .fill = colour, .line = colour};
+        if (!obstacle.solid) solid.fill = palette::faded(colour, 0x40);
         if (obstacle.one_way) solid.one_way = point_of(*obstacle.one_way);
         return obstacle;
     }

@@ -45,6 +45,8 @@ constexpr std::string_view coulomb =
     "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides";
 constexpr std::string_view clockwise =
     "speed of its surface, clockwise: on top to the right; with two axes";
+constexpr std::string_view stands = "does not swing";
+constexpr std::string_view swings = "moves by swing·sin(2π·t/period + phase), and carries bodies";
 constexpr std::string_view all_sides = "met from all sides";
 constexpr std::string_view side =
     "direction of the side from which bodies meet it, within 60°; they pass from other sides";
@@ -155,7 +157,12 @@ constexpr std::array known_keys{
     SceneKey{"obstacle", "belt", number, "m/s", any, "0.0", "", clockwise},
     SceneKey{"obstacle", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
              "moves, and carries bodies"},
+    SceneKey{"obstacle", "swing", vector, "m", any, "[1.0, 0.0]", stands, swings},
+    SceneKey{"obstacle", "period", number, "s", positive, "1.0", "", "of the swing"},
+    SceneKey{"obstacle", "phase", number, "rad", any, "0.0", "", "of the swing"},
     SceneKey{"obstacle", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
+    SceneKey{"obstacle", "solid", flag, "", any, "true", "",
+             "`false` is an area: bodies pass it, and impacts list when they enter and leave it"},
     SceneKey{"obstacle", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
     SceneKey{"chain", "points", points, "m", any, "[[0.0, 0.0], [1.0, 0.5]]", required,
              "ends of its segments"},
@@ -166,6 +173,9 @@ constexpr std::array known_keys{
     SceneKey{"chain", "belt", number, "m/s", any, "0.0", "", clockwise},
     SceneKey{"chain", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
              "moves, and carries bodies"},
+    SceneKey{"chain", "swing", vector, "m", any, "[1.0, 0.0]", stands, swings},
+    SceneKey{"chain", "period", number, "s", positive, "1.0", "", "of the swing"},
+    SceneKey{"chain", "phase", number, "rad", any, "0.0", "", "of the swing"},
     SceneKey{"chain", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
     SceneKey{"chain", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
     SceneKey{"tiles", "origin", vector, "m", any, "[0.0, 0.0]", "",

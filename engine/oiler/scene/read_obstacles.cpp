@@ -86,6 +86,19 @@ private:
     const Section& section_;
 };
 
+void read_swing(const Scene& scene, const Section& section, Obstacle& obstacle) {
+    for (const std::string_view key : {"period", "phase"})
+        if (section.has(key) && !section.has("swing"))
+            refuse(section.place(key), "{}.{}: without a swing; give `swing`, the way of it",
+                   section.name(), key);
+    if (!section.has("swing")) return;
+    Swing& swing = obstacle.swing.emplace();
+    section.read("swing", swing.way);
+    section.read("period", swing.period);
+    section.read("phase", swing.phase);
+    check_obstacle(scene, section, "swing", obstacle);
+}
+
 /// Reads the keys that obstacles and chains share.
 void read_surface(const Scene& scene, const Section& section, Obstacle& obstacle) {
     section.read("restitution", obstacle.restitution);
@@ -95,6 +108,7 @@ void read_surface(const Scene& scene, const Section& section, Obstacle& obstacle
     check_obstacle(scene, section, "belt", obstacle);
     section.read("velocity", obstacle.velocity);
     check_obstacle(scene, section, "velocity", obstacle);
+    read_swing(scene, section, obstacle);
     section.read("one_way", obstacle.one_way);
     check_obstacle(scene, section, "one_way", obstacle);
 }
@@ -136,6 +150,7 @@ SceneObstacle read_obstacle(const Scene& scene, const Section& section) {
     section.read("name", read.name);
     read.obstacle.shape = ShapeReader(scene, section).run();
     read_surface(scene, section, read.obstacle);
+    section.read("solid", read.obstacle.solid);
     section.read("colour", read.colour);
     return read;
 }

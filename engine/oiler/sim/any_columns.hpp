@@ -16,14 +16,6 @@ template <std::floating_point To>
 [[nodiscard]] To converted(std::floating_point auto from) {
     return static_cast<To>(from);
 }
-/// A vector in another precision and number of axes; 0 on axes that `from` lacks.
-template <class To, class V, int Axes>
-[[nodiscard]] To converted(const Vec<V, Axes>& from) {
-    To to{};
-    for (std::size_t i = 0; i < std::min(to.axis.size(), from.axis.size()); ++i)
-        to.axis[i] = static_cast<std::decay_t<decltype(to.axis[i])>>(from.axis[i]);
-    return to;
-}
 /// A force of the same kind in another precision and number of axes.
 template <class To, class From>
 [[nodiscard]] To converted_force(const From& from) {

@@ -190,7 +190,7 @@ std::size_t Bodies::add(const Body& body, const GivenForces& forces) {
         columns.mass.push(body.mass);
         columns.kinds.push(kinds);
         columns.applied.push_row();
-        columns.contacts.push_row(columns.contacts.radius_of(body.contact));
+        columns.contacts.push_row(columns.size, body.contact);
         columns.forces_changed();
         return columns.size++;
     });
@@ -332,8 +332,7 @@ void Bodies::apply_impulse(std::size_t row, const Vec3& impulse) {
 void Bodies::set_contact(std::size_t row, const std::optional<Contact>& contact) {
     require_row(row);
     if (contact) Limits(precision(), axes()).check(*contact);
-    columns_->visit(
-        [&](auto& columns) { columns.contacts.set(row, columns.contacts.radius_of(contact)); });
+    columns_->visit([&](auto& columns) { columns.contacts.set(row, contact); });
 }
 
 std::optional<Contact> Bodies::contact(std::size_t row) const {
@@ -341,7 +340,7 @@ std::optional<Contact> Bodies::contact(std::size_t row) const {
     return columns_->visit([&](const auto& columns) -> std::optional<Contact> {
         const auto radius = columns.contacts.radius[row];
         if (radius == columns.contacts.no_contact) return std::nullopt;
-        return Contact{static_cast<double>(radius)};
+        return Contact{static_cast<double>(radius), columns.contacts.meets(row)};
     });
 }
 

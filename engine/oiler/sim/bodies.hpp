@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/core/copy_on_write.hpp"
 #include "oiler/core/handle_slots.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/physics/methods/methods.hpp"
@@ -132,13 +133,14 @@ public:
     [[nodiscard]] std::optional<Touch> ground(std::size_t row) const;
     /// Lets the body pass the one-way obstacles that it touches.
     void drop_through(std::size_t row);
-    /// The first obstacle that a ball of `radius` m meets on a straight way, m. One-way obstacles
+    /// The first obstacle that a ball meets on a straight way, m; no area. One-way obstacles
     /// stop it from their own side only. At equal distances the lower slot is first.
     [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
-                                             double radius = 0) const;
-    /// The obstacles that a ball overlaps, in the order of their slots.
-    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre, double radius) const;
-    /// The half-spaces among the obstacles, as they were added.
+                                             const Contact& ball = {}) const;
+    /// The obstacles and areas that a ball overlaps, in the order of their slots.
+    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre,
+                                                       const Contact& ball) const;
+    /// The half-spaces among the obstacles, as they were added, without areas.
     [[nodiscard]] std::vector<Plane> planes() const;
     /// Lets the body meet obstacles, or pass through them. Throws Error{usage} for a negative
     /// radius.
@@ -209,6 +211,7 @@ public:
 
 private:
     [[nodiscard]] ObstacleHandle handle_of(std::size_t slot) const;
+    [[nodiscard]] bool is_solid(ObstacleHandle handle) const;
     template <class F>
     void change_motion(ObstacleHandle handle, F f);
     void require_row(std::size_t row) const;
@@ -219,7 +222,7 @@ private:
     std::unique_ptr<AnyColumns> columns_;
     std::shared_ptr<Team> team_;
     HandleSlots link_slots_;
-    std::vector<std::optional<Obstacle>> obstacles_;  ///< by slot, as they were added
+    CopyOnWrite<std::vector<std::optional<Obstacle>>> obstacles_;  ///< by slot, as they were added
     HandleSlots obstacle_slots_;
 };
 

@@ -172,6 +172,7 @@ void Bodies::hash_into(StateHash& hash) const {
         for (const auto* vector : {&columns.motion.x, &columns.motion.v})
             for (const Column<T>& column : *vector) hash_column(column, hash);
         columns.contacts.obstacles.hash_into(hash);
+        columns.contacts.areas.hash_into(hash);
         if (columns.applied.empty()) return;
         for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
     });

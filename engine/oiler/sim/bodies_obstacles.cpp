@@ -80,6 +80,8 @@ ObstacleOf<T, Axes> to_obstacle(const Obstacle& given) {
     constexpr double most_friction = 1 / std::numeric_limits<T>::epsilon();
     obstacle.surface.friction = static_cast<T>(std::min(given.friction, most_friction));
     obstacle.belt = static_cast<T>(given.belt);
+    obstacle.layers = given.layers;
+    obstacle.solid = given.solid;
     if (given.one_way) obstacle.one_way = converted<Vec<T, Axes>>(normalised(*given.one_way));
     return obstacle;
 }
@@ -118,11 +120,12 @@ struct MoveTo {
 ObstacleHandle Bodies::add_obstacle(const Obstacle& obstacle) {
     Limits(precision(), axes()).check(obstacle);
     const auto handle = obstacle_slots_.take<ObstacleHandle>();
-    if (handle.slot >= obstacles_.size()) obstacles_.resize(handle.slot + 1);
-    obstacles_[handle.slot] = obstacle;
+    auto& all = obstacles_.write();
+    if (handle.slot >= all.size()) all.resize(handle.slot + 1);
+    all[handle.slot] = obstacle;
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        columns.contacts.obstacles.set(handle.slot, to_obstacle<T, Axes>(obstacle),
-                                       motion_of<T, Axes>(obstacle));
+        columns.contacts.all(obstacle.solid)
+            .set(handle.slot, to_obstacle<T, Axes>(obstacle), motion_of<T, Axes>(obstacle));
         columns.contacts.wake_all();
     });
     return handle;
@@ -137,18 +140,20 @@ ObstacleHandle Bodies::add_plane(const Plane& plane) {
 void Bodies::remove_obstacle(ObstacleHandle handle) {
     require(alive(handle), "the obstacle is gone");
     obstacle_slots_.release(handle.slot);
-    obstacles_[handle.slot].reset();
     columns_->visit([&](auto& columns) {
-        columns.contacts.obstacles.remove(handle.slot);
+        columns.contacts.all(is_solid(handle)).remove(handle.slot);
         columns.contacts.wake_all();
     });
+    obstacles_.write()[handle.slot].reset();
 }
 
 void Bodies::clear_planes() {
     for (const ObstacleHandle handle : obstacles())
-        if (std::holds_alternative<HalfSpaceShape>(obstacles_[handle.slot]->shape))
+        if (std::holds_alternative<HalfSpaceShape>((*obstacles_)[handle.slot]->shape))
             remove_obstacle(handle);
 }
+
+bool Bodies::is_solid(ObstacleHandle handle) const { return (*obstacles_)[handle.slot]->solid; }
 
 bool Bodies::alive(ObstacleHandle handle) const {
     return obstacle_slots_.holds(handle.slot, handle.generation);
@@ -156,17 +161,21 @@ bool Bodies::alive(ObstacleHandle handle) const {
 
 std::vector<ObstacleHandle> Bodies::obstacles() const {
     std::vector<ObstacleHandle> handles;
-    for (std::uint32_t slot = 0; slot < obstacles_.size(); ++slot)
-        if (obstacles_[slot]) handles.push_back({slot, obstacle_slots_.generation(slot)});
+    for (std::uint32_t slot = 0; slot < obstacles_->size(); ++slot)
+        if ((*obstacles_)[slot]) handles.push_back({slot, obstacle_slots_.generation(slot)});
     return handles;
 }
 
 Obstacle Bodies::obstacle(ObstacleHandle handle) const {
     require(alive(handle), "the obstacle is gone");
-    Obstacle obstacle = *obstacles_[handle.slot];
+    Obstacle obstacle = *(*obstacles_)[handle.slot];
     columns_->visit([&](const auto& columns) {
-        if (!columns.contacts.obstacles.any_moves()) return;
-        const auto now = columns.contacts.obstacles.now(handle.slot);
+        const auto& all = columns.contacts.all(obstacle.solid);
+        const auto* const motion = all.motion(handle.slot);
+        obstacle.velocity = motion ? converted<Vec3>(motion->velocity) : Vec3{};
+        if (!motion || motion->frequency == 0) obstacle.swing.reset();
+        if (!motion) return;
+        const auto now = all.now(handle.slot);
         std::visit(MoveTo{now}, obstacle.shape);
     });
     return obstacle;
@@ -176,11 +185,8 @@ template <class F>
 void Bodies::change_motion(ObstacleHandle handle, F f) {
     require(alive(handle), "the obstacle is gone");
     columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
-        f(columns.contacts.obstacles, Vec<T, Axes>{});
-        columns.contacts.wake_all();
+        f(columns.contacts.all(is_solid(handle)), Vec<T, Axes>{});
     });
-    obstacles_[handle.slot]->swing.reset();
-    obstacles_[handle.slot]->velocity = {};
 }
 
 void Bodies::set_obstacle_velocity(ObstacleHandle handle, const Vec3& velocity) {
@@ -188,7 +194,6 @@ void Bodies::set_obstacle_velocity(ObstacleHandle handle, const Vec3& velocity) 
     change_motion(handle, [&]<class Vec>(auto& obstacles, const Vec&) {
         obstacles.set_velocity(handle.slot, converted<Vec>(velocity));
     });
-    obstacles_[handle.slot]->velocity = velocity;
 }
 
 void Bodies::move_obstacle(ObstacleHandle handle, const Vec3& to,
@@ -207,16 +212,18 @@ void Bodies::teleport_obstacle(ObstacleHandle handle, const Vec3& to) {
     change_motion(handle, [&]<class Vec>(auto& obstacles, const Vec&) {
         obstacles.teleport(handle.slot, converted<Vec>(to));
     });
-    columns_->visit([&](const auto& columns) {
-        const auto now = columns.contacts.obstacles.now(handle.slot);
-        std::visit(MoveTo{now}, obstacles_[handle.slot]->shape);
+    columns_->visit([&](auto& columns) {
+        columns.contacts.wake_all();
+        const auto now = columns.contacts.all(is_solid(handle)).now(handle.slot);
+        std::visit(MoveTo{now}, obstacles_.write()[handle.slot]->shape);
     });
 }
 
 std::vector<Plane> Bodies::planes() const {
     std::vector<Plane> planes;
-    for (const std::optional<Obstacle>& one : obstacles_)
-        if (const auto* const shape = one ? std::get_if<HalfSpaceShape>(&one->shape) : nullptr)
+    for (const std::optional<Obstacle>& one : *obstacles_)
+        if (const auto* const shape = one ? std::get_if<HalfSpaceShape>(&one->shape) : nullptr;
+            shape && one->solid)
             planes.push_back({shape->normal, shape->offset, one->restitution, one->friction});
     return planes;
 }

@@ -65,11 +65,12 @@ std::optional<Divergence> Bodies::try_step(const Method& method, const Steps& st
     if (std::holds_alternative<ExactFlow>(method.rule)) require_exact_flow(method);
     return columns_->visit(
         [&]<class T, int Axes>(Columns<T, Axes>& columns) -> std::optional<Divergence> {
-            auto& obstacles = columns.contacts.obstacles;
             columns.contacts.impacts.clear();
-            obstacles.begin(steps.rate, steps.first);
+            for (const bool solid : {true, false})
+                columns.contacts.all(solid).begin(steps.rate, steps.first);
             const auto whole = [&](const std::optional<Divergence>& diverged) {
-                obstacles.end(steps.first + steps.count);
+                for (const bool solid : {true, false})
+                    columns.contacts.all(solid).end(steps.first + steps.count);
                 return diverged;
             };
             if (columns.applied.empty() || steps.count == 0)

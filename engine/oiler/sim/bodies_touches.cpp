@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "oiler/core/require.hpp"
 #include "oiler/physics/contacts/near.hpp"
@@ -45,7 +48,8 @@ public:
           state_(load<T>(columns.motion, row)),
           a_(acceleration_of(bodies, columns, row, state_)) {
         if (radius_ == Contacts<T, Axes>::no_contact) return;
-        obstacles_.find_near(state_.x, T(0), radius_, obstacles_.tick(), obstacles_.dt(), nears_);
+        obstacles_.find_near(state_.x, T(0), radius_, columns.contacts.meets(row),
+                             obstacles_.tick(), obstacles_.dt(), nears_);
         for (Near<T, Axes>& near : nears_) {
             renew_normal(near, state_.x, T(0));
             near.velocity =
@@ -110,6 +114,59 @@ std::optional<T> fraction_to(const ObstacleOf<T, Axes>& obstacle, const Vec<T, A
     return narrow_bracket<T>(distance, {0, nearest}, start, least, T(0)).before;
 }
 
+/// The first obstacle that a ball of `radius` m meets on a straight way.
+template <class T, int Axes>
+class RaySearch {
+public:
+    using Vec = oiler::Vec<T, Axes>;
+    struct Found {
+        std::size_t slot;
+        T fraction;  ///< of the way
+        Vec point;
+        Vec normal;
+    };
+
+    RaySearch(const Obstacles<T, Axes>& obstacles, const Vec& from, const Vec& to, T radius,
+              std::uint32_t meets)
+        : obstacles_(obstacles), from_(from), way_(to - from), radius_(radius), meets_(meets) {}
+
+    [[nodiscard]] std::optional<Found> first() {
+        const T piece = obstacles_.standing().piece_of_ray() + 4 * radius_;
+        const T pieces = piece > 0 ? std::ceil(length(way_) / piece) : T(1);
+        const auto count = static_cast<int>(std::clamp(pieces, T(1), T(4096)));
+        const T half = length(way_) / static_cast<T>(2 * count);
+        for (int i = 0; i < count; ++i) {
+            const T middle = (static_cast<T>(i) + T(0.5)) / static_cast<T>(count);
+            const Vec x = from_ + way_ * middle;
+            obstacles_.for_each_now(x, half + radius_ + obstacles_.hidden_way(x, half + radius_),
+                                    [&](std::size_t slot, const auto& one) { test(slot, one); });
+            if (found_ && found_->fraction * static_cast<T>(count) <= static_cast<T>(i + 1)) break;
+        }
+        return found_;
+    }
+
+private:
+    void test(std::size_t slot, const ObstacleOf<T, Axes>& obstacle) {
+        if ((obstacle.layers & meets_) == 0) return;
+        const auto fraction = fraction_to(obstacle, from_, way_, radius_);
+        if (!fraction) return;
+        if (found_ && std::pair(found_->fraction, found_->slot) <= std::pair(*fraction, slot))
+            return;
+        const Vec centre = from_ + way_ * *fraction;
+        const Vec n = normal(obstacle, centre);
+        if (obstacle.is_one_way() && (*fraction == 0 || !bears_from(obstacle, n))) return;
+        const bool is_inside = *fraction == 0 && gap(obstacle, from_, radius_) < 0;
+        found_ = {slot, *fraction, centre - n * radius_, is_inside ? Vec{} : n};
+    }
+
+    const Obstacles<T, Axes>& obstacles_;
+    Vec from_;
+    Vec way_;  ///< m
+    T radius_;
+    std::uint32_t meets_;
+    std::optional<Found> found_;
+};
+
 }  // namespace
 
 std::vector<Touch> Bodies::touches(std::size_t row) const {
@@ -153,47 +210,39 @@ void Bodies::drop_through(std::size_t row) {
     });
 }
 
-std::optional<Hit> Bodies::raycast(const Vec3& from, const Vec3& to, double radius) const {
+std::optional<Hit> Bodies::raycast(const Vec3& from, const Vec3& to, const Contact& ball) const {
     const Limits limits(precision(), axes());
     limits.check(from, "the start of a ray");
     limits.check(to, "the end of a ray");
-    limits.check(Contact{radius});
+    limits.check(ball);
     return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
         using Vector = Vec<T, Axes>;
-        const auto& obstacles = columns.contacts.obstacles;
-        const Vector start = converted<Vector>(from);
-        const Vector way = converted<Vector>(to) - start;
-        std::optional<Hit> first;
-        for (std::size_t slot = 0; slot < obstacles.slots(); ++slot) {
-            const auto obstacle = obstacles.now(slot);
-            if (obstacle.layers == 0) continue;
-            const auto fraction = fraction_to(obstacle, start, way, static_cast<T>(radius));
-            if (!fraction || (first && !(*fraction < first->fraction))) continue;
-            const Vector centre = start + way * *fraction;
-            const Vector n = normal(obstacle, centre);
-            if (obstacle.is_one_way() && (*fraction == 0 || !bears_from(obstacle, n))) continue;
-            const bool is_inside = *fraction == 0 && gap(obstacle, start, T(radius)) < 0;
-            first = Hit{handle_of(slot), static_cast<double>(*fraction),
-                        converted<Vec3>(centre - n * static_cast<T>(radius)),
-                        is_inside ? Vec3{} : converted<Vec3>(n)};
-        }
-        return first;
+        RaySearch<T, Axes> search(columns.contacts.obstacles, converted<Vector>(from),
+                                  converted<Vector>(to), static_cast<T>(ball.radius), ball.meets);
+        const auto first = search.first();
+        if (!first) return std::optional<Hit>();
+        return std::optional(Hit{handle_of(first->slot), static_cast<double>(first->fraction),
+                                 converted<Vec3>(first->point), converted<Vec3>(first->normal)});
     });
 }
 
-std::vector<ObstacleHandle> Bodies::overlaps(const Vec3& centre, double radius) const {
+std::vector<ObstacleHandle> Bodies::overlaps(const Vec3& centre, const Contact& ball) const {
     const Limits limits(precision(), axes());
     limits.check(centre, "the centre of a query");
-    limits.check(Contact{radius});
+    limits.check(ball);
     return columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
-        const auto& obstacles = columns.contacts.obstacles;
-        std::vector<ObstacleHandle> found;
-        for (std::size_t slot = 0; slot < obstacles.slots(); ++slot)
-            if (const auto obstacle = obstacles.now(slot);
-                obstacle.layers != 0 &&
-                gap(obstacle, converted<Vec<T, Axes>>(centre), static_cast<T>(radius)) < 0)
-                found.push_back(handle_of(slot));
-        return found;
+        const auto x = converted<Vec<T, Axes>>(centre);
+        const auto radius = static_cast<T>(ball.radius);
+        std::set<std::size_t> found;
+        for (const bool solid : {true, false})
+            columns.contacts.all(solid).for_each_now(
+                x, radius, [&](std::size_t slot, const auto& one) {
+                    const bool is_met = (one.layers & ball.meets) != 0;
+                    if (is_met && gap(one, x, radius) < 0) found.insert(slot);
+                });
+        std::vector<ObstacleHandle> handles;
+        for (const std::size_t slot : found) handles.push_back(handle_of(slot));
+        return handles;
     });
 }
 

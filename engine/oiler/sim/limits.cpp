@@ -65,6 +65,7 @@ void Limits::check(const Obstacle& obstacle) const {
     check(obstacle.friction, fmt::format("{} friction", whose));
     if (obstacle.friction < 0)
         fail(Exit::usage, "{} friction of {}: give 0 or more", whose, obstacle.friction);
+    if (obstacle.layers == 0) fail(Exit::usage, "an obstacle without a layer: give it one");
     check(obstacle.velocity, "an obstacle's velocity");
     if (obstacle.swing) {
         check(obstacle.swing->way, "an obstacle's swing");

@@ -54,6 +54,9 @@ struct Obstacle {
     std::optional<Swing> swing{};
     /// The direction of the side from which bodies meet it, within 60°; from others they pass.
     std::optional<Vec3> one_way{};
+    std::uint32_t layers = 1;  ///< one per bit, of which a body must meet one, see Contact::meets
+    /// Absent for an area: bodies pass it, and impacts list when they enter and leave it.
+    bool solid = true;
     friend bool operator==(const Obstacle&, const Obstacle&) = default;
 };
 

@@ -38,8 +38,8 @@ std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
     std::vector<Obstacle> met;
     for (const ObstacleHandle handle : bodies.obstacles()) {
         Obstacle one = bodies.obstacle(handle);
-        if (!std::holds_alternative<HalfSpaceShape>(one.shape) && !one.one_way)
-            met.push_back(std::move(one));
+        const bool is_plane = std::holds_alternative<HalfSpaceShape>(one.shape);
+        if (one.solid && !is_plane && !one.one_way) met.push_back(std::move(one));
     }
     return met;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "oiler/world/box_grid.hpp"
+#include "oiler/sim/store/box_grid.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "oiler/sim/bodies.hpp"
-#include "oiler/world/box_grid.hpp"
+#include "oiler/world/search_ball.hpp"
 
 namespace oiler {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "oiler/world/box_grid.hpp"
+#include "oiler/sim/store/box_grid.hpp"
 #include "oiler/world/world.hpp"
 
 namespace oiler {

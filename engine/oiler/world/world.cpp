@@ -11,7 +11,7 @@
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/limits.hpp"
 #include "oiler/stability/preflight.hpp"
-#include "oiler/world/box_grid.hpp"
+#include "oiler/world/search_ball.hpp"
 
 namespace oiler {
 namespace {
@@ -285,12 +285,12 @@ void World::drop_through(Entity entity) {
     change("drop_through", entity, [&](std::size_t row) { bodies_->drop_through(row); });
 }
 
-std::optional<Hit> World::raycast(const Vec3& from, const Vec3& to, double radius) const {
-    return bodies_->raycast(from, to, radius);
+std::optional<Hit> World::raycast(const Vec3& from, const Vec3& to, const Contact& ball) const {
+    return bodies_->raycast(from, to, ball);
 }
 
-std::vector<ObstacleHandle> World::overlaps(const Vec3& centre, double radius) const {
-    return bodies_->overlaps(centre, radius);
+std::vector<ObstacleHandle> World::overlaps(const Vec3& centre, const Contact& ball) const {
+    return bodies_->overlaps(centre, ball);
 }
 
 void World::set_gravity(const Vec3& acceleration) {

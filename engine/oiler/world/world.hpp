@@ -240,10 +240,12 @@ public:
     [[nodiscard]] std::optional<Touch> ground(Entity entity) const;
     /// Lets the body pass the one-way obstacles that it touches.
     void drop_through(Entity entity);
-    /// The first obstacle that a ball of `radius` m meets on a straight way. See Bodies::raycast.
+    /// The first obstacle that a ball meets on a straight way. See Bodies::raycast.
     [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
-                                             double radius = 0) const;
-    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre, double radius) const;
+                                             const Contact& ball = {}) const;
+    /// The obstacles and areas that a ball overlaps.
+    [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre,
+                                                       const Contact& ball) const;
     /// The meetings of bodies with obstacles in the last call of step, in the order of time.
     [[nodiscard]] const std::vector<Impact>& impacts() const { return impacts_; }
 

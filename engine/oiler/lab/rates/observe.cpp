@@ -137,7 +137,7 @@ std::optional<Floor> floor_of(const Bodies& bodies, std::size_t row, const Vec3&
     for (const ObstacleHandle handle : bodies.obstacles()) {
         const Obstacle obstacle = bodies.obstacle(handle);
         const auto* const plane = std::get_if<HalfSpaceShape>(&obstacle.shape);
-        if (!plane) continue;
+        if (!plane || !obstacle.solid || (obstacle.layers & contact->meets) == 0) continue;
         const double facing = -dot(plane->normal, gravity) / length(plane->normal);
         if (!(facing > steepest)) continue;
         steepest = facing;

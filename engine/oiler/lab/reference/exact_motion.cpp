@@ -126,14 +126,15 @@ std::optional<ExactMotion> orbit_motion(const Influence& influence, const State3
 /// What bodies with a contact meet, as far as landing_motion knows it.
 struct Floors {
     std::vector<Plane> planes{};
-    bool others = false;  ///< bounded, moving or one-way obstacles
+    bool others = false;  ///< bounded, moving or one-way obstacles, or those in other layers
 };
 Floors floors_of(const Bodies& bodies) {
     Floors floors{.planes = bodies.planes()};
     floors.others = std::ranges::any_of(bodies.obstacles(), [&](ObstacleHandle handle) {
         const Obstacle one = bodies.obstacle(handle);
-        return !std::holds_alternative<HalfSpaceShape>(one.shape) || one.velocity != Vec3{} ||
-               one.swing || one.belt != 0 || one.one_way;
+        return one.solid &&
+               (!std::holds_alternative<HalfSpaceShape>(one.shape) || one.velocity != Vec3{} ||
+                one.swing || one.belt != 0 || one.one_way || one.layers != 1);
     });
     return floors;
 }
@@ -144,7 +145,7 @@ std::optional<ExactMotion> motion_of(const Bodies& bodies, std::size_t row, cons
     if (influence.other) return std::nullopt;
     const State3 start = bodies.state(row);
     const std::optional<Contact> contact = bodies.contact(row);
-    if (contact && floors.others) return std::nullopt;
+    if (contact && (floors.others || contact->meets != ~0U)) return std::nullopt;
     const bool lands = contact && !floors.planes.empty();
     if (!influence.attractors.empty()) return lands ? std::nullopt : orbit_motion(influence, start);
     if (influence.stiffness < 0 || influence.damping < 0) return std::nullopt;

@@ -235,12 +235,12 @@ std::int64_t count_within(const std::vector<Uncertainty>& uncertainties, double 
         uncertainties, [&](double position) { return position <= most; }, &Uncertainty::position);
 }
 
-/// The error that is enough. A loose tolerance must not make a scene look chaotic.
+/// The error that is enough. A loose tolerance must not make a scene look chaotic, and the samples
+/// need a part of the usable error. Order 1 reaches no more than that.
 double sufficient_error(const ReferenceEffort& effort, double extent, bool first_order) {
     const double usable = resolution * extent / margin;
-    // Order 1 reaches no more than that, and the samples need a part of it.
-    if (first_order) return std::min(effort.wanted > 0 ? effort.wanted : usable, usable / 2);
-    return effort.wanted > 0 ? std::min(effort.wanted, usable) : least_wanted * extent;
+    if (effort.wanted > 0) return std::min(effort.wanted, usable / 2);
+    return first_order ? usable / 2 : least_wanted * extent;
 }
 
 /// The difference of two runs of linked bodies that land depends on where in a step they land, and

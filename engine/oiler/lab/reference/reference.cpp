@@ -160,9 +160,10 @@ private:
         // Of polynomials of degree 7; less where a linked body lands and changes the forces on
         // others.
         const double order = fine.first_order ? 2 : 8;
-        const double wanted = fine.first_order ? fine.sufficient_error / 2 : effort_.wanted;
-        const double own = fine.first_order ? fine.sufficient_error : wanted;
-        if (effort_.stopped() || !(wanted > 0) || between.empty() || between.back() <= wanted ||
+        const double own = fine.sufficient_error;
+        const double wanted = fine.first_order ? own / 2 : own;
+        const bool may_refine = effort_.wanted > 0 || fine.first_order;
+        if (effort_.stopped() || !may_refine || between.empty() || between.back() <= wanted ||
             fine.uncertainties.back().position > own)
             return std::nullopt;
         const double times = std::ceil(2 * std::pow(between.back() / wanted, 1 / order));

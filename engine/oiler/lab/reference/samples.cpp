@@ -40,7 +40,8 @@ std::vector<Obstacle> bounded_obstacles(const Bodies& bodies) {
     std::vector<Obstacle> bounded;
     for (const ObstacleHandle handle : bodies.obstacles()) {
         Obstacle one = bodies.obstacle(handle);
-        if (!std::holds_alternative<HalfSpaceShape>(one.shape)) bounded.push_back(std::move(one));
+        if (one.solid && !std::holds_alternative<HalfSpaceShape>(one.shape))
+            bounded.push_back(std::move(one));
     }
     return bounded;
 }

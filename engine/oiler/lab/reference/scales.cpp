@@ -95,8 +95,8 @@ bool is_conservative(const Bodies& bodies) {
         if (bodies.link_at(i).damping != 0) return false;
     const auto lossless = [&](ObstacleHandle handle) {
         const Obstacle one = bodies.obstacle(handle);
-        return one.restitution == 1 && one.friction == 0 && one.belt == 0 &&
-               one.velocity == Vec3{} && !one.swing;
+        return !one.solid || (one.restitution == 1 && one.friction == 0 && one.belt == 0 &&
+                              one.velocity == Vec3{} && !one.swing);
     };
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (bodies.contact(row)) return std::ranges::all_of(bodies.obstacles(), lossless);

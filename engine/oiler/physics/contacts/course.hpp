@@ -23,8 +23,10 @@ struct Course {
     T turns = 0;         ///< phase at the start of the step, in turns
     Vec jump{};          ///< m/s, of the velocity at the start of the step
 
-    [[nodiscard]] bool moves() const { return velocity != Vec{} || accelerates(); }
-    [[nodiscard]] bool accelerates() const {
+    [[nodiscard]] [[gnu::always_inline]] bool moves() const {
+        return velocity != Vec{} || accelerates();
+    }
+    [[nodiscard]] [[gnu::always_inline]] bool accelerates() const {
         return acceleration != Vec{} || jerk != Vec{} || sway != Vec{};
     }
     [[nodiscard]] Vec way(T s) const {

@@ -44,7 +44,8 @@ struct Near : TouchOf<T, Axes> {
 
 /// The gap (m) of a body at x, `start` s after the start of the step.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T gap(const Near<T, Axes>& near, const Vec<T, Axes>& x, T start, T radius) {
+[[nodiscard]] [[gnu::always_inline]] inline T gap(const Near<T, Axes>& near, const Vec<T, Axes>& x,
+                                                  T start, T radius) {
     return gap(near.obstacle, place_beside(near.obstacle, x, start), radius);
 }
 

@@ -27,7 +27,8 @@ struct ObstacleOf {
     Course<T, Axes> course{};
     T belt = 0;                ///< m/s, of the surface, clockwise
     Vec<T, Axes> one_way{};    ///< of length 1, the side from which it is met; 0 for all sides
-    std::uint32_t layers = 1;  ///< 0 for a removed obstacle
+    bool solid = true;         ///< bodies do not pass it
+    std::uint32_t layers = 1;  ///< one per bit; none for a removed obstacle
 
     [[nodiscard]] bool is_one_way() const { return one_way != Vec<T, Axes>{}; }
 };
@@ -40,8 +41,8 @@ template <std::floating_point T, int Axes>
 
 /// The place x as seen from an obstacle that has moved for `start` s, m.
 template <std::floating_point T, int Axes>
-[[nodiscard]] Vec<T, Axes> place_beside(const ObstacleOf<T, Axes>& obstacle, const Vec<T, Axes>& x,
-                                        T start) {
+[[nodiscard]] [[gnu::always_inline]] inline Vec<T, Axes> place_beside(
+    const ObstacleOf<T, Axes>& obstacle, const Vec<T, Axes>& x, T start) {
     return obstacle.course.moves() ? x - obstacle.course.way(start) : x;
 }
 /// The velocity of the belt of an obstacle where its normal is `normal`, m/s.
@@ -77,19 +78,23 @@ template <std::floating_point T, int Axes>
     return at;
 }
 
-/// The distance of a body of `radius` (m) from an obstacle, m; negative inside it.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T gap(const ObstacleOf<T, Axes>& obstacle, const Vec<T, Axes>& x, T radius) {
-    if (!obstacle.bounded) return gap(obstacle.surface, x, radius);
-    Vec<T, Axes> outside = beside(obstacle, x).past;
+[[nodiscard]] T gap_of_box(const ObstacleOf<T, Axes>& box, const Vec<T, Axes>& x, T radius) {
+    Vec<T, Axes> outside = beside(box, x).past;
     T nearest = outside.axis[0];
     for (T& past : outside.axis) {
         nearest = std::max(nearest, past);
         past = std::max(past, T(0));
     }
-    return (nearest > 0 ? length(outside) : nearest) - (obstacle.rounding + radius);
+    return (nearest > 0 ? length(outside) : nearest) - (box.rounding + radius);
 }
 
+/// The distance of a body of `radius` (m) from an obstacle, m; negative inside it.
+template <std::floating_point T, int Axes>
+[[nodiscard]] [[gnu::always_inline]] inline T gap(const ObstacleOf<T, Axes>& obstacle,
+                                                  const Vec<T, Axes>& x, T radius) {
+    return obstacle.bounded ? gap_of_box(obstacle, x, radius) : gap(obstacle.surface, x, radius);
+}
 /// The direction from the nearest point of an obstacle to x. In the middle of a box, where several
 /// sides are equally near, the first side decides.
 template <std::floating_point T, int Axes>
@@ -164,8 +169,9 @@ template <std::floating_point T, int Axes>
 
 /// The distance from an obstacle that round-off hides in a step of `duration` s, m.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T hidden_distance(const ObstacleOf<T, Axes>& obstacle, const State<T, Axes>& state,
-                                T radius, T duration) {
+[[nodiscard]] [[gnu::always_inline]] inline T hidden_distance(const ObstacleOf<T, Axes>& obstacle,
+                                                              const State<T, Axes>& state, T radius,
+                                                              T duration) {
     if (!obstacle.bounded) return hidden_distance(obstacle.surface, state, radius, duration);
     return 8 * std::numeric_limits<T>::epsilon() *
            (largest(state.x) + largest(state.v) * duration + largest(obstacle.centre) +

@@ -27,12 +27,14 @@ using Plane = PlaneOf<double, 3>;
 
 /// The shape of a body that meets planes.
 struct Contact {
-    double radius = 0;  ///< m, 0 for a point
+    double radius = 0;          ///< m, 0 for a point
+    std::uint32_t meets = ~0U;  ///< the layers of obstacles that it meets, one per bit
 };
 
 /// The distance of a body of `radius` (m) from a plane, m; negative below it.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T gap(const PlaneOf<T, Axes>& plane, const Vec<T, Axes>& x, T radius) {
+[[nodiscard]] [[gnu::always_inline]] inline T gap(const PlaneOf<T, Axes>& plane,
+                                                  const Vec<T, Axes>& x, T radius) {
     return dot(plane.normal, x) - (plane.offset + radius);
 }
 
@@ -69,9 +71,11 @@ template <std::floating_point T, int Axes>
 /// The kinds of meetings of a body with an obstacle.
 enum class Meeting {
     bounce,
-    rest,    ///< the bounces have ended
-    lifted,  ///< the body was in the obstacle, and was moved out of it
-    crushed  ///< a moving obstacle leaves the body no room: it passes until they are apart
+    rest,     ///< the bounces have ended
+    lifted,   ///< the body was in the obstacle, and was moved out of it
+    crushed,  ///< a moving obstacle leaves the body no room: it passes until they are apart
+    entered,  ///< the body begins to overlap an area
+    left      ///< it no longer does
 };
 
 /// A meeting of a body with an obstacle, within a step.
@@ -88,8 +92,9 @@ struct ImpactOf {
 
 /// The distance from a plane that round-off hides in a step of `duration` s, m.
 template <std::floating_point T, int Axes>
-[[nodiscard]] T hidden_distance(const PlaneOf<T, Axes>& plane, const State<T, Axes>& state,
-                                T radius, T duration) {
+[[nodiscard]] [[gnu::always_inline]] inline T hidden_distance(const PlaneOf<T, Axes>& plane,
+                                                              const State<T, Axes>& state, T radius,
+                                                              T duration) {
     return 8 * std::numeric_limits<T>::epsilon() *
            (largest(state.x) + largest(state.v) * duration + std::abs(plane.offset) + radius);
 }
@@ -112,8 +117,9 @@ template <std::floating_point T>
 /// have if it ends below the plane, if it may have been below it between (see may_dip), or if it
 /// starts on or below the plane without leaving it.
 template <std::floating_point T, int Axes>
-[[nodiscard]] bool may_meet(const PlaneOf<T, Axes>& plane, T radius, const State<T, Axes>& start,
-                            const State<T, Axes>& end, T duration) {
+[[nodiscard]] [[gnu::always_inline]] inline bool may_meet(const PlaneOf<T, Axes>& plane, T radius,
+                                                          const State<T, Axes>& start,
+                                                          const State<T, Axes>& end, T duration) {
     const T noise = hidden_distance(plane, start, radius, duration);
     const T h = gap(plane, start.x, radius);
     const T u = leaving_speed(plane, start.v);

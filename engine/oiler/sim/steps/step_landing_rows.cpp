@@ -6,6 +6,7 @@
 #include "oiler/physics/contacts/support.hpp"
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/rows/row_physics.hpp"
+#include "oiler/sim/steps/area_crossings.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 
 namespace oiler {
@@ -247,13 +248,13 @@ private:
 template <std::floating_point T, int Axes>
 class BlockStepper {
 public:
-    BlockStepper(const StepCall<T, Axes>& call, std::vector<RowImpact<T, Axes>>& impacts,
-                 std::vector<Near<T, Axes>>& nears)
+    BlockStepper(const StepCall<T, Axes>& call, std::size_t part)
         : call_(call),
           columns_(call.columns),
           steps_(call.steps),
-          impacts_(impacts),
-          nears_(nears) {}
+          impacts_(columns_.contacts.impacts_of_parts[part]),
+          nears_(columns_.contacts.nears_of_parts[part]),
+          moving_(columns_.contacts.moving_of_parts[part]) {}
 
     [[nodiscard]] std::optional<Divergence> step(std::size_t begin, std::size_t end) {
         std::optional<Divergence> first;
@@ -272,6 +273,13 @@ public:
     }
 
 private:
+    /// A search for boxes covers the way of so many steps, and one step more.
+    static constexpr int search_ahead = 16;
+
+    [[nodiscard]] const Obstacles<T, Axes>& obstacles() const {
+        return columns_.contacts.obstacles;
+    }
+    [[nodiscard]] const Obstacles<T, Axes>& areas() const { return columns_.contacts.areas; }
     [[nodiscard]] const Parameter<T>& radius() const { return columns_.contacts.radius; }
     [[nodiscard]] bool has_contact(std::size_t row) const {
         return radius()[row] != Contacts<T, Axes>::no_contact;
@@ -288,13 +296,15 @@ private:
         one.count = 1;
         const StepCall<T, Axes> step{columns_, call_.method, one, call_.team};
         for (; one.first < steps_.first + steps_.count; ++one.first) {
-            if (settled(begin, end)) return std::nullopt;
+            obstacles().list_moving(one.first, one.rate.template dt<T>(), moving_);
+            if (obstacles().any_moves()) wake(begin, end);
+            const bool rests = settled(begin, end);
+            if (rests && !obstacles().any_moves() && !areas().any_moves()) return std::nullopt;
             save(begin, end);
-            auto diverged = step_rows(step, begin, end);
-            find_meetings(begin, end, one.first);
-            for (std::size_t row = begin; row < end; ++row)
-                if (meets_[row - begin]) keep_earlier(diverged, land(row, row - begin, one));
-            if (diverged) return diverged;
+            const std::size_t known = impacts_.size();
+            if (!rests)
+                if (const auto diverged = step_and_land(step, begin, end)) return diverged;
+            if (!areas().empty()) list_crossings(begin, end, one.first, known);
         }
         return std::nullopt;
     }
@@ -302,6 +312,63 @@ private:
         const auto& settled = columns_.contacts.settled;
         return std::all_of(settled.data() + begin, settled.data() + end,
                            [](std::uint8_t one) { return one != 0; });
+    }
+    std::optional<Divergence> step_and_land(const StepCall<T, Axes>& step, std::size_t begin,
+                                            std::size_t end) {
+        auto diverged = step_rows(step, begin, end);
+        find_meetings(begin, end);
+        for (std::size_t row = begin; row < end; ++row)
+            if (meets_[row - begin]) keep_earlier(diverged, land(row, row - begin, step.steps));
+        return diverged;
+    }
+    /// Lists where rows enter and leave areas. Their impacts in the step begin at `known`.
+    void list_crossings(std::size_t begin, std::size_t end, std::int64_t tick, std::size_t known) {
+        const T dt = steps_.rate.template dt<T>();
+        const std::size_t end_of_known = impacts_.size();
+        for (std::size_t row = begin; row < end; ++row) {
+            std::size_t last = known;
+            while (last < end_of_known && impacts_[last].row == row) ++last;
+            const State<T, Axes> from = state(x_, v_, row - begin);
+            const State<T, Axes> to = load<T>(columns_.motion, row);
+            if (has_contact(row) && (last > known || !is_clear_of_areas(row, from, to, dt)))
+                AreaCrossings(columns_.contacts, row, tick, dt)
+                    .list(from, to, impacts_, known, last, nears_);
+            known = last;
+        }
+    }
+    [[nodiscard]] bool is_clear_of_areas(std::size_t row, const State<T, Axes>& from,
+                                         const State<T, Axes>& to, T dt) {
+        if (areas().any_moves() || !areas().standing().half_spaces().empty()) return false;
+        const Reach reach = reach_of(row, from, to, dt);
+        return areas().standing().is_clear(reach.middle, reach.most, reach.widest,
+                                           columns_.contacts.meets(row),
+                                           columns_.contacts.area_clearings[row]);
+    }
+    /// The ball that a body stays in during a step, and that of a search.
+    struct Reach {
+        Vec<T, Axes> middle;  ///< m
+        T most;               ///< m
+        T widest;             ///< m
+    };
+    [[nodiscard]] Reach reach_of(std::size_t row, const State<T, Axes>& from,
+                                 const State<T, Axes>& to, T dt) const {
+        const T way = largest_way(from, to, dt);
+        const T most = way + radius()[row] + obstacles().hidden_way(from.x, radius()[row]);
+        return {(from.x + to.x) * T(0.5), most, most + search_ahead * way};
+    }
+    /// Wakes the rows that a moving obstacle gets near in the step.
+    void wake(std::size_t begin, std::size_t end) {
+        const bool all = obstacles().any_half_space_moves();
+        for (std::size_t row = begin; row < end; ++row) {
+            auto& settled = columns_.contacts.settled[row];
+            if (!settled) continue;
+            const Vec<T, Axes> x = load<T>(columns_.motion, row).x;
+            const T most = radius()[row] + obstacles().hidden_way(x, radius()[row]);
+            settled = !all && !is_moving_near(x, most);
+        }
+    }
+    [[nodiscard]] bool is_moving_near(const Vec<T, Axes>& x, T most) const {
+        return std::ranges::any_of(moving_, [&](const auto& one) { return one.is_near(x, most); });
     }
     void save(std::size_t begin, std::size_t end) {
         for (std::size_t axis = 0; axis < Axes; ++axis) {
@@ -313,30 +380,36 @@ private:
     }
 
     /// Marks the rows that may have met an obstacle in the last step, see may_meet.
-    void find_meetings(std::size_t begin, std::size_t end, std::int64_t tick) {
+    void find_meetings(std::size_t begin, std::size_t end) {
         meets_ = {};
         const auto x = generate<Axes>([&](auto i) { return columns_.motion.x[i].data() + begin; });
         const auto v = generate<Axes>([&](auto i) { return columns_.motion.v[i].data() + begin; });
         const NumberView<T> radii(radius());
         const T dt = steps_.rate.template dt<T>();
-        const auto& obstacles = columns_.contacts.obstacles;
-        obstacles.for_each_half_space([&](const PlaneOf<T, Axes>& plane) {
+        const bool meet_all = columns_.contacts.layers_met.empty();
+        for (const std::size_t slot : obstacles().standing().half_spaces()) {
+            const PlaneOf<T, Axes> plane = obstacles().standing()[slot].surface;
+            const std::uint32_t layers = obstacles().standing()[slot].layers;
             for (std::size_t i = 0; i < end - begin; ++i)
-                meets_[i] |= may_meet(plane, radii.template at<T>(begin + i), state(x_, v_, i),
-                                      state(x, v, i), dt);
-        });
-        if (!obstacles.any_bounded() && !obstacles.any_moves()) return;
-        const bool all = obstacles.any_half_space_moves();
-        for (std::size_t i = 0; i < end - begin; ++i) {
-            meets_[i] |= all && has_contact(begin + i);
-            if (meets_[i] != 0 || !has_contact(begin + i)) continue;
-            const State<T, Axes> from = state(x_, v_, i);
-            const State<T, Axes> to = state(x, v, i);
-            const T radius = radii.template at<T>(begin + i);
-            const T most =
-                largest_way(from, to, dt) + radius + obstacles.hidden_way(from.x, radius);
-            meets_[i] = obstacles.any_box_near((from.x + to.x) * T(0.5), most, tick, dt);
+                if (meet_all || (columns_.contacts.meets(begin + i) & layers) != 0)
+                    meets_[i] |= may_meet(plane, radii.template at<T>(begin + i), state(x_, v_, i),
+                                          state(x, v, i), dt);
         }
+        if (obstacles().any_moves() || obstacles().any_bounded())
+            for (std::size_t i = 0; i < end - begin; ++i)
+                if (meets_[i] == 0 && has_contact(begin + i))
+                    meets_[i] = columns_.contacts.settled[begin + i] != 0 ||
+                                !is_clear(begin + i, state(x_, v_, i), state(x, v, i), dt);
+    }
+    /// Whether a row stays clear of boxes and of moving obstacles in a step.
+    [[nodiscard]] bool is_clear(std::size_t row, const State<T, Axes>& from,
+                                const State<T, Axes>& to, T dt) {
+        if (obstacles().any_half_space_moves()) return false;
+        const Reach reach = reach_of(row, from, to, dt);
+        return !is_moving_near(reach.middle, reach.most) &&
+               obstacles().standing().is_clear(reach.middle, reach.most, reach.widest,
+                                               columns_.contacts.meets(row),
+                                               columns_.contacts.clearings[row]);
     }
     template <class From>
     [[nodiscard]] static State<T, Axes> state(const From& x, const From& v, std::size_t i) {
@@ -350,8 +423,7 @@ private:
         if (!settled) {
             ShortSteps<T, Axes> body(call_, shorter_, row, step.rate.time(step.first));
             const Landed landed = land(state, row, step, body);
-            settled = landed == Landed::settled && columns_.applied.empty() &&
-                      !columns_.contacts.obstacles.any_moves();
+            settled = landed == Landed::settled && columns_.applied.empty();
             if (row == 0) columns_.evaluations += body.evaluations();
             if (!body.solved()) return Divergence{step.first + 1, row, 0, Divergence::Of::solution};
             if (landed == Landed::unresolved)
@@ -369,12 +441,11 @@ private:
         const std::size_t known = impacts_.size();
         const T dt = step.rate.template dt<T>();
         const State<T, Axes> end = load<T>(columns_.motion, row);
-        T way = columns_.contacts.obstacles.any_bounded()
-                    ? (length(start.v) + length(end.v - start.v)) * 2 * dt
-                    : std::numeric_limits<T>::infinity();
+        T way = obstacles().any_bounded() ? (length(start.v) + length(end.v - start.v)) * 2 * dt
+                                          : std::numeric_limits<T>::infinity();
         for (;; way = 2 * (way + length(state.x - start.x))) {
-            columns_.contacts.obstacles.find_near(start.x, way, radius()[row], step.first, dt,
-                                                  nears_);
+            obstacles().find_near(start.x, way, radius()[row], columns_.contacts.meets(row),
+                                  step.first, dt, nears_);
             impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(known), impacts_.end());
             std::size_t index = 0;
             const auto report = [&](const ImpactOf<T, Axes>& impact) {
@@ -398,6 +469,7 @@ private:
     const Steps& steps_;
     std::vector<RowImpact<T, Axes>>& impacts_;
     std::vector<Near<T, Axes>>& nears_;
+    std::vector<typename Obstacles<T, Axes>::Ball>& moving_;  ///< in the current step
     ShorterPlan<T> shorter_;
     std::array<std::array<T, row_padding>, Axes> x_;  ///< at the start of the step
     std::array<std::array<T, row_padding>, Axes> v_;
@@ -412,11 +484,12 @@ std::optional<Divergence> step_landing_rows(const StepCall<T, Axes>& call) {
     contacts.settled.resize(call.columns.size);
     contacts.impacts_of_parts.resize(call.team ? call.team->size() : 1);
     contacts.nears_of_parts.resize(contacts.impacts_of_parts.size());
+    contacts.moving_of_parts.resize(contacts.impacts_of_parts.size());
+    if (!contacts.areas.empty()) contacts.area_clearings.resize(call.columns.size);
+    if (contacts.obstacles.any_bounded()) contacts.clearings.resize(call.columns.size);
     const auto diverged = in_parts(call.columns.size, call.steps.count, call.team,
                                    [&](std::size_t begin, std::size_t end, std::size_t part) {
-                                       return BlockStepper(call, contacts.impacts_of_parts[part],
-                                                           contacts.nears_of_parts[part])
-                                           .step(begin, end);
+                                       return BlockStepper(call, part).step(begin, end);
                                    });
     contacts.gather_impacts();
     return diverged;

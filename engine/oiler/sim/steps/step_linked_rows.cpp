@@ -14,6 +14,7 @@
 #include "oiler/sim/links/link_rows.hpp"
 #include "oiler/sim/links/link_solver.hpp"
 #include "oiler/sim/links/point_links.hpp"
+#include "oiler/sim/steps/area_crossings.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 #include "oiler/sim/store/columns.hpp"
 #include "oiler/sim/store/links.hpp"
@@ -30,7 +31,8 @@ bool land_linked_row(Columns<T, Axes>& columns, const State<T, Axes>& before, st
     auto& contacts = columns.contacts;
     const T radius = contacts.radius[row];
     State<T, Axes> state = load<T>(columns.motion, row);
-    contacts.obstacles.find_near(state.x, length(state.x - before.x), radius, tick + 1, dt, nears);
+    contacts.obstacles.find_near(state.x, length(state.x - before.x), radius, contacts.meets(row),
+                                 tick + 1, dt, nears);
     const auto gap_of = [&](const Near<T, Axes>& near, const Vec<T, Axes>& x) {
         return gap(near, x, T(0), radius);
     };
@@ -90,9 +92,17 @@ bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& b
                       std::int64_t tick, T dt) {
     bool any = false;
     std::vector<Near<T, Axes>>& nears = columns.contacts.nears_of_parts.front();
-    for (std::size_t row = 0; row < columns.size; ++row)
-        if (columns.contacts.radius[row] != Contacts<T, Axes>::no_contact)
-            any |= land_linked_row(columns, load<T>(before, row), row, tick, dt, nears);
+    auto& contacts = columns.contacts;
+    for (std::size_t row = 0; row < columns.size; ++row) {
+        if (contacts.radius[row] == Contacts<T, Axes>::no_contact) continue;
+        const State<T, Axes> start = load<T>(before, row);
+        const std::size_t known = contacts.impacts.size();
+        any |= land_linked_row(columns, start, row, tick, dt, nears);
+        if (!contacts.areas.empty())
+            AreaCrossings(contacts, row, tick, dt)
+                .list(start, load<T>(columns.motion, row), contacts.impacts, known,
+                      contacts.impacts.size(), nears);
+    }
     return any;
 }
 

@@ -139,35 +139,67 @@ struct Contacts {
     static constexpr T no_contact = -std::numeric_limits<T>::infinity();
 
     Obstacles<T, Axes> obstacles;
-    Parameter<T> radius;                ///< m; no_contact for rows that pass through obstacles
+    Obstacles<T, Axes> areas;  ///< which bodies pass
+    Parameter<T> radius;       ///< m; no_contact for rows that pass through obstacles
+    /// Per row; rows at the end that meet all layers may be missing.
+    std::vector<std::uint32_t> layers_met;
     std::size_t rows = 0;               ///< the number of rows with a contact
     std::vector<std::uint8_t> settled;  ///< per row, see Landed; rows at the end may be missing
+    std::vector<Clearing<T, Axes>> clearings;                       ///< per row
+    std::vector<Clearing<T, Axes>> area_clearings;                  ///< per row
     std::vector<RowImpact<T, Axes>> impacts;                        ///< of the last call, in order
     std::vector<std::vector<RowImpact<T, Axes>>> impacts_of_parts;  ///< memory of a step
     std::vector<std::vector<Near<T, Axes>>> nears_of_parts{1};      ///< memory of a step
+    std::vector<std::vector<typename Obstacles<T, Axes>::Ball>> moving_of_parts;  ///< likewise
 
     /// Whether any body may meet an obstacle.
-    [[nodiscard]] bool possible() const { return rows > 0 && !obstacles.empty(); }
+    [[nodiscard]] bool possible() const {
+        return rows > 0 && !(obstacles.empty() && areas.empty());
+    }
+    [[nodiscard]] Obstacles<T, Axes>& all(bool solid) { return solid ? obstacles : areas; }
+    [[nodiscard]] const Obstacles<T, Axes>& all(bool solid) const {
+        return solid ? obstacles : areas;
+    }
 
     [[nodiscard]] static T radius_of(const std::optional<Contact>& contact) {
         return contact ? static_cast<T>(contact->radius) : no_contact;
     }
-    void push_row(T of) {
-        radius.push(of);
-        rows += of != no_contact;
+    /// The layers of obstacles that a row meets.
+    [[nodiscard]] std::uint32_t meets(std::size_t row) const {
+        return row < layers_met.size() ? layers_met[row] : ~0U;
     }
-    void set(std::size_t row, T to) {
+    void push_row(std::size_t row, const std::optional<Contact>& contact) {
+        radius.push(radius_of(contact));
+        rows += contact.has_value();
+        set_meets(row, contact);
+    }
+    void set(std::size_t row, const std::optional<Contact>& contact) {
         rows -= radius[row] != no_contact;
-        rows += to != no_contact;
-        radius.set(row, to);
+        rows += contact.has_value();
+        radius.set(row, radius_of(contact));
+        set_meets(row, contact);
         wake(row);
+        forget_clearings(row);
     }
     /// Removes `row`, to whose place row `last` moves.
     void swap_remove(std::size_t row, std::size_t last) {
         rows -= radius[row] != no_contact;
         radius.swap_remove(row);
+        if (row < layers_met.size()) layers_met[row] = meets(last);
+        if (last < layers_met.size()) layers_met.resize(last);
         if (row < settled.size()) settled[row] = last < settled.size() ? settled[last] : 0;
         if (last < settled.size()) settled.resize(last);
+        for (const std::size_t one : {row, last}) forget_clearings(one);
+    }
+    void set_meets(std::size_t row, const std::optional<Contact>& contact) {
+        const std::uint32_t to = contact ? contact->meets : ~0U;
+        if (to == meets(row)) return;
+        if (row >= layers_met.size()) layers_met.resize(row + 1, ~0U);
+        layers_met[row] = to;
+    }
+    void forget_clearings(std::size_t row) {
+        for (auto* const known : {&clearings, &area_clearings})
+            if (row < known->size()) (*known)[row] = {};
     }
     void wake(std::size_t row) {
         if (row < settled.size()) settled[row] = 0;

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
 
-#include "oiler/core/state_hash.hpp"
+#include "oiler/core/copy_on_write.hpp"
 #include "oiler/physics/contacts/near.hpp"
 #include "oiler/physics/rate.hpp"
+#include "oiler/sim/store/standing_obstacles.hpp"
 
 namespace oiler {
 
@@ -29,18 +29,18 @@ struct ObstacleMotion {
         Vec departure{};                     ///< m/s
     };
 
-    std::int64_t since = 0;  ///< the tick at which the obstacle is stored
-    Vec velocity{};          ///< m/s
-    Vec sway{};              ///< m
-    double frequency = 0;    ///< Hz
-    double turns = 0;        ///< phase at time 0, in turns
-    Vec jump{};              ///< m/s, of the velocity at tick `since`
+    ObstacleOf<T, Axes> from{};  ///< at tick `since`
+    std::int64_t since = 0;
+    Vec velocity{};        ///< m/s
+    Vec sway{};            ///< m
+    double frequency = 0;  ///< Hz
+    double turns = 0;      ///< phase at time 0, in turns
+    Vec jump{};            ///< m/s, of the velocity at tick `since`
     std::optional<Move> move{};
 };
 
-/// The obstacles of a world, in the order of their slots; removed ones have no layers. The place of
-/// a moving one is computed from its place at an earlier tick and the time, so that it does not
-/// depend on the number of steps per call.
+/// The obstacles of a world, by slot. The place of a moving one is computed from its place at an
+/// earlier tick and the time, so that it does not depend on the number of steps per call.
 template <std::floating_point T, int Axes>
 class Obstacles {
 public:
@@ -48,70 +48,71 @@ public:
     using Obstacle = ObstacleOf<T, Axes>;
     using Motion = ObstacleMotion<T, Axes>;
 
-    [[nodiscard]] bool empty() const { return count_ == 0; }
+    /// A ball that a moving obstacle stays in during a step, m.
+    struct Ball {
+        Vec centre{};
+        T reach = 0;
+
+        [[nodiscard]] bool is_near(const Vec& x, T most) const {
+            const T distance = reach + most;
+            return squared_length(x - centre) <= distance * distance;
+        }
+    };
+
+    [[nodiscard]] bool empty() const { return standing_->empty() && motions_.empty(); }
     [[nodiscard]] bool any_moves() const { return !motions_.empty(); }
-    [[nodiscard]] bool any_bounded() const { return bounded_ > 0; }
-    [[nodiscard]] std::size_t slots() const { return all_.size(); }
+    [[nodiscard]] bool any_bounded() const {
+        return standing_->any_boxes() || std::ranges::any_of(motions_, [](const auto& one) {
+                   return one.second.from.bounded;
+               });
+    }
+    [[nodiscard]] const StandingObstacles<T, Axes>& standing() const { return *standing_; }
 
     /// Adds an obstacle where it is now, or replaces one. The motion begins with the next step.
     void set(std::size_t slot, const Obstacle& to, const Motion& motion) {
-        if (slot >= all_.size()) {
-            all_.resize(slot + 1, removed());
-            balls_.resize(slot + 1);
+        remove(slot);
+        if (motion.velocity == Vec{} && motion.sway == Vec{}) {
+            standing_.write().add(slot, to);
+        } else {
+            Motion& moving = motions_[slot] = motion;
+            moving.from = to;
+            moving.since = tick_;
         }
-        count(slot, all_[slot], -1);
-        all_[slot] = to;
-        count(slot, to, +1);
-        motions_.erase(slot);
-        if (motion.velocity != Vec{} || motion.sway != Vec{}) {
-            motions_[slot] = motion;
-            motions_[slot].since = tick_;
-        }
-        renew_ball(slot);
     }
-    void remove(std::size_t slot) { set(slot, removed(), {}); }
+    void remove(std::size_t slot) {
+        motions_.erase(slot);
+        if (standing_->has(slot)) standing_.write().remove(slot);
+    }
     /// Changes the velocity from the next step on.
     void set_velocity(std::size_t slot, const Vec& velocity) {
         const Vec before = velocity_now(slot);
-        stop(slot);
-        Motion& motion = motions_[slot];
+        Motion& motion = stopped(slot);
         motion.velocity = velocity;
         motion.jump = velocity - before;
     }
     /// Lets the obstacle arrive at a place at the end of the next step, and stand there.
     void move(std::size_t slot, const Vec& to, const std::optional<Vec>& arrival) {
         const Vec departure = velocity_now(slot);
-        stop(slot);
-        motions_[slot].move = {to, arrival, std::nullopt, departure};
+        stopped(slot).move = {to, arrival, std::nullopt, departure};
     }
     void teleport(std::size_t slot, const Vec& to) {
-        stop(slot);
-        motions_.erase(slot);
-        all_[slot] = displaced(all_[slot], to - all_[slot].centre);
-        renew_ball(slot);
+        const Obstacle from = at_rest(slot);
+        set(slot, displaced(from, to - from.centre), {});
     }
 
     /// The obstacle at tick `tick`, with its course over the step from there.
     [[nodiscard]] Obstacle at(std::size_t slot, std::int64_t tick) const {
         const auto found = motions_.find(slot);
-        if (found == motions_.end()) return all_[slot];
-        const Motion& motion = found->second;
-        if (motion.move) return at(all_[slot], *motion.move, tick);
-        const auto elapsed = static_cast<T>(rate_.time(tick - motion.since));
-        const double turns = motion.turns + motion.frequency * rate_.time(tick);
-        const auto phase = static_cast<T>(turns - std::floor(turns));
-        Obstacle obstacle =
-            displaced(all_[slot], motion.velocity * elapsed + motion.sway * sine_of_turns(phase));
-        obstacle.course = {.velocity = motion.velocity,
-                           .sway = motion.sway,
-                           .frequency = static_cast<T>(motion.frequency),
-                           .turns = phase,
-                           .jump = tick == motion.since ? motion.jump : Vec{}};
-        return obstacle;
+        return found == motions_.end() ? (*standing_)[slot] : at(found->second, tick);
     }
     /// The obstacle after the last step.
     [[nodiscard]] Obstacle now(std::size_t slot) const { return at(slot, tick_); }
 
+    /// The motion of an obstacle; none of one that stands.
+    [[nodiscard]] const Motion* motion(std::size_t slot) const {
+        const auto found = motions_.find(slot);
+        return found == motions_.end() ? nullptr : &found->second;
+    }
     /// Its velocity at the end of the last step, m/s.
     [[nodiscard]] Vec velocity_now(std::size_t slot) const {
         const auto found = motions_.find(slot);
@@ -128,69 +129,73 @@ public:
     /// obstacles go on from where they are.
     void begin(const Rate& rate, std::int64_t tick) {
         if (!(rate == rate_ && tick == tick_)) {
-            for (auto& [slot, motion] : motions_) go_on_from(slot, motion, tick);
+            for (auto& [slot, motion] : motions_) go_on_from(motion, tick);
             rate_ = rate;
             tick_ = tick;
         }
         for (auto it = motions_.begin(); it != motions_.end();) {
             auto& [slot, motion] = *it++;
             if (motion.move && !motion.move->tick) motion.move->tick = tick;
-            if (has_ended(motion)) set(slot, standing(slot), {});
+            if (has_ended(motion)) set(slot, at_rest(slot), {});
         }
+        if (standing_->is_listed_long()) standing_.write().build();
     }
     void end(std::int64_t tick) { tick_ = tick; }
 
     /// Adds the obstacles that are no standing half-spaces, where they are.
     void hash_into(StateHash& hash) const {
-        for (std::size_t slot = 0; slot < all_.size(); ++slot) {
-            if (all_[slot].layers == 0) continue;
-            const Obstacle now = this->now(slot);
-            if (!now.bounded && !now.course.moves()) continue;
-            const auto numbers = [&](const Vec& vector) {
-                for (const T& one : vector.axis) hash.add(static_cast<double>(one));
-            };
-            hash.add(slot);
-            for (const T one : {now.surface.offset, now.surface.restitution, now.surface.friction,
-                                now.rounding, now.belt})
-                hash.add(static_cast<double>(one));
-            for (const Vec& vector : {now.centre, now.half, now.one_way, velocity_now(slot)})
-                numbers(vector);
-            for (const Vec& row : now.frame.row) numbers(row);
+        std::uint64_t sum = standing_->digest();
+        for (const auto& [slot, motion] : motions_) {
+            const Vec v = velocity_now(slot);
+            if (motion.from.bounded || v != Vec{}) sum += digest_of(slot, now(slot));
+            StateHash of_motion;
+            for (const T& number : v.axis) of_motion.add(static_cast<double>(number));
+            if (v != Vec{}) sum += of_motion.value();
         }
+        if (sum != 0) hash.add(sum);
     }
 
-    /// Calls f(plane) for each half-space, as it stands without its motion.
-    template <class F>
-    void for_each_half_space(F f) const {
-        for (const std::size_t slot : half_spaces_) f(all_[slot].surface);
-    }
     [[nodiscard]] bool any_half_space_moves() const {
         return std::ranges::any_of(motions_,
-                                   [&](const auto& one) { return !all_[one.first].bounded; });
+                                   [](const auto& one) { return !one.second.from.bounded; });
     }
-    /// Whether any box comes within `most` m of x in a step of `dt` s from tick `tick`.
-    [[nodiscard]] bool any_box_near(const Vec& x, T most, std::int64_t tick, T dt) const {
-        for (const Ball& ball : balls_)
-            if (ball.is_near(x, most)) return true;
+    /// Lists the balls of the moving boxes in a step of `dt` s from tick `tick`.
+    void list_moving(std::int64_t tick, T dt, std::vector<Ball>& balls) const {
+        balls.clear();
         for (const auto& [slot, motion] : motions_)
-            if (all_[slot].bounded && ball_of(at(slot, tick), dt).is_near(x, most)) return true;
-        return false;
+            if (motion.from.bounded) balls.push_back(ball_of(at(motion, tick), dt));
     }
-    /// Lists the obstacles that a body of `radius` m gets near within `way` m of x, in a step of
-    /// `dt` s from tick `tick`, in the order of their slots.
-    void find_near(const Vec& x, T way, T radius, std::int64_t tick, T dt,
+    /// Lists the obstacles in the layers `meets` that a body of `radius` m gets near within `way` m
+    /// of x, in a step of `dt` s from tick `tick`, in the order of their slots.
+    void find_near(const Vec& x, T way, T radius, std::uint32_t meets, std::int64_t tick, T dt,
                    std::vector<Near<T, Axes>>& nears) const {
         nears.clear();
+        const auto add = [&](const Obstacle& one, std::size_t slot) {
+            if ((one.layers & meets) != 0) nears.emplace_back(one, slot);
+        };
         const T most = way + radius + hidden_way(x, radius);
-        for (const std::size_t slot : half_spaces_) nears.emplace_back(at(slot, tick), slot);
-        for (std::size_t slot = 0; slot < balls_.size(); ++slot)
-            if (balls_[slot].is_near(x, most)) nears.emplace_back(all_[slot], slot);
+        for (const std::size_t slot : standing_->half_spaces()) add((*standing_)[slot], slot);
+        const std::size_t sorted = nears.size();
+        standing_->for_each_box_near(x, most, [&](std::size_t slot, const Obstacle& box) {
+            if (gap(box, x, most) <= hidden_way(box.centre, reach(box))) add(box, slot);
+        });
         for (const auto& [slot, motion] : motions_) {
-            if (!all_[slot].bounded) continue;
-            const Obstacle moving = at(slot, tick);
-            if (ball_of(moving, dt).is_near(x, most)) nears.emplace_back(moving, slot);
+            const Obstacle moving = at(motion, tick);
+            if (!moving.bounded || ball_of(moving, dt).is_near(x, most)) add(moving, slot);
         }
-        if (nears.size() > half_spaces_.size()) std::ranges::sort(nears, {}, &Near<T, Axes>::index);
+        if (nears.size() == sorted) return;
+        const auto index = &Near<T, Axes>::index;
+        std::ranges::sort(nears, {}, index);
+        const auto repeated = std::ranges::unique(nears, {}, index);
+        nears.erase(repeated.begin(), repeated.end());
+    }
+    /// Calls f(slot, obstacle) for each obstacle within `most` m of x after the last step, for some
+    /// of them several times, and for some that are farther.
+    template <class F>
+    void for_each_now(const Vec& x, T most, F f) const {
+        for (const std::size_t slot : standing_->half_spaces()) f(slot, (*standing_)[slot]);
+        standing_->for_each_box_near(x, most, f);
+        for (const auto& [slot, motion] : motions_) f(slot, at(motion, tick_));
     }
     /// The distance that round-off hides of a body of `radius` m at x, m.
     [[nodiscard]] static T hidden_way(const Vec& x, T radius) {
@@ -198,46 +203,32 @@ public:
     }
 
 private:
-    static Obstacle removed() {
-        Obstacle none;
-        none.layers = 0;
-        return none;
-    }
-    /// A ball that a box stays in, m.
-    struct Ball {
-        Vec centre{};
-        T reach = -std::numeric_limits<T>::infinity();
-
-        [[nodiscard]] bool is_near(const Vec& x, T most) const {
-            const T distance = reach + most;
-            return distance >= 0 && squared_length(x - centre) <= distance * distance;
-        }
-    };
     [[nodiscard]] static Ball ball_of(const Obstacle& box, T dt) {
-        const T round_off = 16 * std::numeric_limits<T>::epsilon() * largest(box.centre);
-        return {box.centre, reach(box) + round_off + box.course.most_speed(dt) * dt};
-    }
-    void count(std::size_t slot, const Obstacle& one, int by) {
-        if (one.layers == 0) return;
-        count_ += by;
-        bounded_ += one.bounded ? by : 0;
-        if (one.bounded) return;
-        const auto at = std::ranges::lower_bound(half_spaces_, slot);
-        if (by > 0)
-            half_spaces_.insert(at, slot);
-        else
-            half_spaces_.erase(at);
-    }
-    /// Lists a standing box among the balls.
-    void renew_ball(std::size_t slot) {
-        const bool stands =
-            all_[slot].bounded && all_[slot].layers != 0 && !motions_.contains(slot);
-        balls_[slot] = stands ? ball_of(all_[slot], T(0)) : Ball{};
+        return {box.centre,
+                reach(box) + hidden_way(box.centre, T(0)) + box.course.most_speed(dt) * dt};
     }
     [[nodiscard]] static Obstacle displaced(Obstacle obstacle, const Vec& way) {
         obstacle.centre += way;
         obstacle.surface.offset += dot(obstacle.surface.normal, way);
         return obstacle;
+    }
+    [[nodiscard]] Obstacle at(const Motion& motion, std::int64_t tick) const {
+        if (motion.move) return at(motion.from, *motion.move, tick);
+        const auto elapsed = static_cast<T>(rate_.time(tick - motion.since));
+        const auto phase = phase_at(motion, tick);
+        Obstacle obstacle =
+            displaced(motion.from, motion.velocity * elapsed + motion.sway * sine_of_turns(phase));
+        obstacle.course = {.velocity = motion.velocity,
+                           .sway = motion.sway,
+                           .frequency = static_cast<T>(motion.frequency),
+                           .turns = phase,
+                           .jump = tick == motion.since ? motion.jump : Vec{}};
+        return obstacle;
+    }
+    /// The phase of an oscillation, in turns.
+    [[nodiscard]] T phase_at(const Motion& motion, std::int64_t tick) const {
+        const double turns = motion.turns + motion.frequency * rate_.time(tick);
+        return static_cast<T>(turns - std::floor(turns));
     }
     /// An obstacle that arrives at a place in the step from one tick, and stands later.
     [[nodiscard]] Obstacle at(const Obstacle& from, const typename Motion::Move& move,
@@ -265,7 +256,7 @@ private:
         return moving;
     }
     /// The obstacle where it is, without its motion.
-    [[nodiscard]] Obstacle standing(std::size_t slot) const {
+    [[nodiscard]] Obstacle at_rest(std::size_t slot) const {
         Obstacle obstacle = now(slot);
         obstacle.course = {};
         return obstacle;
@@ -275,32 +266,26 @@ private:
         if (motion.move) return motion.move->tick && tick_ > *motion.move->tick + 1;
         return motion.velocity == Vec{} && motion.sway == Vec{} && motion.since < tick_;
     }
-    /// Lets the obstacle stand where it is.
-    void stop(std::size_t slot) {
-        all_[slot] = standing(slot);
-        motions_[slot] = {.since = tick_};
-        renew_ball(slot);
+    /// A new motion of an obstacle, from rest where it is.
+    Motion& stopped(std::size_t slot) {
+        const Obstacle from = at_rest(slot);
+        remove(slot);
+        return motions_[slot] = {.from = from, .since = tick_};
     }
-    void go_on_from(std::size_t slot, Motion& motion, std::int64_t tick) {
+    void go_on_from(Motion& motion, std::int64_t tick) {
         if (motion.move && !motion.move->tick) return;
-        Obstacle standing = this->standing(slot);
-        if (motion.sway != Vec{}) {
-            // The oscillation goes on by the time of the world.
-            const double turns = motion.turns + motion.frequency * rate_.time(tick_);
-            const auto phase = static_cast<T>(turns - std::floor(turns));
-            standing = displaced(standing, motion.sway * -sine_of_turns(phase));
-        }
-        all_[slot] = standing;
+        Obstacle from = at(motion, tick_);
+        from.course = {};
+        // The oscillation goes on by the time of the world.
+        if (motion.sway != Vec{})
+            from = displaced(from, motion.sway * -sine_of_turns(phase_at(motion, tick_)));
+        motion.from = from;
         motion.since = tick;
         motion.move.reset();
     }
 
-    std::vector<Obstacle> all_;                ///< by slot
-    std::vector<Ball> balls_;                  ///< by slot, of standing boxes
-    std::vector<std::size_t> half_spaces_;     ///< slots, in order
+    CopyOnWrite<StandingObstacles<T, Axes>> standing_;
     std::map<std::size_t, Motion> motions_{};  ///< by slot, of those that move
-    int count_ = 0;
-    int bounded_ = 0;
     Rate rate_{};
     std::int64_t tick_ = 0;
 };

@@ -25,6 +25,9 @@ struct Bounds {
     return common != 0;
 }
 
+/// Bounds of a ball of `radius` m that moves along a line, with a margin for round-off.
+[[nodiscard]] Bounds bounds_of_path(const Vec3& start, const Vec3& end, double radius);
+
 /// Finds overlapping boxes. For each size of boxes, a power of two, there is a grid with cells of
 /// that size. A box is in the cell of its lowest corner, so it reaches into the next cells at most.
 /// A hash gives each cell of all grids a number, and the boxes are sorted by the numbers of their
@@ -45,6 +48,10 @@ public:
     /// Sorts the boxes. The functions below need this call after the last box.
     void build();
 
+    /// The width of the finest cells, m; 0 without boxes.
+    [[nodiscard]] double finest_width() const {
+        return levels_.empty() ? 0 : 1 / levels_.front().per_cell;
+    }
     /// The boxes in the order of their cells' numbers.
     [[nodiscard]] const std::vector<Item>& items() const { return items_; }
 
@@ -166,31 +173,5 @@ private:
     std::vector<double> per_cell_;        ///< of each exponent, from the least; 0 if no box has it
     std::size_t mask_ = 0;                ///< of the numbers of runs
 };
-
-/// A position whose squares neither overflow nor vanish.
-using WideVec3 = Vec<long double, 3>;
-
-[[nodiscard]] inline WideVec3 widened(const Vec3& a) { return {{a.axis[0], a.axis[1], a.axis[2]}}; }
-
-/// The closed ball of a query.
-class SearchBall {
-public:
-    /// Ignores the coordinates of `centre` on axes that the world lacks. Throws Error{usage} for
-    /// other coordinates that are not finite, and for a radius, m, that is negative or not finite.
-    SearchBall(const Vec3& centre, double radius, int axes);
-
-    [[nodiscard]] bool contains(const Vec3& point) const {
-        const long double reach = radius_;
-        return squared_length(widened(point) - widened(centre_)) <= reach * reach;
-    }
-    [[nodiscard]] Bounds bounds() const;
-
-private:
-    Vec3 centre_{};
-    double radius_;
-};
-
-/// Bounds of a ball of `radius` m that moves along a line, with a margin for round-off.
-[[nodiscard]] Bounds bounds_of_path(const Vec3& start, const Vec3& end, double radius);
 
 }  // namespace oiler

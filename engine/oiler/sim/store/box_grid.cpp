@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "oiler/world/box_grid.hpp"
+#include "oiler/sim/store/box_grid.hpp"
 
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
-
-#include "oiler/core/error.hpp"
 
 namespace oiler {
 namespace {
@@ -71,20 +69,6 @@ std::size_t BoxGrid::number_of_cell(const Item& item) const {
     const auto [x, y, z] = cell_of(item.box.low, per_cell);
     return number_of_run({item.exponent, per_cell}, x >> run_bits, y, z) + place_in_run(x);
 }
-
-SearchBall::SearchBall(const Vec3& centre, double radius, int axes) : radius_(radius) {
-    if (!(radius >= 0 && std::isfinite(radius)))
-        fail(Exit::usage, "a query within {} m: give a radius that is finite and 0 or more",
-             radius);
-    for (int i = 0; i < axes; ++i) {
-        centre_[i] = centre[i];
-        if (!std::isfinite(centre[i]))
-            fail(Exit::usage, "a query around {} = {}: give a finite number",
-                 axis_names[static_cast<std::size_t>(i)], centre[i]);
-    }
-}
-
-Bounds SearchBall::bounds() const { return bounds_of_path(centre_, centre_, radius_); }
 
 Bounds bounds_of_path(const Vec3& start, const Vec3& end, double radius) {
     constexpr double largest_number = std::numeric_limits<double>::max();
