@@ -50,7 +50,7 @@ TEST(Areas, AreFoundWithinAStep) {
         times.push_back(one.time);
     }
     using enum Meeting;
-    EXPECT_EQ(kinds, (std::vector{entered, bounce, left, entered, left}));
+    ASSERT_EQ(kinds, (std::vector{entered, bounce, left, entered, left}));
     const std::vector right{0.01895, 0.01899, 0.01903, 0.049895, 0.050105};
     for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(times[i], right[i], 1e-13) << i;
 }
