@@ -271,7 +271,8 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
     for (std::int64_t rate = samples.per_second; vain < most_vain_runs; rate *= 2) {
         const double work =
             work_per_step * static_cast<double>(rate) * samples.time(samples.count - 1);
-        if (work > most_work || effort.stopped()) break;
+        finest.out_of_work = work > most_work;
+        if (finest.out_of_work || effort.stopped()) break;
         affordable = true;
         const bool has_run = table.add_run(rate);
         if (table.has_too_many_impacts()) break;
@@ -334,7 +335,8 @@ FineSteps fine_steps(const Scene& scene, const Perturbation& start, const Sample
     const Method& method = finest_method(scene);
     if (effort.wanted > 0) {
         FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort, method);
-        if (quick.sufficient || quick.first_order || quick.has_too_many_impacts || effort.stopped())
+        if (quick.sufficient || quick.first_order || quick.out_of_work ||
+            quick.has_too_many_impacts || effort.stopped())
             return quick;
     }
     return fine_steps_in(Precision::extended, scene, start, samples, effort, method);

@@ -132,7 +132,7 @@ private:
             interpolation_errors(fine.trajectory, reference_.samples.per_second);
         if (const auto samples = finer_samples(fine, between)) {
             FineSteps again = fine_steps(scene_, reference_.start, *samples, effort_);
-            if (!again.trajectory.states.empty()) {
+            if (again.sufficient) {
                 fine = std::move(again);
                 reference_.samples = *samples;
                 between = interpolation_errors(fine.trajectory, samples->per_second);
