@@ -55,6 +55,40 @@ TEST(Areas, AreFoundWithinAStep) {
     for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(times[i], right[i], 1e-13) << i;
 }
 
+// The side of an upright area is 0.1 m from the ball, which flies on or falls with 3 m/s along x:
+// the gap has no acceleration.
+TEST(Areas, AreEnteredWhereTheGapFallsEvenly) {
+    for (const double pull : {0.0, -g})
+        for (const double gap : {0.01, 0.1, 0.12, 0.2}) {
+            World world = world_of("velocity_verlet", 60, 2, {0, pull});
+            Obstacle area = box({2, 0}, {2, 50});
+            area.solid = false;
+            world.add_obstacle(area);
+            world.spawn({.position = {0.5 - gap, 1}, .velocity = {3, 0}, .contact = Contact{0.5}});
+            const auto found = impacts(world, 10);
+            ASSERT_EQ(found.size(), 1U);
+            EXPECT_NEAR(found[0].time, gap / 3, 1e-15) << gap;
+            EXPECT_NEAR(found[0].point[0], 1, 1e-14) << gap;
+        }
+}
+
+// The ball of the second row is in the area first.
+TEST(Areas, ListLinkedBodiesInTheOrderOfTime) {
+    World world = world_of("velocity_verlet", 10, 2, {0, -g});
+    Obstacle area = box({}, {10, 2});
+    area.solid = false;
+    world.add_obstacle(area);
+    const Entity high =
+        world.spawn({.position = {0, 1.95}, .velocity = {0, -5}, .contact = Contact{0.5}});
+    const Entity low =
+        world.spawn({.position = {2, 1.6}, .velocity = {0, -5}, .contact = Contact{0.5}});
+    world.link(high, low, {.stiffness = 10, .rest_length = 20, .pulls_only = true});
+    const auto found = impacts(world, 1);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].entity, low);
+    EXPECT_EQ(found[1].entity, high);
+}
+
 // The area moves over a body at rest, and away: gaps of 1 − 0.1 − 0.5 and 1 + 0.1 + 0.5 m at 1 m/s.
 TEST(Areas, MoveOverBodiesAtRest) {
     World world = world_of("velocity_verlet", 60, 2, {0, -g}, {{{0, 1}, 0}});

@@ -270,6 +270,66 @@ TEST(Obstacles, GiveTheSameBitsWithAnyThreadsAndStepsPerCall) {
     EXPECT_EQ(hash_of(8, 8), first);
 }
 
+// A point slides down a turned face with g·sin(angle), and leaves it at the edge.
+TEST(Obstacles, BearPoints) {
+    for (const double angle : {0.1, -0.5, 1.0}) {
+        World world = world_of("velocity_verlet", 60, 2, {0, -g});
+        world.add_obstacle({.shape = BoxShape{{}, {1, 1}, angle}, .restitution = 0});
+        const Vec3 top{-0.5 * std::sin(angle), 0.5 * std::cos(angle)};
+        const Vec3 down = Vec3{std::cos(angle), std::sin(angle)} * (angle > 0 ? -1.0 : 1.0);
+        const Entity point = world.spawn({.position = top, .contact = Contact{}});
+        const double a = g * std::abs(std::sin(angle));
+        const double until = std::sqrt(2 * 0.5 / a);
+        const auto steps = static_cast<int>(until * 60);
+        world.step(steps);
+        const double t = steps / 60.0;
+        EXPECT_NEAR(length(world.position(point) - top - down * (a * t * t / 2)), 0, 1e-13);
+        ASSERT_NO_THROW(world.step(60)) << angle;
+        const double speed = a * until;
+        const double after = steps / 60.0 + 1 - until;
+        const Vec3 free = top + down * (0.5 + speed * after) + Vec3{0, -g * after * after / 2};
+        EXPECT_NEAR(length(world.position(point) - free), 0, 1e-11) << angle;
+    }
+}
+
+// Drops of points on turned boxes, and of discs on the joint of two boxes in a turned world, end in
+// flight or at rest.
+TEST(Obstacles, EndNoRunAtFacesAndJoints) {
+    Dice dice(40);
+    for (int i = 0; i < 500; ++i) {
+        World world = world_of("velocity_verlet", dice.whole(20, 240), 2, {0, -g});
+        world.add_obstacle({.shape = BoxShape{{}, {1, 1}, dice.uniform(-1, 1)}, .restitution = 0});
+        world.spawn({.position = {dice.uniform(-0.6, 0.6), dice.uniform(1, 3)},
+                     .velocity = {dice.uniform(-1, 1), 0},
+                     .contact = Contact{}});
+        ASSERT_NO_THROW(world.step(400)) << i;
+    }
+    for (int i = 0; i < 500; ++i) {
+        const double angle = dice.uniform(-1, 1);
+        const Vec3 up{-std::sin(angle), std::cos(angle)};
+        const Vec3 along{std::cos(angle), std::sin(angle)};
+        World world = world_of("velocity_verlet", dice.whole(20, 240), 2, up * -g);
+        for (const double x : {-0.5, 0.5})
+            world.add_obstacle({.shape = BoxShape{along * x - up * 0.5, {1, 1}, angle},
+                                .restitution = dice.uniform(0, 0.4)});
+        const double radius = dice.uniform(0.05, 0.4);
+        const Entity ball = world.spawn({.position = up * 1.3, .contact = Contact{radius}});
+        ASSERT_NO_THROW(world.step(480)) << i;
+        EXPECT_NEAR(length(world.position(ball) - up * radius), 0, 1e-9) << i;
+    }
+}
+
+// A predicted rest is where the body touches the obstacle.
+TEST(Obstacles, AreTouchedWhereRestsAreListed) {
+    World world = world_of("velocity_verlet", 5, 2, {0, -10});
+    world.add_obstacle({.shape = CircleShape{{4, 0}, 1.4}, .restitution = 0.5});
+    world.spawn({.position = {4, 1.7}, .velocity = {1, 1}, .contact = Contact{0.2}});
+    for (const Impact& rest : impacts(world, 10, Meeting::rest)) {
+        EXPECT_NEAR(length(rest.point - Vec3{4, 0}), 1.4, 1e-12);
+        EXPECT_NEAR(length(rest.normal - (rest.point - Vec3{4, 0}) / 1.4), 0, 1e-12);
+    }
+}
+
 TEST(Obstacles, AreRefusedWithNumbersThatHaveNoMeaning) {
     World world(2, Settings{});
     const auto refused = [&](const Obstacle& obstacle) {

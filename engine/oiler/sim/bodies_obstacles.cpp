@@ -169,14 +169,16 @@ std::vector<ObstacleHandle> Bodies::obstacles() const {
 Obstacle Bodies::obstacle(ObstacleHandle handle) const {
     require(alive(handle), "the obstacle is gone");
     Obstacle obstacle = *(*obstacles_)[handle.slot];
-    columns_->visit([&](const auto& columns) {
+    columns_->visit([&]<class T, int Axes>(const Columns<T, Axes>& columns) {
         const auto& all = columns.contacts.all(obstacle.solid);
         const auto* const motion = all.motion(handle.slot);
         obstacle.velocity = motion ? converted<Vec3>(motion->velocity) : Vec3{};
         if (!motion || motion->frequency == 0) obstacle.swing.reset();
-        if (!motion) return;
         const auto now = all.now(handle.slot);
-        std::visit(MoveTo{now}, obstacle.shape);
+        const auto added = to_obstacle<T, Axes>(obstacle);
+        const bool has_moved =
+            now.centre != added.centre || now.surface.offset != added.surface.offset;
+        if (has_moved) std::visit(MoveTo{now}, obstacle.shape);
     });
     return obstacle;
 }

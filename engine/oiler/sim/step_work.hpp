@@ -14,8 +14,7 @@ public:
     explicit StepWork(const Bodies& bodies) {
         const auto size = static_cast<double>(bodies.size());
         const auto links = static_cast<double>(bodies.link_count());
-        constexpr double of_a_call = 24;  // as many bodies take as long
-        per_evaluation_ = of_a_call + size + links;
+        per_evaluation_ = size + links;
         // A few iterations; each factorises the matrix of a net.
         to_solve_ = 4 * (links > 0 ? std::sqrt(size * bodies.axes()) : 1);
     }

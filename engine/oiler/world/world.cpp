@@ -229,12 +229,21 @@ ObstacleHandle World::add_plane(const Plane& plane) {
 
 std::vector<ObstacleHandle> World::add_chain(std::span<const Vec3> points, bool closed,
                                              const Obstacle& like) {
+    const std::size_t least = closed ? 3 : 2;
+    placed("add_chain", [&] {
+        if (points.size() < least)
+            fail(Exit::usage, "{} points: give at least {}", points.size(), least);
+    });
     std::vector<ObstacleHandle> handles;
-    const std::size_t count = points.size() < 2 ? 0 : points.size() - (closed ? 0 : 1);
-    for (std::size_t i = 0; i < count; ++i) {
-        Obstacle segment = like;
-        segment.shape = SegmentShape{points[i], points[(i + 1) % points.size()]};
-        handles.push_back(add_obstacle(segment));
+    try {
+        for (std::size_t i = 0; i < points.size() - (closed ? 0 : 1); ++i) {
+            Obstacle segment = like;
+            segment.shape = SegmentShape{points[i], points[(i + 1) % points.size()]};
+            handles.push_back(add_obstacle(segment));
+        }
+    } catch (...) {
+        for (const ObstacleHandle handle : handles) remove_obstacle(handle);
+        throw;
     }
     return handles;
 }

@@ -18,6 +18,8 @@ constexpr std::size_t most_columns = 4;
 constexpr int most_vain_runs = 2;
 /// The error of linked bodies that land only halves with the step: less work is spent on it.
 constexpr double landing_share = 32;
+/// Of a method with many stages, also where few bodies make its work small.
+constexpr double most_steps = 4e6;
 constexpr double least_wanted = 1e-12;  ///< of the extent
 
 bool is_damped_along_lines(const Scene& scene) {
@@ -269,10 +271,10 @@ FineSteps fine_steps_in(Precision precision, const Scene& scene, const Perturbat
     std::int64_t most_usable = -1;
     int vain = 0;
     for (std::int64_t rate = samples.per_second; vain < most_vain_runs; rate *= 2) {
-        const double work =
-            work_per_step * static_cast<double>(rate) * samples.time(samples.count - 1);
-        finest.out_of_work = work > most_work;
-        if (finest.out_of_work || effort.stopped()) break;
+        const double steps = static_cast<double>(rate) * samples.time(samples.count - 1);
+        const double work = work_per_step * steps;
+        finest.is_long = !first_order && steps > most_steps;
+        if (finest.is_long || work > most_work || effort.stopped()) break;
         affordable = true;
         const bool has_run = table.add_run(rate);
         if (table.has_too_many_impacts()) break;
@@ -335,8 +337,8 @@ FineSteps fine_steps(const Scene& scene, const Perturbation& start, const Sample
     const Method& method = finest_method(scene);
     if (effort.wanted > 0) {
         FineSteps quick = fine_steps_in(Precision::double_, scene, start, samples, effort, method);
-        if (quick.sufficient || quick.first_order || quick.out_of_work ||
-            quick.has_too_many_impacts || effort.stopped())
+        if (quick.sufficient || quick.first_order || quick.is_long || quick.has_too_many_impacts ||
+            effort.stopped())
             return quick;
     }
     return fine_steps_in(Precision::extended, scene, start, samples, effort, method);

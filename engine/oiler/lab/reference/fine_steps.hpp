@@ -23,7 +23,7 @@ struct FineSteps {
     double sufficient_error = 0;  ///< m, that is wanted at the end
     bool sufficient = false;      ///< whether the error at the end is no more
     bool affordable = false;      ///< whether the coarsest run was within the work limit
-    bool out_of_work = false;     ///< whether finer runs were beyond the work limit
+    bool is_long = false;         ///< whether finer runs have too many steps
     /// Linked bodies land, or ropes become taut: the error falls slowly, with order 1 by any
     /// method.
     bool first_order = false;

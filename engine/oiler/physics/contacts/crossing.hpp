@@ -71,8 +71,9 @@ private:
     }
     [[nodiscard]] Bracket<T> root(const Sample& from, const Sample& to) const {
         const auto gap = [&](T tau) { return at_(tau).gap; };
+        // Without noise, also a bracket that begins at the root is narrowed.
         return narrow_bracket<T>(gap, {from.tau, to.tau}, std::max(from.gap, T(0)), to.gap,
-                                 noise_ / 16);
+                                 noise_ > 0 ? noise_ / 16 : T(-1));
     }
 
     At at_;

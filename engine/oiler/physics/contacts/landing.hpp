@@ -44,6 +44,7 @@ public:
         for (const Near& near : nears) {
             any_renewed_ |= near.obstacle.bounded || near.is_moved();
             any_moves_ |= near.obstacle.course.moves();
+            any_moved_ |= near.is_moved();
         }
     }
 
@@ -65,9 +66,14 @@ public:
         for (int events = 0; left_ > 0; ++events) {
             if (events == 2 * most_events) return Landed::unresolved;
             if (largest(state.x - from) > way_) return Landed::strayed;
-            if (events >= most_events) stop_in_corner(state);
+            squeezed_ = any_moves_ && (events >= most_events || crowded_ > most_crowded);
+            if (events >= most_events && !any_moves_) stop_in_corner(state);
             renew(state);
             if (any_renewed_ && crush(state)) continue;
+            if (squeezed_) {
+                squeeze(state);
+                continue;
+            }
             if (bounce(state)) continue;
             const Vec a = body_.accelerate(state, start_);
             const auto support = bearing(state, a);
@@ -87,6 +93,9 @@ private:
     static constexpr T epsilon = std::numeric_limits<T>::epsilon();
     /// After this many events in a step, a body that bounces in a corner stops there.
     static constexpr int most_events = 4096;
+    static constexpr int squeezed_parts = 128;
+    /// After this many such instants, a body between moving obstacles no longer bounces.
+    static constexpr int most_crowded = 8;
     /// After this many impacts at one instant, a body between obstacles loses all speed into them.
     static constexpr int most_bounces_at_once = 16;
     /// Flights shorter than this fraction of the rest of a step are not followed one by one.
@@ -172,27 +181,38 @@ private:
         };
         const auto noise = [&](const Near& near) { return gap_noise(near, state); };
         const Vec before = state.x;
-        lift_onto<T, Axes>(nears_, state.x, gap, noise, [&](Near& near) {
-            near.lifted = true;
-            for (Near& one : nears_) renew_normal(one, state.x, start_);
-        });
-        if (any_moves_) keep_place_if_caught(state, before, gap, noise);
+        do {
+            lift_onto<T, Axes>(nears_, state.x, gap, noise, [&](Near& near) {
+                near.lifted = true;
+                for (Near& one : nears_) renew_normal(one, state.x, start_);
+            });
+        } while (any_moves_ && pass_if_caught(state, before, gap, noise));
         for (const Near& near : nears_)
-            if (near.lifted) report(Meeting::lifted, near, start_, state, state.v);
+            if (near.lifted && !squeezed_) report(Meeting::lifted, near, start_, state, state.v);
     }
+    /// Whether a lifted body is back where it was `before`, because moving obstacles that it is in
+    /// leave no room beside them, and now pass.
     template <class Gap, class Noise>
-    void keep_place_if_caught(State& state, const Vec& before, Gap gap, Noise noise) {
+    bool pass_if_caught(State& state, const Vec& before, Gap gap, Noise noise) {
         const auto is_out = [&](const Near& near) {
             return gap(near, state.x) >= -4 * noise(near);
         };
-        const bool has_room = largest(state.x - before) <= radius_;
-        if (has_room && std::ranges::all_of(nears_, is_out)) return;
+        const auto pushes = [](const Near& near) {
+            return near.lifted && near.obstacle.course.moves();
+        };
+        const bool has_room =
+            largest(state.x - before) <= radius_ || std::ranges::none_of(nears_, pushes);
+        if (has_room && std::ranges::all_of(nears_, is_out)) return false;
         state.x = before;
+        bool any = false;
         for (Near& near : nears_) {
             near.lifted = false;
             renew_normal(near, state.x, start_);
-            near.passed |= near.obstacle.course.moves() && gap_of(near, state.x) < -noise(near);
+            const bool is_in = near.obstacle.course.moves() && gap_of(near, state.x) < -noise(near);
+            any |= is_in && !near.passed;
+            near.passed |= is_in;
         }
+        return any;
     }
 
     /// The first part of what is left of the step.
@@ -256,11 +276,13 @@ private:
         const auto pressed = Support::against(a + dragged, nears_, bears);
         return pressed.size() > support.size() ? pressed : support;
     }
-    /// The acceleration by friction of moving surfaces, which may press the body into others.
+    /// The acceleration by friction, which may press the body into other obstacles where one of
+    /// them moves.
     [[nodiscard]] Vec drag(const State& state, const Vec& a) const {
         Vec sum{};
+        if (!any_moved_) return sum;
         for (const Near& near : nears_) {
-            if (!near.is_moved() || near.friction == 0 || !touches(near, state)) continue;
+            if (near.friction == 0 || !touches(near, state)) continue;
             const Vec slip = state.v - near.velocity;
             const T reaction = -OfPull<T, Axes>{}(near, a);
             if (reaction > 0 && largest(slip) > speed_noise(state))
@@ -297,6 +319,7 @@ private:
             const T kept = is_caught ? T(0) : near.restitution * speed;
             take_off(near);
             if (++bounces_at_once_ > most_bounces_at_once) {
+                ++crowded_;
                 const auto touched = [&](const Near& one) { return touches(one, state); };
                 state.v = Support::against_velocity(before, nears_, touched).following(before);
                 report(Meeting::bounce, near, start_, state, before);
@@ -360,6 +383,20 @@ private:
             Support::against(a, nears_, [](const Near& near) { return near.met && !near.hidden; });
         if (corner.size() >= 2) rest_on(corner, state);
     }
+    /// Moves a body by a part of the step in which it does not bounce and does not rub, where its
+    /// impacts between obstacles that move have no end. This has order 1.
+    void squeeze(State& state) {
+        const T tau = std::min(left_, duration_ / squeezed_parts);
+        const Vec a = body_.accelerate(state, start_);
+        const Vec v = state.v + a * tau;
+        const auto touched = [&](const Near& near) { return touches(near, state); };
+        state.v = Support::against_velocity(v, nears_, touched).following(v);
+        const auto move = [&](T part) { return State{state.x + state.v * part, state.v}; };
+        Leg leg{move(tau), tau};
+        for (Near& near : nears_)
+            if (!touched(near)) end_at_impact(near, state, a, leg, move);
+        advance(state, leg);
+    }
     /// Ends bounces if all further flights are over within the step or hidden by round-off: with
     /// acceleration a towards the obstacle, all flights after a bounce to speed u last
     /// 2u/(a·(1 − e)). Skips flights that are much shorter than the step. In both cases the body
@@ -418,7 +455,11 @@ private:
             const T tau = rate * after > speed ? speed / rate : after;
             end = {state.x + (state.v + slowing * (tau / 2)) * tau, state.v + slowing * tau};
         }
-        rest_ = impact_of(Meeting::rest, near, start_ + after, end, end.v);
+        // Of a body that goes round a curve or past an end, only this instant is known.
+        const bool stays =
+            !near.obstacle.bounded || std::abs(gap_at(near, end.x, after)) <= gap_noise(near, end);
+        rest_ = stays ? impact_of(Meeting::rest, near, start_ + after, end, end.v)
+                      : impact_of(Meeting::rest, near, start_, state, state.v);
         resting_on_ = index_of(near);
         near.resting = true;
     }
@@ -428,8 +469,12 @@ private:
         Leg leg{move(left_), left_};
         for (Near& near : nears_) end_at_impact(near, state, a, leg, move);
         for (Near& near : nears_)
-            if (std::exchange(near.dips, false))
-                leg.end.x -= near.normal * std::min(gap_at(near, leg.end.x, leg.tau), T(0));
+            if (std::exchange(near.dips, false)) {
+                const T depth = -std::min(gap_at(near, leg.end.x, leg.tau), T(0));
+                leg.end.x += normal(near.obstacle,
+                                    place_beside(near.obstacle, leg.end.x, start_ + leg.tau)) *
+                             depth;
+            }
         advance(state, leg);
     }
 
@@ -612,11 +657,16 @@ private:
             if (!near.obstacle.bounded) continue;
             const Feature sides = feature(near.obstacle, place(near, state.x), leg.end.x - state.x,
                                           gap_noise(near, state));
+            const T noise = gap_noise(near, state);
             const auto left = [&](const State& at, T tau) {
                 return left_of_feature(near.obstacle,
                                        place_beside(near.obstacle, at.x, start_ + tau), sides);
             };
-            end_where_negative(left, std::max(left(state, T(0)), T(0)), leg, move);
+            const T at_start = left(state, T(0));
+            // A body that has just come to a feature may be beside it as far as round-off.
+            const T hidden = at_start > noise ? T(0) : noise;
+            const auto shown = [&](const State& at, T tau) { return left(at, tau) + hidden; };
+            end_where_negative(shown, std::max(at_start + hidden, T(0)), leg, move);
         }
     }
     /// Ends the leg where a function of state and time is first negative, if it is at the end.
@@ -698,7 +748,8 @@ private:
 
     template <class Move>
     void end_at_impact(Near& near, const State& state, const Vec& a, Leg& leg, Move move) {
-        const bool is_fixed_plane = !near.obstacle.bounded && !near.obstacle.course.moves();
+        const bool is_fixed_plane =
+            !near.obstacle.bounded && !near.obstacle.course.moves() && !near.obstacle.is_one_way();
         const auto bracket =
             is_fixed_plane ? impact(near, state, leg, move) : entry(near, state, a, leg, move);
         if (!bracket) return;
@@ -808,11 +859,14 @@ private:
     Report report_;
     bool any_renewed_ = false;
     bool any_moves_ = false;
-    T duration_ = 0;  ///< s, of the step
-    T start_ = 0;     ///< s, from the start of the step
-    T left_ = 0;      ///< s
+    bool any_moved_ = false;  ///< also by a belt
+    T duration_ = 0;          ///< s, of the step
+    T start_ = 0;             ///< s, from the start of the step
+    T left_ = 0;              ///< s
     int bounces_at_once_ = 0;
     int followed_ = 0;
+    int crowded_ = 0;        ///< instants of the step with too many impacts
+    bool squeezed_ = false;  ///< the body moves by parts of the step
     bool settled_ = false;
     std::optional<ImpactOf<T, Axes>> rest_;  ///< predicted, unless an event comes before
     std::size_t resting_on_ = 0;             ///< the index in `nears_` of the predicted rest

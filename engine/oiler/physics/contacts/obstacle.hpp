@@ -121,17 +121,33 @@ template <std::floating_point T, int Axes>
 /// border of a face, `heading` decides.
 using Feature = unsigned;
 [[nodiscard]] inline bool is_round(Feature sides) { return (sides & (sides - 1)) != 0; }
+/// The one face that a point on a box without rounding is beside: of `sides`, on the border of
+/// which it is, that through which it leaves fastest; else the nearest one.
+template <std::floating_point T, int Axes>
+[[nodiscard]] Feature sharp_feature(Feature sides, const Vec<T, Axes>& past,
+                                    const Vec<T, Axes>& outwards) {
+    std::size_t face = Axes;
+    for (std::size_t i = 0; i < Axes; ++i) {
+        if (sides != 0 && (sides >> i & 1U) == 0) continue;
+        const Vec<T, Axes>& by = sides != 0 ? outwards : past;
+        if (face == Axes || by.axis[i] > by.axis[face]) face = i;
+    }
+    return Feature{1} << face;
+}
 template <std::floating_point T, int Axes>
 [[nodiscard]] Feature feature(const ObstacleOf<T, Axes>& box, const Vec<T, Axes>& x,
                               const Vec<T, Axes>& heading, T noise) {
     const auto [place, past] = beside(box, x);
+    Vec<T, Axes> outwards;
     Feature sides = 0;
     for (std::size_t i = 0; i < Axes; ++i) {
-        const T outwards = dot(box.frame.row[i], heading) * (place.axis[i] < 0 ? T(-1) : T(1));
-        const bool is_past = std::abs(past.axis[i]) > noise ? past.axis[i] > 0 : outwards > 0;
+        outwards.axis[i] = dot(box.frame.row[i], heading) * (place.axis[i] < 0 ? T(-1) : T(1));
+        const bool is_past =
+            std::abs(past.axis[i]) > noise ? past.axis[i] > 0 : outwards.axis[i] > 0;
         if (box.half.axis[i] == 0 || is_past) sides |= Feature{1} << i;
     }
-    return sides;
+    const bool is_sharp = *std::max_element(past.axis.begin(), past.axis.end()) <= noise;
+    return is_sharp ? sharp_feature(sides, past, outwards) : sides;
 }
 /// The distance, m, after which another feature is the nearest one, negative if it is.
 template <std::floating_point T, int Axes>
@@ -140,8 +156,12 @@ template <std::floating_point T, int Axes>
     const Vec<T, Axes> past = beside(box, x).past;
     T left = std::numeric_limits<T>::infinity();
     for (std::size_t i = 0; i < Axes; ++i)
-        if (box.half.axis[i] > 0)
-            left = std::min(left, (sides >> i & 1U) != 0 ? past.axis[i] : -past.axis[i]);
+        if (box.half.axis[i] > 0) {
+            const bool is_past = (sides >> i & 1U) != 0;
+            // On its only face, a body stays.
+            if (is_past && !is_round(sides) && past.axis[i] <= 0) continue;
+            left = std::min(left, is_past ? past.axis[i] : -past.axis[i]);
+        }
     return left;
 }
 /// The acceleration towards the obstacle, m/s², of a body that follows a feature with velocity v:
@@ -172,10 +192,13 @@ template <std::floating_point T, int Axes>
 [[nodiscard]] [[gnu::always_inline]] inline T hidden_distance(const ObstacleOf<T, Axes>& obstacle,
                                                               const State<T, Axes>& state, T radius,
                                                               T duration) {
-    if (!obstacle.bounded) return hidden_distance(obstacle.surface, state, radius, duration);
-    return 8 * std::numeric_limits<T>::epsilon() *
-           (largest(state.x) + largest(state.v) * duration + largest(obstacle.centre) +
-            reach(obstacle) + radius);
+    constexpr T noise = 8 * std::numeric_limits<T>::epsilon();
+    const T swinging = noise * largest(obstacle.course.sway);
+    if (!obstacle.bounded)
+        return hidden_distance(obstacle.surface, state, radius, duration) + swinging;
+    return noise * (largest(state.x) + largest(state.v) * duration + largest(obstacle.centre) +
+                    reach(obstacle) + radius) +
+           swinging;
 }
 
 /// The farthest that a body gets from the middle of both ends of a step of `duration` s, m: within

@@ -187,6 +187,7 @@ private:
     template <class With>
     Motion step(const Motion& from, T start, T tau, With with) {
         Motion state = from;
+        if (tau == 0) return state;
         if (tau == call_.steps.rate.template dt<T>()) {
             step_by(call_.plan(), call_.columns.views.flows.data(), row_, state, start, tau, with);
         } else {

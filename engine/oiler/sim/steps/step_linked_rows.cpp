@@ -93,6 +93,7 @@ bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& b
     bool any = false;
     std::vector<Near<T, Axes>>& nears = columns.contacts.nears_of_parts.front();
     auto& contacts = columns.contacts;
+    const auto earlier = static_cast<std::ptrdiff_t>(contacts.impacts.size());
     for (std::size_t row = 0; row < columns.size; ++row) {
         if (contacts.radius[row] == Contacts<T, Axes>::no_contact) continue;
         const State<T, Axes> start = load<T>(before, row);
@@ -103,6 +104,7 @@ bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& b
                 .list(start, load<T>(columns.motion, row), contacts.impacts, known,
                       contacts.impacts.size(), nears);
     }
+    std::sort(contacts.impacts.begin() + earlier, contacts.impacts.end());
     return any;
 }
 

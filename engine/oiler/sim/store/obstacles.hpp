@@ -225,9 +225,16 @@ private:
                            .jump = tick == motion.since ? motion.jump : Vec{}};
         return obstacle;
     }
-    /// The phase of an oscillation, in turns.
+    /// The phase of an oscillation, in turns. Round-off that grew with time would part an obstacle
+    /// from its rider.
     [[nodiscard]] T phase_at(const Motion& motion, std::int64_t tick) const {
-        const double turns = motion.turns + motion.frequency * rate_.time(tick);
+        const auto seconds = static_cast<double>(tick * rate_.seconds);
+        const auto steps = static_cast<double>(rate_.steps);
+        const double product = motion.frequency * seconds;
+        const double lost = std::fma(motion.frequency, seconds, -product);
+        const double quotient = product / steps;
+        const double rest = std::fma(-quotient, steps, product) + lost;
+        const double turns = motion.turns + (quotient - std::floor(quotient)) + rest / steps;
         return static_cast<T>(turns - std::floor(turns));
     }
     /// An obstacle that arrives at a place in the step from one tick, and stands later.
