@@ -273,11 +273,9 @@ TEST(Platformer, ItsScriptFindsAllCoins) {
     const std::string script =
         with_script(folder, text_of(OILER_SOURCE "/demos/scripts/platformer.txt"));
     const std::string tape = " '" + (folder / "tape").string() + "'";
-    const auto readings = report_of("platformer --steps 1520" + script).at("readings");
-    EXPECT_EQ(readings.at("coins"), 6);
-    EXPECT_EQ(readings.at("falls"), 0);
-    shell("platformer --steps 1520 --record" + tape + script, 0);
-    shell("platformer --quiet --threads 2 --steps 1520 --replay" + tape, 0);
+    EXPECT_EQ(report_of("platformer --steps 1800" + script).at("readings").at("coins"), 7);
+    shell("platformer --steps 1800 --record" + tape + script, 0);
+    shell("platformer --quiet --threads 2 --steps 1800 --replay" + tape, 0);
 }
 
 // A jump rises by 12.6²/(2·30) m; a step of the input's release keeps half of the speed. A trace
@@ -313,6 +311,41 @@ TEST(Platformer, JumpsUpToATenthOfASecondAfterTheLedge) {
     };
     EXPECT_GT(speed_after(6), 12);
     EXPECT_LT(speed_after(18), 0);
+}
+
+// A jump whose button is pressed and released in the air, up to a tenth of a second before he
+// lands, begins with half the speed. He jumps at step 10 and lands 2·12.6/30 s, 100.8 steps, later.
+TEST(Platformer, ATapBeforeHeLandsIsASmallJump) {
+    const auto apex_after = [](const std::string& tap) {
+        double top = 0;
+        for (const TraceRow& row : hero_of(240, "10 hold Space\n100 release Space\n" + tap))
+            if (row.tick > 120) top = std::max(top, row.y - 0.4);
+        return top;
+    };
+    EXPECT_NEAR(apex_after("104 press Space\n"), 6.3 * 6.3 / 60, 3e-4);
+    EXPECT_LT(apex_after("97 press Space\n"), 1e-9);
+}
+
+// The rope is as long as the hero is away from the hook at (-5, 11) m. It holds: it is stretched by
+// at most m·(g + v²/L)/k, and by v·√(m/k) as it becomes taut, with k = 1000 N/m. When he lets go he
+// keeps his speed and flies a parabola, although no button of a jump is held.
+TEST(Platformer, SwingsOnTheRopeAndFliesOffIt) {
+    const auto rows = hero_of(1720, text_of(OILER_SOURCE "/demos/scripts/platformer.txt"));
+    const auto away = [&](std::size_t tick) {
+        return std::hypot(rows[tick].x + 5, rows[tick].y - 11);
+    };
+    double furthest = 0, fastest = 0;
+    for (std::size_t i = 1576; i < 1672; ++i) {
+        furthest = std::max(furthest, away(i));
+        fastest = std::max(fastest, std::hypot(rows[i].vx, rows[i].vy));
+    }
+    const double length = away(1576);
+    EXPECT_GT(furthest, length);
+    EXPECT_LT(furthest,
+              length + (30 + fastest * fastest / length) / 1000 + fastest * std::sqrt(1e-3));
+    EXPECT_GT(rows[1672].vy, 6.3);
+    for (std::size_t i = 1673; i < rows.size(); ++i)
+        EXPECT_NEAR(rows[i].vy, rows[1672].vy - 30.0 * double(i - 1672) / 120, 1e-9);
 }
 
 // The platform swings by 2.6 m in 5 s: its friction holds him, so that both move alike.
