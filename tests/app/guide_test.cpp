@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Plays the steps of the guide in demos/README.md. Expected motions are parabolas:
+// Plays the programs of the guide in demos/README.md. Expected motions are parabolas:
 // velocity_verlet is exact without drag.
 #include <fmt/format.h>
+
+#include <map>
+#include <regex>
 
 #include "app/played.hpp"
 #include "support/test.hpp"
@@ -141,21 +144,79 @@ TEST(Guide, ReadmeShowsTheLinesOfItsPrograms) {
     const std::string readme = text_of(OILER_SOURCE "/demos/README.md");
     const std::size_t begin = readme.find("## Cannon in six steps");
     std::istringstream lines(readme.substr(begin, readme.find("## Your first game") - begin));
-    std::string line, program;
+    const std::regex link(R"(\]\(([a-z0-9_/]+\.cpp)\))");
+    std::string line, file;
     bool in_code = false;
-    int checked = 0;
+    std::map<std::string, int> checked;
     while (std::getline(lines, line)) {
-        const std::size_t link = line.find("(guide/step");
-        if (link != std::string::npos)
-            program = text_of(OILER_SOURCE "/demos/" + line.substr(link + 1, 15));
+        std::smatch found;
+        if (std::regex_search(line, found, link)) file = found[1];
         if (line.starts_with("```")) {
             in_code = line == "```cpp";
         } else if (in_code) {
-            EXPECT_TRUE(holds(program, trimmed(line))) << line;
-            ++checked;
+            EXPECT_TRUE(holds(text_of(OILER_SOURCE "/demos/" + file), trimmed(line)))
+                << file << ": " << line;
+            ++checked[file];
         }
     }
-    EXPECT_GT(checked, 20);
+    EXPECT_EQ(checked.size(), 6U + 1);
+    EXPECT_GT(checked["guide/step6.cpp"], 0);
+    EXPECT_GT(checked["platformer.cpp"], 25);
+}
+
+/// The height of the platformer's jump and the time of its flight, as drawn, on straight lines
+/// between steps.
+struct Jump {
+    double height = 0;  // m
+    double time = 0;    // s
+};
+Jump jump_with(const std::string& method, int rate) {
+    const Folder folder;
+    const auto rows = trace_of(
+        fmt::format("platformer --method {} --rate {} --steps {}", method, rate, 2 * rate) +
+        with_script(folder, "0.2s hold Space\n1.5s release Space\n"));
+    const double dt = 1.0 / rate;
+    const auto in_air = [](const TraceRow& row) { return row.y > 0.4 + 1e-9; };
+    const auto first = std::ranges::find_if(rows, in_air);
+    Jump jump;
+    auto last = first;
+    for (; last + 1 != rows.end() && in_air(*(last + 1)); ++last)
+        jump.height = std::max(jump.height, last->y - 0.4);
+    const double fall = last->vy * dt - 30 * dt * dt / (method == "velocity_verlet" ? 2 : 1);
+    jump.time = double(last - first) * dt + dt + dt * (last->y - 0.4) / -fall;
+    return jump;
+}
+
+// The guide tells, in cm, by how much a jump with 12.6 m/s and 30 m/s² at 7 m/s is too low and too
+// short.
+TEST(Guide, ReadmeTellsWhatTheTimestepTakesFromAJump) {
+    const std::string readme = text_of(OILER_SOURCE "/demos/README.md");
+    for (const std::string method : {"semi_implicit_euler", "velocity_verlet"}) {
+        std::string height, width;
+        for (const int rate : {30, 60, 120, 240}) {
+            const Jump jump = jump_with(method, rate);
+            height += fmt::format(" | {:.0f}", 100 * std::abs(12.6 * 12.6 / 60 - jump.height));
+            width += fmt::format(" | {:.0f}", 100 * std::abs(7 * (2 * 12.6 / 30 - jump.time)));
+        }
+        EXPECT_TRUE(holds(readme, fmt::format("| height, `{}`{} |\n", method, height))) << height;
+        EXPECT_TRUE(holds(readme, fmt::format("| width, `{}`{} |\n", method, width))) << width;
+    }
+}
+
+TEST(Guide, ReadmeTellsHowManyCoinsTheSameKeysFindAtOtherRates) {
+    const Folder folder;
+    const std::string tape = " '" + (folder / "tape").string() + "'";
+    const std::string script =
+        with_script(folder, text_of(OILER_SOURCE "/demos/scripts/platformer.txt"));
+    shell("platformer --steps 1800 --record" + tape + script, 0);
+    const auto report = nlohmann::json::parse(
+        shell("platformer --quiet --replay" + tape + " --what-if 30,60,240 --json -", 0).out);
+    std::vector<double> coins;
+    for (const auto& setting : report.at("settings"))
+        coins.push_back(setting.at("readings").at(0).at("value"));
+    EXPECT_EQ(coins, (std::vector<double>{7, 3, 7, 7}));
+    EXPECT_TRUE(holds(text_of(OILER_SOURCE "/demos/README.md"),
+                      "seven coins at 60, 120 and 240 Hz find three at 30 Hz"));
 }
 
 }  // namespace
