@@ -20,11 +20,12 @@ struct Game {  // a ball that bounces after a lantern on a spring
     int score = 0;
 
     explicit Game(const Settings& settings) : world(2, settings) {
-        world.set_gravity({0, -15});                                                // m/s²
-        world.add_plane({.normal = {0, 1}, .restitution = 0.75, .friction = 0.1});  // floor
-        world.add_plane({.normal = {1, 0}, .offset = -8, .restitution = 0.9});      // walls
-        world.add_plane({.normal = {-1, 0}, .offset = -8, .restitution = 0.9});
+        world.set_gravity({0, -15});                               // m/s²
+        const Vec3 room[] = {{-8, 99}, {-8, 0}, {8, 0}, {8, 99}};  // m: a wall, the floor, a wall
+        world.add_chain(room, false, {.restitution = 0.75, .friction = 0.1});
+        world.add_obstacle({.shape = BoxShape{{0.6, 0.2}, {2, 0.4}}, .restitution = 0.75});  // step
         ball = world.spawn(Body{.position = {-5, 3}, .contact = Contact{0.4}}, LinearDrag{0.2});
+        world.add(ball, Look{.size = 0.4F, .colour = palette::blue});
         hang_lantern();
     }
 
@@ -32,6 +33,7 @@ struct Game {  // a ball that bounces after a lantern on a spring
         hook = {world.random().uniform(-6, 6), world.random().uniform(3, 5)};
         lantern = world.spawn(Body{.position = hook, .contact = Contact{0.3}},
                               Spring{.anchor = hook, .stiffness = 12, .damping = 0.5});
+        world.add(lantern, Look{.size = 0.3F, .colour = palette::orange});
     }
 
     void update(const Input& input) {
@@ -45,15 +47,13 @@ struct Game {  // a ball that bounces after a lantern on a spring
     }
 
     Picture picture() const {
-        const Point at = to_point(world.position(ball)), light = to_point(world.position(lantern));
-        return {.camera = {.centre = {0, 4}, .height = 9.5F},
-                .polylines = {{{}, {{-8, 9}, {-8, 0}, {8, 0}, {8, 9}}, 3, palette::ink},
-                              {key_of(world, lantern), coil(to_point(hook), light, 6, 0.15F), 2,
-                               palette::grey}},
-                .discs = {{key_of(world, lantern), light, 0.3F, palette::orange},
-                          {key_of(world, ball), at, 0.4F, palette::blue}},
-                .labels = {{{}, {12, 12}, "Left and Right roll, Space jumps", 12, palette::grey},
-                           {{}, {320, 330}, std::to_string(score), 24, palette::ink}}};
+        Picture picture = draw_looks(world, {.centre = {0, 4}, .height = 9.5F});
+        const Point light = to_point(world.position(lantern));
+        picture.polylines.push_back(
+            {key_of(world, lantern), coil(to_point(hook), light, 6, 0.15F), 2, palette::grey});
+        picture.labels = {{{}, {12, 12}, "Left and Right roll, Space jumps", 12, palette::grey},
+                          {{}, {320, 330}, std::to_string(score), 24, palette::ink}};
+        return picture;
     }
 };
 

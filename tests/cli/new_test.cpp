@@ -2,6 +2,7 @@
 // Makes projects with `oiler new`, of which tests/install builds one. Lists and starts demos and
 // scenes with `oiler demos`.
 
+#include "app/played.hpp"
 #include "cli/desk.hpp"
 #include "support/test.hpp"
 
@@ -143,6 +144,22 @@ TEST(New, TheTestWritesGoldenFramesAndThenComparesThem) {
     EXPECT_TRUE(fs::exists(desk.folder() / "game/frames/game-differences/index.html"));
     EXPECT_TRUE(holds(desk.text("game/frames/game.xml"), "<failure"));
     EXPECT_EQ(desk.text("game/tests/golden/game/manifest.json"), golden);
+}
+
+// The step is 0.4 m high and reaches from x = -0.4 to 1.6 m, the ball has a radius of 0.4 m.
+TEST(New, TheTestPlaysABounceOffTheStepAndAHit) {
+    const auto rows = trace_of("project_game --quiet --steps 240 --script '" OILER_SOURCE
+                               "/assets/project/tests/play.txt'");
+    double lowest = INFINITY;
+    bool hits = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool is_ball = rows[i].body == 0;
+        if (is_ball && std::abs(rows[i].x - 0.6) < 1) lowest = std::min(lowest, rows[i].y);
+        if (!is_ball && i >= 2 && std::abs(rows[i].x - rows[i - 2].x) > 1) hits = true;
+    }
+    EXPECT_GE(lowest, 0.4 + 0.4 - 1e-9);
+    EXPECT_LT(lowest, 0.8 + 5.2 / 120) << "it falls by 0.9 m, to 5.2 m/s";
+    EXPECT_TRUE(hits) << "a new lantern hangs elsewhere";
 }
 
 TEST(New, OpensAWindowIfThereIsADisplay) {
