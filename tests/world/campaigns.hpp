@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace oiler::test {
@@ -14,7 +15,9 @@ namespace oiler::test {
 /// Prints figures in a campaign.
 template <class... Part>
 void say(fmt::format_string<Part...> text, Part&&... parts) {
-    if (std::getenv("OILER_WHOLE")) fmt::print("    {}\n", fmt::format(text, parts...));
+    if (!std::getenv("OILER_WHOLE")) return;
+    fmt::vprint(text, fmt::make_format_args(parts...));
+    std::putchar('\n');
 }
 
 }  // namespace oiler::test
