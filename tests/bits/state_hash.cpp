@@ -60,19 +60,46 @@ void add_planes(World& world, int axes) {
     world.add_plane({.normal = {-1}, .offset = -9, .restitution = 0.5, .friction = 0.25});
 }
 
+/// Circles, boxes and segments, which stand, turn, move, oscillate and are met from one side.
+void add_obstacles(World& world, int axes) {
+    for (int i = 0; i < 12; ++i) {
+        oiler::Obstacle obstacle{.restitution = i % 4 / 4.0, .friction = i % 3 / 4.0};
+        const Vec3 at = assorted(i + 3, axes);
+        if (axes == 1 || i % 3 == 0)
+            obstacle.shape = oiler::CircleShape{at, 1 + i % 4 / 2.0};
+        else if (i % 3 == 1)
+            obstacle.shape = oiler::BoxShape{at, {2, 3, axes == 3 ? 1.5 : 0.0}, i / 8.0};
+        else
+            obstacle.shape = oiler::SegmentShape{at, assorted(i + 9, axes)};
+        if (i % 5 == 1) obstacle.velocity = {0.5};
+        if (i % 5 == 2) obstacle.swing = oiler::Swing{{0.75}, 1.5, 0.25};
+        if (i % 7 == 3) obstacle.one_way = Vec3{1};
+        if (axes == 2 && i % 4 == 2) obstacle.belt = 1.5;
+        obstacle.solid = i % 6 != 5;
+        world.add_obstacle(obstacle);
+    }
+}
+
+/// What bodies meet.
+enum class Ground { nothing, planes, obstacles };
+
 std::uint64_t hash_after_run(const oiler::Method& method, oiler::Precision precision, int axes,
-                             Scene scene, bool planes) {
+                             Scene scene, Ground ground) {
     World world(axes, {.method = &method, .rate = {256}, .precision = precision});
     world.set_gravity(assorted(5, axes));
-    if (planes) add_planes(world, axes);
+    if (ground != Ground::nothing) add_planes(world, axes);
+    if (ground == Ground::obstacles) add_obstacles(world, axes);
     oiler::Entity last;
     for (int i = 0; i < bodies; ++i) {
         const oiler::Entity entity = spawn_assorted(world, i, scene == Scene::linear);
-        if (planes && i % 4 != 1) world.set_contact(entity, oiler::Contact{i % 3 / 4.0});
+        if (ground != Ground::nothing && i % 4 != 1)
+            world.set_contact(entity, oiler::Contact{i % 3 / 4.0});
         if (scene == Scene::links && i % 3 != 0)
-            world.link(
-                last, entity,
-                {.stiffness = 1.0 + i % 5, .damping = i % 4 / 8.0, .rest_length = i % 2 * 60.0});
+            world.link(last, entity,
+                       {.stiffness = 1.0 + i % 5,
+                        .damping = i % 4 / 8.0,
+                        .rest_length = i % 2 * 60.0,
+                        .pulls_only = i % 4 == 1});
         if (scene == Scene::links && i % 50 == 0)
             world.link_to_point(entity, {7}, {.stiffness = 2, .rest_length = i % 4 * 10.0});
         last = entity;
@@ -85,13 +112,13 @@ bool takes(const oiler::Method& method, Scene scene) {
     return method.order != oiler::exact_order || scene == Scene::linear;
 }
 
-void print(const oiler::Method& method, Scene scene, bool planes) {
+void print(const oiler::Method& method, Scene scene, Ground ground) {
     for (const auto precision : {oiler::Precision::single, oiler::Precision::double_})
         for (int axes = 1; axes <= 3; ++axes)
             std::printf(
                 "%s %d %d %s %d %s\n", std::string(method.name).c_str(), static_cast<int>(scene),
-                planes, std::string(name_of(precision)).c_str(), axes,
-                oiler::hash_text(hash_after_run(method, precision, axes, scene, planes)).c_str());
+                static_cast<int>(ground), std::string(name_of(precision)).c_str(), axes,
+                oiler::hash_text(hash_after_run(method, precision, axes, scene, ground)).c_str());
 }
 
 }  // namespace
@@ -99,6 +126,6 @@ void print(const oiler::Method& method, Scene scene, bool planes) {
 int main() {
     for (const oiler::Method& method : oiler::methods())
         for (const Scene scene : {Scene::linear, Scene::forces, Scene::links})
-            for (const bool planes : {false, true})
-                if (takes(method, scene)) print(method, scene, planes);
+            for (const Ground ground : {Ground::nothing, Ground::planes, Ground::obstacles})
+                if (takes(method, scene)) print(method, scene, ground);
 }
