@@ -142,5 +142,7 @@ void bench_frames(Bench& bench);
 void bench_peers(Bench& bench);
 void bench_bounces(Bench& bench);
 void bench_bounce_costs(Bench& bench);
+void bench_obstacles(Bench& bench);
+void bench_obstacle_errors(Bench& bench);
 
 }  // namespace oiler::bench

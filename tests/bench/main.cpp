@@ -76,6 +76,8 @@ void measure(Bench& bench) {
     bench_peers(bench);
     bench_bounces(bench);
     bench_bounce_costs(bench);
+    bench_obstacles(bench);
+    bench_obstacle_errors(bench);
     bench_nets(bench);
     bench_entities(bench);
     bench_memory(bench);

@@ -42,6 +42,39 @@ PeerWork box2d_fall_fixtures(std::size_t bodies) {
     return work_of(world);
 }
 
+PeerWork box2d_tiles(const TiledGround& ground) {
+    const auto world = std::make_shared<b2World>(b2Vec2(0, static_cast<float>(ground.gravity())));
+    const b2BodyDef standing;
+    b2Body* const floor = world->CreateBody(&standing);
+    for (std::size_t i = 0; i < ground.tiles; ++i) {
+        const Vec3 at = ground.tile(i);
+        b2PolygonShape box;
+        box.SetAsBox(static_cast<float>(ground.width() / 2), 0.5F,
+                     {static_cast<float>(at[0]), static_cast<float>(at[1])}, 0);
+        floor->CreateFixture(&box, 0);
+    }
+    b2CircleShape circle;
+    circle.m_radius = 0.1F;
+    b2FixtureDef fixture;
+    fixture.shape = &circle;
+    fixture.density = 1;
+    fixture.friction = 0;
+    fixture.restitution = static_cast<float>(ground.restitution());
+    fixture.filter.groupIndex = -1;
+    for (std::size_t i = 0; i < ground.balls; ++i) {
+        const Body ball = ground.ball(i);
+        b2BodyDef definition;
+        definition.type = b2_dynamicBody;
+        definition.position = {static_cast<float>(ball.position[0]),
+                               static_cast<float>(ball.position[1])};
+        definition.linearVelocity = {static_cast<float>(ball.velocity[0]),
+                                     static_cast<float>(ball.velocity[1])};
+        world->CreateBody(&definition)->CreateFixture(&fixture);
+    }
+    return {repeated([=] { world->Step(static_cast<float>(peer_dt), 8, 3); }),
+            [=] { return double{world->GetBodyList()->GetPosition().y}; }};
+}
+
 BouncingBall box2d_ball(double speed, double restitution, double dt) {
     const auto world = std::make_shared<b2World>(b2Vec2(0, -9.81F));
     // Bodies touch the skin of an edge, not the edge.

@@ -110,6 +110,40 @@ PeerWork bullet_fall(std::size_t bodies) {
             [=] { return falling->bodies.front()->getWorldTransform().getOrigin().y(); }};
 }
 
+PeerWork bullet_tiles(const TiledGround& ground) {
+    const auto scene = std::make_shared<Falling>();
+    scene->world.setGravity({0, static_cast<btScalar>(ground.gravity()), 0});
+    const auto box = std::make_shared<btBoxShape>(
+        btVector3(static_cast<btScalar>(ground.width() / 2), 0.5F, 0.5F));
+    const auto add = [&](btScalar mass, btCollisionShape* shape, const Vec3& at, int group,
+                         int mask) {
+        btVector3 inertia(0, 0, 0);
+        if (mass > 0) shape->calculateLocalInertia(mass, inertia);
+        auto body = std::make_unique<btRigidBody>(
+            btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, shape, inertia));
+        body->setWorldTransform(
+            btTransform(btQuaternion::getIdentity(),
+                        {static_cast<btScalar>(at[0]), static_cast<btScalar>(at[1]), 0}));
+        body->setRestitution(static_cast<btScalar>(ground.restitution()));
+        body->setFriction(0);
+        scene->world.addRigidBody(body.get(), group, mask);
+        scene->bodies.push_back(std::move(body));
+        return scene->bodies.back().get();
+    };
+    for (std::size_t i = 0; i < ground.balls; ++i) {
+        const Body ball = ground.ball(i);
+        add(1, &scene->shape, ball.position, 1, 2)
+            ->setLinearVelocity({static_cast<btScalar>(ball.velocity[0]),
+                                 static_cast<btScalar>(ball.velocity[1]), 0});
+    }
+    for (std::size_t i = 0; i < ground.tiles; ++i) add(0, box.get(), ground.tile(i), 2, 1);
+    return {[=](long times) {
+                scene->step(times);
+                keep(box);
+            },
+            [=] { return scene->bodies.front()->getWorldTransform().getOrigin().y(); }};
+}
+
 PeerWork bullet_net(const Net& net) {
     const auto falling = std::make_shared<Falling>();
     btSoftBody* const body = make_net(falling->world.getWorldInfo(), net);

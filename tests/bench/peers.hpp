@@ -74,6 +74,26 @@ inline constexpr double peer_stiffness = 0.01;
 
 [[nodiscard]] PeerWork bullet_net(const Net& net);
 
+enum class Phase { flying, bouncing, resting };
+/// Level ground of 1000 m by boxes side by side, 1000 or less of them in a row, and balls with a
+/// radius of 0.1 m above it that do not meet each other.
+struct TiledGround {
+    std::size_t tiles;
+    std::size_t balls;
+    Phase phase;
+
+    [[nodiscard]] double width() const { return 1000.0 / static_cast<double>(columns()); }
+    [[nodiscard]] std::size_t columns() const { return tiles < 1000 ? tiles : 1000; }
+    /// The centre of a tile, m; its height is 1 m.
+    [[nodiscard]] Vec3 tile(std::size_t i) const;
+    /// Balls in all phases of flights of 147 steps; flying ones go straight on, without gravity.
+    [[nodiscard]] Body ball(std::size_t i) const;
+    [[nodiscard]] double gravity() const { return phase == Phase::flying ? 0 : -9.81; }
+    [[nodiscard]] double restitution() const { return phase == Phase::resting ? 0 : 1; }
+};
+[[nodiscard]] PeerWork box2d_tiles(const TiledGround& ground);
+[[nodiscard]] PeerWork bullet_tiles(const TiledGround& ground);
+
 // A ball with a radius of ball_radius under −9.81 m/s², thrown up at `speed` m/s and stepped by
 // `dt` s, with the default settings of the library.
 inline constexpr double ball_radius = 0.5;  ///< m
