@@ -84,6 +84,43 @@ TEST(Allocations, ImpactsMakeNone) {
     }
 }
 
+/// Obstacles of all kinds: a level of tiles, a moving and an oscillating one, a ledge, a belt and
+/// an area, and balls on ropes.
+World world_of_obstacles(int threads) {
+    World world(
+        2, Settings{.stepping = {.method = &find_method("velocity_verlet")}, .threads = threads});
+    world.set_gravity({0, -9.81});
+    for (int i = 0; i < 400; ++i)
+        world.add_obstacle({.shape = BoxShape{{i - 200.0, -0.5}, {1, 1}}, .restitution = 0.9});
+    for (const double x : {-201.0, 201.0})
+        world.add_obstacle({.shape = BoxShape{{x, 20}, {1, 60}}, .restitution = 0.9});
+    world.add_obstacle(
+        {.shape = CircleShape{{0, 3}, 1}, .restitution = 1, .swing = Swing{{50, 0}, 9}});
+    world.add_obstacle({.shape = BoxShape{{0, 2}, {40, 0.2}}, .one_way = Vec3{0, 1}});
+    world.add_obstacle({.shape = SegmentShape{{-90, 1}, {-30, 4}}, .friction = 0.3, .belt = 2});
+    world.add_obstacle({.shape = CircleShape{{30, 2}, 2}, .solid = false});
+    Entity last;
+    for (int i = 0; i < 1500; ++i) {
+        const Entity ball = world.spawn({.position = {(i - 750) / 4.0, 5.0 + i % 17},
+                                         .velocity = {i % 5 - 2.0, 0},
+                                         .contact = Contact{0.1}});
+        if (i % 50 == 1)
+            world.link(last, ball, {.stiffness = 9, .rest_length = 2, .pulls_only = true});
+        last = ball;
+    }
+    return world;
+}
+
+TEST(Allocations, ObstaclesAndRopesMakeNone) {
+    for (const int threads : {1, 2}) {
+        World world = world_of_obstacles(threads);
+        world.step(300);
+        const long before = allocations;
+        for (int i = 0; i < 150; ++i) world.step();
+        EXPECT_EQ(allocations, before) << threads;
+    }
+}
+
 TEST(Allocations, ReadingAWorldMakesNone) {
     const World world = busy_world(methods().front(), Precision::single);
     const long before = allocations;
