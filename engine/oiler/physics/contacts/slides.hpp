@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "oiler/physics/contacts/legs.hpp"
+
+namespace oiler {
+
+/// The motions of a body on the obstacles that bear it: held by friction, along them, or round a
+/// curve.
+template <std::floating_point T, int Axes, class Body>
+class Slides : public Legs<T, Axes, Body> {
+public:
+    using Base = Legs<T, Axes, Body>;
+    using typename Base::Leg;
+    using typename Base::Near;
+    using typename Base::State;
+    using typename Base::Support;
+    using typename Base::Vec;
+
+protected:
+    using Base::Base;
+
+    /// The largest angle of one step on a curve.
+    static constexpr T most_turn = T(0.25);
+
+    /// The velocity of a body that is at rest on the obstacles that bear it, `tau` s from now.
+    [[nodiscard]] Vec carrier(const Support& support, T tau = 0) const {
+        const Near& first = near_of(support);
+        const Vec v = tau == 0 || !first.is_moved()
+                          ? first.velocity
+                          : surface_velocity(first.obstacle, first.normal, start_ + tau);
+        return support.size() == 1 ? v : support.following(v);
+    }
+    /// Their way from now on, m.
+    [[nodiscard]] Vec carried(const Support& support, T tau) const {
+        const Near& first = near_of(support);
+        if (support.size() > 1) return carrier(support) * tau;
+        const Course<T, Axes>& course = first.obstacle.course;
+        return course.way(start_ + tau) - course.way(start_) +
+               belt_velocity(first.obstacle, first.normal) * tau;
+    }
+    /// An acceleration `tau` s from now, less what the obstacle's own has changed by since now. The
+    /// touches of the support know the obstacle's acceleration of now.
+    [[nodiscard]] Vec as_of_now(const Support& support, const Vec& a, T tau) const {
+        const Course<T, Axes>& course = near_of(support).obstacle.course;
+        if (tau == 0 || !course.accelerates()) return a;
+        return a - (course.acceleration_at(start_ + tau) - course.acceleration_at(start_));
+    }
+    /// The acceleration of a body that is not held by friction, relative to the surface, m/s².
+    [[nodiscard]] Vec pull_along(const Support& support, const Vec& a, T tau = 0) const {
+        const Vec pull = support.without_push(as_of_now(support, a, tau));
+        const Course<T, Axes>& course = near_of(support).obstacle.course;
+        return course.accelerates() ? pull - course.acceleration_at(start_) : pull;
+    }
+    /// Grip minus the pull along the obstacles, m/s²; negative if friction does not hold the body.
+    [[nodiscard]] T surplus_of_grip(const Support& support, const Vec& a, T tau = 0) const {
+        return support.grip(as_of_now(support, a, tau)) + 4 * epsilon * largest(a) -
+               length(pull_along(support, a, tau));
+    }
+    [[nodiscard]] bool sticks(const Support& support, const State& state, const Vec& a) const {
+        return state.v == carrier(support) && surplus_of_grip(support, a) >= 0;
+    }
+    [[nodiscard]] static bool stands(const Support& support) {
+        for (std::size_t i = 0; i < support.size(); ++i)
+            if (near_of(support, i).is_moved()) return false;
+        return true;
+    }
+
+    /// Holds a body at rest, or where its obstacle carries it, until the forces let it slide or
+    /// take it off.
+    [[nodiscard]] std::optional<Leg> stick(const State& state, const Support& support,
+                                           const Vec& a) {
+        const bool stays = stands(support);
+        const auto move = [&](T tau) {
+            return stays ? state : State{state.x + carried(support, tau), carrier(support, tau)};
+        };
+        Leg leg{move(left_), left_};
+        if (any_renewed_) end_at_others(state, support, a, leg, move);
+        if (!body_.forces_change() && !near_of(support).obstacle.course.accelerates()) {
+            settled_ = stays && leg.tau == left_;
+            return leg;
+        }
+        const auto held = [&](const State& there, T tau) {
+            const Vec pull = pressing(support, there, tau);
+            return std::min(surplus_of_grip(support, pull, tau),
+                            least_reaction(support, pull, tau));
+        };
+        end_where_negative(held, std::max(held(state, T(0)), T(0)), leg, move);
+        return leg;
+    }
+
+    [[nodiscard]] T least_reaction(const Support& support, const Vec& a, T tau = 0) const {
+        const Vec reaction = support.reactions(as_of_now(support, a, tau));
+        return *std::min_element(reaction.axis.begin(),
+                                 reaction.axis.begin() + static_cast<int>(support.size()));
+    }
+    /// Whether a pull turns a velocity.
+    [[nodiscard]] static bool is_across(const Vec& v, const Vec& pull) {
+        const T square = dot(pull, pull);
+        if (!(square > 0)) return false;
+        return largest(v - pull * (dot(v, pull) / square)) > 64 * epsilon * largest(v);
+    }
+
+    [[nodiscard]] std::optional<Leg> slide(const State& state, const Support& support,
+                                           const Vec& a) {
+        if (enters_other(state, support)) return std::nullopt;
+        const Vec rest = carrier(support);
+        const Vec v = state.v - rest;
+        const Vec pull = pull_along(support, a);
+        const Vec direction = normalised(v == Vec{} ? pull : v);
+        const T grip = support.grip(a);
+        const bool free_to_turn = grip > 0 && support.size() + 2 <= Axes;
+        const Friction<T, Axes> friction{direction, rest, free_to_turn && is_across(v, pull)};
+        const auto move = [&](T tau) {
+            State end = body_.slide(state, start_, tau, support, friction);
+            if (!stands(support)) stay_beside(support, tau, end);
+            return end;
+        };
+        if (free_to_turn && v != Vec{} && dot(pull, pull) < grip * grip)
+            if (const auto end = slide_end(v, pull, grip); end.time <= left_) {
+                Leg leg{
+                    {state.x + end.way + carried(support, end.time), carrier(support, end.time)},
+                    end.time};
+                end_at_others(state, support, a, leg, move);
+                return leg;
+            }
+        Leg leg{move(left_), left_};
+        end_at_others(state, support, a, leg, move);
+        end_at_features(state, support, leg, move);
+        const auto borne = [&](const State& at, T tau) {
+            return least_reaction(support, body_.accelerate(at, start_ + tau), tau);
+        };
+        end_where_negative(borne, least_reaction(support, a), leg, move);
+        const auto speed = [&](const State& at, T tau) {
+            return dot(at.v - carrier(support, tau), direction);
+        };
+        if (grip > 0 && v != Vec{} && end_where_negative(speed, dot(v, direction), leg, move)) {
+            const Vec end = carrier(support, leg.tau);
+            leg.end.v -= direction * dot(leg.end.v - end, direction);
+            if (largest(leg.end.v - end) <= 64 * epsilon * largest(v)) leg.end.v = end;
+        }
+        return leg;
+    }
+
+    /// Moves the end of a slide of `tau` s onto the moving obstacles, with their normal speeds.
+    void stay_beside(const Support& support, T tau, State& end) const {
+        for (std::size_t i = 0; i < support.size(); ++i) {
+            const Near& near = near_of(support, i);
+            end.x -= near.normal * gap_at(near, end.x, tau);
+            const Vec surface = surface_velocity(near.obstacle, near.normal, start_ + tau);
+            end.v -= near.normal * dot(near.normal, end.v - surface);
+        }
+    }
+    template <class Move>
+    void end_at_others(const State& state, const Support& support, const Vec& a, Leg& leg,
+                       Move move) {
+        for (Near& near : nears_)
+            if (!support.has(near)) end_at_impact(near, state, a, leg, move);
+    }
+    /// Ends the leg where the body gets past the end of a face, or from a corner onto a face.
+    template <class Move>
+    void end_at_features(const State& state, const Support& support, Leg& leg, Move move) {
+        for (std::size_t i = 0; i < support.size(); ++i) {
+            const Near& near = near_of(support, i);
+            if (!near.obstacle.bounded) continue;
+            const Feature sides = feature(near.obstacle, place(near, state.x), leg.end.x - state.x,
+                                          gap_noise(near, state));
+            const T noise = gap_noise(near, state);
+            const auto left = [&](const State& at, T tau) {
+                return left_of_feature(near.obstacle,
+                                       place_beside(near.obstacle, at.x, start_ + tau), sides);
+            };
+            const T at_start = left(state, T(0));
+            // A body that has just come to a feature may be beside it as far as round-off.
+            const T hidden = at_start > noise ? T(0) : noise;
+            const auto shown = [&](const State& at, T tau) { return left(at, tau) + hidden; };
+            end_where_negative(shown, std::max(at_start + hidden, T(0)), leg, move);
+        }
+    }
+
+    /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that
+    /// lets a free step end on the curve, then the rest of the normal speed is taken away. This is
+    /// RATTLE (Andersen, 1983) with any method for its free step, and has order min(order, 2).
+    /// Friction is not limited in each of both parts, because only their sum is positive.
+    [[nodiscard]] State hop(const State& state, const Near& near, T reaction, T tau) {
+        const Vec back = normalised(state.v - near.velocity) * near.friction;
+        const auto pushed = [&](T push) {
+            return body_.fly({state.x, state.v + (near.normal - back) * push}, start_, tau);
+        };
+        T push = reaction * tau / 2;
+        State end = pushed(push);
+        T gap = gap_at(near, end.x, tau);
+        T slope = tau;
+        for (int i = 0; i < 8 && std::abs(gap) > gap_noise(near, state) / 16; ++i) {
+            const T next = push - gap / slope;
+            end = pushed(next);
+            const T gap_next = gap_at(near, end.x, tau);
+            if (next == push || gap_next == gap) break;
+            slope = (gap_next - gap) / (next - push);
+            push = next;
+            gap = gap_next;
+        }
+        Near there = near;
+        there.normal = normal(near.obstacle, place_beside(near.obstacle, end.x, start_ + tau));
+        there.velocity = surface_velocity(near.obstacle, there.normal, start_ + tau);
+        const T last = -leaving(there, end.v);
+        const Vec along = end.v + there.normal * last;
+        end.v = along - normalised(along - there.velocity) * (near.friction * last);
+        return end;
+    }
+    [[nodiscard]] std::optional<Leg> follow_curve(State& state, const Near& near,
+                                                  const Support& support, const Vec& a) {
+        if (enters_other(state, support)) return std::nullopt;
+        const Vec pull = pull_along(support, a);
+        if (state.v == near.velocity) state.v += normalised(pull) * speed_noise(state);
+        const T reaction = support.reactions(a).axis[0];
+        const auto move = [&](T tau) { return hop(state, near, reaction, tau); };
+        const T speed = length(state.v - near.velocity) + length(pull) * left_;
+        const T most = most_turn * (near.obstacle.rounding + radius_) / speed;
+        const T tau = std::min(left_, most);
+        Leg leg{move(tau), tau};
+        end_at_others(state, support, a, leg, move);
+        end_at_features(state, support, leg, move);
+        const auto borne = [&](const State& at, T later) {
+            const Vec normal =
+                oiler::normal(near.obstacle, place_beside(near.obstacle, at.x, start_ + later));
+            const Vec v = at.v - near.obstacle.course.velocity_at(start_ + later);
+            const T turn = turning(near.obstacle, normal, near.sides, v, radius_);
+            const Vec a_there = body_.accelerate(at, start_ + later) -
+                                near.obstacle.course.acceleration_at(start_ + later);
+            return -(dot(normal, a_there) + turn);
+        };
+        end_where_negative(borne, reaction, leg, move);
+        const Vec direction = normalised(state.v - near.velocity);
+        const auto surface = [&](const State& at, T later) {
+            const Vec seen = place_beside(near.obstacle, at.x, start_ + later);
+            return surface_velocity(near.obstacle, normal(near.obstacle, seen), start_ + later);
+        };
+        const auto forwards = [&](const State& at, T later) {
+            return dot(at.v - surface(at, later), direction);
+        };
+        if (near.friction > 0 &&
+            end_where_negative(forwards, length(state.v - near.velocity), leg, move))
+            leg.end.v = surface(leg.end, leg.tau);
+        return leg;
+    }
+
+    bool settled_ = false;  ///< it stays in place until the forces change
+
+    using Base::any_renewed_;
+    using Base::body_;
+    using Base::end_at_impact;
+    using Base::end_where_negative;
+    using Base::enters_other;
+    using Base::epsilon;
+    using Base::gap_at;
+    using Base::gap_noise;
+    using Base::leaving;
+    using Base::left_;
+    using Base::near_of;
+    using Base::nears_;
+    using Base::place;
+    using Base::pressing;
+    using Base::radius_;
+    using Base::speed_noise;
+    using Base::start_;
+    using Base::touches;
+};
+
+}  // namespace oiler
