@@ -178,7 +178,7 @@ Obstacle Bodies::obstacle(ObstacleHandle handle) const {
         const auto added = to_obstacle<T, Axes>(obstacle);
         const bool has_moved =
             now.centre != added.centre || now.surface.offset != added.surface.offset;
-        if (has_moved) std::visit(MoveTo{now}, obstacle.shape);
+        if (has_moved) std::visit(MoveTo<T, Axes>{now}, obstacle.shape);
     });
     return obstacle;
 }
@@ -214,10 +214,10 @@ void Bodies::teleport_obstacle(ObstacleHandle handle, const Vec3& to) {
     change_motion(handle, [&]<class Vec>(auto& obstacles, const Vec&) {
         obstacles.teleport(handle.slot, converted<Vec>(to));
     });
-    columns_->visit([&](auto& columns) {
+    columns_->visit([&]<class T, int Axes>(Columns<T, Axes>& columns) {
         columns.contacts.wake_all();
         const auto now = columns.contacts.all(is_solid(handle)).now(handle.slot);
-        std::visit(MoveTo{now}, obstacles_.write()[handle.slot]->shape);
+        std::visit(MoveTo<T, Axes>{now}, obstacles_.write()[handle.slot]->shape);
     });
 }
 

@@ -102,11 +102,9 @@ template <std::floating_point T, int Axes>
     if (!obstacle.bounded) return obstacle.surface.normal;
     const auto [place, past] = beside(obstacle, x);
     const T* const nearest = std::max_element(past.axis.begin(), past.axis.end());
-    const T distance = [&] {
-        Vec<T, Axes> outside = past;
-        for (T& one : outside.axis) one = std::max(one, T(0));
-        return length(outside);
-    }();
+    Vec<T, Axes> outside = past;
+    for (T& one : outside.axis) one = std::max(one, T(0));
+    const T distance = length(outside);
     Vec<T, Axes> sum{};
     for (std::size_t i = 0; i < Axes; ++i) {
         const bool is_nearest = &past.axis[i] == nearest;

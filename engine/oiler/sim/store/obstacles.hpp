@@ -184,10 +184,9 @@ public:
             if (!moving.bounded || ball_of(moving, dt).is_near(x, most)) add(moving, slot);
         }
         if (nears.size() == sorted) return;
-        const auto index = &Near<T, Axes>::index;
-        std::ranges::sort(nears, {}, index);
-        const auto repeated = std::ranges::unique(nears, {}, index);
-        nears.erase(repeated.begin(), repeated.end());
+        std::ranges::sort(nears, {}, &Near<T, Axes>::index);
+        const auto is_same = [](const auto& a, const auto& b) { return a.index == b.index; };
+        nears.erase(std::unique(nears.begin(), nears.end(), is_same), nears.end());
     }
     /// Calls f(slot, obstacle) for each obstacle within `most` m of x after the last step, for some
     /// of them several times, and for some that are farther.
