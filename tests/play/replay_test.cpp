@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A replay that ends as its recording does, or says what differs.
-#include "oiler/app/run_game.hpp"
 #include "oiler/app/options.hpp"
 #include "oiler/app/run_game.hpp"
 #include "oiler/game/game.hpp"
@@ -68,6 +67,9 @@ protected:
         return line_of_error(Exit::comparison_failed, [&] { (void)replay(steps); });
     }
     [[nodiscard]] Recording recording() const { return read_recording(folder_ / "a"); }
+    void cut_the_last_byte() const {
+        std::filesystem::resize_file(folder_ / "a", std::filesystem::file_size(folder_ / "a") - 1);
+    }
 
 private:
     static void run(Options options, Exit expected = Exit::done) {
@@ -158,6 +160,27 @@ TEST_F(Replays, OfManyBodiesCompareTheEnd) {
     pushed_at = -1;
     record(62);
     EXPECT_EQ(recording().states.size(), 2U);
+}
+
+// Nothing equals a recording of which nothing is replayed.
+TEST_F(Replays, OfNoStepFail) {
+    record(62);
+    EXPECT_EQ(difference(0),
+              "a: no step was replayed, so that no state was compared; replay more of it");
+    EXPECT_TRUE(holds(replay(1), "the replay equals the recording: 1 of 62 steps"));
+}
+
+// A file that is cut after a second has no end, as that of a killed program.
+TEST_F(Replays, OfARecordingThatWasCutTellThatItHasNoEnd) {
+    record(130);
+    const std::string remark =
+        ", where the recording has no end: it was cut, or its program killed";
+    EXPECT_FALSE(holds(replay(130), "no end"));
+    cut_the_last_byte();
+    const std::int64_t left = recording().steps;
+    EXPECT_LT(left, 130);
+    EXPECT_TRUE(holds(replay(left),
+                      fmt::format("equals the recording: {} of {} steps{}", left, left, remark)));
 }
 
 }  // namespace

@@ -99,6 +99,10 @@ private:
         // A game quits in the update of a step that it does not take.
         if (replay_->quits() && whole && !diverged) playback.step_to(steps + 1, *replay_);
         replay_->compare_end(playback.steps(), playback.loop().quits());
+        if (steps == 0 && !diverged)
+            fail(Exit::comparison_failed,
+                 "{}: no step was replayed, so that no state was compared; replay more of it",
+                 options.replay_file.string());
         if (steps > 0 && replay_->compared() == 0)
             fail(Exit::comparison_failed,
                  "{}: none of the {} steps was compared, because the recording has no state of "
@@ -113,7 +117,9 @@ private:
                replay_->compared() < steps
                    ? fmt::format(", of which {} were compared", replay_->compared())
                    : "",
-               whole && !replay_->complete() ? ", where the program that recorded was killed" : "");
+               whole && !replay_->complete()
+                   ? ", where the recording has no end: it was cut, or its program killed"
+                   : "");
         const std::vector<std::string> unhashed = playback.world().unhashed();
         if (!unhashed.empty())
             remark(options.quiet, "not compared, because they have no hash(): {}",

@@ -295,7 +295,7 @@ Recording read_recording(const std::filesystem::path& path) {
         const auto refuse_damage = [&] {
             refuse(fmt::format("it is damaged after step {}; record again", step));
         };
-        if (reader.rest().size() < chunk_head) break;  // the program was killed here
+        if (reader.rest().size() < chunk_head) break;  // its program was killed here, or it was cut
         std::string_view size_bytes = reader.take(4);
         const std::uint64_t size = take_bytes(size_bytes, 4);
         if (!reader.take_seal()) refuse_damage();

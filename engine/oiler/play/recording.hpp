@@ -97,7 +97,7 @@ struct Recording {
     std::vector<Event> events;
     std::map<std::int64_t, PartHashes> states;  ///< after a step
     std::int64_t steps = 0;
-    bool complete = false;  ///< false: the program that recorded was killed
+    bool complete = false;  ///< false: its program was killed, or the file cut
     bool quits = false;     ///< the game quits after these steps
 };
 
