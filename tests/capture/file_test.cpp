@@ -216,6 +216,19 @@ TEST(File, ALoopOfLinksIsNamed) {
     EXPECT_TRUE(holds(line, "Too many levels of symbolic links; remove the loop")) << line;
 }
 
+TEST(File, ALinkToNothingIsNamed) {
+    const Folder folder;
+    for (const char* target : {"missing", "missing/too"}) {
+        fs::create_symlink(target, folder / "link");
+        const std::string line = io_error_of([&] { File(folder / "link"); });
+        EXPECT_TRUE(holds(line, "it is a link to nothing; remove it, or choose another place"))
+            << target;
+        EXPECT_TRUE(fs::is_symlink(folder / "link"));
+        EXPECT_FALSE(fs::exists(folder / "missing"));
+        fs::remove(folder / "link");
+    }
+}
+
 TEST(File, KeepsASymbolicLinkAndWritesItsTarget) {
     const Folder folder;
     put(folder / "real", "old");

@@ -208,7 +208,11 @@ File::File(const fs::path& path, const FileKind& kind, Links links)
         if (fs::path followed = fs::canonical(path, missing); !missing)
             target_ = std::move(followed);
         std::error_code none;
-        if (missing && fs::is_symlink(fs::symlink_status(path, none))) fail_write(missing.value());
+        const bool is_link = fs::is_symlink(fs::symlink_status(path, none));
+        if (is_link && missing.value() == ENOENT)
+            fail(Exit::io, "cannot write {}: it is a link to nothing; remove it, or {}",
+                 path.string(), remedy(ENOENT));
+        if (is_link && missing) fail_write(missing.value());
         in_place = open_in_place(path);
     }
     in_place_ = in_place.has_value();
