@@ -41,8 +41,12 @@ void refuse_narrow_vectors() {
 // RTLD_NODELETE: a driver has threads of its own, which crash if it is unmapped.
 Library::Library(const char* soname, const char* remedy)
     : soname_(soname), handle_(dlopen(soname, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
-    if (handle_ == nullptr)
-        fail(Exit::no_display, "cannot load {} ({}); {}", soname, dlerror(), remedy);
+    if (handle_ != nullptr) return;
+    const std::string why = dlerror();
+    const bool lacks_memory = why.find("failed to map segment") != std::string::npos ||
+                              why.find("allocate memory") != std::string::npos;
+    fail(Exit::no_display, "cannot load {} ({}); {}", soname, why,
+         lacks_memory ? more_memory : remedy);
 }
 
 Library::~Library() { dlclose(handle_); }

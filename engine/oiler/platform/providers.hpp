@@ -12,11 +12,15 @@ namespace oiler {
 [[nodiscard]] std::unique_ptr<Surface> open_osmesa();
 [[nodiscard]] std::unique_ptr<Surface> open_egl();
 
+/// The remedy where a library cannot be loaded for lack of memory.
+inline constexpr const char* more_memory = "allow the program more memory, see `ulimit -v`";
+
 /// A shared library, loaded at run time. A program therefore starts without it and can name the
 /// package to install.
 class Library {
 public:
-    /// Throws Error{no_display}: "cannot load SONAME (the loader's reason); REMEDY".
+    /// Throws Error{no_display}: "cannot load SONAME (the loader's reason); REMEDY", or
+    /// more_memory.
     Library(const char* soname, const char* remedy);
     ~Library();
     Library(const Library&) = delete;

@@ -2,6 +2,7 @@
 #include "oiler/platform/surface.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 #include "oiler/core/error.hpp"
 #include "oiler/platform/providers.hpp"
@@ -13,6 +14,8 @@ std::unique_ptr<Surface> open_egl_after(const Error& osmesa) {
     try {
         return open_egl();
     } catch (const Error& egl) {
+        if (std::string_view(osmesa.what()).ends_with(more_memory))
+            fail(Exit::no_display, "no OpenGL without a screen: {}", osmesa.what());
         fail(Exit::no_display,
              "no OpenGL without a screen: {}; {}; install the Debian package libosmesa6, or "
              "libegl1 with libgl1-mesa-dri",
