@@ -190,8 +190,19 @@ struct Inspector::Impl {
         ImGui::Separator();
         text("Off the true motion as drawn, " + (run.is_of_round ? "in a round" : since(run)));
         if (!ImGui::BeginTable("settings", 5, ImGuiTableFlags_SizingFixedFit)) return;
-        for (const char* name : {"", "at most", "a frame", "forces", ""})
-            ImGui::TableSetupColumn(name);
+        // The table itself would widen a column one frame after its text.
+        const auto column = [&](const char* name, auto text_of) {
+            float width = ImGui::CalcTextSize(name).x;
+            for (const Inspected::Setting& one : run.settings)
+                width = std::max(width, ImGui::CalcTextSize(text_of(one).c_str()).x);
+            ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, width);
+        };
+        using Setting = Inspected::Setting;
+        column("", [&](const Setting& one) { return difference(one.stepping, run.stepping); });
+        column("at most", [](const Setting& one) { return one.error; });
+        column("a frame", [](const Setting& one) { return one.cost; });
+        column("forces", [](const Setting& one) { return one.forces; });
+        ImGui::TableSetupColumn("");
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < run.settings.size(); ++i) {
             const Inspected::Setting& one = run.settings[i];
