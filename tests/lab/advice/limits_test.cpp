@@ -10,6 +10,7 @@
 #include "lab/measured_scenes.hpp"
 #include "oiler/lab/advice/advise.hpp"
 #include "oiler/lab/advice/growth.hpp"
+#include "oiler/lab/advice/passing_time.hpp"
 #include "oiler/lab/rates/budget.hpp"
 #include "support/test.hpp"
 
@@ -23,6 +24,26 @@ Growth growth_of(const std::function<double(double t)>& error, double lines = 0)
     std::vector<double> errors;
     for (int part = 1; part <= 64; ++part) errors.push_back(error(part / 8.0));
     return fit_growth(errors, errors.back() + lines, 8, 1e-9);
+}
+
+// velocity_verlet turns a circle of 1 m by 2·asin(ω·dt/2)/dt instead of ω: the distance is
+// 2·sin(Δω·t/2). 8 times as many steps have a 64th of Δω, and samples are 1.03 s apart.
+TEST(Growth, EndsWhereALongerRunPassesTheTolerance) {
+    const Scene scene = parse_scene(
+        "[scene]\naxes = 2\nrate = 60\nmethod = \"velocity_verlet\"\nduration = 1.0\n"
+        "[[body]]\nname = \"b\"\nposition = [1.0, 0.0]\nvelocity = [0.0, 6.0]\n"
+        "[[spring]]\nbody = \"b\"\nanchor = [0.0, 0.0]\nstiffness = 36.0\n",
+        "test.toml");
+    const double faster = 120 * std::asin(0.05) - 6;
+    Growth growth{.law = Law::bounded, .until = 1, .at_steps = 1e-3};
+    for (const double tolerance : {0.05, 0.2, 1.0}) {
+        const double time = 2 * std::asin(tolerance / 2) / (faster * 63 / 64);
+        growth.passed = passing_time(scene, scene.stepping, growth, tolerance);
+        EXPECT_NEAR(growth.passed, time, 1.2) << tolerance;
+        EXPECT_EQ(growth.holds_until(tolerance), growth.passed);
+        growth.passed = std::numeric_limits<double>::infinity();
+    }
+    EXPECT_TRUE(std::isinf(passing_time(scene, scene.stepping, growth, 2.1)));
 }
 
 // An error of 2 m at 8 s is ten times as large at 80 s if it grows with t, and at 8·√10 s with t².

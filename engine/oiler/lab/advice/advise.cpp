@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "oiler/core/error.hpp"
+#include "oiler/lab/advice/passing_time.hpp"
 #include "oiler/lab/advice/search.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/stability.hpp"
@@ -250,6 +251,9 @@ private:
         advice_.growth =
             fit_growth(best.growth, requirements_.error_of(best), reference_.meaningful_until,
                        32 * rounding * reference_.coordinate);
+        if (requirements_.position_error)
+            advice_.growth.passed = passing_time(scene_, advice_.best->stepping, advice_.growth,
+                                                 *requirements_.position_error);
         const auto is_named = [&](const TradeoffRow& row) {
             return row.stepping.method == advice_.best->stepping.method ||
                    std::ranges::find(advice_.ties, row.stepping, &TradeoffRow::stepping) !=

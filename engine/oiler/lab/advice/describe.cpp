@@ -111,6 +111,9 @@ std::string describe_hold(const Advice& advice, const Scene& scene,
         text +=
             fmt::format(", also from {} start{} perturbed by 0.1 %", starts, starts > 1 ? "s" : "");
     text += "; the error ";
+    if (until == advice.growth.passed && std::isfinite(until))
+        return text + fmt::format("passes {:g} m at about {:.2g} s, in a run of that length.",
+                                  *requirements.position_error, until);
     if (advice.growth.law == Growth::Law::bounded) return text + "does not grow.";
     if (std::isinf(until)) return text + "hardly grows.";
     return text + fmt::format("{} and passes {:g} m at about {:.2g} s.",

@@ -62,7 +62,7 @@ double Growth::holds_until(double tolerance) const {
         // The stable form of the quadratic formula.
         time = 2 * (left - constant) /
                (linear + std::sqrt(linear * linear + 4 * quadratic * (left - constant)));
-    return time > longest * until ? infinity : std::max(time, until);
+    return std::min(time > longest * until ? infinity : std::max(time, until), passed);
 }
 
 Growth fit_growth(const std::vector<double>& at_steps, double drawn, double until,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace oiler::lab {
@@ -26,10 +27,12 @@ struct Growth {
     double linear = 0;     ///< m/s
     double quadratic = 0;  ///< m/s²
     double rate = 0;       ///< 1/s, of an exponential law
+    /// s, at which a longer run passes the tolerance; infinite if it does not.
+    double passed = std::numeric_limits<double>::infinity();
 
     /// The time at which the error as drawn passes a tolerance (m), s, if it continues to grow by
     /// the law; `until` if it has passed it before. Infinite for a bounded error, and beyond 1000 ×
-    /// the measured time.
+    /// the measured time. A run that passed it earlier counts.
     [[nodiscard]] double holds_until(double tolerance) const;
 };
 
