@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "oiler/core/error.hpp"
+#include "oiler/stability/oscillations.hpp"
 #include "oiler/stability/risks.hpp"
 
 namespace oiler {
@@ -13,9 +14,11 @@ namespace {
 constexpr double enough_steps = 8;
 /// Steps per period with which methods of order 2 keep the amplitude to 2.3 %.
 constexpr double recommended_steps = 12;
-/// Steps per period of the finer run, and the most of its steps in one step.
+/// Steps per period of the finer run, the most of its steps in one step, and of which it samples
+/// each second one.
 constexpr double fine_steps = 4 * recommended_steps;
 constexpr double most_parts = 1024;
+constexpr std::int64_t steps_per_sample = 2;
 
 /// Calls f(index, drive) for each drive on a body, per unit mass.
 template <class F>
@@ -83,9 +86,11 @@ private:
 
 /// The largest effects of the drives on a body in a run and in one with finer steps.
 struct DriveEffect {
-    double run = 0;     ///< m
-    double fine = 0;    ///< m
-    double extent = 0;  ///< m, the largest distance from the start in the run with finer steps
+    double run = 0;      ///< m
+    double fine = 0;     ///< m, at the same times
+    double between = 0;  ///< m, of the run with finer steps at all times
+    double extent = 0;   ///< m, the largest distance from the start in the run with finer steps
+    double time = 0;     ///< s, of the runs
 
     /// By a tenth of the effect, and a twentieth of the motion.
     [[nodiscard]] bool is_wrong() const {
@@ -101,7 +106,9 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
     const double dt = steps.rate.dt();
     const double limit = most_parts / (fine_steps * dt);
     const double per_step = std::ceil(fine_steps * highest_frequency(bodies, limit) * dt);
-    const auto parts = static_cast<std::int64_t>(std::clamp(per_step, 4.0, most_parts));
+    const auto parts = steps_per_sample *
+                       static_cast<std::int64_t>(std::clamp(std::ceil(per_step / steps_per_sample),
+                                                            2.0, most_parts / steps_per_sample));
     const double work = static_cast<double>(parts) * static_cast<double>(bodies.size());
     const std::int64_t count =
         std::min(steps.count, static_cast<std::int64_t>(std::max(most_work / work, 16.0)));
@@ -111,15 +118,21 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
     fine.average_from(limit, static_cast<double>(steps.first) * dt);
     std::vector<DriveEffect> effects(bodies.size());
     for (std::int64_t tick = steps.first; tick < steps.first + count; ++tick) {
-        if (!run.step(method, {steps.rate, tick, 1, steps.damping}) ||
-            !fine.step(method, {fine_rate, tick * parts, parts, steps.damping}))
-            return {};
+        if (!run.step(method, {steps.rate, tick, 1, steps.damping})) return {};
+        for (std::int64_t part = 0; part < parts; part += steps_per_sample) {
+            if (!fine.step(method,
+                           {fine_rate, tick * parts + part, steps_per_sample, steps.damping}))
+                return {};
+            for (std::size_t row = 0; row < effects.size(); ++row)
+                effects[row].between = std::max(effects[row].between, fine.effect(row));
+        }
         for (std::size_t row = 0; row < effects.size(); ++row) {
             DriveEffect& one = effects[row];
             one.run = std::max(one.run, run.effect(row));
             one.fine = std::max(one.fine, fine.effect(row));
             one.extent =
                 std::max({one.extent, one.fine, length(fine.position(row) - bodies.position(row))});
+            one.time = static_cast<double>(tick + 1 - steps.first) * dt;
         }
     }
     return effects;
@@ -148,28 +161,55 @@ std::string remedy_of(const Bodies& bodies, std::size_t row, double frequency, c
     return fmt::format("no rate up to {:.0f} Hz follows it: lower its frequency", highest_rate);
 }
 
+/// The bodies with drives and those that are linked with them, with their rows.
+struct Driven {
+    Bodies bodies;
+    std::vector<std::size_t> rows{};
+};
+
+Driven driven_of(const Bodies& bodies) {
+    const std::vector<std::size_t> labels = component_labels(bodies);
+    std::vector<bool> is_driven(bodies.size());
+    Driven driven{bodies};
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        driven.rows.push_back(row);
+        if (drive_frequency(bodies, row) > 0) is_driven[labels[row]] = true;
+    }
+    for (std::size_t i = bodies.size(); i-- > 0;) {
+        if (is_driven[labels[i]]) continue;
+        driven.bodies.remove(i);
+        driven.rows[i] = driven.rows.back();
+        driven.rows.pop_back();
+    }
+    return driven;
+}
+
 }  // namespace
 
 void add_drive_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                      std::vector<Risk>& risks) {
     constexpr std::size_t most_bodies = 2000;
     constexpr std::int64_t most_steps = 512;
-    if (std::holds_alternative<ExactFlow>(method.rule) || bodies.size() > most_bodies) return;
+    if (std::holds_alternative<ExactFlow>(method.rule)) return;
     if (!any_body_has(bodies, []<class Force>() { return std::is_same_v<Force, Drive>; })) return;
     const double dt = steps.rate.dt();
     if (highest_frequency(bodies, INFINITY) * dt * enough_steps <= 1) return;
+    const auto [driven, rows] = driven_of(bodies);
+    if (driven.size() > most_bodies) return;
     const Steps tried{steps.rate, steps.first, most_steps, steps.damping};
-    const std::vector<DriveEffect> effects = drive_effects(bodies, method, tried);
+    const std::vector<DriveEffect> effects = drive_effects(driven, method, tried);
     for (std::size_t row = 0; row < effects.size(); ++row) {
-        const double frequency = drive_frequency(bodies, row);
-        if (!(frequency * dt * enough_steps > 1) || !effects[row].is_wrong()) continue;
-        risks.push_back({.row = row,
-                         .of = Risk::Of::told,
-                         .message = fmt::format(
-                             "drive of body {{}}: {:.4g} Hz has {:.3g} steps per period and moves "
-                             "the body by {:.3g} m instead of {:.3g} m: {}",
-                             frequency, 1 / (frequency * dt), effects[row].run, effects[row].fine,
-                             remedy_of(bodies, row, frequency, method, tried))});
+        const DriveEffect& of = effects[row];
+        const double frequency = drive_frequency(driven, row);
+        if (!(frequency * dt * enough_steps > 1) || !of.is_wrong()) continue;
+        risks.push_back(
+            {.row = rows[row],
+             .of = Risk::Of::told,
+             .message = fmt::format(
+                 "drive of body {{}}: {:.4g} Hz has {:.3g} steps per period and moves the body by "
+                 "{:.3g} m in {:.3g} s instead of {:.3g} m: {}",
+                 frequency, 1 / (frequency * dt), of.run, of.time, of.between,
+                 remedy_of(driven, row, frequency, method, tried))});
     }
 }
 
