@@ -194,6 +194,41 @@ TEST(DivergingNet, IsWarnedOfWithBothEndsOfTheLink) {
               link_of_2_and_1);
 }
 
+// explicit_euler multiplies a velocity by 1 − c·|v|·dt, which turns it from 1 on. The limit is that
+// of any speed, and a higher rate helps from the start.
+TEST(QuadraticDrag, ThatDivergedNamesTheLimitOfTheMethod) {
+    const auto line_of = [](const char* method, double speed) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add({.velocity = {speed}}, QuadraticDrag{1});
+        return line_of_error(Exit::diverged, [&] {
+            for (std::int64_t tick = 0; tick < 100; ++tick)
+                explained_step(bodies, find_method(method), {rate, tick, 1});
+        });
+    };
+    const std::string remedy = ": take a higher rate, or implicit_euler";
+    for (const double speed : {200.0, 1000.0, 3000.0}) {
+        const std::string line = line_of("explicit_euler", speed);
+        EXPECT_TRUE(holds(line, remedy)) << line;
+        EXPECT_TRUE(holds(line, "not finite") || holds(line, "needs < 1:")) << line;
+        const std::string classic = line_of("rk4", speed);
+        EXPECT_TRUE(holds(classic, remedy)) << classic;
+    }
+}
+
+// A chain whose springs turn is tried with no method once its state is not finite.
+TEST(CoilChain, ThatDivergedNamesNoMethod) {
+    Bodies bodies(2, Precision::double_);
+    bodies.set_gravity({0, -10});
+    for (int i = 0; i < 8; ++i) bodies.add({.position = {1.0 + i, 0}});
+    bodies.link_to_point(0, {}, {.stiffness = 100'000, .rest_length = 1});
+    for (std::size_t i = 1; i < 8; ++i)
+        bodies.link(i, i - 1, {.stiffness = 100'000, .rest_length = 1});
+    const std::string line = line_of_error(Exit::diverged, [&] {
+        explained_step(bodies, find_method("rk4"), {rate, 0, 10'000});
+    });
+    EXPECT_TRUE(holds(line, "take a higher rate, or another method")) << line;
+}
+
 /// A body 25 cm from the centre that moves straight at it with 25 cm per step.
 Bodies falling_in(Precision precision) {
     Bodies bodies(1, precision);

@@ -9,6 +9,7 @@
 #include "oiler/sim/bodies.hpp"
 #include "oiler/stability/stability.hpp"
 #include "support/dice.hpp"
+#include "support/explained_step.hpp"
 #include "support/springs.hpp"
 #include "support/test.hpp"
 
@@ -302,6 +303,28 @@ TEST(RandomSprings, AreWarnedOfIfTheyExplode) {
     }
     EXPECT_GT(exploding, campaign_length() / 4);
     EXPECT_LT(exploding, campaign_length() * 9 / 10);
+}
+
+// velocity_verlet from x = 0 reaches v/ω/√(1 − (ω·dt/2)²): a hundred times as far just below its
+// limit of 2, which is told in as many digits as differ, with a rate that stays below.
+TEST(SpringWarning, TellsTheEdgeOfStability) {
+    const Method& verlet = find_method("velocity_verlet");
+    const auto growth = [](double k, double hertz) {
+        return 1 / std::sqrt(1 - k / (hertz * hertz) / 4);
+    };
+    for (const double k : {14399.0, 14399.5, 4 * 75.0 * 75, 2.025e9}) {
+        Bodies bodies(1, Precision::double_);
+        bodies.add({.velocity = {1}}, Spring{.stiffness = k});
+        const auto lines = warnings(bodies, verlet, {60});
+        ASSERT_EQ(lines.size(), 1U) << k;
+        const std::int64_t named = rate_in(lines[0]);
+        EXPECT_GT(named, 60) << lines[0];
+        EXPECT_LT(growth(k, static_cast<double>(named)), 100) << lines[0];
+        EXPECT_FALSE(growth(k, static_cast<double>(named - 1)) < 100) << lines[0];
+        EXPECT_TRUE(warnings(bodies, verlet, {named}).empty()) << k;
+        EXPECT_LT(number_after(lines[0], "needs < "), number_after(lines[0], "ω·dt = "));
+    }
+    EXPECT_GT(growth(14399, 60), 100);
 }
 
 }  // namespace

@@ -23,6 +23,13 @@ inline std::vector<std::string> warnings(const Bodies& bodies, const Method& met
     return lines;
 }
 
+/// The number after some words.
+inline double number_after(const std::string& line, const std::string& words) {
+    const std::size_t at = line.find(words);
+    EXPECT_NE(at, std::string::npos) << words << ": " << line;
+    return at == std::string::npos ? NAN : std::stod(line.substr(at + words.size()));
+}
+
 /// The n of "… rate ≥ n Hz …".
 inline std::int64_t rate_in(const std::string& line) {
     const std::string before = "rate ≥ ";

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The pre-flight's lines about runs that hold, but show another motion than the true one.
-#include <numbers>
-#include <regex>
-
 #include "oiler/sim/bodies.hpp"
 #include "oiler/world/world.hpp"
+#include "support/explained_step.hpp"
 #include "support/test.hpp"
 
 namespace oiler::test {
 namespace {
-
-/// The number in front of a unit, after some words.
-double number_after(const std::string& line, const std::string& words) {
-    std::smatch match;
-    const bool found = std::regex_search(line, match, std::regex(words + R"(([-+.e0-9]+))"));
-    EXPECT_TRUE(found) << words << ": " << line;
-    return found ? std::stod(match[1]) : NAN;
-}
 
 World on_a_spring(const char* method, std::int64_t hertz, double omega, double damping = 0) {
     World world(1, {.method = &find_method(method), .rate = {hertz}});

@@ -28,28 +28,37 @@ std::string describe_subject(const Risk& risk, const NameOfRow& name) {
                        name(risk.row));
 }
 
-std::string describe_measure(const Risk& risk) {
+std::string describe_measure(const Risk& risk, int digits = 4) {
     switch (risk.of) {
         case Risk::Of::quadratic_drag:
-            return fmt::format("c·|v|·dt = {:.4g} at {:.4g} m/s", risk.damping_dt, risk.at);
+            return fmt::format("c·|v|·dt = {:.{}g} at {:.4g} m/s", risk.damping_dt, digits,
+                               risk.at);
         case Risk::Of::terminal_speed:
-            return fmt::format("2·c·|v|·dt = {:.4g} at the terminal speed of {:.4g} m/s",
-                               risk.damping_dt, risk.at);
+            return fmt::format("2·c·|v|·dt = {:.{}g} at the terminal speed of {:.4g} m/s",
+                               risk.damping_dt, digits, risk.at);
         case Risk::Of::attractor:
-            return fmt::format("ω·dt = {:.4g} at {:.4g} m", risk.omega_dt, risk.at);
+            return fmt::format("ω·dt = {:.{}g} at {:.4g} m", risk.omega_dt, digits, risk.at);
         case Risk::Of::periapsis:
-            return fmt::format("ω·dt = {:.4g} at the closest point of the orbit, {:.4g} m",
-                               risk.omega_dt, risk.at);
+            return fmt::format("ω·dt = {:.{}g} at the closest point of the orbit, {:.4g} m",
+                               risk.omega_dt, digits, risk.at);
         default:
             break;
     }
     const bool oscillates = risk.omega_dt > 0;
     const bool is_bound = risk.linked || !risk.oscillations.empty();
-    return fmt::format("{} {} {:.4g}", oscillates ? "ω·dt" : "c·dt", is_bound ? "up to" : "=",
-                       oscillates ? risk.omega_dt : risk.damping_dt) +
+    return fmt::format("{} {} {:.{}g}", oscillates ? "ω·dt" : "c·dt", is_bound ? "up to" : "=",
+                       oscillates ? risk.omega_dt : risk.damping_dt, digits) +
            (oscillates && risk.damping_dt > 0
                 ? fmt::format(" (ζ = {:.3g})", risk.damping_dt / (2 * risk.omega_dt))
                 : std::string());
+}
+
+/// As many digits as tell two numbers apart, from 4 on.
+int digits_between(double a, double b) {
+    int digits = 4;
+    while (digits < 12 && fmt::format("{:.{}g}", a, digits) == fmt::format("{:.{}g}", b, digits))
+        ++digits;
+    return digits;
 }
 
 std::string describe_rounding(const Risk& risk, const NameOfRow& name) {
@@ -80,9 +89,8 @@ std::string describe_without_rate(const Risk& risk, const NameOfRow& name) {
     if (is_rounding(risk)) return describe_rounding(risk, name);
     if (risk.of == Risk::Of::quadratic_drag)
         return fmt::format(
-            "quadratic drag of body {}: c·|v|·dt is not finite: take a higher rate, or "
-            "implicit_euler",
-            name(risk.row));
+            "quadratic drag of body {}: c·|v|·dt is not finite: take a higher rate, or {}",
+            name(risk.row), risk.remedy ? risk.remedy->name : "another method");
     return fmt::format(
         "attractor of body {}: the orbit leads into its centre, which no rate resolves: give the "
         "body another position or velocity",
@@ -115,6 +123,17 @@ std::string describe_explosion(const Risk& risk, const Method& method, const Ste
                        remedy_for(limit_of(risk, method, steps), risk, method, steps));
 }
 
+/// The drag of a run that has diverged: no rate holds its present speed.
+std::string describe_grown_drag(const Risk& risk, const Method& method, const Steps& steps,
+                                const NameOfRow& name) {
+    const double limit = quadratic_drag_limit(method, steps.damping.value_or(method.damping));
+    const std::string needs =
+        std::isfinite(limit) ? fmt::format(", {} needs < {:.4g}", method.name, limit) : "";
+    return fmt::format("{}: {}{}: take a higher rate, or {}", describe_subject(risk, name),
+                       describe_measure(risk), needs,
+                       risk.remedy ? risk.remedy->name : "another method");
+}
+
 std::string likely_cause(const Bodies& bodies, const Divergence& at, const Method& method,
                          const Steps& steps, const NameOfRow& name) {
     const std::string by_default = "take a higher rate, or another method";
@@ -133,6 +152,8 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     const Risk& cause = own == risks.end() ? risks.front() : *own;
     // The orbit of a body that hit its attractor is no longer known.
     if (is_attraction(cause) && !std::isfinite(cause.omega_dt)) return by_default;
+    if (cause.of == Risk::Of::quadratic_drag && std::isfinite(cause.damping_dt))
+        return describe_grown_drag(cause, method, steps, name);
     return describe(cause, method, steps, name);
 }
 
@@ -145,12 +166,21 @@ bool is_borne(const Risk& risk, const std::vector<Risk>& present) {
            });
 }
 
-/// Whether a method steps the bodies without a risk that makes a run unusable. The orbits of a run
-/// that has diverged are not known.
+/// Whether bodies have springs whose forces turn, or are attracted: only a trial shows whether a
+/// method holds them.
+bool needs_trial(const Bodies& bodies) {
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).rest_length != 0) return true;
+    return any_body_has(bodies, []<class Force>() {
+        return LineSpring<Force> || std::is_same_v<Force, Attractor>;
+    });
+}
+
+/// Whether a method steps the bodies without a risk that makes a run unusable. A run that has
+/// diverged is not tried.
 bool is_remedy(const Bodies& bodies, const Method& method, const Steps& steps,
                const std::vector<Risk>& present) {
-    const auto attracts = []<class Force>() { return std::is_same_v<Force, Attractor>; };
-    if (!is_finite(bodies)) return !any_body_has(bodies, attracts);
+    if (!is_finite(bodies)) return !needs_trial(bodies);
     return std::ranges::all_of(find_risks(bodies, method, {steps.rate, steps.first, steps.count}),
                                [&](const Risk& risk) { return is_borne(risk, present); });
 }
@@ -171,7 +201,7 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
             risk.scene = scene ? scene : scene = std::make_shared<const Bodies>(bodies);
     for (const char* name : {"implicit_midpoint", "implicit_euler"}) {
         const auto helps = [&](const Risk& risk) {
-            return risk.of != Risk::Of::told && !is_attraction(risk) &&
+            return risk.of != Risk::Of::told && !is_attraction(risk) && !is_rounding(risk) &&
                    std::string_view(remedy_of(risk)) == name && method.name != name;
         };
         if (std::ranges::none_of(risks, helps)) continue;
@@ -185,23 +215,24 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
 
 std::string describe(const Risk& risk, const Method& method, const Steps& steps,
                      const NameOfRow& name) {
-    if (risk.of == Risk::Of::told)
+    if (!risk.message.empty())
         return fmt::format(fmt::runtime(risk.message), name(risk.row),
                            risk.linked ? name(*risk.linked) : 0);
     if (risk.of == Risk::Of::explosion) return describe_explosion(risk, method, steps, name);
     if (!(size(risk) > 0) || !std::isfinite(size(risk))) return describe_without_rate(risk, name);
     if (risk.orbit) return describe_loss(risk, method, steps, name);
     const std::string who = describe_subject(risk, name);
-    const std::string measure = describe_measure(risk);
     const double limit = limit_of(risk, method, steps);
+    const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
+    const int digits = digits_between(measured, limit * measured);
+    const std::string measure = describe_measure(risk, digits);
     if (limit == 0)
         return fmt::format(
             "{}: {}, {} gains energy at any rate: take another method, for example "
             "velocity_verlet",
             who, measure, method.name);
-    const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
-    return fmt::format("{}: {}, {} needs < {:.4g}: {}", who, measure, method.name, limit * measured,
-                       remedy_for(limit, risk, method, steps));
+    return fmt::format("{}: {}, {} needs < {:.{}g}: {}", who, measure, method.name,
+                       limit * measured, digits, remedy_for(limit, risk, method, steps));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,

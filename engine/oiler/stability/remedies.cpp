@@ -48,6 +48,29 @@ std::optional<double> rate_above(double limit, const Risk& risk, const Method& m
     return std::nullopt;
 }
 
+/// A method that steps the risk's bodies at the rate, if neither a rate nor an implicit one does.
+std::string other_remedy(const Risk& risk, const Method& method, const Steps& steps) {
+    if (!is_finite(*risk.scene)) return "take another method";
+    const Bodies island = island_of(*risk.scene, risk.row);
+    for (const char* name : {"velocity_verlet", "rk4", "pefrl", "blanes_moan_srkn6b"})
+        if (name != method.name &&
+            holds(island, find_method(name), {steps.rate, steps.first, steps.count}))
+            return fmt::format("take {}", name);
+    return "no rate or method that was tried holds: give the body another position or velocity, or "
+           "weaker forces";
+}
+
+/// The limit of a body at which its linear drag does not throw it back either.
+double lower_for_drag(double limit, const Risk& risk, const Method& method, const Steps& steps) {
+    if (!(limit > 0) || !std::isfinite(limit) || risk.linked || risk.component) return limit;
+    if (!risk.scene || !is_linear(*risk.scene) || risk.scene->linked_rows()[risk.row]) return limit;
+    const Steps shorter{scaled_rate(steps.rate, limit * (1 - 1e-9)), 0, 1, steps.damping};
+    Region region(method, steps.damping.value_or(method.damping));
+    std::vector<Risk> thrown;
+    add_drag_risks(alone(*risk.scene, risk.row, Precision::double_), region, shorter, thrown);
+    return thrown.empty() ? limit : limit * drag_limit(thrown.front(), method, shorter);
+}
+
 }  // namespace
 
 bool is_attraction(const Risk& risk) {
@@ -64,7 +87,8 @@ double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     if (risk.of == Risk::Of::quadratic_drag || risk.of == Risk::Of::linear_drag)
         return drag_limit(risk, method, steps);
     if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate);
-    return spring_limit(risk, method, damping, steps.rate.dt());
+    return lower_for_drag(spring_limit(risk, method, damping, steps.rate.dt()), risk, method,
+                          steps);
 }
 
 std::string remedy_for(double limit, const Risk& risk, const Method& method, const Steps& steps) {
@@ -74,7 +98,8 @@ std::string remedy_for(double limit, const Risk& risk, const Method& method, con
     const std::optional<double> rate = rate_above(limit, risk, method, steps);
     if (is_attraction(risk) && !rate && !risk.remedy)
         return "give the body another position or velocity";
-    if (!risk.remedy) return rate ? fmt::format("rate ≥ {:.0f} Hz", *rate) : "take another method";
+    if (!risk.remedy)
+        return rate ? fmt::format("rate ≥ {:.0f} Hz", *rate) : other_remedy(risk, method, steps);
     return rate ? fmt::format("rate ≥ {:.0f} Hz, or {}", *rate, risk.remedy->name)
                 : fmt::format("take {}", risk.remedy->name);
 }

@@ -204,6 +204,18 @@ ScaledOscillation largest_of(const std::vector<OwnMotion>& own, double dt) {
     return largest;
 }
 
+/// The factor below a limit at which the region contains all oscillations: on the edge of stability
+/// amplitudes grow a hundredfold.
+double inner_limit(double limit, const std::vector<ScaledOscillation>& all, Region& region) {
+    const auto is_inside = [&](double factor) {
+        return std::ranges::all_of(all, [&](const ScaledOscillation& of) {
+            return region.contains({of.omega_dt * factor, of.damping_dt * factor});
+        });
+    };
+    if (is_inside(limit * (1 - 1e-9)) || !is_inside(0.99 * limit)) return limit;
+    return edge_between(0.99 * limit, limit, 1e-9, is_inside);
+}
+
 }  // namespace
 
 void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks) {
@@ -246,7 +258,7 @@ double spring_limit(const Risk& risk, const Method& method, Damping damping, dou
             limit =
                 std::min(limit, stability_limit(method, damping, unit_oscillation(of)) / size(of));
     }
-    return limit;
+    return std::isfinite(limit) ? inner_limit(limit, all, region) : limit;
 }
 
 }  // namespace oiler
