@@ -330,5 +330,34 @@ TEST(PointWarning, IsGivenForLinks) {
     EXPECT_TRUE(warnings(without_length, verlet, rate).empty());
 }
 
+// ---- swings
+
+Bodies on_a_lift(double period, bool solid, std::optional<Contact> contact) {
+    Bodies bodies(2, Precision::double_);
+    bodies.set_gravity({0, -10});
+    bodies.add_obstacle({.shape = BoxShape{.size = {4, 1}},
+                         .swing = Swing{.way = {0, 0.2}, .period = period},
+                         .solid = solid});
+    bodies.add({.position = {0, 0.5}, .contact = contact});
+    return bodies;
+}
+
+// A sine that is sampled twice per period may be 0 at all samples.
+TEST(SwingWarning, IsGivenUpToTwoStepsPerPeriod) {
+    for (const double steps : {0.5, 1.0, 1.5, 2.0, 2.1, 3.0, 48.0}) {
+        const Bodies bodies = on_a_lift(steps / 60, true, Contact{});
+        const auto lines = lines_of(bodies);
+        ASSERT_EQ(lines.size(), steps <= 2 ? 1U : 0U) << steps;
+        if (lines.empty()) continue;
+        EXPECT_TRUE(holds(lines[0], fmt::format("the box at (0, 0) swings with {:.3g} steps per "
+                                                "period",
+                                                steps)));
+        EXPECT_EQ(rate_in(lines[0]), std::llround(std::ceil(4 * 60 / steps)));
+        EXPECT_TRUE(warnings(bodies, find_method("velocity_verlet"), {rate_in(lines[0])}).empty());
+    }
+    EXPECT_TRUE(lines_of(on_a_lift(1.0 / 60, false, Contact{})).empty());
+    EXPECT_TRUE(lines_of(on_a_lift(1.0 / 60, true, std::nullopt)).empty());
+}
+
 }  // namespace
 }  // namespace oiler::test

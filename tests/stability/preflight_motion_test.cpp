@@ -73,6 +73,22 @@ TEST(DragWarning, IsGivenIfAStepThrowsTheBodyBack) {
     }
 }
 
+// Explicit Euler multiplies the velocity by 1 − c·dt, which is stable up to 2 and turns from 1 on.
+TEST(DragWarning, NamesARateThatThrowsNothingBack) {
+    const Method& euler = find_method("explicit_euler");
+    for (const double c : {90.0, 121.0, 200.0, 1000.0}) {
+        Bodies slowed(1, Precision::double_);
+        slowed.add({.velocity = {1}}, LinearDrag{c});
+        const auto lines = warnings(slowed, euler, {60});
+        ASSERT_EQ(lines.size(), 1U) << c;
+        EXPECT_TRUE(holds(lines[0], "explicit_euler needs < 1:")) << lines[0];
+        const auto named = static_cast<double>(rate_in(lines[0]));
+        EXPECT_GT(1 - c / named, 0) << lines[0];
+        EXPECT_LE(1 - c / (named - 1), 0) << lines[0];
+        EXPECT_TRUE(warnings(slowed, euler, {rate_in(lines[0])}).empty()) << c;
+    }
+}
+
 // Nothing is thrown back that does not move, and the true motion of a soft spring turns.
 TEST(DragWarning, IsNotGivenIfNothingIsThrownBack) {
     const Method& euler = find_method("semi_implicit_euler");
@@ -328,6 +344,67 @@ TEST(RandomOrbits, AreWarnedOfIfTheBodyIsLost) {
     }
     EXPECT_GT(lost_runs, campaign_length() / 5);
     EXPECT_LT(lost_runs, campaign_length() * 4 / 5);
+}
+
+/// The energy of a long run relative to its first, at the farthest place of each revolution.
+double worst_energy(const Orbit& orbit, const Method& method, std::int64_t hertz,
+                    double revolutions) {
+    Bodies bodies(2, Precision::double_);
+    bodies.add({.position = orbit.r, .velocity = orbit.v}, Attractor{.gm = orbit.gm});
+    double worst = 0;
+    const double steps = revolutions * orbit.period() * static_cast<double>(hertz);
+    for (std::int64_t tick = 0; static_cast<double>(tick) < steps; ++tick) {
+        if (bodies.try_step(method, {{hertz}, tick})) return INFINITY;
+        const Orbit now{{}, bodies.position(0), bodies.velocity(0), orbit.gm};
+        if (length(now.r) > orbit.farthest() / 2)
+            worst = std::max(worst, std::abs(now.energy() / orbit.energy() - 1));
+    }
+    return worst;
+}
+
+// A body that falls almost straight into the centre has thousands of steps per revolution, and few
+// at its closest point, which decide: a rate that is named holds it for as many revolutions as this
+// test has time for, or none is named.
+TEST(AttractorWarning, NamesARateThatHoldsLongEllipses) {
+    int named = 0;
+    int without = 0;
+    for (const char* name : {"velocity_verlet", "rk4"})
+        for (const double across : {0.3, 0.2, 0.1, 0.05, 0.02, 0.01}) {
+            const Orbit orbit{{}, {1.97, 0, 0}, {0, across, 0}, 1};
+            Bodies bodies(2, Precision::double_);
+            bodies.add({.position = orbit.r, .velocity = orbit.v}, Attractor{.gm = 1});
+            const Method& method = find_method(name);
+            const auto lines = warnings(bodies, method, {60});
+            if (lines.empty()) {
+                EXPECT_LT(worst_energy(orbit, method, 60, 100), 0.5) << name << across;
+                continue;
+            }
+            const std::size_t at = lines[0].find("rate ≥ ");
+            without += at == std::string::npos;
+            if (at == std::string::npos) {
+                EXPECT_TRUE(holds(lines[0], "another position or velocity") ||
+                            holds(lines[0], "velocity_verlet"));
+                continue;
+            }
+            const std::int64_t hertz = rate_in(lines[0]);
+            const double revolutions = std::min(100.0, 2e6 / static_cast<double>(hertz) / 6.3);
+            EXPECT_LT(worst_energy(orbit, method, hertz, revolutions), 0.5) << lines[0];
+            ++named;
+        }
+    EXPECT_GT(named, 2) << without;
+}
+
+// The silent rates of a body that passes at 0.2 mm: its energy changes by half within some
+// revolutions.
+TEST(AttractorWarning, IsGivenAtRatesThatFlingTheBodyOut) {
+    for (const auto& [across, hertz] : {std::pair(0.02, 65'034), std::pair(0.01, 71'538)}) {
+        const Orbit orbit{{}, {1.97, 0, 0}, {0, across, 0}, 1};
+        Bodies bodies(2, Precision::double_);
+        bodies.add({.position = orbit.r, .velocity = orbit.v}, Attractor{.gm = 1});
+        const Method& verlet = find_method("velocity_verlet");
+        EXPECT_GT(worst_energy(orbit, verlet, hertz, 3.3), 0.5) << across;
+        EXPECT_EQ(warnings(bodies, verlet, {hertz}).size(), 1U) << across;
+    }
 }
 
 // ---- positions in float

@@ -40,11 +40,25 @@ bool drifts(const Method& method, Damping damping) {
     return std::abs(spectral_radius(step_matrices(method, damping, {&slow, 1}).front()) - 1) > 1e-8;
 }
 
+constexpr double revolutions = 100;
+
+/// The revolution in which the changes of energy in passages of the closest point add up to half
+/// of the energy: their mean each time, and their deviation as a random walk.
+std::optional<double> lost_by_passages(const Orbit& orbit, const Method& method, Damping damping,
+                                       const Rate& rate) {
+    const auto error = passage_error(orbit, method, damping, rate);
+    if (!error) return std::nullopt;
+    for (double count = 1; count <= revolutions; ++count)
+        if (!(std::abs(error->mean) * count + error->deviation * std::sqrt(count) < 0.5))
+            return count;
+    return std::nullopt;
+}
+
 /// Runs 100 revolutions of an orbit that returns, at most 200,000 steps, and returns the revolution
 /// in which the body leaves an orbit of that size: its energy changes by half of the initial
-/// energy. A method whose energy drifts may change it by a thousandth per revolution. No local
-/// frequency decides that: steps that are too long scatter the body by chance. Adds the cost in
-/// steps to `cost`.
+/// energy. Passages stand for the revolutions that are left. A method whose energy drifts may
+/// change it by a thousandth per revolution. No local frequency decides that: steps that are too
+/// long scatter the body by chance. Adds the cost in steps to `cost`.
 std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, Damping damping,
                                       const Rate& rate, double& cost) {
     Bodies bodies(3, Precision::double_);
@@ -53,7 +67,7 @@ std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, 
     const double price = is_implicit(method) ? 8 : 1;
     const double per_revolution = orbit.period() / rate.dt();
     const auto stride = static_cast<std::int64_t>(std::max(1.0, per_revolution / 1000));
-    const double most = std::min(100 * per_revolution, 200'000 / price);
+    const double most = std::min(revolutions * per_revolution, 200'000 / price);
     const double tolerance =
         drifts(method, damping) ? std::min(most / per_revolution / 1000, 0.5) : 0.5;
     std::int64_t inside = 0;
@@ -68,7 +82,8 @@ std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, 
         if (inside == 0 && std::abs(now.energy() / orbit.energy() - 1) >= tolerance)
             return revolution;
     }
-    return std::nullopt;
+    const bool is_whole = most >= revolutions * per_revolution;
+    return is_whole ? std::nullopt : lost_by_passages(orbit, method, damping, rate);
 }
 
 /// The attractors of a body, and whether they are all that moves it.
@@ -203,7 +218,14 @@ std::string rate_for(const Orbit& orbit, const Method& method, const Steps& step
         if (!wrong_farthest(orbit, method, tried) && follows(orbit, method, damping, tried.rate))
             return fmt::format("rate ≥ {:.0f} Hz", hertz);
     }
-    return "take another method";
+    for (const char* name : {"velocity_verlet", "rk4", "blanes_moan_srkn6b"}) {
+        const Method& other = find_method(name);
+        if (!wrong_farthest(orbit, other, {steps.rate}) &&
+            follows(orbit, other, other.damping, steps.rate))
+            return fmt::format("take {}", name);
+    }
+    return "no rate or method that was tried follows it: give the body another position or "
+           "velocity";
 }
 
 }  // namespace

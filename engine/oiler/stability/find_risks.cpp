@@ -7,23 +7,44 @@
 
 namespace oiler {
 
+namespace {
+
+/// Adds the body in a row with its forces, as a body of `mass`.
+void add_row(const Bodies& from, std::size_t row, const Body& body, Bodies& to) {
+    const std::size_t added = to.add(body);
+    for (std::size_t i = 0; i < from.most_forces_of_a_kind(); ++i)
+        for_each_given(from.forces_per_mass(row, i), [&]<class Force>(const Force& force) {
+            if constexpr (BodyForce<Force>)
+                to.attach_at(i, added, force.per_unit_mass(1 / body.mass));
+            else
+                to.set_gravity(force.acceleration);
+        });
+}
+
+}  // namespace
+
 Bodies alone(const Bodies& bodies, std::size_t row, Precision precision) {
     Bodies copy(bodies.axes(), precision);
-    for (std::size_t i = 0; i < std::max<std::size_t>(1, bodies.most_forces_of_a_kind()); ++i) {
-        GivenForces forces = bodies.forces_per_mass(row, i);
-        auto& gravity = std::get<std::optional<Gravity>>(forces);
-        if (gravity) copy.set_gravity(gravity->acceleration);
-        gravity.reset();
-        if (i == 0)
-            copy.add({.position = bodies.position(row), .velocity = bodies.velocity(row)}, forces);
+    add_row(bodies, row, {.position = bodies.position(row), .velocity = bodies.velocity(row)},
+            copy);
+    return copy;
+}
+
+Bodies in_double(const Bodies& bodies) {
+    Bodies copy(bodies.axes(), Precision::double_);
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        add_row(bodies, row,
+                {bodies.mass(row), bodies.position(row), bodies.velocity(row), bodies.contact(row)},
+                copy);
+    for (std::size_t i = 0; i < bodies.link_count(); ++i) {
+        const auto [one, other, point] = bodies.link_ends(i);
+        if (other)
+            copy.link(one, *other, bodies.link_at(i));
         else
-            std::apply(
-                [&](const auto& skipped, const auto&... force) {
-                    static_cast<void>(skipped);
-                    ((force ? copy.attach_at(i, 0, *force) : void()), ...);
-                },
-                forces);
+            copy.link_to_point(one, point, bodies.link_at(i));
     }
+    for (const ObstacleHandle handle : bodies.obstacles())
+        copy.add_obstacle(bodies.obstacle(handle));
     return copy;
 }
 
@@ -45,12 +66,13 @@ std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const S
     const bool finite = is_finite(bodies);
     if (finite && risks.empty()) add_trial_risks(bodies, region, steps, risks);
     const bool holds = risks.empty();
+    add_resolution_risks(bodies, risks);
     add_rounding_risks(bodies, method, steps, risks);
     if (finite) {
         if (holds) add_drive_risks(bodies, method, steps, risks);
         add_point_risks(bodies, method, steps, risks);
         add_contact_risks(bodies, method, steps, risks);
-        add_obstacle_risks(bodies, risks);
+        add_obstacle_risks(bodies, steps.rate, risks);
     }
     std::stable_sort(risks.begin(), risks.end(),
                      [](const Risk& a, const Risk& b) { return size(a) > size(b); });

@@ -54,9 +54,34 @@ bool is_segment(const Obstacle& obstacle) {
     return std::holds_alternative<SegmentShape>(obstacle.shape);
 }
 
+/// A swing of two steps or less per period, which moves between steps alone.
+std::string fast_swing(const Obstacle& obstacle, const Rate& rate, int axes) {
+    constexpr double enough = 4;
+    const double steps_per_period = obstacle.swing->period / rate.dt();
+    if (!(steps_per_period <= 2 * (1 + 1e-9))) return {};
+    const double hertz = std::ceil(enough / obstacle.swing->period * (1 - 1e-9));
+    return fmt::format(
+        "{} swings with {:.3g} steps per period, and bodies on it may leave it late or not at all: "
+        "{}",
+        describe(obstacle.shape, axes), steps_per_period,
+        hertz <= highest_rate ? fmt::format("rate ≥ {:.0f} Hz", hertz) : "give it a longer period");
+}
+
+void add_swing_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk>& risks) {
+    if (!meets_obstacles(bodies)) return;
+    for (const ObstacleHandle handle : bodies.obstacles()) {
+        const Obstacle one = bodies.obstacle(handle);
+        if (!one.solid || !one.swing || squared_length(one.swing->way) == 0) continue;
+        std::string message = fast_swing(one, rate, bodies.axes());
+        if (!message.empty())
+            risks.push_back({.row = 0, .of = Risk::Of::told, .message = std::move(message)});
+    }
+}
+
 }  // namespace
 
-void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks) {
+void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk>& risks) {
+    add_swing_risks(bodies, rate, risks);
     // Of the numbers of the gap.
     const double hidden = bodies.precision() == Precision::single ? 1e-6 : 1e-9;
     const std::vector<Obstacle> obstacles = met_from_all_sides(bodies);

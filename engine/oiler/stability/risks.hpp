@@ -31,6 +31,10 @@ inline constexpr double highest_rate = StepClock::largest_rate;
 [[nodiscard]] bool meets_obstacles(const Bodies& bodies);
 /// A copy of one body with its forces, without links and contact, of 1 kg.
 [[nodiscard]] Bodies alone(const Bodies& bodies, std::size_t row, Precision precision);
+/// A copy in double, with links and obstacles.
+[[nodiscard]] Bodies in_double(const Bodies& bodies);
+/// The unit of the last place of a number, in its unit.
+[[nodiscard]] double last_place(double number, Precision precision);
 
 /// The risks without the methods that are a remedy. The state of a run that has diverged is not
 /// tried.
@@ -75,6 +79,16 @@ void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
 void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
                          std::vector<Risk>& risks);
 
+/// The change of an orbit's energy by one passage of its closest point, relative to its energy.
+struct PassageError {
+    double mean = 0;
+    double deviation = 0;  ///< the standard deviation
+};
+/// Tries 16 passages, which differ by the places of the steps; empty if the orbit is no long
+/// ellipse or a passage has more than 20,000 steps.
+[[nodiscard]] std::optional<PassageError> passage_error(const Orbit& orbit, const Method& method,
+                                                        Damping damping, const Rate& rate);
+
 /// Whether the method follows an orbit for 100 revolutions, or 200,000 steps if they are fewer.
 [[nodiscard]] bool follows(const Orbit& orbit, const Method& method, Damping damping,
                            const Rate& rate);
@@ -92,6 +106,14 @@ void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
 void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                         std::vector<Risk>& risks);
 
+/// Adds bodies whose coordinates have a last place that is longer than a tenth of the length of a
+/// spring, or that hides gaps of a tenth of the radius of contact. Of links the first is added.
+void add_resolution_risks(const Bodies& bodies, std::vector<Risk>& risks);
+
+/// The unit of the last place of a body's largest coordinate in float, m, if slow parts of its
+/// motion of the next second are shorter; else 0.
+[[nodiscard]] double coarse_unit(const Bodies& bodies, std::size_t row, double dt);
+
 /// Adds springs with a rest length whose ends are in one point and stay there: they have no
 /// direction, and no force.
 void add_point_risks(const Bodies& bodies, const Method& method, const Steps& steps,
@@ -103,8 +125,9 @@ void add_contact_risks(const Bodies& bodies, const Method& method, const Steps& 
                        std::vector<Risk>& risks);
 
 /// Adds bodies that start inside a circle, a segment or a box that is met from all sides, and
-/// points among segments. Of many bodies and obstacles only the first bodies are tried.
-void add_obstacle_risks(const Bodies& bodies, std::vector<Risk>& risks);
+/// points among segments. Of many bodies and obstacles only the first bodies are tried. Adds
+/// obstacles that swing with two steps or less per period.
+void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk>& risks);
 
 /// Adds bodies that a drive of more than an eighth of the rate moves otherwise than with finer
 /// steps: by 10 % of its effect and 5 % of the motion, within 512 steps.
@@ -136,7 +159,7 @@ void add_orbit_distortions(const Bodies& bodies, const Method& method, const Ste
 [[nodiscard]] bool keeps_shape(const Orbit& orbit, const Method& method, const Steps& steps);
 
 /// Adds the bodies in float that depart from a run in double by a tenth of their motion within 512
-/// steps, where the last place is not much shorter than their steps. Links are left out.
+/// steps, where the last place is not much shorter than their steps.
 void add_float_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
                            std::vector<Risk>& risks);
 

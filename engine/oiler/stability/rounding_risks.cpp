@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "oiler/core/error.hpp"
 #include "oiler/stability/risks.hpp"
@@ -11,12 +10,6 @@ namespace {
 
 /// The least relative error of a change that is warned of.
 constexpr double least_effect = 0.02;
-
-/// The unit of the last place of a float, in its unit.
-double last_place(double number) {
-    const auto at = static_cast<float>(std::abs(number));
-    return std::nextafter(at, std::numeric_limits<float>::infinity()) - at;
-}
 
 /// The parts of a step's change that a method adds one by one, each with a rounding of its own.
 struct AddedParts {
@@ -105,7 +98,11 @@ private:
         return {now_.state.x + (now_.state.v + v) * (time / 2), v};
     }
     [[nodiscard]] Risk risk(Risk::Of of, int axis, double number, double effect) const {
-        return {.row = row_, .of = of, .at = last_place(number), .axis = axis, .effect = effect};
+        return {.row = row_,
+                .of = of,
+                .at = last_place(number, Precision::single),
+                .axis = axis,
+                .effect = effect};
     }
     /// The largest of f(motion) over the time in which errors add up.
     template <class F>
@@ -119,7 +116,7 @@ private:
     }
 
     [[nodiscard]] double effect_on_position(int axis) const {
-        const double unit = last_place(now_.state.x[axis]);
+        const double unit = last_place(now_.state.x[axis], Precision::single);
         const double v = now_.state.v[axis];
         const double effect = effect_of(parts_.drifts, v * dt_, at(time_).v[axis] * dt_, unit);
         if (effect == 0) return 0;
@@ -138,7 +135,7 @@ private:
         return std::abs(motion_of(bodies_, row_, near, 0).acceleration[axis] - a) > std::abs(a) / 2;
     }
     [[nodiscard]] double effect_on_velocity(int axis) const {
-        const double unit = last_place(now_.state.v[axis]);
+        const double unit = last_place(now_.state.v[axis], Precision::single);
         const double a = now_.field[axis];
         const double effect = effect_of(parts_.kicks, a * dt_, a * dt_, unit);
         if (effect == 0) return 0;
@@ -162,69 +159,13 @@ void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps&
                         std::vector<Risk>& risks) {
     if (bodies.precision() != Precision::single) return;
     const AddedParts parts = parts_of(method);
-    for (std::size_t row = 0; row < bodies.size(); ++row)
+    std::vector<bool> is_known(bodies.size());
+    for (const Risk& risk : risks)
+        if (is_rounding(risk)) is_known[risk.row] = true;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (is_known[row]) continue;
         if (const auto risk = RowRounding(bodies, row, parts, steps.rate.dt()).find())
             risks.push_back(*risk);
-}
-
-namespace {
-
-/// A run of one body in float beside one in double.
-struct Departure {
-    double distance = 0;  ///< m, the largest between both
-    double time = 0;      ///< s, of that distance
-    double extent = 0;    ///< m, of the motion in double
-};
-
-Departure departure_of(const Bodies& bodies, std::size_t row, const Method& method,
-                       const Steps& steps) {
-    constexpr std::int64_t most_steps = 512;
-    const std::int64_t count = steps.count > 1 ? std::min(steps.count, most_steps) : most_steps;
-    Bodies single = alone(bodies, row, Precision::single);
-    Bodies exact = alone(bodies, row, Precision::double_);
-    const Vec3 start = exact.position(0);
-    Departure found;
-    for (std::int64_t tick = 0; tick < count; ++tick) {
-        const Steps step{steps.rate, steps.first + tick, 1, steps.damping};
-        if (single.try_step(method, step) || exact.try_step(method, step)) return {};
-        const double distance = length(single.position(0) - exact.position(0));
-        found.extent = std::max(found.extent, length(exact.position(0) - start));
-        if (distance > found.distance)
-            found = {distance, static_cast<double>(tick + 1) * steps.rate.dt(), found.extent};
-    }
-    return found;
-}
-
-/// The unit of the last place of a body's largest coordinate, m, if slow parts of its motion of the
-/// next second are shorter; else 0.
-double coarse_unit(const Bodies& bodies, std::size_t row, double dt) {
-    const State<double, 3> state{bodies.position(row), bodies.velocity(row)};
-    const double unit = last_place(largest(state.x));
-    const double speed =
-        length(state.v) + length(motion_of(bodies, row, state, 0).acceleration) * std::max(1.0, dt);
-    return unit > 0.01 * speed * dt ? unit : 0;
-}
-
-}  // namespace
-
-void add_float_distortions(const Bodies& bodies, const Method& method, const Steps& steps,
-                           std::vector<Risk>& risks) {
-    if (bodies.precision() != Precision::single) return;
-    const std::vector<bool> linked = bodies.linked_rows();
-    for (std::size_t row = 0; row < bodies.size() && risks.size() < most_distortions; ++row) {
-        if (linked[row] || (bodies.has_obstacles() && bodies.contact(row))) continue;
-        const double unit = coarse_unit(bodies, row, steps.rate.dt());
-        if (unit == 0) continue;
-        const Departure found = departure_of(bodies, row, method, steps);
-        if (!(found.distance > 0.1 * found.extent && found.extent > 3 * unit)) continue;
-        risks.push_back(
-            {.row = row,
-             .of = Risk::Of::told,
-             .message = fmt::format(
-                 "position of body {{}}: its steps are rounded to {:.3g} m, the last place in "
-                 "float, and after {:.3g} s it is {:.2g} m away from its place in double, in a "
-                 "motion of {:.2g} m: take precision double, or an origin nearer to it",
-                 unit, found.time, found.distance, found.extent)});
     }
 }
 

@@ -129,6 +129,24 @@ std::vector<Risk> spring_risks_of(Bodies bodies, Region& region, Steps steps,
     return risks;
 }
 
+/// Whether bodies whose trial explodes in float, far from the origin, hold in double.
+bool is_of_float(const Bodies& bodies, const Method& method, const Steps& steps, std::size_t row) {
+    if (bodies.precision() != Precision::single) return false;
+    if (coarse_unit(bodies, row, steps.rate.dt()) == 0) return false;
+    const Bodies exact = in_double(bodies);
+    return !explosion_of(exact, method, steps, samples_of(exact, method, steps));
+}
+
+Risk float_risk(const Bodies& bodies, const Explosion& explosion) {
+    return {.row = explosion.row,
+            .of = Risk::Of::rounded_position,
+            .message = fmt::format(
+                "position of body {{}}: its last place in float is {:.3g} m, and a trial {} at "
+                "step {}, in double it does not: take precision double, or an origin nearer to it",
+                last_place(largest(bodies.position(explosion.row)), Precision::single),
+                std::isfinite(explosion.gain) ? "gains energy" : "diverges", explosion.tick)};
+}
+
 }  // namespace
 
 bool has_sources(const Bodies& bodies) {
@@ -160,6 +178,10 @@ void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
     if (!explosion) return;
     risks = spring_risks_of(bodies, region, steps, explosion->tick);
     if (!risks.empty()) return;
+    if (is_of_float(bodies, method, steps, explosion->row)) {
+        risks.push_back(float_risk(bodies, *explosion));
+        return;
+    }
     risks.push_back({.row = explosion->row,
                      .of = Risk::Of::explosion,
                      .at = explosion->gain,
