@@ -40,20 +40,6 @@ bool drifts(const Method& method, Damping damping) {
     return std::abs(spectral_radius(step_matrices(method, damping, {&slow, 1}).front()) - 1) > 1e-8;
 }
 
-constexpr double revolutions = 100;
-
-/// The revolution in which the changes of energy in passages of the closest point add up to half
-/// of the energy: their mean each time, and their deviation as a random walk.
-std::optional<double> lost_by_passages(const Orbit& orbit, const Method& method, Damping damping,
-                                       const Rate& rate) {
-    const auto error = passage_error(orbit, method, damping, rate);
-    if (!error) return std::nullopt;
-    for (double count = 1; count <= revolutions; ++count)
-        if (!(std::abs(error->mean) * count + error->deviation * std::sqrt(count) < 0.5))
-            return count;
-    return std::nullopt;
-}
-
 /// Runs 100 revolutions of an orbit that returns, at most 200,000 steps, and returns the revolution
 /// in which the body leaves an orbit of that size: its energy changes by half of the initial
 /// energy. Passages stand for the revolutions that are left. A method whose energy drifts may
@@ -67,7 +53,7 @@ std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, 
     const double price = is_implicit(method) ? 8 : 1;
     const double per_revolution = orbit.period() / rate.dt();
     const auto stride = static_cast<std::int64_t>(std::max(1.0, per_revolution / 1000));
-    const double most = std::min(revolutions * per_revolution, 200'000 / price);
+    const double most = std::min(most_revolutions * per_revolution, 200'000 / price);
     const double tolerance =
         drifts(method, damping) ? std::min(most / per_revolution / 1000, 0.5) : 0.5;
     std::int64_t inside = 0;
@@ -82,7 +68,7 @@ std::optional<double> lost_revolution(const Orbit& orbit, const Method& method, 
         if (inside == 0 && std::abs(now.energy() / orbit.energy() - 1) >= tolerance)
             return revolution;
     }
-    const bool is_whole = most >= revolutions * per_revolution;
+    const bool is_whole = most >= most_revolutions * per_revolution;
     return is_whole ? std::nullopt : lost_by_passages(orbit, method, damping, rate);
 }
 

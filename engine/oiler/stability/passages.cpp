@@ -16,8 +16,14 @@ State<double, 3> inbound(const Orbit& orbit, double distance) {
     return {{distance, 0}, {-std::sqrt(std::max(v2 - across * across, 0.0)), across}};
 }
 
-}  // namespace
+/// The change of an orbit's energy by one passage of its closest point, relative to its energy.
+struct PassageError {
+    double mean = 0;
+    double deviation = 0;  ///< the standard deviation
+};
 
+/// Tries 16 passages, which differ by the places of the steps; empty if the orbit is no long
+/// ellipse or a passage has more than 20,000 steps.
 std::optional<PassageError> passage_error(const Orbit& orbit, const Method& method, Damping damping,
                                           const Rate& rate) {
     constexpr std::size_t count = 16;
@@ -49,6 +55,20 @@ std::optional<PassageError> passage_error(const Orbit& orbit, const Method& meth
         error.deviation += (*change - error.mean) * (*change - error.mean) / count;
     error.deviation = std::sqrt(error.deviation);
     return error;
+}
+
+}  // namespace
+
+std::optional<double> lost_by_passages(const Orbit& orbit, const Method& method, Damping damping,
+                                       const Rate& rate) {
+    const auto error = passage_error(orbit, method, damping, rate);
+    if (!error) return std::nullopt;
+    for (double count = 1; count <= most_revolutions; ++count) {
+        const double root = 1 - error->mean * count / 2;
+        const double change = std::abs(1 / (root * root) - 1) + error->deviation * std::sqrt(count);
+        if (!(root > 0) || !(change < 0.5)) return count;
+    }
+    return std::nullopt;
 }
 
 }  // namespace oiler

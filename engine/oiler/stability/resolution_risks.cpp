@@ -18,7 +18,7 @@ double last_place(double number, Precision precision) {
 
 namespace {
 
-/// The part of a length beyond which what its coordinates do not resolve is warned of.
+/// The part of a spring, or of a motion, that coordinates must resolve.
 constexpr double coarse = 0.1;
 
 /// The remedy of positions that are too coarse.
@@ -74,7 +74,7 @@ private:
             16 * largest(bodies_.position(row_)) *
             (bodies_.precision() == Precision::single ? std::numeric_limits<float>::epsilon()
                                                       : std::numeric_limits<double>::epsilon());
-        if (!(contact->radius > 0) || !(hidden > coarse * contact->radius)) return std::nullopt;
+        if (!(contact->radius > 0) || !(hidden > contact->radius)) return std::nullopt;
         return risk_of(fmt::format("rounding hides gaps of {:.2g} m, at a radius of {:.3g} m",
                                    hidden, contact->radius));
     }

@@ -79,15 +79,13 @@ void add_drag_risks(const Bodies& bodies, Region& region, const Steps& steps,
 void add_attractor_risks(const Bodies& bodies, Region& region, const Rate& rate,
                          std::vector<Risk>& risks);
 
-/// The change of an orbit's energy by one passage of its closest point, relative to its energy.
-struct PassageError {
-    double mean = 0;
-    double deviation = 0;  ///< the standard deviation
-};
-/// Tries 16 passages, which differ by the places of the steps; empty if the orbit is no long
-/// ellipse or a passage has more than 20,000 steps.
-[[nodiscard]] std::optional<PassageError> passage_error(const Orbit& orbit, const Method& method,
-                                                        Damping damping, const Rate& rate);
+/// The number of revolutions for which an orbit is followed.
+inline constexpr double most_revolutions = 100;
+/// The revolution in which the changes of energy in passages of the closest point add up to half
+/// of the energy: their deviation as a random walk, and their mean m each time. n periods of the
+/// start have ∫|E|^(3/2) dn passages, so that E' = m·E^(3/2) and E = (1 − m·n/2)⁻².
+[[nodiscard]] std::optional<double> lost_by_passages(const Orbit& orbit, const Method& method,
+                                                     Damping damping, const Rate& rate);
 
 /// Whether the method follows an orbit for 100 revolutions, or 200,000 steps if they are fewer.
 [[nodiscard]] bool follows(const Orbit& orbit, const Method& method, Damping damping,
@@ -107,7 +105,7 @@ void add_rounding_risks(const Bodies& bodies, const Method& method, const Steps&
                         std::vector<Risk>& risks);
 
 /// Adds bodies whose coordinates have a last place that is longer than a tenth of the length of a
-/// spring, or that hides gaps of a tenth of the radius of contact. Of links the first is added.
+/// spring, or that hides gaps of the radius of contact. Of links the first is added.
 void add_resolution_risks(const Bodies& bodies, std::vector<Risk>& risks);
 
 /// The unit of the last place of a body's largest coordinate in float, m, if slow parts of its
