@@ -148,13 +148,18 @@ double coarse_unit(const Bodies& bodies, std::size_t row, double dt) {
     const double unit = last_place(largest(state.x), Precision::single);
     Vec3 acceleration{};
     double drive = 0;
+    double stiffness = 0;
     for_each_force_on(bodies, row, [&]<class Force>(const Force& force) {
+        if constexpr (LineSpring<Force> || std::is_same_v<Force, Spring>)
+            stiffness += std::max(force.stiffness, 0.0);
         if constexpr (std::is_same_v<Force, Drive>)
             drive += length(force.amplitude);
         else
             acceleration += accelerate(force, state, 0);
     });
-    const double speed = length(state.v) + (length(acceleration) + drive) * std::max(1.0, dt);
+    // A spring turns the acceleration within 1/ω.
+    const double time = std::max(dt, 1 / std::sqrt(1 + stiffness));
+    const double speed = length(state.v) + (length(acceleration) + drive) * time;
     return unit > 0.01 * speed * dt ? unit : 0;
 }
 
