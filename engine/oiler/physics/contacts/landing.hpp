@@ -54,8 +54,8 @@ public:
         for (int events = 0; left_ > 0; ++events) {
             if (events == 2 * most_events) return Landed::unresolved;
             if (largest(state.x - from) > way_) return Landed::strayed;
-            squeezed_ = any_moves_ && (events >= most_events || crowded_ > most_crowded);
-            if (events >= most_events && !any_moves_) stop_in_corner(state);
+            squeezed_ = any_moved_ && (events >= most_events || crowded_ > most_crowded);
+            if (events >= most_events && !any_moved_) stop_in_corner(state);
             renew(state);
             if (any_renewed_ && crush(state)) continue;
             if (squeezed_) {
