@@ -80,8 +80,9 @@ void append_polyline(std::span<const Point> points, const Stroke& stroke, Size f
                      LineMesh& mesh);
 
 /// Appends the area within `points` (pixels) with an edge one pixel wide. Areas narrower than a
-/// pixel fade instead. Nothing is appended if a point is not finite, or if the outline crosses
-/// itself in such a way that no triangle is left.
+/// pixel fade instead. An area that is so narrow only in parts is as dark there as elsewhere, and
+/// if translucent may have darker lines. Nothing is appended if a point is not finite, or if the
+/// outline crosses itself in such a way that no triangle is left.
 void append_polygon(std::span<const Point> points, Colour colour, Size frame, LineMesh& mesh);
 
 }  // namespace oiler
