@@ -135,8 +135,7 @@ struct Corner {
 using Patch = std::vector<Corner>;
 
 /// The part of a convex patch where sign · coordinate ≥ sign · limit: Sutherland & Hodgman, CACM 17
-/// (1974). Neighbours share the cut of their edge to the last bit: it is computed from the kept
-/// end.
+/// (1974). The cut of an edge is computed from its kept end, to the same bits for both neighbours.
 Patch cut(const Patch& patch, double Vec::*coordinate, double sign, double limit) {
     const auto height = [&](const Corner& c) { return sign * (c.at.*coordinate - limit); };
     Patch kept;
