@@ -282,6 +282,21 @@ TEST(Obstacles, EndNoRunAtFacesAndJoints) {
     }
 }
 
+// A point in the corner of two obstacles ends where a disc of 1 nm does.
+TEST(Obstacles, BearPointsInCorners) {
+    const auto end = [](double radius) {
+        World world(2, {.method = &find_method("velocity_verlet"), .rate = {100, 7}});
+        world.set_gravity({0, -10});
+        world.add_obstacle({.shape = HalfSpaceShape{{1, 1}, -7}});
+        world.add_obstacle({.shape = BoxShape{{-2, -5}, {4, 1}}});
+        const Entity body =
+            world.spawn({.position = {-5, -1}, .velocity = {-1, -3}, .contact = Contact{radius}});
+        world.step(40);
+        return world.position(body);
+    };
+    EXPECT_LT(length(end(0) - end(1e-9)), 1e-7);
+}
+
 // A predicted rest is where the body touches the obstacle.
 TEST(Obstacles, AreTouchedWhereRestsAreListed) {
     World world = world_of("velocity_verlet", 5, 2, {0, -10});

@@ -50,6 +50,23 @@ TEST(MovingObstacles, PressABallOutOfAWedge) {
     EXPECT_GT(world.position(ball)[0], -0.2);
 }
 
+// A ball falls onto the belt of a circle with friction 1, which carries it along the curve. It
+// stays outside, and its impacts have an end.
+TEST(MovingObstacles, CarryOnABeltRoundACurve) {
+    for (const double radius : {0.03, 0.1, 0.3})
+        for (const double x : {3.0, 4.0, 5.0, 5.7, 6.3}) {
+            World world = world_of("velocity_verlet", 60, 2, {0, -10});
+            world.add_obstacle({.shape = CircleShape{{6, 1}, 2}, .friction = 1, .belt = 3});
+            const Entity ball = world.spawn({.position = {x, 5},
+                                             .velocity = {x < 4 ? 4.0 : 0.0, -3},
+                                             .contact = Contact{radius}});
+            for (int i = 0; i < 180; ++i) {
+                ASSERT_NO_THROW(world.step()) << radius << ' ' << x;
+                ASSERT_GE(gap_of(world.position(ball), {6, 1}, 2 + radius), -1e-12);
+            }
+        }
+}
+
 // A step of order 1 ends in the circle, with a velocity that leaves it.
 TEST(MovingObstacles, AreNotEnteredByLongStepsThatLeaveThem) {
     World world = world_of("semi_implicit_euler", 26, 2, {0, -200});

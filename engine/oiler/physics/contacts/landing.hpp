@@ -54,7 +54,7 @@ public:
         for (int events = 0; left_ > 0; ++events) {
             if (events == 2 * most_events) return Landed::unresolved;
             if (largest(state.x - from) > way_) return Landed::strayed;
-            squeezed_ = any_moved_ && (events >= most_events || crowded_ > most_crowded);
+            squeezed_ = any_moved_ && (events >= most_moved_events || crowded_ > most_crowded);
             if (events >= most_events && !any_moved_) stop_in_corner(state);
             renew(state);
             if (any_renewed_ && crush(state)) continue;
@@ -80,6 +80,8 @@ public:
 private:
     /// After this many events in a step, a body that bounces in a corner stops there.
     static constexpr int most_events = 4096;
+    /// Fewer, if an obstacle moves: the body is then moved by parts of the step.
+    static constexpr int most_moved_events = 512;
     static constexpr int squeezed_parts = 128;
     /// After this many such instants, a body between moving obstacles no longer bounces.
     static constexpr int most_crowded = 8;
@@ -392,6 +394,7 @@ private:
         state.v += size <= most ? along : along * (most / size);
     }
 
+    using Base::any_moved_;
     using Base::any_moves_;
     using Base::any_renewed_;
     using Base::bearing;
