@@ -18,7 +18,7 @@ constexpr double recommended_steps = 12;
 /// each second one.
 constexpr double fine_steps = 4 * recommended_steps;
 constexpr double most_parts = 1024;
-constexpr std::int64_t steps_per_sample = 2;
+constexpr std::int64_t steps_per_probe = 2;
 
 /// Calls f(index, drive) for each drive on a body, per unit mass.
 template <class F>
@@ -106,9 +106,9 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
     const double dt = steps.rate.dt();
     const double limit = most_parts / (fine_steps * dt);
     const double per_step = std::ceil(fine_steps * highest_frequency(bodies, limit) * dt);
-    const auto parts = steps_per_sample *
-                       static_cast<std::int64_t>(std::clamp(std::ceil(per_step / steps_per_sample),
-                                                            2.0, most_parts / steps_per_sample));
+    const auto parts = steps_per_probe *
+                       static_cast<std::int64_t>(std::clamp(std::ceil(per_step / steps_per_probe),
+                                                            2.0, most_parts / steps_per_probe));
     const double work = static_cast<double>(parts) * static_cast<double>(bodies.size());
     const std::int64_t count =
         std::min(steps.count, static_cast<std::int64_t>(std::max(most_work / work, 16.0)));
@@ -119,9 +119,9 @@ std::vector<DriveEffect> drive_effects(const Bodies& bodies, const Method& metho
     std::vector<DriveEffect> effects(bodies.size());
     for (std::int64_t tick = steps.first; tick < steps.first + count; ++tick) {
         if (!run.step(method, {steps.rate, tick, 1, steps.damping})) return {};
-        for (std::int64_t part = 0; part < parts; part += steps_per_sample) {
+        for (std::int64_t part = 0; part < parts; part += steps_per_probe) {
             if (!fine.step(method,
-                           {fine_rate, tick * parts + part, steps_per_sample, steps.damping}))
+                           {fine_rate, tick * parts + part, steps_per_probe, steps.damping}))
                 return {};
             for (std::size_t row = 0; row < effects.size(); ++row)
                 effects[row].between = std::max(effects[row].between, fine.effect(row));
