@@ -5,7 +5,7 @@
 namespace oiler::test {
 namespace {
 
-/// The smallest gap of a disc of `radius` m at x from circles of the same `radii`, m.
+/// The gap of a disc at x from a circle; `both` is the sum of their radii, m.
 double gap_of(const Vec3& x, const Vec3& centre, double both) { return length(x - centre) - both; }
 
 // The wall touches the ball after (3 − 0.3)/0.5 s and pushes it with its own velocity. Friction of

@@ -103,6 +103,7 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
         return corner == is_round(other.sides) ? one.index < other.index : !corner;
     };
     for (One& near : nears) near.hidden = false;
+    // The nearest point of all that a point touches is the point itself.
     if (radius == 0) return;
     for (One& near : nears) {
         if (!near.obstacle.bounded || !touches(near)) continue;
