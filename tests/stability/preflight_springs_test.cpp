@@ -327,5 +327,23 @@ TEST(SpringWarning, TellsTheEdgeOfStability) {
     EXPECT_GT(growth(14399, 60), 100);
 }
 
+// Explicit Euler multiplies an oscillation by √(1 − c·dt + (ω·dt)²) per step, and wind of 10 m/s
+// and 0.1/m damps it by c = 1/s or more: it shrinks for (ω·dt)² < c·dt, that is for ω <
+// 60·√(1/60)/s.
+TEST(SpringWarning, IsNotGivenForOneThatWindDamps) {
+    const Method& euler = find_method("explicit_euler");
+    for (const double omega : {3.0, 7.0, 8.5}) {
+        Bodies bodies(2, Precision::double_);
+        bodies.add({.position = {0, 1}}, Spring{.stiffness = omega * omega});
+        EXPECT_EQ(warnings(bodies, euler, {60}).size(), 1U) << omega;
+        bodies.attach(0, Wind{.velocity = {10, 0}, .coefficient = 0.1});
+        const bool is_damped = omega < 60 * std::sqrt(1 / 60.0);
+        EXPECT_EQ(warnings(bodies, euler, {60}).empty(), is_damped) << omega;
+        if (!is_damped) continue;
+        ASSERT_FALSE(bodies.try_step(euler, {{60}, 0, 60'000}));
+        EXPECT_LT(length(bodies.velocity(0)), 1e-3) << omega;
+    }
+}
+
 }  // namespace
 }  // namespace oiler::test

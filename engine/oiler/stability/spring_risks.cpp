@@ -216,6 +216,18 @@ double inner_limit(double limit, const std::vector<ScaledOscillation>& all, Regi
     return edge_between(0.99 * limit, limit, 1e-9, is_inside);
 }
 
+/// The rate at which wind damps slow motions across it, 1/s, which is half of that along it.
+double damping_by_wind(const Bodies& bodies, std::size_t row) {
+    double rate = 0;
+    for_each_force_on(bodies, row, [&]<class Force>(const Force& force) {
+        if constexpr (DragsInAir<Force>) {
+            const auto [coefficient, air] = force.air_drag();
+            rate += coefficient * length(air);
+        }
+    });
+    return rate;
+}
+
 }  // namespace
 
 void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks) {
@@ -232,7 +244,8 @@ void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vect
         // Negative stiffness or damping diverges by itself with any method.
         if (all_inside || own[row].linear.k < 0 || own[row].linear.c < 0) continue;
         const ScaledOscillation of = scaled(own[row].linear, dt);
-        if (!region.contains(of))
+        const double wind = damping_by_wind(bodies, row) * dt;
+        if (!region.contains(of) && !region.contains({of.omega_dt, of.damping_dt + wind}))
             risks.push_back({.row = row, .omega_dt = of.omega_dt, .damping_dt = of.damping_dt});
     }
     if (bodies.link_count() == 0) return;
