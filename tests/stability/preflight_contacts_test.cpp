@@ -134,12 +134,28 @@ TEST(StartWarning, NamesTheObstacleAndTheDepth) {
     const auto lines = lines_of(ball_at({1.5, 3.25}, 0.5, box));
     ASSERT_EQ(lines.size(), 1U);
     EXPECT_EQ(lines[0],
-              "body 0 starts 0.25 m inside the box at (1, 2.5), and is lifted out of it at once: "
-              "move it");
+              "body 0 starts 0.25 m inside the box at (1, 2.5), and is lifted out at once, by 0.25 "
+              "m to (1.5, 3.5): move it");
     EXPECT_TRUE(lines_of(ball_at({1.5, 3.5}, 0.5, box)).empty()) << "it lies on the box";
     Bodies ghost = ball_at({1.5, 3.25}, 0.5, box);
     ghost.set_contact(0, {});
     EXPECT_TRUE(lines_of(ghost).empty());
+}
+
+// A ball in a block of six tiles is lifted past all of them, to where a step of the scene has it.
+TEST(StartWarning, NamesThePlaceOutsideAllObstacles) {
+    Bodies bodies(2, Precision::double_);
+    for (int i = 0; i < 6; ++i)
+        bodies.add_obstacle({.shape = BoxShape{{i % 3 - 0.5, i / 3 + 0.5}, {1, 1}}});
+    bodies.add({.position = {0, 0.5}, .contact = Contact{0.5}});
+    const auto lines = lines_of(bodies);
+    ASSERT_EQ(lines.size(), 1U);
+    const double way = number_after(lines[0], "at once, by ");
+    const double x = number_after(lines[0], " m to (");
+    ASSERT_FALSE(bodies.try_step(find_method("velocity_verlet"), {{60}}));
+    EXPECT_GE(way, 1.0) << "the nearest place outside, below the block";
+    EXPECT_NEAR(length(bodies.position(0) - Vec3{0, 0.5}), way, 1e-2);
+    EXPECT_NEAR(bodies.position(0)[0], x, 1e-3);
 }
 
 // Depths: beside a face, at a corner (3-4-5), in the middle, on a diagonal of a turned square.

@@ -25,13 +25,20 @@ Vec3 centre_of(const SegmentShape& segment) { return (segment.from + segment.to)
 Vec3 centre_of(const BoxShape& box) { return box.centre; }
 Vec3 centre_of(const HalfSpaceShape&) { return {}; }
 
+/// "(1, 2.5)".
+std::string place(const Vec3& x, int axes) {
+    std::string at;
+    for (int i = 0; i < axes; ++i) at += fmt::format("{}{:.4g}", i > 0 ? ", " : "", x[i]);
+    return fmt::format("({})", at);
+}
+
 /// "the box at (1, 2.5)".
 std::string describe(const Shape& shape, int axes) {
-    std::string at;
-    const Vec3 centre = std::visit([](const auto& one) { return centre_of(one); }, shape);
-    for (int i = 0; i < axes; ++i) at += fmt::format("{}{:.4g}", i > 0 ? ", " : "", centre[i]);
-    return fmt::format("the {} at ({})",
-                       std::visit([](const auto& one) { return name_of(one); }, shape), at);
+    return std::visit(
+        [&](const auto& one) {
+            return fmt::format("the {} at {}", name_of(one), place(centre_of(one), axes));
+        },
+        shape);
 }
 
 std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
@@ -44,10 +51,25 @@ std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
     return met;
 }
 
-std::string start_inside(const Obstacle& obstacle, double depth, int axes) {
+/// The place to which a first step lifts a body at rest out of all obstacles, m.
+Vec3 lifted(const Bodies& bodies, std::size_t row) {
+    Bodies copy(bodies.axes(), bodies.precision());
+    copy.add({.position = bodies.position(row), .contact = bodies.contact(row)});
+    for (const ObstacleHandle handle : bodies.obstacles())
+        copy.add_obstacle(bodies.obstacle(handle));
+    const auto diverged =
+        copy.try_step(find_method("velocity_verlet"), {.rate = {StepClock::largest_rate}});
+    return diverged ? bodies.position(row) : copy.position(0);
+}
+
+std::string start_inside(const Bodies& bodies, std::size_t row, const Obstacle& obstacle,
+                         double depth) {
+    const Vec3 to = lifted(bodies, row);
     return fmt::format(
-        "body {{}} starts {:.3g} m inside {}, and is lifted out of it at once: move it", depth,
-        describe(obstacle.shape, axes));
+        "body {{}} starts {:.3g} m inside {}, and is lifted out at once, by {:.3g} m to {}: move "
+        "it",
+        depth, describe(obstacle.shape, bodies.axes()), length(to - bodies.position(row)),
+        place(to, bodies.axes()));
 }
 
 bool is_segment(const Obstacle& obstacle) {
@@ -101,7 +123,7 @@ void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk
         for (const Obstacle& obstacle : obstacles) {
             const double inside = -gap(obstacle.shape, x, contact->radius, bodies.axes());
             if (!(inside > hidden * (largest(x) + contact->radius))) continue;
-            tell(row, start_inside(obstacle, inside, bodies.axes()));
+            tell(row, start_inside(bodies, row, obstacle, inside));
             break;
         }
     }
