@@ -260,6 +260,28 @@ TEST(RopeWarning, IsThatOfTheTautRopeAndSaysSo) {
     }
 }
 
+// A swing on a rope from the height of its point has at most the energy m·g·L = 20 J: its total
+// energy stays below 0. An excess of half of it is a spike.
+TEST(RopeWarning, NamesNoRateWithASpikeOfEnergy) {
+    const Method& euler = find_method("explicit_euler");
+    for (const auto& [stiffness, damping] :
+         {std::pair{4000.0, 60.0}, {4000.0, 200.0}, {2e4, 200.0}}) {
+        Bodies bodies(2, Precision::double_);
+        bodies.set_gravity({0, -10});
+        bodies.add({.position = {2}});
+        bodies.link_to_point(0, {}, {stiffness, damping, 2, true});
+        const auto lines = warnings(bodies, euler, {60});
+        ASSERT_GE(lines.size(), 1U);
+        const Rate rate{rate_in(lines[0])};
+        double most = 0;
+        for (std::int64_t tick = 0; tick < 10 * rate.steps; ++tick) {
+            ASSERT_FALSE(bodies.try_step(euler, {rate, tick}));
+            most = std::max(most, bodies.energy().total());
+        }
+        EXPECT_LT(most, 20) << lines[0];
+    }
+}
+
 // ---- trials
 
 /// A net of coils of 1 kg, 1 m apart, relaxed at `rest`, with its top row hung up.

@@ -66,14 +66,24 @@ bool is_only_attracted(const Bodies& bodies) {
            !any_body_has(bodies, holds_other);
 }
 
+/// Whether a rope may keep the energy that a taut phase gains, which no later one takes back: the
+/// energy of a symplectic method returns.
+bool has_spikes(const Bodies& bodies, const Method& method) {
+    if (method.symplectic) return false;
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).pulls_only) return true;
+    return false;
+}
+
 /// Compares the energies of a run with those of pefrl at 8 times the rate: they are too large by
 /// its largest kinetic energy or its range of potential energy so far, or by half of the energy of
-/// binding, for 16 samples or up to the end. Without sources energy never rises: where that of the
-/// finer steps does, after a passage that they do not resolve either, the lowest so far counts.
+/// binding, for 16 samples or up to the end; with spikes by half of it in one sample. Without
+/// sources energy never rises: where that of the finer steps does, after a passage that they do not
+/// resolve either, the lowest so far counts.
 std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course,
-                                      const Steps& steps) {
+                                      const Steps& steps, bool spikes) {
     constexpr std::int64_t finer = 8;
-    constexpr std::size_t enough = 16;
+    const std::size_t enough = spikes ? 1 : 16;
     Bodies fine = bodies;
     Steps fine_steps{{steps.rate.steps * finer, steps.rate.seconds},
                      steps.first * finer,
@@ -94,7 +104,7 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course
         total = std::min(total, now.total());
         const double gain = course.energies[i].total() - total;
         const double size = is_bound ? std::abs(total) : scale;
-        const bool is_large = gain > (is_bound ? size / 2 : size);
+        const bool is_large = gain > (is_bound || spikes ? size / 2 : size);
         in_a_row = is_large ? in_a_row + 1 : 0;
         if (in_a_row == 1) first.tick = static_cast<std::int64_t>(i) * steps_per_sample;
         first.gain = gain / size;
@@ -104,16 +114,22 @@ std::optional<Explosion> explosion_of(const Bodies& bodies, const Course& course
     return in_a_row > 0 ? std::optional(first) : std::nullopt;
 }
 
+/// Whether a run ends with more energy than it began with, or ever has more.
+bool gains_energy(const Course& course, bool ever) {
+    const double first = course.energies.front().total();
+    const auto is_more = [&](const Energy& at) { return at.total() - first > 0.1 * at.kinetic; };
+    return ever ? std::ranges::any_of(course.energies, is_more) : is_more(course.energies.back());
+}
+
 std::optional<Explosion> explosion_of(const Bodies& bodies, const Method& method,
                                       const Steps& steps, std::int64_t samples) {
     const Course course =
         run(bodies, method, {steps.rate, steps.first, steps_per_sample, steps.damping}, samples);
     if (course.divergence)
         return Explosion{course.fastest, course.divergence->tick - steps.first, INFINITY};
-    const Energy& last = course.energies.back();
-    const bool gains =
-        !has_sources(bodies) && last.total() - course.energies.front().total() > 0.1 * last.kinetic;
-    return gains ? explosion_of(bodies, course, steps) : std::nullopt;
+    const bool spikes = has_spikes(bodies, method);
+    if (has_sources(bodies) || !gains_energy(course, spikes)) return std::nullopt;
+    return explosion_of(bodies, course, steps, spikes);
 }
 
 /// The spring risks of the first of eight states up to the explosion that has any.
