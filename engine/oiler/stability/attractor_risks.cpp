@@ -90,6 +90,11 @@ Attraction attraction_of(const Bodies& bodies, std::size_t row) {
     return of;
 }
 
+/// √(2gm/r³), 1/s.
+double local_frequency(double gm, double distance) {
+    return std::sqrt(2 * gm / distance) / distance;
+}
+
 class AttractorTest {
 public:
     AttractorTest(const Bodies& bodies, Region& region, const Rate& rate)
@@ -119,7 +124,7 @@ private:
         const bool is_orbit = is_alone && std::isfinite(squared_length(orbit.v));
         risk.at = is_orbit ? orbit.closest() : distance;
         risk.of = risk.at < distance * (1 - 1e-6) ? Risk::Of::periapsis : Risk::Of::attractor;
-        risk.omega_dt = std::sqrt(2 * attractor.gm / risk.at) / risk.at * rate_.dt();
+        risk.omega_dt = local_frequency(attractor.gm, risk.at) * rate_.dt();
         if (is_orbit && orbit.energy() < 0 && std::isfinite(risk.omega_dt)) {
             const auto lost = revolution_of_loss(orbit, risk.omega_dt);
             if (!lost) return std::nullopt;
@@ -128,7 +133,15 @@ private:
         } else if (is_slow(risk.omega_dt)) {
             return std::nullopt;
         }
-        return risk;
+        return is_orbit && lands_before(row, orbit) ? std::nullopt : std::optional(risk);
+    }
+
+    /// Whether an obstacle keeps the body away from the attractor.
+    [[nodiscard]] bool lands_before(std::size_t row, const Orbit& orbit) {
+        const Steps steps{rate_, 0, 1, region_.damping()};
+        const auto reached =
+            distance_of_landing(bodies_, row, orbit, region_.method(), steps, landing_cost_);
+        return reached && is_slow(local_frequency(orbit.gm, *reached) * rate_.dt());
     }
 
     /// Whether the local frequency is in the method's region. Below ω·dt = 1 a passage is too short
@@ -151,6 +164,7 @@ private:
     Region& region_;
     Rate rate_;
     double cost_ = 0;  ///< of all trials, in steps
+    double landing_cost_ = 0;
 };
 
 }  // namespace
@@ -221,10 +235,11 @@ void add_orbit_distortions(const Bodies& bodies, const Method& method, const Ste
     if (!any_body_has(bodies, []<class Force>() { return std::is_same_v<Force, Attractor>; }))
         return;
     const std::vector<bool> linked = bodies.linked_rows();
+    double cost = 0;
     for (std::size_t row = 0; row < bodies.size() && risks.size() < most_distortions; ++row) {
         const auto orbit = linked[row] ? std::nullopt : orbit_of(bodies, row);
         const auto farthest = orbit ? wrong_farthest(*orbit, method, steps) : std::nullopt;
-        if (!farthest) continue;
+        if (!farthest || distance_of_landing(bodies, row, *orbit, method, steps, cost)) continue;
         risks.push_back(
             {.row = row,
              .of = Risk::Of::told,

@@ -53,13 +53,20 @@ Dragged drag_of(const Bodies& bodies, std::size_t row) {
     return of;
 }
 
-/// Whether a step that has turned a body alone round, relative to the air, is wrong: finer steps
-/// with exact drag do not turn it.
-bool is_thrown_back(Bodies before, const Vec3& u, const Vec3& air, const Rate& rate) {
+/// Whether a step turned a body alone round or moved it backwards, relative to the air.
+bool reverses(const Bodies& before, const Bodies& after, const Vec3& air, const Rate& rate) {
+    const Vec3 u = before.velocity(0) - air;
+    const Vec3 moved = after.position(0) - before.position(0) - air * rate.dt();
+    return dot(after.velocity(0) - air, u) < 0 || dot(moved, u) < 0;
+}
+
+/// Whether finer steps with exact drag reverse a body alone, too.
+bool truly_reverses(const Bodies& before, const Vec3& air, const Rate& rate) {
     constexpr std::int64_t finer = 64;
+    Bodies after = before;
     const Rate fine{rate.steps * finer, rate.seconds};
-    if (before.try_step(find_method("velocity_verlet"), {fine, 0, finer})) return false;
-    return dot(before.velocity(0) - air, u) >= 0;
+    return after.try_step(find_method("velocity_verlet"), {fine, 0, finer}) ||
+           reverses(before, after, air, rate);
 }
 
 /// Whether a body alone diverges or is thrown back within its first steps of dt·`factor`. Too
@@ -70,10 +77,9 @@ bool fails(Bodies body, const Dragged& of, const Method& method, const Steps& st
     const Rate rate = factor == 1 ? steps.rate : scaled_rate(steps.rate, factor);
     const Vec3 air = of.linear > 0 ? Vec3{} : of.air;
     for (std::int64_t tick = 0; tick < count; ++tick) {
-        const Vec3 u = body.velocity(0) - air;
         const Bodies before = body;
         if (body.try_step(method, {rate, tick, 1, steps.damping})) return true;
-        if (dot(body.velocity(0) - air, u) < 0 && is_thrown_back(before, u, air, rate)) return true;
+        if (reverses(before, body, air, rate) && !truly_reverses(before, air, rate)) return true;
     }
     return false;
 }
@@ -93,7 +99,7 @@ std::vector<bool> mislead(const Method& method, Damping damping, std::vector<dou
     if (bodies.try_step(method, {.rate = {1}, .damping = damping})) return misled;
     for (std::size_t row = 0; row < drags.size(); ++row) {
         const long double v = bodies.state(row).v[0];
-        misled[row] = !(v >= -1e-14L && v <= 1 + 1e-14L);
+        misled[row] = !(v >= -1e-14L && v <= 1 + 1e-14L && bodies.state(row).x[0] >= 0);
     }
     return misled;
 }

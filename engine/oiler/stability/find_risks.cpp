@@ -48,6 +48,19 @@ Bodies in_double(const Bodies& bodies) {
     return copy;
 }
 
+std::vector<Vec3> accelerations_at_rest(Bodies bodies) {
+    for (const ObstacleHandle obstacle : bodies.obstacles()) bodies.remove_obstacle(obstacle);
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        bodies.detach<Drive>(row);
+        bodies.set_velocity(row, {});
+    }
+    std::vector<Vec3> accelerations;
+    if (bodies.try_step(find_method("explicit_euler"), {.rate = {1}})) return accelerations;
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        accelerations.push_back(bodies.velocity(row));
+    return accelerations;
+}
+
 bool is_finite(const Bodies& bodies) {
     for (std::size_t row = 0; row < bodies.size(); ++row)
         if (!std::isfinite(squared_length(bodies.position(row))) ||
@@ -65,6 +78,7 @@ std::vector<Risk> find_risks(const Bodies& bodies, const Method& method, const S
     add_attractor_risks(bodies, region, steps.rate, risks);
     const bool finite = is_finite(bodies);
     if (finite && risks.empty()) add_trial_risks(bodies, region, steps, risks);
+    if (finite) add_overdamped_risks(bodies, method, steps, risks);
     const bool holds = risks.empty();
     add_resolution_risks(bodies, risks);
     add_rounding_risks(bodies, method, steps, risks);

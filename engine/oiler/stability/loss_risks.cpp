@@ -50,20 +50,6 @@ std::optional<double> half_time(const std::vector<Part>& parts, const std::vecto
     return left(time, false) >= left(0, false) / 2 ? std::optional(time) : std::nullopt;
 }
 
-/// The accelerations of all bodies at rest, without drives and obstacles, m/s².
-std::optional<std::vector<Vec3>> accelerations_of(Bodies bodies) {
-    for (const ObstacleHandle obstacle : bodies.obstacles()) bodies.remove_obstacle(obstacle);
-    for (std::size_t row = 0; row < bodies.size(); ++row) {
-        bodies.detach<Drive>(row);
-        bodies.set_velocity(row, {});
-    }
-    if (bodies.try_step(find_method("explicit_euler"), {.rate = {1}})) return std::nullopt;
-    std::vector<Vec3> accelerations;
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        accelerations.push_back(bodies.velocity(row));
-    return accelerations;
-}
-
 class LossTest {
 public:
     LossTest(const Bodies& bodies, const Method& method, const Steps& steps,
@@ -240,9 +226,9 @@ void add_oscillation_losses(const Bodies& bodies, const Method& method, const St
         bodies.size() <= most_tried && !has_sources(bodies) && has_springs(bodies);
     if (is_tried && !is_linear(bodies) && !meets_obstacles(bodies))
         return add_loss_of_trial(bodies, method, steps, risks);
-    auto accelerations = accelerations_of(bodies);
-    if (!accelerations) return;
-    const LossTest test(bodies, method, steps, *std::move(accelerations));
+    std::vector<Vec3> accelerations = accelerations_at_rest(bodies);
+    if (accelerations.empty()) return;
+    const LossTest test(bodies, method, steps, std::move(accelerations));
     const std::vector<bool> linked = bodies.linked_rows();
     const auto add = [&](const Component& component) {
         if (risks.size() >= most_distortions) return;

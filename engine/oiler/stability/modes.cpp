@@ -132,11 +132,6 @@ constexpr std::size_t most_iterations_of_lanczos = 128;
 constexpr double wanted_residual = 0.02;
 constexpr double breakdown = 1e-12;
 
-double inner(const WeightedVectors& a, const WeightedVectors& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
-    return sum;
-}
 void add_multiple(WeightedVectors& to, const WeightedVectors& what, double s) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = to[i] + what[i] * s;
 }
@@ -202,6 +197,12 @@ WeightedVectors vector_of(const Component& component, const MatrixSum& sum,
 }
 
 }  // namespace
+
+double inner(const WeightedVectors& a, const WeightedVectors& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
+    return sum;
+}
 
 WeightedVectors to_vectors(const std::vector<double>& numbers, const Component& component) {
     WeightedVectors vectors(component.rows.size());

@@ -13,6 +13,9 @@ struct Mode {
     std::vector<double> vector;
 };
 
+/// The sum of the products of all vectors.
+[[nodiscard]] double inner(const WeightedVectors& a, const WeightedVectors& b);
+
 /// The vector of a mode, body by body.
 [[nodiscard]] WeightedVectors to_vectors(const std::vector<double>& numbers,
                                          const Component& component);

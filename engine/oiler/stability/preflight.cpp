@@ -44,7 +44,7 @@ std::string describe_measure(const Risk& risk, int digits = 4) {
         default:
             break;
     }
-    const bool oscillates = risk.omega_dt > 0;
+    const bool oscillates = risk.omega_dt > 0 && risk.of != Risk::Of::overdamped;
     const bool is_bound = risk.linked || !risk.oscillations.empty();
     return fmt::format("{} {} {:.{}g}", oscillates ? "ω·dt" : "c·dt", is_bound ? "up to" : "=",
                        oscillates ? risk.omega_dt : risk.damping_dt, digits) +
@@ -139,7 +139,8 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     const std::string by_default = "take a higher rate, or another method";
     std::vector<Risk> risks = preflight(bodies, method, steps);
     std::erase_if(risks, [](const Risk& risk) {
-        return risk.of == Risk::Of::told || risk.of == Risk::Of::explosion;
+        return risk.of == Risk::Of::told || risk.of == Risk::Of::explosion ||
+               risk.of == Risk::Of::overdamped;
     });
     const std::vector<std::size_t> labels = component_labels(bodies);
     const auto own = std::find_if(risks.begin(), risks.end(), [&](const Risk& risk) {
@@ -157,40 +158,6 @@ std::string likely_cause(const Bodies& bodies, const Divergence& at, const Metho
     return describe(cause, method, steps, name);
 }
 
-/// Whether a risk makes no run unusable, or is a rounding that the present method has as well.
-bool is_borne(const Risk& risk, const std::vector<Risk>& present) {
-    if (risk.of == Risk::Of::told) return true;
-    return is_rounding(risk) && std::ranges::any_of(present, [&](const Risk& one) {
-               return one.row == risk.row && one.of == risk.of &&
-                      std::abs(one.effect) >= std::abs(risk.effect);
-           });
-}
-
-/// Whether bodies have springs whose forces turn, or are attracted: only a trial shows whether a
-/// method holds them.
-bool needs_trial(const Bodies& bodies) {
-    for (std::size_t i = 0; i < bodies.link_count(); ++i)
-        if (bodies.link_at(i).rest_length != 0) return true;
-    return any_body_has(bodies, []<class Force>() {
-        return LineSpring<Force> || std::is_same_v<Force, Attractor>;
-    });
-}
-
-/// Whether a method steps the bodies without a risk that makes a run unusable. A run that has
-/// diverged is not tried.
-bool is_remedy(const Bodies& bodies, const Method& method, const Steps& steps,
-               const std::vector<Risk>& present) {
-    if (!is_finite(bodies)) return !needs_trial(bodies);
-    return std::ranges::all_of(find_risks(bodies, method, {steps.rate, steps.first, steps.count}),
-                               [&](const Risk& risk) { return is_borne(risk, present); });
-}
-
-/// Implicit Euler would end an oscillation that lasts.
-const char* remedy_of(const Risk& risk) {
-    const bool lasts = risk.damping_dt < 2 * risk.omega_dt || risk.of == Risk::Of::explosion;
-    return lasts ? "implicit_midpoint" : "implicit_euler";
-}
-
 }  // namespace
 
 std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const Steps& steps) {
@@ -199,17 +166,7 @@ std::vector<Risk> preflight(const Bodies& bodies, const Method& method, const St
     for (Risk& risk : risks)
         if (risk.of != Risk::Of::told)
             risk.scene = scene ? scene : scene = std::make_shared<const Bodies>(bodies);
-    for (const char* name : {"implicit_midpoint", "implicit_euler"}) {
-        const auto helps = [&](const Risk& risk) {
-            return risk.of != Risk::Of::told && !is_attraction(risk) && !is_rounding(risk) &&
-                   std::string_view(remedy_of(risk)) == name && method.name != name;
-        };
-        if (std::ranges::none_of(risks, helps)) continue;
-        const Method& remedy = find_method(name);
-        if (!is_remedy(bodies, remedy, steps, risks)) continue;
-        for (Risk& risk : risks)
-            if (helps(risk)) risk.remedy = &remedy;
-    }
+    add_remedies(bodies, method, steps, risks);
     return risks;
 }
 
@@ -223,7 +180,8 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
     if (risk.orbit) return describe_loss(risk, method, steps, name);
     const std::string who = describe_subject(risk, name);
     const double limit = limit_of(risk, method, steps);
-    const double measured = risk.omega_dt > 0 ? risk.omega_dt : risk.damping_dt;
+    const bool turns_back = risk.of == Risk::Of::overdamped;
+    const double measured = risk.omega_dt > 0 && !turns_back ? risk.omega_dt : risk.damping_dt;
     const int digits = digits_between(measured, limit * measured);
     const std::string measure = describe_measure(risk, digits);
     if (limit == 0)
@@ -231,8 +189,9 @@ std::string describe(const Risk& risk, const Method& method, const Steps& steps,
             "{}: {}, {} gains energy at any rate: take another method, for example "
             "velocity_verlet",
             who, measure, method.name);
-    return fmt::format("{}: {}, {} needs < {:.{}g}: {}", who, measure, method.name,
-                       limit * measured, digits, remedy_for(limit, risk, method, steps));
+    return fmt::format("{}: {}, {} {} < {:.{}g}: {}", who, measure, method.name,
+                       turns_back ? "turns it back and needs" : "needs", limit * measured, digits,
+                       remedy_for(limit, risk, method, steps));
 }
 
 void fail_diverged(const Bodies& bodies, const Divergence& at, const Method& method,

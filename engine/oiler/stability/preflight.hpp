@@ -36,6 +36,7 @@ struct Risk {
     enum class Of {
         springs,           ///< springs, dampers and linear drag
         linear_drag,       ///< linear drag that throws a body back
+        overdamped,        ///< an overdamped motion that steps turn back; no run diverges by it
         quadratic_drag,    ///< drag at the present speed
         terminal_speed,    ///< drag at the speed at which it balances gravity
         attractor,         ///< attraction at the start

@@ -60,15 +60,50 @@ std::string other_remedy(const Risk& risk, const Method& method, const Steps& st
            "weaker forces";
 }
 
-/// The limit of a body at which its linear drag does not throw it back either.
-double lower_for_drag(double limit, const Risk& risk, const Method& method, const Steps& steps) {
-    if (!(limit > 0) || !std::isfinite(limit) || risk.linked || risk.component) return limit;
-    if (!risk.scene || !is_linear(*risk.scene) || risk.scene->linked_rows()[risk.row]) return limit;
+/// The limit of bodies at which their damping does not turn them back either.
+double lower_for_damping(double limit, const Risk& risk, const Method& method, const Steps& steps) {
+    if (!(limit > 0) || !std::isfinite(limit)) return limit;
+    if (!risk.scene || !is_linear(*risk.scene)) return limit;
     const Steps shorter{scaled_rate(steps.rate, limit * (1 - 1e-9)), 0, 1, steps.damping};
+    const Bodies island = island_of(*risk.scene, risk.row);
     Region region(method, steps.damping.value_or(method.damping));
-    std::vector<Risk> thrown;
-    add_drag_risks(alone(*risk.scene, risk.row, Precision::double_), region, shorter, thrown);
-    return thrown.empty() ? limit : limit * drag_limit(thrown.front(), method, shorter);
+    std::vector<Risk> turned;
+    add_drag_risks(island, region, shorter, turned);
+    add_overdamped_risks(island, method, shorter, turned);
+    return turned.empty() ? limit : limit * limit_of(turned.front(), method, shorter);
+}
+
+/// Whether a risk makes no run unusable, or is a rounding that the present method has as well.
+bool is_borne(const Risk& risk, const std::vector<Risk>& present) {
+    if (risk.of == Risk::Of::told) return true;
+    return is_rounding(risk) && std::ranges::any_of(present, [&](const Risk& one) {
+               return one.row == risk.row && one.of == risk.of &&
+                      std::abs(one.effect) >= std::abs(risk.effect);
+           });
+}
+
+/// Whether bodies have springs whose forces turn, or are attracted: only a trial shows whether a
+/// method holds them.
+bool needs_trial(const Bodies& bodies) {
+    for (std::size_t i = 0; i < bodies.link_count(); ++i)
+        if (bodies.link_at(i).rest_length != 0) return true;
+    return any_body_has(bodies, []<class Force>() {
+        return LineSpring<Force> || std::is_same_v<Force, Attractor>;
+    });
+}
+
+/// The risks of another method that make a run unusable.
+std::vector<Risk> risks_of_remedy(const Bodies& bodies, const Method& method, const Steps& steps,
+                                  const std::vector<Risk>& present) {
+    std::vector<Risk> risks = find_risks(bodies, method, {steps.rate, steps.first, steps.count});
+    std::erase_if(risks, [&](const Risk& risk) { return is_borne(risk, present); });
+    return risks;
+}
+
+/// Implicit Euler would end an oscillation that lasts.
+bool lasts(const Risk& risk) {
+    if (risk.of == Risk::Of::overdamped) return false;
+    return risk.damping_dt < 2 * risk.omega_dt || risk.of == Risk::Of::explosion;
 }
 
 }  // namespace
@@ -86,9 +121,35 @@ double limit_of(const Risk& risk, const Method& method, const Steps& steps) {
     if (risk.of == Risk::Of::explosion) return trial_limit(risk, method, steps);
     if (risk.of == Risk::Of::quadratic_drag || risk.of == Risk::Of::linear_drag)
         return drag_limit(risk, method, steps);
+    if (risk.of == Risk::Of::overdamped) return overdamped_limit(risk, method, steps);
     if (risk.orbit) return orbit_limit(*risk.orbit, method, damping, steps.rate);
-    return lower_for_drag(spring_limit(risk, method, damping, steps.rate.dt()), risk, method,
-                          steps);
+    return lower_for_damping(spring_limit(risk, method, damping, steps.rate.dt()), risk, method,
+                             steps);
+}
+
+void add_remedies(const Bodies& bodies, const Method& method, const Steps& steps,
+                  std::vector<Risk>& risks) {
+    const std::vector<std::size_t> labels = component_labels(bodies);
+    std::vector<bool> is_overdamped(bodies.size());
+    for (const char* name : {"implicit_midpoint", "implicit_euler"}) {
+        const auto helps = [&](const Risk& risk) {
+            const bool may_end = !lasts(risk) || is_overdamped[labels[risk.row]];
+            return risk.of != Risk::Of::told && !is_attraction(risk) && !is_rounding(risk) &&
+                   may_end == (name == std::string_view("implicit_euler")) && method.name != name;
+        };
+        if (std::ranges::none_of(risks, helps)) continue;
+        const Method& remedy = find_method(name);
+        const bool is_tried = is_finite(bodies);
+        if (!is_tried && needs_trial(bodies)) continue;
+        bool holds = true;
+        for (const Risk& risk :
+             is_tried ? risks_of_remedy(bodies, remedy, steps, risks) : std::vector<Risk>()) {
+            holds = false;
+            if (risk.of == Risk::Of::overdamped) is_overdamped[labels[risk.row]] = true;
+        }
+        for (Risk& risk : risks)
+            if (holds && helps(risk)) risk.remedy = &remedy;
+    }
 }
 
 std::string remedy_for(double limit, const Risk& risk, const Method& method, const Steps& steps) {

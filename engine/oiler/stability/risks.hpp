@@ -33,6 +33,9 @@ inline constexpr double highest_rate = StepClock::largest_rate;
 [[nodiscard]] Bodies alone(const Bodies& bodies, std::size_t row, Precision precision);
 /// A copy in double, with links and obstacles.
 [[nodiscard]] Bodies in_double(const Bodies& bodies);
+/// The accelerations of all bodies at rest, without drives and obstacles, m/s²; empty if they are
+/// not finite.
+[[nodiscard]] std::vector<Vec3> accelerations_at_rest(Bodies bodies);
 /// The unit of the last place of a number, in its unit.
 [[nodiscard]] double last_place(double number, Precision precision);
 
@@ -50,6 +53,11 @@ inline constexpr double highest_rate = StepClock::largest_rate;
 [[nodiscard]] std::string remedy_for(double limit, const Risk& risk, const Method& method,
                                      const Steps& steps);
 
+/// Gives the risks the implicit methods that step the scene without a risk. A run that has diverged
+/// is not tried.
+void add_remedies(const Bodies& bodies, const Method& method, const Steps& steps,
+                  std::vector<Risk>& risks);
+
 /// Adds the springs, dampers and linear drag that are outside the region: one risk per body without
 /// links and one per component of linked bodies.
 void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vector<Risk>& risks);
@@ -57,6 +65,16 @@ void add_spring_risks(const Bodies& bodies, Region& region, double dt, std::vect
 /// The factor on the step up to which the risk's bodies are stable; 0 if they never are.
 [[nodiscard]] double spring_limit(const Risk& risk, const Method& method, Damping damping,
                                   double dt);
+
+/// Adds overdamped springs, dampers and linear drag that move and that the steps turn back, of
+/// components without a risk: one that only brakes, or creeps to its rest, would reverse every
+/// step. Bodies that drag alone brakes are left to add_drag_risks. Of larger components than 100
+/// freedoms the motion that is damped most is tested.
+void add_overdamped_risks(const Bodies& bodies, const Method& method, const Steps& steps,
+                          std::vector<Risk>& risks);
+
+/// The factor on dt up to which steps turn no overdamped motion back, whatever its start.
+[[nodiscard]] double overdamped_limit(const Risk& risk, const Method& method, const Steps& steps);
 
 /// Adds the bodies whose drag is too strong for the method: bodies that diverge alone or are thrown
 /// back in a trial of 512 steps, or of one step if the drag is linear, and falling bodies whose
@@ -86,6 +104,13 @@ inline constexpr double most_revolutions = 100;
 /// start have ∫|E|^(3/2) dn passages, so that E' = m·E^(3/2) and E = (1 − m·n/2)⁻².
 [[nodiscard]] std::optional<double> lost_by_passages(const Orbit& orbit, const Method& method,
                                                      Damping damping, const Rate& rate);
+
+/// The least distance from its attractor, m, that a body on an orbit has in a trial of 20,000
+/// steps, if it lands on an obstacle before its closest point and never gets farther than the
+/// orbit. Empty if not, or if obstacles move. Adds the cost in steps to `cost`.
+[[nodiscard]] std::optional<double> distance_of_landing(const Bodies& bodies, std::size_t row,
+                                                        const Orbit& orbit, const Method& method,
+                                                        const Steps& steps, double& cost);
 
 /// Whether the method follows an orbit for 100 revolutions, or 200,000 steps if they are fewer.
 [[nodiscard]] bool follows(const Orbit& orbit, const Method& method, Damping damping,
