@@ -9,6 +9,7 @@ namespace oiler::test {
 
 /// A scene with every key. Every number has an effect: all bodies move, and no force on them is 0.
 /// Each body of the scatter meets an obstacle in the first step: a tile, the chain and the circle.
+/// One obstacle out of reach is in all layers, so that each may lose its other ones.
 inline const std::string everything = R"(
 [scene]
 title = "Everything"
@@ -30,6 +31,7 @@ velocity = [1.0, 2.0]
 linear_drag = 0.1
 quadratic_drag = 0.2
 contact = 0.25
+meets = ["front", "pegs", "slope", "level"]
 radius = 0.3
 colour = "orange"
 
@@ -73,10 +75,12 @@ radius = 0.2
 colour = "black"
 
 [[plane]]
+name = "wall"
 normal = [-1.0, 0.25]
 offset = -0.5
 restitution = 0.5
 friction = 0.3
+layers = ["front"]
 colour = "green"
 
 [[obstacle]]
@@ -93,6 +97,7 @@ period = 20.0
 phase = 0.2
 one_way = [0.0, -1.0]
 solid = true
+layers = ["pegs"]
 colour = "green"
 
 [[obstacle]]
@@ -100,6 +105,7 @@ shape = "box"
 centre = [-3.0, -1.0]
 size = [1.0, 0.5]
 angle = 0.5
+layers = ["front", "solid", "pegs", "slope", "level"]
 
 [[obstacle]]
 shape = "segment"
@@ -107,6 +113,7 @@ from = [-3.0, 1.0]
 to = [-2.0, 1.5]
 
 [[chain]]
+name = "hill"
 points = [[0.0, 0.3], [0.02, 0.8], [1.0, 1.0]]
 closed = false
 restitution = 0.5
@@ -117,15 +124,18 @@ swing = [0.001, 0.0005]
 period = 20.0
 phase = 0.2
 one_way = [-1.0, 0.0]
+layers = ["slope"]
 colour = "green"
 
 [[tiles]]
+name = "rock"
 origin = [-0.35, -0.0624]
 tile = 0.2
 rows = ["##......=", ". "]
 one_way = "="
 restitution = 0.5
 friction = 0.3
+layers = ["level"]
 colour = "green"
 
 [[grid]]
@@ -137,6 +147,7 @@ mass = 0.5
 linear_drag = 0.1
 quadratic_drag = 0.2
 contact = 0.1
+meets = ["front", "pegs", "slope", "level"]
 stiffness = 100.0
 damping = 0.3
 rest_length = 0.8
@@ -156,6 +167,7 @@ mass = 0.5
 linear_drag = 0.1
 quadratic_drag = 0.2
 contact = 0.1
+meets = ["front", "pegs", "slope", "level"]
 radius = 0.05
 colour = "vermilion"
 

@@ -342,6 +342,27 @@ TEST(MakeWorld, BodiesBounceOffTiles) {
     EXPECT_NEAR(world.bodies().position(0)[0], 0.75, 1e-12);
 }
 
+// The balls fall from 1 m for 1 s at 2 m/s²: those that meet no layer of the floor are at 0.
+TEST(MakeWorld, BodiesMeetTheObstaclesOfTheirLayers) {
+    const std::string floors[] = {
+        "[[plane]]\nnormal = [0, 1]\noffset = 0.25\n",
+        "[[obstacle]]\nshape = 'box'\ncentre = [0, -0.75]\nsize = [9, 2]\n",
+        "[[chain]]\npoints = [[-9, 0.25], [9, 0.25]]\n",
+        "[[tiles]]\norigin = [-2, -3.75]\ntile = 4\nrows = [\"##\"]\n"};
+    for (const std::string& floor : floors) {
+        World world = world_of(
+            "[scene]\naxes = 2\nmethod = 'velocity_verlet'\n[gravity]\nacceleration = [0, -2]\n"
+            "[[body]]\nposition = [0, 1]\ncontact = 0.25\n"
+            "[[body]]\nposition = [0, 1]\ncontact = 0.25\nmeets = ['solid']\n"
+            "[[body]]\nposition = [0, 1]\ncontact = 0.25\nmeets = ['b', 'solid']\n" +
+            floor + "layers = ['a', 'b']\n");
+        world.step(100);
+        for (const auto& [row, height] : {std::pair{0, 0.5}, {1, 0.0}, {2, 0.5}})
+            EXPECT_NEAR(world.bodies().position(std::size_t(row))[1], height, 1e-12)
+                << "body " << row << ", " << floor;
+    }
+}
+
 Picture drawn(const Scene& scene) {
     const World world = make_world(scene, Settings{scene.stepping});
     return draw_scene(scene, world, camera_of(scene, world));

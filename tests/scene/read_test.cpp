@@ -38,6 +38,8 @@ std::string other_value(const SceneKey& key) {
     if (is(key, "grid", "hang")) return "\"top\"";
     if (is(key, "chain", "closed") || is(key, "spring", "pulls_only")) return "true";
     if (is(key, "tiles", "one_way")) return "\"#\"";
+    if (key.name == "meets") return "[\"solid\"]";
+    if (key.name == "layers") return "[\"out of reach\"]";
     switch (key.kind) {
         case KeyKind::text:
             return "\"other\"";
@@ -97,7 +99,7 @@ bool look_the_same(const Picture& a, const Picture& b) {
 /// rope of a spring that is longer than at rest.
 bool shows_nothing(const SceneKey& key) {
     return key.table == "budget" || key.name == "duration" || key.name == "pulls_only" ||
-           is(key, "obstacle", "name");
+           (key.name == "name" && key.table != "body");
 }
 /// Keys that springs refer to, or on which other keys depend.
 bool cannot_change_alone(const SceneKey& key) {
@@ -107,6 +109,7 @@ bool cannot_change_alone(const SceneKey& key) {
 bool is_needed_by_some(const SceneKey& key) {
     constexpr std::array<std::string_view, 5> of_shapes{"centre", "radius", "size", "from", "to"};
     return is(key, "spring", "anchor") || is(key, "spring", "to") || key.name == "swing" ||
+           key.name == "contact" ||
            (key.table == "obstacle" && std::ranges::count(of_shapes, key.name) > 0);
 }
 
@@ -190,23 +193,35 @@ void expect_obstacles(const Scene& scene) {
                      .belt = 0.5,
                      .velocity = {0.1, -0.2},
                      .swing = Swing{{0.001, 0.0005}, 20, 0.2},
-                     .one_way = Vec3{0, -1}};
+                     .one_way = Vec3{0, -1},
+                     .layers = 1 << 2};
     surface.shape = CircleShape{{-0.7, 1.2313}, 0.3};
     surface.friction = 0.03;
     EXPECT_EQ(scene.obstacles,
               (std::vector<SceneObstacle>{
                   {"peg", surface, palette::green},
-                  {"", {.shape = BoxShape{{-3, -1}, {1, 0.5}, 0.5}}, palette::grey},
+                  {"", {.shape = BoxShape{{-3, -1}, {1, 0.5}, 0.5}, .layers = 31}, palette::grey},
                   {"", {.shape = SegmentShape{{-3, 1}, {-2, 1.5}}}, palette::grey}}));
     surface.shape = SegmentShape{{0, 0.3}, {0.02, 0.8}};
     surface.one_way = Vec3{-1, 0};
     surface.friction = 0.3;
+    surface.layers = 1 << 3;
     EXPECT_EQ(scene.chains,
               (std::vector<SceneChain>{
-                  {{{0, 0.3}, {0.02, 0.8}, {1, 1}}, false, surface, palette::green}}));
-    EXPECT_EQ(scene.tiles,
-              (std::vector<SceneTiles>{
-                  {{-0.35, -0.0624}, 0.2, {"##......=", ". "}, "=", 0.5, 0.3, palette::green}}));
+                  {"hill", {{0, 0.3}, {0.02, 0.8}, {1, 1}}, false, surface, palette::green}}));
+    EXPECT_EQ(scene.tiles, (std::vector<SceneTiles>{{"rock",
+                                                     {-0.35, -0.0624},
+                                                     0.2,
+                                                     {"##......=", ". "},
+                                                     "=",
+                                                     0.5,
+                                                     0.3,
+                                                     1 << 4,
+                                                     palette::green}}));
+    EXPECT_EQ(
+        scene.planes,
+        (std::vector<ScenePlane>{{"wall", {{-1, 0.25}, -0.5, 0.5, 0.3}, 1 << 1, palette::green}}));
+    EXPECT_EQ(scene.layers, (std::vector<std::string>{"solid", "front", "pegs", "slope", "level"}));
 }
 
 TEST(Read, ReadsEveryValueOfAFile) {
@@ -225,10 +240,9 @@ TEST(Read, ReadsEveryValueOfAFile) {
     EXPECT_EQ(scene.bodies[0].matter.linear_drag, 0.1);
     EXPECT_EQ(scene.bodies[0].matter.quadratic_drag, 0.2);
     EXPECT_EQ(scene.bodies[0].matter.contact, 0.25);
+    EXPECT_EQ(scene.bodies[0].matter.meets, 2U | 4 | 8 | 16);
     EXPECT_EQ(scene.bodies[1].matter.contact, std::nullopt);
-    ASSERT_EQ(scene.planes.size(), 1U);
-    EXPECT_EQ(scene.planes[0].plane, (Plane{{-1, 0.25}, -0.5, 0.5, 0.3}));
-    EXPECT_EQ(scene.planes[0].colour, palette::green);
+    EXPECT_EQ(scene.bodies[1].matter.meets, ~0U);
     expect_obstacles(scene);
     EXPECT_EQ(scene.bodies[0].matter.radius, 0.3);
     EXPECT_EQ(scene.bodies[0].matter.colour, palette::orange);
@@ -258,6 +272,29 @@ TEST(Read, ReadsEveryValueOfAFile) {
     EXPECT_EQ(scene.camera.centre, (Vec3{1, 1}));
     EXPECT_EQ(scene.budget, (SceneBudget{1.0, 0.01}));
     EXPECT_EQ(scene.body_count(), 3 + 6 + 3);
+}
+
+// Its obstacles are a plane, a circle, a box, a segment, a chain of two segments, and three tiles.
+TEST(Read, NamesObstaclesInTheOrderOfTheWorld) {
+    const Scene scene = parsed(everything);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < 9; ++i) names.push_back(scene.name_of_obstacle(i));
+    EXPECT_EQ(names, (std::vector<std::string>{"wall", "peg", "obstacle 2", "obstacle 3", "hill 1",
+                                               "hill 2", "rock 1", "rock 2", "rock 3"}));
+    EXPECT_EQ(scene.name_of_obstacle(9), "obstacle 9");
+}
+
+TEST(Read, ASceneHas32Layers) {
+    std::string text = "[scene]\naxes = 2\n[[body]]\ncontact = 0.5\nmeets = [\"layer 31\"]\n";
+    for (int i = 1; i < 32; ++i)
+        text += fmt::format("[[plane]]\nnormal = [0, 1]\nlayers = [\"layer {}\"]\n", i);
+    const Scene scene = parsed(text);
+    EXPECT_EQ(scene.planes.back().layers, 1U << 31);
+    EXPECT_EQ(scene.bodies[0].matter.meets, 1U << 31);
+    const std::string more = "[[plane]]\nnormal = [0, 1]\nlayers = [\"layer 32\"]\n";
+    EXPECT_EQ(line_of_error(Exit::usage, [&] { (void)parsed(text + more); }),
+              "test.toml:101: plane.layers: \"layer 32\" and \"solid\" are more than 32 layers; "
+              "give fewer");
 }
 
 TEST(Read, ReadsASceneOfTwoTables) {

@@ -40,16 +40,8 @@ Words shape_words() { return {"circle", "box", "segment"}; }
 constexpr std::string_view required = "required";
 constexpr std::string_view fits = "fits the start";
 constexpr std::string_view of_round = "a circle and a box need it";
-constexpr std::string_view gives_back = "part of the speed into it that a bounce gives back";
-constexpr std::string_view coulomb =
-    "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides";
-constexpr std::string_view clockwise =
-    "speed of its surface, clockwise: on top to the right; with two axes";
-constexpr std::string_view stands = "does not swing";
-constexpr std::string_view swings = "moves by swing·sin(2π·t/period + phase), and carries bodies";
-constexpr std::string_view all_sides = "met from all sides";
-constexpr std::string_view side =
-    "direction of the side from which bodies meet it, within 60°; they pass from other sides";
+constexpr std::string_view all_layers = "all layers";
+constexpr std::string_view of_meets = "layers of the obstacles that it meets";
 
 using enum KeyKind;
 constexpr double most = double{most_bodies};
@@ -75,7 +67,7 @@ constexpr auto known_tables = std::to_array<SceneTable>({
     {"budget", once},
 });
 
-constexpr std::array known_keys{
+constexpr std::array first_keys{
     SceneKey{"scene", "title", text, "", any, "\"\"", "", "title of the window, at most 200 bytes"},
     SceneKey{"scene", "axes", whole, "", from_to(1, 3), "2", required,
              "numbers in a vector; pictures show x and y"},
@@ -102,6 +94,7 @@ constexpr std::array known_keys{
              "c of the force −c·|v|·v"},
     SceneKey{"body", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
              "radius of its contact with obstacles; 0 for a point"},
+    SceneKey{"body", "meets", lines, "", any, "[\"solid\"]", all_layers, of_meets},
     SceneKey{"body", "radius", number, "m", positive, "0.5",
              "`contact` above 0, else 1/40 of the camera's height", "of the disc in the picture"},
     SceneKey{"body", "colour", colour, "", any, "\"blue\"", "", "", colour_names},
@@ -134,14 +127,44 @@ constexpr std::array known_keys{
     SceneKey{"attractor", "radius", number, "m", positive, "0.5", "1/40 of the camera's height",
              ""},
     SceneKey{"attractor", "colour", colour, "", any, "\"orange\"", "", "", colour_names},
+};
+
+/// A key of several tables of obstacles.
+constexpr SceneKey name_key(std::string_view table, std::string_view example) {
+    return {table, "name", text, "", any, example, "no name", "for messages"};
+}
+constexpr std::array<SceneKey, 2> bounce_keys(std::string_view table) {
+    return {SceneKey{table, "restitution", number, "", from_to(0, 1), "0.0", "",
+                     "part of the speed into it that a bounce gives back"},
+            {table, "friction", number, "", not_negative, "0.0", "",
+             "Coulomb's coefficient, in bounces and slides; a huge one means that nothing slides"}};
+}
+constexpr std::array<SceneKey, 6> motion_keys(std::string_view table) {
+    return {SceneKey{table, "belt", number, "m/s", any, "0.0", "",
+                     "speed of its surface, clockwise: on top to the right; with two axes"},
+            {table, "velocity", vector, "m/s", any, "[0.0, 0.0]", "", "moves, and carries bodies"},
+            {table, "swing", vector, "m", any, "[1.0, 0.0]", "does not swing",
+             "moves by swing·sin(2π·t/period + phase), and carries bodies"},
+            {table, "period", number, "s", positive, "1.0", "", "of the swing"},
+            {table, "phase", number, "rad", any, "0.0", "", "of the swing"},
+            {table, "one_way", vector, "", any, "[0.0, 1.0]", "met from all sides",
+             "direction of the side from which bodies meet it, within 60°; they pass from other "
+             "sides"}};
+}
+constexpr std::array<SceneKey, 2> last_keys(std::string_view table) {
+    return {SceneKey{table, "layers", lines, "", any, "[\"solid\"]", "",
+                     "names of its layers, of which a body must meet one"},
+            {table, "colour", colour, "", any, "\"grey\"", "", "", colour_names}};
+}
+
+constexpr std::array plane_keys{
+    name_key("plane", "\"floor\""),
     SceneKey{"plane", "normal", vector, "", any, "[0.0, 1.0]", required,
              "n, of any length; bodies stay on the side to which it points"},
     SceneKey{"plane", "offset", number, "m", any, "0.0", "", "the plane is where n·x = offset"},
-    SceneKey{"plane", "restitution", number, "", from_to(0, 1), "0.0", "",
-             "part of the speed into the plane that a bounce gives back"},
-    SceneKey{"plane", "friction", number, "", not_negative, "0.0", "", coulomb},
-    SceneKey{"plane", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
-    SceneKey{"obstacle", "name", text, "", any, "\"peg\"", "no name", "for messages"},
+};
+constexpr std::array shape_keys{
+    name_key("obstacle", "\"peg\""),
     SceneKey{"obstacle", "shape", word, "", any, "\"circle\"", required,
              "with three axes a circle is a sphere", shape_words},
     SceneKey{"obstacle", "centre", vector, "m", any, "[0.0, 0.0]", of_round, ""},
@@ -152,32 +175,19 @@ constexpr std::array known_keys{
     SceneKey{"obstacle", "from", vector, "m", any, "[0.0, 0.0]", "a segment needs it", "one end"},
     SceneKey{"obstacle", "to", vector, "m", any, "[1.0, 0.5]", "a segment needs it",
              "the other end; bodies with `contact = 0.0` pass segments"},
-    SceneKey{"obstacle", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
-    SceneKey{"obstacle", "friction", number, "", not_negative, "0.0", "", coulomb},
-    SceneKey{"obstacle", "belt", number, "m/s", any, "0.0", "", clockwise},
-    SceneKey{"obstacle", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
-             "moves, and carries bodies"},
-    SceneKey{"obstacle", "swing", vector, "m", any, "[1.0, 0.0]", stands, swings},
-    SceneKey{"obstacle", "period", number, "s", positive, "1.0", "", "of the swing"},
-    SceneKey{"obstacle", "phase", number, "rad", any, "0.0", "", "of the swing"},
-    SceneKey{"obstacle", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
+};
+constexpr std::array solid_keys{
     SceneKey{"obstacle", "solid", flag, "", any, "true", "",
-             "`false` is an area: bodies pass it, and impacts list when they enter and leave it"},
-    SceneKey{"obstacle", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+             "`false` is an area: bodies pass it, and impacts list when they enter and leave it"}};
+constexpr std::array chain_keys{
+    name_key("chain", "\"slope\""),
     SceneKey{"chain", "points", points, "m", any, "[[0.0, 0.0], [1.0, 0.5]]", required,
              "ends of its segments"},
     SceneKey{"chain", "closed", flag, "", any, "false", "",
              "adds a segment from the last point to the first one"},
-    SceneKey{"chain", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
-    SceneKey{"chain", "friction", number, "", not_negative, "0.0", "", coulomb},
-    SceneKey{"chain", "belt", number, "m/s", any, "0.0", "", clockwise},
-    SceneKey{"chain", "velocity", vector, "m/s", any, "[0.0, 0.0]", "",
-             "moves, and carries bodies"},
-    SceneKey{"chain", "swing", vector, "m", any, "[1.0, 0.0]", stands, swings},
-    SceneKey{"chain", "period", number, "s", positive, "1.0", "", "of the swing"},
-    SceneKey{"chain", "phase", number, "rad", any, "0.0", "", "of the swing"},
-    SceneKey{"chain", "one_way", vector, "", any, "[0.0, 1.0]", all_sides, side},
-    SceneKey{"chain", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+};
+constexpr std::array tiles_keys{
+    name_key("tiles", "\"level\""),
     SceneKey{"tiles", "origin", vector, "m", any, "[0.0, 0.0]", "",
              "lower left corner of the last row"},
     SceneKey{"tiles", "tile", number, "m", positive, "1.0", required, "side of a tile"},
@@ -185,9 +195,9 @@ constexpr std::array known_keys{
              "the top row first; every character is a tile, except a space and a full stop"},
     SceneKey{"tiles", "one_way", text, "", any, "\"=\"", "no tile",
              "characters of `rows` whose tiles are met only from above"},
-    SceneKey{"tiles", "restitution", number, "", from_to(0, 1), "0.0", "", gives_back},
-    SceneKey{"tiles", "friction", number, "", not_negative, "0.0", "", coulomb},
-    SceneKey{"tiles", "colour", colour, "", any, "\"grey\"", "", "", colour_names},
+};
+
+constexpr std::array other_keys{
     SceneKey{"grid", "count", counts, "", from_to(1, most), "[3, 2]", required,
              "bodies in a row, number of rows"},
     SceneKey{"grid", "origin", vector, "m", any, "[0.0, 0.0]", "",
@@ -209,6 +219,7 @@ constexpr std::array known_keys{
              hang_words},
     SceneKey{"grid", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
              "per body; linked bodies bounce at the end of a step, with order 1"},
+    SceneKey{"grid", "meets", lines, "", any, "[\"solid\"]", all_layers, of_meets},
     SceneKey{"grid", "radius", number, "m", positive, "0.1",
              "`contact` above 0, else 1/200 of the camera's height", ""},
     SceneKey{"grid", "colour", colour, "", any, "\"blue\"", "", "", colour_names},
@@ -224,6 +235,7 @@ constexpr std::array known_keys{
     SceneKey{"scatter", "quadratic_drag", number, "N·s²/m²", not_negative, "0.0", "", "per body"},
     SceneKey{"scatter", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
              "per body"},
+    SceneKey{"scatter", "meets", lines, "", any, "[\"solid\"]", all_layers, of_meets},
     SceneKey{"scatter", "radius", number, "m", positive, "0.1",
              "`contact` above 0, else 1/200 of the camera's height", ""},
     SceneKey{"scatter", "colour", colour, "", any, "\"sky_blue\"", "", "", colour_names},
@@ -236,6 +248,20 @@ constexpr std::array known_keys{
              "largest change of the energy, relative to the largest kinetic energy or, if larger, "
              "to the range of the potential energy"},
 };
+
+template <std::size_t... Sizes>
+constexpr auto joined(const std::array<SceneKey, Sizes>&... parts) {
+    std::array<SceneKey, (Sizes + ...)> all{};
+    auto to = all.begin();
+    ((to = std::ranges::copy(parts, to).out), ...);
+    return all;
+}
+
+constexpr auto known_keys =
+    joined(first_keys, plane_keys, bounce_keys("plane"), last_keys("plane"), shape_keys,
+           bounce_keys("obstacle"), motion_keys("obstacle"), solid_keys, last_keys("obstacle"),
+           chain_keys, bounce_keys("chain"), motion_keys("chain"), last_keys("chain"), tiles_keys,
+           bounce_keys("tiles"), last_keys("tiles"), other_keys);
 
 constexpr std::array<std::pair<std::string_view, Colour>, 11> named{{
     {"black", palette::black},

@@ -14,7 +14,7 @@ Attractor to_force(const SceneAttractor& attractor) {
 
 Body body_of(const SceneMatter& matter, const Vec3& position, const Vec3& velocity) {
     Body body{.mass = matter.mass, .position = position, .velocity = velocity};
-    if (matter.contact) body.contact = Contact{*matter.contact};
+    if (matter.contact) body.contact = Contact{*matter.contact, matter.meets};
     return body;
 }
 
@@ -57,7 +57,11 @@ private:
         const auto add_all = [&](const std::vector<Obstacle>& obstacles) {
             for (const Obstacle& obstacle : obstacles) world_.add_obstacle(obstacle);
         };
-        for (const ScenePlane& plane : scene_.planes) world_.add_plane(plane.plane);
+        for (const ScenePlane& one : scene_.planes)
+            world_.add_obstacle({.shape = HalfSpaceShape{one.plane.normal, one.plane.offset},
+                                 .restitution = one.plane.restitution,
+                                 .friction = one.plane.friction,
+                                 .layers = one.layers});
         for (const SceneObstacle& one : scene_.obstacles) world_.add_obstacle(one.obstacle);
         for (const SceneChain& chain : scene_.chains) add_all(segments_of(chain));
         for (const SceneTiles& tiles : scene_.tiles) add_all(boxes_of(tiles, scene_.axes));

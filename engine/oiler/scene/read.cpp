@@ -49,12 +49,13 @@ void require_file(int descriptor, const std::string& path) {
              path);
 }
 
-void read_matter(const Section& section, SceneMatter& matter) {
+void read_matter(const Scene& scene, const Section& section, SceneMatter& matter) {
     section.read("mass", matter.mass);
     section.read("linear_drag", matter.linear_drag);
     section.read("quadratic_drag", matter.quadratic_drag);
     section.read("colour", matter.colour);
     section.read("contact", matter.contact);
+    matter.meets = read_meets(scene, section);
     section.read("radius", matter.radius);
 }
 
@@ -74,16 +75,14 @@ public:
     Scene run() {
         read_settings();
         each("gravity", [&](const Section& section) { read_gravity(section); });
+        add_obstacles("plane", scene_.planes, read_plane);
+        add_obstacles("obstacle", scene_.obstacles, read_obstacle);
+        add_obstacles("chain", scene_.chains, read_chain);
+        add_obstacles("tiles", scene_.tiles, read_tiles);
         each("body", [&](const Section& section) { read_body(section); });
         each("spring", [&](const Section& section) { read_spring(section); });
         each("attractor", [&](const Section& section) { read_attractor(section); });
         read_forces();
-        each("plane", [&](const Section& section) { read_plane(section); });
-        each("obstacle", [&](const Section& section) { read_named_obstacle(section); });
-        each("chain",
-             [&](const Section& section) { scene_.chains.push_back(read_chain(scene_, section)); });
-        each("tiles",
-             [&](const Section& section) { scene_.tiles.push_back(read_tiles(scene_, section)); });
         each("grid", [&](const Section& section) { read_grid(section); });
         each("scatter", [&](const Section& section) { read_scatter(section); });
         each("camera", [&](const Section& section) { read_camera(section); });
@@ -162,7 +161,7 @@ private:
         section.read("name", body.name);
         section.read("position", body.position);
         section.read("velocity", body.velocity);
-        read_matter(section, body.matter);
+        read_matter(scene_, section, body.matter);
         check_matter(scene_, section, body.matter);
         check_numbers(scene_, section, "position", body.position);
         check_numbers(scene_, section, "velocity", body.velocity);
@@ -244,26 +243,20 @@ private:
         check_number(scene_, section, "gm", attractor.gm);
     }
 
-    void read_plane(const Section& section) {
-        ScenePlane& read = scene_.planes.emplace_back();
-        section.read("normal", read.plane.normal);
-        section.read("offset", read.plane.offset);
-        section.read("restitution", read.plane.restitution);
-        section.read("friction", read.plane.friction);
-        section.read("colour", read.colour);
-        check_plane(scene_, section, read.plane);
-    }
-
-    void read_named_obstacle(const Section& section) {
-        SceneObstacle read = read_obstacle(scene_, section);
-        if (section.has("name") && read.name.empty())
-            refuse(section.place("name"),
-                   "obstacle.name: expected a name, got an empty text; leave it out");
-        if (!read.name.empty() && !obstacle_names_.insert(read.name).second)
-            refuse(section.place("name"),
-                   "obstacle.name: another obstacle has the name \"{}\"; give another name",
-                   printable(read.name));
-        scene_.obstacles.push_back(std::move(read));
+    template <class Table>
+    void add_obstacles(std::string_view table, std::vector<Table>& tables,
+                       Table (*read)(Scene&, const Section&)) {
+        each(table, [&](const Section& section) {
+            Table& added = tables.emplace_back(read(scene_, section));
+            if (!section.has("name")) return;
+            if (added.name.empty())
+                refuse(section.place("name"),
+                       "{}.name: expected a name, got an empty text; leave it out", table);
+            if (!obstacle_names_.insert(added.name).second)
+                refuse(section.place("name"),
+                       "{}.name: another obstacle has the name \"{}\"; give another name", table,
+                       printable(added.name));
+        });
     }
 
     void read_grid(const Section& section) {
@@ -272,7 +265,7 @@ private:
         section.read("origin", grid.origin);
         section.read("velocity", grid.velocity);
         section.read("spacing", grid.spacing);
-        read_matter(section, grid.matter);
+        read_matter(scene_, section, grid.matter);
         section.read("stiffness", grid.stiffness);
         section.read("damping", grid.damping);
         section.read("rest_length", grid.rest_length);
@@ -290,7 +283,7 @@ private:
         section.read("velocity_from", scatter.velocity_from);
         scatter.velocity_to = scatter.velocity_from;
         section.read("velocity_to", scatter.velocity_to);
-        read_matter(section, scatter.matter);
+        read_matter(scene_, section, scatter.matter);
         check_scatter(scene_, section, scatter);
     }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "oiler/core/nearest.hpp"
+
 namespace oiler {
 namespace {
 
@@ -86,6 +88,40 @@ private:
     const Section& section_;
 };
 
+/// The names of the key, each once.
+std::vector<std::string> read_names(const Section& section, std::string_view key,
+                                    std::string_view remedy) {
+    std::vector<std::string> names;
+    section.read(key, names);
+    if (names.empty())
+        refuse(section.place(key), "{}.{}: expected a layer, got an empty list; {}", section.name(),
+               key, remedy);
+    for (auto name = names.begin(); name != names.end(); ++name) {
+        if (name->empty())
+            refuse(section.place(key), "{}.{}: expected a name, got an empty text", section.name(),
+                   key);
+        if (std::find(names.begin(), name, *name) != name)
+            refuse(section.place(key), "{}.{}: \"{}\" comes twice; name it once", section.name(),
+                   key, printable(*name));
+    }
+    return names;
+}
+
+void read_layers(Scene& scene, const Section& section, std::uint32_t& layers) {
+    constexpr std::size_t most_layers = 32;
+    if (!section.has("layers")) return;
+    layers = 0;
+    for (std::string& name : read_names(section, "layers", "leave it out")) {
+        const auto found = std::ranges::find(scene.layers, name);
+        if (found == scene.layers.end() && scene.layers.size() == most_layers)
+            refuse(section.place("layers"),
+                   "{}.layers: \"{}\" and \"solid\" are more than {} layers; give fewer",
+                   section.name(), printable(name), most_layers);
+        layers |= 1U << static_cast<unsigned>(found - scene.layers.begin());
+        if (found == scene.layers.end()) scene.layers.push_back(std::move(name));
+    }
+}
+
 void read_swing(const Scene& scene, const Section& section, Obstacle& obstacle) {
     for (const std::string_view key : {"period", "phase"})
         if (section.has(key) && !section.has("swing"))
@@ -100,7 +136,8 @@ void read_swing(const Scene& scene, const Section& section, Obstacle& obstacle) 
 }
 
 /// Reads the keys that obstacles and chains share.
-void read_surface(const Scene& scene, const Section& section, Obstacle& obstacle) {
+void read_surface(Scene& scene, const Section& section, Obstacle& obstacle) {
+    read_layers(scene, section, obstacle.layers);
     section.read("restitution", obstacle.restitution);
     section.read("friction", obstacle.friction);
     check_obstacle(scene, section, "friction", obstacle);
@@ -145,7 +182,41 @@ void check_rows(const Section& section, const SceneTiles& tiles) {
 
 }  // namespace
 
-SceneObstacle read_obstacle(const Scene& scene, const Section& section) {
+std::uint32_t read_meets(const Scene& scene, const Section& section) {
+    if (!section.has("meets")) return ~0U;
+    if (!section.has("contact"))
+        refuse(section.place("meets"), "{}.meets: without a contact; give `contact`, its radius",
+               section.name());
+    std::uint32_t meets = 0;
+    for (const std::string& name : read_names(section, "meets", "leave `contact` out")) {
+        const auto found = std::ranges::find(scene.layers, name);
+        if (found == scene.layers.end()) {
+            const std::vector<std::string_view> known(scene.layers.begin(), scene.layers.end());
+            const std::string near = did_you_mean(name, known);
+            refuse(
+                section.place("meets"), "{}.meets: no obstacle is in the layer \"{}\"{}",
+                section.name(), printable(name),
+                near.empty() ? fmt::format("; give one layers = [\"{}\"]", printable(name)) : near);
+        }
+        meets |= 1U << static_cast<unsigned>(found - scene.layers.begin());
+    }
+    return meets;
+}
+
+ScenePlane read_plane(Scene& scene, const Section& section) {
+    ScenePlane read;
+    section.read("name", read.name);
+    section.read("normal", read.plane.normal);
+    section.read("offset", read.plane.offset);
+    section.read("restitution", read.plane.restitution);
+    section.read("friction", read.plane.friction);
+    read_layers(scene, section, read.layers);
+    section.read("colour", read.colour);
+    check_plane(scene, section, read.plane);
+    return read;
+}
+
+SceneObstacle read_obstacle(Scene& scene, const Section& section) {
     SceneObstacle read;
     section.read("name", read.name);
     read.obstacle.shape = ShapeReader(scene, section).run();
@@ -155,8 +226,9 @@ SceneObstacle read_obstacle(const Scene& scene, const Section& section) {
     return read;
 }
 
-SceneChain read_chain(const Scene& scene, const Section& section) {
+SceneChain read_chain(Scene& scene, const Section& section) {
     SceneChain chain;
+    section.read("name", chain.name);
     section.read("points", chain.points);
     section.read("closed", chain.closed);
     check_points(scene, section, chain);
@@ -166,10 +238,11 @@ SceneChain read_chain(const Scene& scene, const Section& section) {
     return chain;
 }
 
-SceneTiles read_tiles(const Scene& scene, const Section& section) {
+SceneTiles read_tiles(Scene& scene, const Section& section) {
     if (scene.axes == 1)
         refuse(section.place(), "tiles: expected two axes or three, got one; give axes = 2");
     SceneTiles tiles;
+    section.read("name", tiles.name);
     section.read("origin", tiles.origin);
     check_numbers(scene, section, "origin", tiles.origin);
     section.read("tile", tiles.tile);
@@ -178,6 +251,7 @@ SceneTiles read_tiles(const Scene& scene, const Section& section) {
     check_rows(section, tiles);
     section.read("restitution", tiles.restitution);
     section.read("friction", tiles.friction);
+    read_layers(scene, section, tiles.layers);
     section.read("colour", tiles.colour);
     for (const Obstacle& box : boxes_of(tiles, scene.axes)) {
         Obstacle smooth = box;

@@ -10,6 +10,32 @@ Link link_of(const SceneSpring& spring) {
     return {spring.stiffness, spring.damping, spring.rest_length, spring.pulls_only};
 }
 
+std::string Scene::name_of_obstacle(std::size_t index) const {
+    std::size_t begin = 0;
+    std::string name;
+    const auto look_in = [&](const auto& tables, auto count_of) {
+        for (const auto& one : tables) {
+            const std::size_t count = count_of(one);
+            const bool is_part = count > 1;
+            if (index >= begin && index < begin + count && !one.name.empty())
+                name = is_part ? one.name + " " + std::to_string(index - begin + 1) : one.name;
+            begin += count;
+        }
+    };
+    const auto alone = [](const auto&) { return std::size_t{1}; };
+    look_in(planes, alone);
+    look_in(obstacles, alone);
+    look_in(chains,
+            [](const SceneChain& chain) { return chain.points.size() - (chain.closed ? 0 : 1); });
+    look_in(tiles, [](const SceneTiles& one) {
+        std::size_t count = 0;
+        for (const std::string& row : one.rows)
+            count += static_cast<std::size_t>(std::ranges::count_if(row, is_tile));
+        return count;
+    });
+    return name.empty() ? "obstacle " + std::to_string(index) : name;
+}
+
 bool Scene::has_ropes() const { return std::ranges::any_of(springs, &SceneSpring::pulls_only); }
 
 std::vector<GridLink> links_of(const SceneGrid& grid) {
@@ -67,8 +93,10 @@ std::vector<Obstacle> boxes_of(const SceneTiles& tiles, int axes) {
                              tiles.origin + Vec3{at(column), at(tiles.rows.size() - 1 - row)}};
             if (axes == 3) box.centre[2] += at(0);
             for (int axis = 0; axis < axes; ++axis) box.size[axis] = tiles.tile;
-            Obstacle obstacle{
-                .shape = box, .restitution = tiles.restitution, .friction = tiles.friction};
+            Obstacle obstacle{.shape = box,
+                              .restitution = tiles.restitution,
+                              .friction = tiles.friction,
+                              .layers = tiles.layers};
             if (tiles.one_way.find(c) != std::string::npos) obstacle.one_way = Vec3{0, 1};
             boxes.push_back(obstacle);
         }

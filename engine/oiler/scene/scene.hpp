@@ -29,6 +29,7 @@ struct SceneMatter {
     double quadratic_drag = 0;  ///< N·s²/m²
     Colour colour = palette::blue;
     std::optional<double> contact{};  ///< m; if absent, it passes through obstacles
+    std::uint32_t meets = ~0U;        ///< see Contact::meets
     std::optional<double> radius{};   ///< m; if absent, the picture chooses it
     friend bool operator==(const SceneMatter&, const SceneMatter&) = default;
 };
@@ -90,14 +91,16 @@ struct SceneAttractor {
 
 /// A plane that bodies with a contact meet.
 struct ScenePlane {
+    std::string name{};  ///< may be empty, as that of each obstacle
     Plane plane{};
+    std::uint32_t layers = 1;  ///< see Obstacle::layers
     Colour colour = palette::grey;
     friend bool operator==(const ScenePlane&, const ScenePlane&) = default;
 };
 
 /// A circle, a segment or a box that bodies with a contact meet.
 struct SceneObstacle {
-    std::string name{};  ///< may be empty
+    std::string name{};
     Obstacle obstacle{};
     Colour colour = palette::grey;
     friend bool operator==(const SceneObstacle&, const SceneObstacle&) = default;
@@ -105,6 +108,7 @@ struct SceneObstacle {
 
 /// A polyline of segments.
 struct SceneChain {
+    std::string name{};
     std::vector<Vec3> points{};  ///< m
     bool closed = false;         ///< has a segment from the last point to the first one
     Obstacle like{};             ///< the first segment; the others differ from it by their ends
@@ -114,12 +118,14 @@ struct SceneChain {
 
 /// Equal boxes in rows of text, one for each character but " " and ".". Rows may differ in length.
 struct SceneTiles {
+    std::string name{};
     Vec3 origin{};                    ///< m, the lower left corner of the last row
     double tile = 1;                  ///< m, the side of a box
     std::vector<std::string> rows{};  ///< the top row first
     std::string one_way{};            ///< characters that are met only from above
     double restitution = 0;
     double friction = 0;
+    std::uint32_t layers = 1;
     Colour colour = palette::grey;
     friend bool operator==(const SceneTiles&, const SceneTiles&) = default;
 };
@@ -223,6 +229,7 @@ struct Scene {
     std::vector<SceneScatter> scatters{};
     SceneCamera camera{};
     SceneBudget budget{};
+    std::vector<std::string> layers{"solid"};  ///< their names, by bit
     friend bool operator==(const Scene&, const Scene&) = default;
 
     /// Number of bodies, with those of grids and scatters.
@@ -241,6 +248,9 @@ struct Scene {
         return row < bodies.size() && !bodies[row].name.empty() ? bodies[row].name
                                                                 : "body " + std::to_string(row);
     }
+    /// Name of an obstacle for messages, in the order of make_world(): "lift", "slope 2" for the
+    /// second segment or tile of that name, "obstacle 3" if it has none.
+    [[nodiscard]] std::string name_of_obstacle(std::size_t index) const;
 };
 
 }  // namespace oiler
