@@ -292,6 +292,20 @@ TEST(FrameRecord, IsALineOfJson) {
     EXPECT_EQ(json.at("picture").at("background"), (Json{255, 255, 255, 255}));
 }
 
+TEST(FrameRecord, HasObstaclesUnlessTheyAreTooMany) {
+    FrameRecord record;
+    EXPECT_FALSE(parse_frame_records(to_json(record), "").at(0).obstacles);
+    record.obstacles = {{"lift", "box", {{"x", -0.0}, {"y", 0.1}, {"width", 1e300}}},
+                        {"edge", "segment", {}}};
+    const std::string line = to_json(record);
+    EXPECT_TRUE(holds(line, R"({"name":"edge","shape":"segment"})"));
+    const FrameRecord read = parse_frame_records(line, "").at(0);
+    EXPECT_EQ(read.obstacles, record.obstacles);
+    EXPECT_TRUE(std::signbit(read.obstacles->at(0).numbers.at("x")));
+    record.obstacles.emplace();
+    EXPECT_EQ(parse_frame_records(to_json(record), "").at(0).obstacles, record.obstacles);
+}
+
 // A game may draw a body that is infinitely far away: its captures can still be compared.
 TEST(FrameRecord, NumbersThatAreNotFiniteReadBackAsNan) {
     const double infinity = std::numeric_limits<double>::infinity();

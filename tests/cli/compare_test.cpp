@@ -171,6 +171,21 @@ TEST_F(Compare, NamesBodyAndFieldOfAChangedForce) {
     EXPECT_EQ(desk.json("result.json").at("counts").at("simulation"), 2);
 }
 
+TEST_F(Compare, NamesTheObstacleThatChanged) {
+    const std::string lift =
+        two_bodies +
+        "\n"
+        "[[obstacle]]\nname = 'lift'\nshape = 'box'\ncentre = [9.0, 2.0]\nsize = [2.0, 1.0]\n"
+        "velocity = [0.0, 0.5]\n";
+    const std::string at_start = "simulation changed at tick 0: obstacle 'lift', ";
+    for (const auto& [from, to, words] : {std::array{"[9.0, 2.0]", "[9.0, 2.5]", "y: 2 → 2.5\n"},
+                                          {"[2.0, 1.0]", "[2.0, 1.5]", "height: 1 → 1.5\n"},
+                                          {"[0.0, 0.5]", "[0.0, 0.25]", "vy: 0.5 → 0.25\n"}}) {
+        const std::string text = change(lift, with(lift, from, to), "--fps 100 --frames 3");
+        EXPECT_TRUE(text.starts_with(at_start + words)) << text;
+    }
+}
+
 TEST_F(Compare, EqualCapturesPass) {
     capture("golden", pendulum, "--fps 30 --frames 5");
     capture("actual", pendulum, "--fps 30 --frames 5 --threads 3");

@@ -249,6 +249,31 @@ TEST(StateChanges, DoNotTakeOtherExchangesForASwap) {
     }
 }
 
+const std::vector<ObstacleState> obstacles{{"lift", "box", {{"x", 1}, {"y", 2}, {"width", 3}}},
+                                           {"peg", "circle", {{"x", 4}, {"radius", 0.5}}},
+                                           {"edge", "segment", {{"to x", 2}}}};
+
+TEST(ObstacleChanges, NameTheFirstNumberOfTheFirstObstacle) {
+    EXPECT_EQ(describe_obstacle_change(obstacles, obstacles), "");
+    auto actual = obstacles;
+    actual[1].numbers["radius"] = moved(0.5, 1);
+    EXPECT_EQ(describe_obstacle_change(obstacles, actual),
+              "obstacle 'peg', radius: 0.5 → 0.5000000000000001");
+    actual[0].numbers.erase("y");
+    EXPECT_EQ(describe_obstacle_change(obstacles, actual),
+              "obstacle 'lift', y: 2 → 0; 1 more obstacle");
+    actual[0].shape = "circle";
+    EXPECT_EQ(describe_obstacle_change(obstacles, actual),
+              "obstacle 'lift': box → circle; 1 more obstacle");
+}
+
+TEST(ObstacleChanges, NameMissingAndNewObstacles) {
+    const std::vector<ObstacleState> one{obstacles[1]};
+    EXPECT_EQ(describe_obstacle_change(obstacles, one), "obstacle 'edge' and 1 more are missing");
+    EXPECT_EQ(describe_obstacle_change(one, {obstacles[0], obstacles[1]}),
+              "obstacle 'lift' is new");
+}
+
 TEST(StateChanges, NameAnotherOrder) {
     EXPECT_EQ(describe_state_change(bodies, {bodies[1], bodies[0], bodies[2]}, "double"),
               "bodies in another order");

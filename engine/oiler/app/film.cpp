@@ -104,7 +104,8 @@ Shot Film::shot_of(const Picture& picture, const HeadlessFrame& at,
               .tick_hashes = playback.tick_hashes(last_tick_, at.step),
               .has_png = options_.has_png && frames_ % options_.keyframes == 0};
     if (shot.has_png && is_recordable(playback.bodies().size(), picture))
-        shot.record = FrameRecord{.bodies = playback.bodies(), .picture = picture};
+        shot.record = FrameRecord{
+            .bodies = playback.bodies(), .obstacles = playback.obstacles(), .picture = picture};
     return shot;
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "oiler/app/obstacle_states.hpp"
 #include "oiler/core/error.hpp"
 #include "oiler/core/state_hash.hpp"
 #include "oiler/process/interrupt.hpp"
@@ -116,7 +117,10 @@ Playback::Sample Playback::sample() const {
     const Span span(profile_, "picture");
     Sample now{.step = steps_, .cuts = game_.cuts(), .picture = game_.picture()};
     if (keep_ == Keep::hashes) now.state_hash = game_.state_hash();
-    if (hashes_ticks()) now.bodies = states_of(game_);
+    if (hashes_ticks()) {
+        now.bodies = states_of(game_);
+        now.obstacles = obstacle_states_of(game_);
+    }
     return now;
 }
 

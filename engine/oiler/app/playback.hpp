@@ -54,6 +54,10 @@ public:
     [[nodiscard]] std::uint64_t state_hash() const { return before_.state_hash; }
     /// The bodies after the last shown step; none if no hashes are kept, or above 1000.
     [[nodiscard]] const std::vector<BodyState>& bodies() const { return before_.bodies; }
+    /// The obstacles then; absent if no hashes are kept, or above 1000.
+    [[nodiscard]] const std::optional<std::vector<ObstacleState>>& obstacles() const {
+        return before_.obstacles;
+    }
     /// The last four digits of the hash after each step from `first` + 1 to `last`; empty if one of
     /// them is not kept.
     [[nodiscard]] std::string tick_hashes(std::int64_t first, std::int64_t last) const;
@@ -64,6 +68,7 @@ private:
         std::int64_t cuts = 0;
         std::uint64_t state_hash = 0;
         std::vector<BodyState> bodies{};
+        std::optional<std::vector<ObstacleState>> obstacles{};
         Picture picture{};
     };
 

@@ -95,6 +95,12 @@ Json json_of(const BodyState& body) {
     return json;
 }
 
+Json json_of(const ObstacleState& obstacle) {
+    Json json{{"name", obstacle.name}, {"shape", obstacle.shape}};
+    for (const auto& [name, number] : obstacle.numbers) json[name] = number;
+    return json;
+}
+
 template <class Element>
 Json json_of_all(const std::vector<Element>& elements) {
     return Json::list(elements, [](const Element& element) { return json_of(element); });
@@ -193,9 +199,20 @@ BodyState to_body(const Parsed& json) {
     return body;
 }
 
+ObstacleState to_obstacle(const Parsed& json) {
+    ObstacleState obstacle{.name = json.at("name"), .shape = json.at("shape")};
+    for (const auto& [name, value] : json.items())
+        if (!value.is_string()) obstacle.numbers[name] = to_number<double>(value);
+    return obstacle;
+}
+
 FrameRecord to_record(const Parsed& json) {
     FrameRecord record{.index = json.at("frame")};
     for (const Parsed& body : json.at("bodies")) record.bodies.push_back(to_body(body));
+    if (json.contains("obstacles")) {
+        auto& obstacles = record.obstacles.emplace();
+        for (const Parsed& one : json.at("obstacles")) obstacles.push_back(to_obstacle(one));
+    }
     const Parsed& picture = json.at("picture");
     record.picture.background = to_colour(picture.at("background"));
     record.picture.camera = {to_point(picture.at("centre")), to_number(picture.at("height"))};
@@ -224,9 +241,10 @@ bool is_recordable(std::size_t bodies, const Picture& picture) {
 }
 
 std::string to_json(const FrameRecord& record) {
-    const Json json{{"frame", record.index},
-                    {"bodies", json_of_all(record.bodies)},
-                    {"picture", json_of(record.picture)}};
+    Json json{{"frame", record.index},
+              {"bodies", json_of_all(record.bodies)},
+              {"picture", json_of(record.picture)}};
+    if (record.obstacles) json["obstacles"] = json_of_all(*record.obstacles);
     return json.dump(-1) + "\n";
 }
 

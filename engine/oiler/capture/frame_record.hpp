@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,10 +24,21 @@ struct BodyState {
     friend bool operator==(const BodyState&, const BodyState&) = default;
 };
 
+/// An obstacle at the tick of a frame.
+struct ObstacleState {
+    std::string name;   ///< "lift", or "obstacle 3"
+    std::string shape;  ///< "circle"
+    /// By their names: place and size (m), angle, velocity, surface. Those that are 0 may be
+    /// absent.
+    std::map<std::string, double, std::less<>> numbers{};
+    friend bool operator==(const ObstacleState&, const ObstacleState&) = default;
+};
+
 /// The contents of a frame before OpenGL: hashes tell that two frames differ, records tell where.
 struct FrameRecord {
     std::int64_t index = 0;
     std::vector<BodyState> bodies{};
+    std::optional<std::vector<ObstacleState>> obstacles{};  ///< absent if they are too many
     Picture picture{};
 };
 

@@ -45,6 +45,9 @@ public:
     [[nodiscard]] std::string name_of(Entity entity) const override {
         return scene_->name_of_body(entity.index);
     }
+    [[nodiscard]] std::string name_of(ObstacleHandle obstacle) const override {
+        return scene_->name_of_obstacle(obstacle.slot);
+    }
 
 private:
     /// A body that the mouse holds. It is pulled from the first move of the mouse on, so that a

@@ -181,6 +181,10 @@ public:
     [[nodiscard]] virtual std::string name_of(Entity entity) const {
         return "body " + std::to_string(entity.index);
     }
+    /// Name of an obstacle in comparisons.
+    [[nodiscard]] virtual std::string name_of(ObstacleHandle obstacle) const {
+        return "obstacle " + std::to_string(obstacle.slot);
+    }
 
 protected:
     AnyGame(const AnyGame&) = default;

@@ -30,23 +30,28 @@ bool is_unchanged(const BodyState& a, const BodyState& b) {
     return true;
 }
 
-using ByName = std::map<std::string_view, const BodyState*>;
+template <class State>
+using StatesByName = std::map<std::string_view, const State*>;
+using ByName = StatesByName<BodyState>;
 
-ByName by_name(const std::vector<BodyState>& bodies) {
-    ByName named;
-    for (const BodyState& body : bodies) named.emplace(body.name, &body);
+template <class State>
+StatesByName<State> by_name(const std::vector<State>& states) {
+    StatesByName<State> named;
+    for (const State& state : states) named.emplace(state.name, &state);
     return named;
 }
 
 /// "body 'bob'", "body 'bob' and 2 more".
-std::string list_of(const std::vector<std::string_view>& names) {
-    const std::string first = fmt::format("body '{}'", names.front());
+std::string list_of(std::string_view kind, const std::vector<std::string_view>& names) {
+    const std::string first = fmt::format("{} '{}'", kind, names.front());
     return names.size() == 1 ? first : fmt::format("{} and {} more", first, names.size() - 1);
 }
 
-std::vector<std::string_view> names_missing_in(const ByName& there, const ByName& here) {
+template <class State>
+std::vector<std::string_view> names_missing_in(const StatesByName<State>& there,
+                                               const StatesByName<State>& here) {
     std::vector<std::string_view> names;
-    for (const auto& [name, body] : there)
+    for (const auto& [name, state] : there)
         if (!here.contains(name)) names.push_back(name);
     return names;
 }
@@ -88,6 +93,20 @@ Change largest_change(const ByName& golden, const ByName& actual, bool single) {
             if (is_first || ulps > largest.ulps) largest = {name, i, before, after, ulps};
         }
     return largest;
+}
+
+/// "obstacle 'lift', y: 2 → 2.5" for its first number that differs.
+std::string change_of(const ObstacleState& golden, const ObstacleState& actual) {
+    if (golden.shape != actual.shape)
+        return fmt::format("obstacle '{}': {} → {}", golden.name, golden.shape, actual.shape);
+    std::map<std::string_view, std::pair<double, double>> numbers;
+    for (const auto& [name, number] : golden.numbers) numbers[name].first = number;
+    for (const auto& [name, number] : actual.numbers) numbers[name].second = number;
+    for (const auto& [name, pair] : numbers)
+        if (!has_same_bits(pair.first, pair.second))
+            return fmt::format("obstacle '{}', {}: {} → {}", golden.name, name, pair.first,
+                               pair.second);
+    return {};
 }
 
 /// The numbers of an element that are compared, whatever its kind is.
@@ -345,9 +364,9 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
     const ByName before = by_name(golden);
     const ByName after = by_name(actual);
     if (const auto gone = names_missing_in(before, after); !gone.empty())
-        return list_of(gone) + (gone.size() == 1 ? " is missing" : " are missing");
+        return list_of("body", gone) + (gone.size() == 1 ? " is missing" : " are missing");
     if (const auto added = names_missing_in(after, before); !added.empty())
-        return list_of(added) + (added.size() == 1 ? " is new" : " are new");
+        return list_of("body", added) + (added.size() == 1 ? " is new" : " are new");
     if (const std::string swap = describe_swap(before, after); !swap.empty()) return swap;
     const bool single = precision == "float";
     const Change change = largest_change(before, after, single);
@@ -363,6 +382,24 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
                           change.field < 3 ? "m" : "m/s");
     return fmt::format("body '{}', {}: {} → {}, {}", change.body, field_names[change.field],
                        digits(change.golden), digits(change.actual), distance);
+}
+
+std::string describe_obstacle_change(const std::vector<ObstacleState>& golden,
+                                     const std::vector<ObstacleState>& actual) {
+    const auto before = by_name(golden);
+    const auto after = by_name(actual);
+    if (const auto gone = names_missing_in(before, after); !gone.empty())
+        return list_of("obstacle", gone) + (gone.size() == 1 ? " is missing" : " are missing");
+    if (const auto added = names_missing_in(after, before); !added.empty())
+        return list_of("obstacle", added) + (added.size() == 1 ? " is new" : " are new");
+    std::string first;
+    std::size_t changed = 0;
+    for (const ObstacleState& one : golden) {
+        const std::string change = change_of(one, *after.at(one.name));
+        if (!change.empty() && changed++ == 0) first = change;
+    }
+    return changed > 1 ? fmt::format("{}; {}", first, count_of(changed - 1, "more obstacle"))
+                       : first;
 }
 
 std::string describe_picture_change(const Picture& golden, const Picture& actual, Size size) {

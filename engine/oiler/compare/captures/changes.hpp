@@ -18,6 +18,11 @@ namespace oiler {
                                                 const std::vector<BodyState>& actual,
                                                 std::string_view precision);
 
+/// Describes how the obstacles of a frame differ: the first that does, and the first of its
+/// numbers. Empty if none does.
+[[nodiscard]] std::string describe_obstacle_change(const std::vector<ObstacleState>& golden,
+                                                   const std::vector<ObstacleState>& actual);
+
 /// Describes how two pictures differ, for example "3 discs moved by at most 0.4 px; 1 line: width 2
 /// → 1.9". Distances are in pixels of a frame of that size. Elements are matched by their keys;
 /// those without a key by their order. Empty if the pictures are equal.

@@ -141,6 +141,18 @@ private:
         return fmt::format("at tick {}", tick);
     }
 
+    /// Obstacles come first: they move bodies, and not the other way round.
+    [[nodiscard]] std::string describe_states(const FrameRecord& before,
+                                              const FrameRecord& after) const {
+        const std::string obstacles =
+            before.obstacles && after.obstacles
+                ? describe_obstacle_change(*before.obstacles, *after.obstacles)
+                : "";
+        const std::string bodies =
+            describe_state_change(before.bodies, after.bodies, golden_.manifest().precision);
+        return obstacles + (obstacles.empty() || bodies.empty() ? "" : "; ") + bodies;
+    }
+
     [[nodiscard]] std::string describe_simulation(std::int64_t index) const {
         const std::string where = describe_tick(index);
         const FrameRecord* const before = golden_.record(index);
@@ -153,8 +165,7 @@ private:
         });
         if (!shift.empty()) return fmt::format("{}: frame {} {}", where, index, shift);
         if (golden(index).tick != actual(index).tick) return where;
-        const std::string change =
-            describe_state_change(before->bodies, after->bodies, golden_.manifest().precision);
+        const std::string change = describe_states(*before, *after);
         if (change.empty()) return where + "; this frame shows the same bodies";
         if (where == fmt::format("at tick {}", golden(index).tick))
             return fmt::format("{}: {}", where, change);
