@@ -96,10 +96,32 @@ private:
     std::vector<Near<T, Axes>> nears_;
 };
 
+template <class T, int Axes>
+bool is_segment(const ObstacleOf<T, Axes>& obstacle) {
+    return Axes == 2 && obstacle.bounded && obstacle.rounding == 0 &&
+           obstacle.half.axis.back() == 0;
+}
+/// The place along a way where a point crosses a segment, which has no inside.
+template <class T, int Axes>
+std::optional<T> crossing_of(const ObstacleOf<T, Axes>& segment, const Vec<T, Axes>& from,
+                             const Vec<T, Axes>& way) {
+    const Vec<T, Axes> start = beside(segment, from).place;
+    const Vec<T, Axes> end = beside(segment, from + way).place;
+    const T height = start.axis.back();
+    const T last = end.axis.back();
+    if (!(height < 0 ? last >= 0 : height > 0 && last <= 0)) return std::nullopt;
+    const T at = height / (height - last);
+    const T noise = 8 * std::numeric_limits<T>::epsilon() *
+                    (largest(from) + largest(way) + largest(segment.centre));
+    const T along = start.axis[0] + (end.axis[0] - start.axis[0]) * at;
+    return std::abs(along) <= segment.half.axis[0] + noise ? std::optional(at) : std::nullopt;
+}
+
 /// The place along a way where a ball first touches a convex obstacle; 0 if it starts in it.
 template <class T, int Axes>
 std::optional<T> fraction_to(const ObstacleOf<T, Axes>& obstacle, const Vec<T, Axes>& from,
                              const Vec<T, Axes>& way, T radius) {
+    if (radius == 0 && is_segment(obstacle)) return crossing_of(obstacle, from, way);
     const auto distance = [&](T at) { return gap(obstacle, from + way * at, radius); };
     const auto nearing = [&](T at) { return -dot(normal(obstacle, from + way * at), way); };
     const T start = distance(0);
@@ -153,10 +175,17 @@ private:
         if (found_ && std::pair(found_->fraction, found_->slot) <= std::pair(*fraction, slot))
             return;
         const Vec centre = from_ + way_ * *fraction;
-        const Vec n = normal(obstacle, centre);
+        const Vec n = normal_at(obstacle, centre);
         if (obstacle.is_one_way() && (*fraction == 0 || !bears_from(obstacle, n))) return;
         const bool is_inside = *fraction == 0 && gap(obstacle, from_, radius_) < 0;
         found_ = {slot, *fraction, centre - n * radius_, is_inside ? Vec{} : n};
+    }
+
+    /// On a segment, a point is on the side from which it comes.
+    [[nodiscard]] Vec normal_at(const ObstacleOf<T, Axes>& obstacle, const Vec& x) const {
+        if (radius_ > 0 || !is_segment(obstacle)) return normal(obstacle, x);
+        const Vec side = obstacle.frame.row.back();
+        return dot(side, way_) < 0 ? side : -side;
     }
 
     const Obstacles<T, Axes>& obstacles_;
