@@ -2,12 +2,14 @@
 // A Galton board: 200 balls fall through ten rows of pegs into bins. Lines show the binomial law,
 // which holds for balls that pass each row left or right of one peg, with equal chances. The balls
 // bounce off several, and do not meet each other: their bell is some 4 % wider. With a restitution
-// of 0.6 instead of 0.7 it is a third wider, from 60 to 240 Hz.
+// of 0.6 instead of 0.7 it is a third wider, from 60 to 240 Hz. The more often a peg was hit, the
+// bluer it is.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "oiler/oiler.hpp"
 
@@ -50,13 +52,14 @@ struct Galton {
                                  .duration = 32};
     World world;
     std::array<int, bins> counts{};
+    std::unordered_map<ObstacleHandle, int> hits;  // of each peg
 
     explicit Galton(const Settings& settings) : world(2, settings) {
         world.set_gravity({0, -9.81});
         for (int row = 0; row < rows; ++row)
             for (double x = row % 2 ? -2.75 : -3; x < 3.1; x += across)
-                world.add_obstacle(
-                    {.shape = CircleShape{{x, top - down * row}, peg}, .restitution = 0.7});
+                hits[world.add_obstacle(
+                    {.shape = CircleShape{{x, top - down * row}, peg}, .restitution = 0.7})] = 0;
         for (double x = -2.75; x < 3; x += across)
             world.add_obstacle({.shape = SegmentShape{{x, 0}, {x, wall}}});
         for (const double x : {-3.25, 3.25})
@@ -82,6 +85,8 @@ struct Galton {
     }
 
     void update(const Input&) {
+        for (const Impact& impact : world.impacts())
+            if (const auto hit = hits.find(impact.obstacle); hit != hits.end()) ++hit->second;
         world.due<Drop>([&](Drop drop) {
             const Vec3 at{world.random().uniform(-0.01, 0.01), top + 0.7};
             const Entity ball = world.spawn(Body{.position = at, .contact = Contact{radius}});
@@ -100,7 +105,11 @@ struct Galton {
     }
 
     Picture picture() const {
-        Picture picture = draw_looks(world, {.centre = {0, 3.8F}, .height = 8.6F});
+        ObstacleColours colours;
+        for (const auto& [handle, count] : hits)
+            colours[handle] = palette::mix(palette::pale, palette::sky_blue,
+                                           std::min(1.0F, float(count) / float(3 * balls)));
+        Picture picture = draw_looks(world, {.centre = {0, 3.8F}, .height = 8.6F}, colours);
         const auto text = [&](Point at, std::string words, float size, Space space) {
             picture.labels.push_back({.at = at,
                                       .text = std::move(words),

@@ -130,7 +130,10 @@ struct Platformer {
                 picture.discs.push_back({{}, to_point(coins[i]), 0.25F, palette::vermilion});
         const Vec3 at = world.position(hero);
         if (world.alive(rope))
-            picture.polylines.push_back({key_of(world, hero), {to_point(at), to_point(hook)}, 2});
+            picture.polylines.push_back(
+                {key_of(world, hero),
+                 oiler::rope(to_point(at), to_point(hook), float(world.link(rope).rest_length)),
+                 2});
         const Vec3 eye = at + Vec3{std::clamp(world.velocity(hero)[0] / 10, -0.18, 0.18), 0.1};
         picture.discs.push_back({key_of(world, hero, 1), to_point(eye), 0.08F, palette::ink});
         const char* const keys = "← → run, Space jumps, ↓ drops, E swings";

@@ -312,7 +312,7 @@ TEST(LiveWhatIf, ClaimsNoErrorOfAGameWithoutBodies) {
     auto& [settings, game, player, make, along, tap] = measured;
     game.step(0, 60, tap);
     along.play_until(60);
-    EXPECT_EQ(along.verdict().text, "what the timestep costs is not measured: there are no bodies");
+    EXPECT_EQ(along.verdict().text, "no bodies, and so no errors to measure");
     EXPECT_EQ(along.verdict().grade, Grade::unknown);
 }
 

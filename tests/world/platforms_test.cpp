@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Obstacles that move, carry, are met from one side, or are asked for.
+#include <unordered_map>
+
 #include "oiler/sim/bodies.hpp"
 #include "support/reference.hpp"
 #include "world/contacts.hpp"
@@ -205,6 +207,96 @@ TEST(Raycast, FindsTheFirstObstacle) {
     EXPECT_FALSE(world.raycast({0, 0}, {-10, 0}));
     EXPECT_EQ(world.raycast({5, 0.5}, {10, 0})->fraction, 0);
     EXPECT_EQ(world.overlaps({7, 0}, {1.5}), (std::vector{circle, box}));
+}
+
+// A level part and a slope of 45°. Points that are bodies pass segments.
+TEST(Raycast, ARayWithoutAWidthMeetsSegments) {
+    for (const Precision precision : {Precision::double_, Precision::single}) {
+        World world(2, Settings{.stepping = {.precision = precision}});
+        const std::vector<Vec3> points{{-1, 0}, {0, 0}, {1, 1}};
+        const auto parts = world.add_chain(points, false, {});
+        const auto expect_hit = [&](const Vec3& from, const Vec3& to, std::size_t part,
+                                    double fraction, const Vec3& normal) {
+            const auto hit = world.raycast(from, to);
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->obstacle, parts.at(part));
+            EXPECT_NEAR(hit->fraction, fraction, 1e-6);
+            EXPECT_LT(length(hit->normal - normal), 1e-6);
+        };
+        const double root = std::sqrt(0.5);
+        expect_hit({-0.5, 1}, {-0.5, -3}, 0, 0.25, {0, 1});
+        expect_hit({-0.5, -3}, {-0.5, 1}, 0, 0.75, {0, -1});
+        expect_hit({0.5, 2}, {0.5, 0}, 1, 0.75, {-root, root});
+        EXPECT_NEAR(world.raycast({0, 1}, {0, -1})->fraction, 0.5, 1e-6) << "at the joint";
+        EXPECT_FALSE(world.raycast({-1.1, 1}, {-1.1, -1})) << "past the end";
+        EXPECT_FALSE(world.raycast({-0.5, 1}, {-0.5, 0.1})) << "it ends before";
+        EXPECT_FALSE(world.raycast({-0.5, -0.1}, {-0.5, -1})) << "it leads away";
+    }
+}
+
+// A ledge of 2 m × 0.2 m, the top of a circle, and an edge, each met from above within 60°.
+TEST(Raycast, MeetsOneWayObstaclesFromTheirOwnSide) {
+    const Shape shapes[] = {BoxShape{{0, -0.1}, {2, 0.2}}, CircleShape{{0, -1}, 1},
+                            SegmentShape{{-1, 0}, {1, 0}}};
+    for (const Shape& shape : shapes) {
+        World world(2, Settings{});
+        const auto ledge = world.add_obstacle({.shape = shape, .one_way = Vec3{0, 2}});
+        for (const double radius : {0.0, 0.25}) {
+            const auto hit = world.raycast({0, 1}, {0, -3}, {radius});
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->obstacle, ledge);
+            EXPECT_NEAR(hit->fraction, (1 - radius) / 4, 1e-15);
+            EXPECT_TRUE(world.raycast({0.5, 1}, {0, -1}, {radius})) << "obliquely from above";
+            EXPECT_FALSE(world.raycast({0, -3}, {0, 1}, {radius})) << "from below";
+            EXPECT_FALSE(world.raycast({0, -0.05}, {0, -3}, {radius})) << "from inside, or below";
+            const double y = centre_of(shape)[1];
+            EXPECT_FALSE(world.raycast({-3, y}, {3, y}, {radius})) << "from a side";
+        }
+        const auto floor = world.add_plane({.normal = {0, 1}, .offset = -2.5});
+        EXPECT_EQ(world.raycast({0, -0.05}, {0, -3})->obstacle, floor) << "behind it";
+    }
+}
+
+// Swings by 0.5 m, a quarter of its period later; moves by 3 m/s and −4 m/s.
+TEST(ObstacleHandles, HaveAPlace) {
+    World world(2, Settings{.stepping = {.rate = {100}}});
+    const Vec3 velocity{3, -4};
+    const auto lift =
+        world.add_obstacle({.shape = BoxShape{{1, 2}, {1, 1}, 0.3}, .swing = Swing{{0, 0.5}, 1}});
+    const auto peg = world.add_obstacle({.shape = CircleShape{{4, 5}, 1}, .velocity = velocity});
+    const auto edge =
+        world.add_obstacle({.shape = SegmentShape{{0, 1}, {2, 5}}, .velocity = velocity});
+    const auto floor = world.add_obstacle(
+        {.shape = HalfSpaceShape{{0, -2}, 6}, .velocity = velocity, .one_way = {}});
+    const auto wall = world.add_plane({.normal = {3, 4}, .offset = 10});
+    for (const double time : {0.0, 0.25}) {
+        const Vec3 way = time * velocity;
+        const auto expect_at = [&](ObstacleHandle handle, const Vec3& place) {
+            EXPECT_LT(length(world.position(handle) - place), 1e-12);
+        };
+        expect_at(lift, {1, 2 + 2 * time});
+        expect_at(peg, Vec3{4, 5} + way);
+        expect_at(edge, Vec3{1, 3} + way);
+        expect_at(floor, {0, -3 + way[1]});
+        expect_at(wall, {1.2, 1.6});
+        world.step(25);
+    }
+    world.move_obstacle(peg, {7, 8});
+    world.step();
+    EXPECT_EQ(world.position(peg), (Vec3{7, 8}));
+}
+
+TEST(ObstacleHandles, AreKeysOfAMap) {
+    World world(2, Settings{});
+    std::unordered_map<ObstacleHandle, int> all;
+    for (int i = 0; i < 1000; ++i) all[world.add_obstacle({.shape = CircleShape{}})] = i;
+    EXPECT_EQ(all.size(), 1000U);
+    const ObstacleHandle seventh = world.bodies().obstacles()[7];
+    EXPECT_EQ(all.at(seventh), 7);
+    world.remove_obstacle(seventh);
+    const ObstacleHandle newer = world.add_obstacle({.shape = CircleShape{}});
+    EXPECT_EQ(newer.slot, seventh.slot);
+    EXPECT_FALSE(all.contains(newer));
 }
 
 TEST(ObstacleHandles, KnowWhenTheyAreStale) {

@@ -263,6 +263,25 @@ TEST(Links, HaveHandlesThatKnowWhenTheyAreGone) {
     EXPECT_THROW(world.unlink(bc), Mistake);
 }
 
+TEST(Links, HaveNumbersThatCanBeRead) {
+    World world(1);
+    const Entity a = world.spawn({});
+    const Entity b = world.spawn({.position = {1}});
+    const LinkHandle rope = world.link_to_point(
+        a, {5}, {.stiffness = 1, .damping = 2, .rest_length = 3, .pulls_only = true});
+    const LinkHandle gone = world.link(a, b, {.stiffness = 6});
+    const LinkHandle spring = world.link(b, a, {.stiffness = 4, .rest_length = 5});
+    world.unlink(gone);
+    EXPECT_EQ(world.link(rope).stiffness, 1);
+    EXPECT_EQ(world.link(rope).damping, 2);
+    EXPECT_EQ(world.link(rope).rest_length, 3);
+    EXPECT_TRUE(world.link(rope).pulls_only);
+    EXPECT_EQ(world.link(spring).stiffness, 4);
+    EXPECT_EQ(world.link(spring).rest_length, 5);
+    EXPECT_FALSE(world.link(spring).pulls_only);
+    EXPECT_THROW((void)world.link(gone), Mistake);
+}
+
 constexpr Link stiff{.stiffness = 300, .damping = 0.5, .rest_length = 1};
 
 struct Chain {

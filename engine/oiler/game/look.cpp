@@ -13,12 +13,20 @@ namespace {
 /// Draws obstacles in the colours of the ground.
 class Ground {
 public:
-    Ground(const Obstacle& obstacle, ObstacleHandle handle, Picture& picture)
+    Ground(const Obstacle& obstacle, ObstacleHandle handle, const ObstacleColours& colours,
+           Picture& picture)
         : solid_{.key = key_of_obstacle(handle.slot, handle.generation),
                  .fill = palette::pale,
                  .line = palette::grey,
                  .outline = 1.5F},
           picture_(picture) {
+        if (const auto given = colours.find(handle); given != colours.end()) {
+            solid_.fill = given->second;
+            const bool is_line = std::holds_alternative<SegmentShape>(obstacle.shape);
+            if (is_line || obstacle.one_way) solid_.line = given->second;
+        } else if (obstacle.one_way) {
+            solid_.fill = solid_.line;  // faded
+        }
         // Ground that stands is drawn where the camera is: it does not move.
         const bool is_plane = std::holds_alternative<HalfSpaceShape>(obstacle.shape);
         if (is_plane && obstacle.velocity == Vec3{} && !obstacle.swing) solid_.key = {};
@@ -78,10 +86,10 @@ void draw(const Look& look, const ElementKey& key, Point at, Picture& picture) {
 
 void Look::hash(StateHash& hash) const { hash.add(shape, size, colour, layer); }
 
-Picture draw_looks(const World& world, const Camera& camera) {
+Picture draw_looks(const World& world, const Camera& camera, const ObstacleColours& colours) {
     Picture picture{.camera = camera};
     for (const ObstacleHandle handle : world.bodies().obstacles())
-        Ground(world.bodies().obstacle(handle), handle, picture);
+        Ground(world.bodies().obstacle(handle), handle, colours, picture);
     world.each<Look>([&](Entity entity, const Look& look) {
         if (world.has_body(entity))
             draw(look, key_of(world, entity), to_point(world.position(entity)), picture);

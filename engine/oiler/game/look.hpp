@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <unordered_map>
 
 #include "oiler/core/state_hash.hpp"
 #include "oiler/picture/palette.hpp"
@@ -38,7 +39,12 @@ struct Look {
 /// A point of a picture or of the mouse, m, as a vector.
 [[nodiscard]] inline Vec3 to_vec(Point point) { return {point.x, point.y}; }
 
-/// A picture of the bodies that have a Look, and of the obstacles of the world.
-[[nodiscard]] Picture draw_looks(const World& world, const Camera& camera);
+/// The colours of some obstacles.
+using ObstacleColours = std::unordered_map<ObstacleHandle, Colour>;
+
+/// A picture of the bodies that have a Look, and of the obstacles of the world, which are pale if
+/// they have no colour.
+[[nodiscard]] Picture draw_looks(const World& world, const Camera& camera,
+                                 const ObstacleColours& colours = {});
 
 }  // namespace oiler

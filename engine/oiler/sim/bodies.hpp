@@ -94,6 +94,8 @@ public:
     [[nodiscard]] bool alive(LinkHandle link) const;
     /// Removes the spring, which must be alive.
     void unlink(LinkHandle link);
+    /// The numbers of a spring, which must be alive.
+    [[nodiscard]] Link link(LinkHandle link) const;
     /// The number of links: first those between rows, then those to points.
     [[nodiscard]] std::size_t link_count() const;
     [[nodiscard]] Link link_at(std::size_t i) const;
@@ -134,7 +136,7 @@ public:
     /// Lets the body pass the one-way obstacles that it touches.
     void drop_through(std::size_t row);
     /// The first obstacle that a ball meets on a straight way, m; no area. One-way obstacles
-    /// stop it from their own side only. At equal distances the lower slot is first.
+    /// stop it from their own side only, and segments also a ball of radius 0. At equal distances the lower slot is first.
     [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
                                              const Contact& ball = {}) const;
     /// The obstacles and areas that a ball overlaps, in the order of their slots.

@@ -26,6 +26,12 @@ LinkEnds ends_of(const PointLinkRow<T, Axes>& link) {
     return {link.row, std::nullopt, converted<Vec3>(link.point)};
 }
 
+template <class Row>
+Link to_link(const Row& link) {
+    return {static_cast<double>(link.stiffness), static_cast<double>(link.damping),
+            static_cast<double>(link.rest_length), link.pulls_only};
+}
+
 /// The indices of links to points in the order of their dampers.
 template <class T, int Axes>
 std::vector<std::size_t> damping_order_of(std::vector<PointLinkRow<T, Axes>> links) {
@@ -98,16 +104,24 @@ void Bodies::unlink(LinkHandle link) {
     link_slots_.release(link.slot);
 }
 
+Link Bodies::link(LinkHandle link) const {
+    require(alive(link), "the link is gone");
+    const auto is_it = [&](const auto& stored) { return stored.slot == link.slot; };
+    return columns_->visit([&](const auto& columns) {
+        const auto found = std::ranges::find_if(columns.links, is_it);
+        return found != columns.links.end()
+                   ? to_link(*found)
+                   : to_link(*std::ranges::find_if(columns.point_links, is_it));
+    });
+}
+
 std::size_t Bodies::link_count() const {
     return columns_->visit(
         [](const auto& columns) { return columns.links.size() + columns.point_links.size(); });
 }
 
 Link Bodies::link_at(std::size_t i) const {
-    const auto numbers = [](const auto& link) {
-        return Link{static_cast<double>(link.stiffness), static_cast<double>(link.damping),
-                    static_cast<double>(link.rest_length), link.pulls_only};
-    };
+    const auto numbers = [](const auto& link) { return to_link(link); };
     return columns_->visit([&](const auto& columns) { return with_link(columns, i, numbers); });
 }
 

@@ -117,6 +117,20 @@ struct MoveTo {
 
 }  // namespace
 
+Vec3 centre_of(const Shape& shape) {
+    struct Centre {
+        Vec3 operator()(const HalfSpaceShape& plane) const {
+            return plane.offset / dot(plane.normal, plane.normal) * plane.normal;
+        }
+        Vec3 operator()(const CircleShape& circle) const { return circle.centre; }
+        Vec3 operator()(const SegmentShape& segment) const {
+            return (segment.from + segment.to) / 2.0;
+        }
+        Vec3 operator()(const BoxShape& box) const { return box.centre; }
+    };
+    return std::visit(Centre(), shape);
+}
+
 ObstacleHandle Bodies::add_obstacle(const Obstacle& obstacle) {
     Limits(precision(), axes()).check(obstacle);
     const auto handle = obstacle_slots_.take<ObstacleHandle>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -67,6 +68,10 @@ struct ObstacleHandle {
     friend bool operator==(const ObstacleHandle&, const ObstacleHandle&) = default;
 };
 
+/// The centre of a circle or a box, m; the middle of a segment; the point of a plane that is
+/// nearest to the origin.
+[[nodiscard]] Vec3 centre_of(const Shape& shape);
+
 /// A touch of a body and an obstacle.
 struct Touch {
     ObstacleHandle obstacle{};
@@ -84,3 +89,11 @@ struct Hit {
 };
 
 }  // namespace oiler
+
+/// A game may have a map from its obstacles.
+template <>
+struct std::hash<oiler::ObstacleHandle> {
+    std::size_t operator()(const oiler::ObstacleHandle& handle) const noexcept {
+        return std::hash<std::uint64_t>()(std::uint64_t{handle.generation} << 32U | handle.slot);
+    }
+};

@@ -168,7 +168,7 @@ void LiveWhatIf::judge(WhatIf measured) {
     verdict_ = judge_setting(*measured_, readings_, begin_->time,
                              [&](Entity body) { return game.name_of(body); });
     if (std::isnan(measured_->runs.front().distance) && game.world().body_count() == 0)
-        verdict_ = {.text = "what the timestep costs is not measured: there are no bodies"};
+        verdict_ = {.text = "no bodies, and so no errors to measure"};
     readings_ = measured_->runs.front().readings;
 }
 

@@ -266,6 +266,10 @@ bool World::alive(ObstacleHandle obstacle) const { return bodies_->alive(obstacl
 
 Obstacle World::obstacle(ObstacleHandle obstacle) const { return bodies_->obstacle(obstacle); }
 
+Vec3 World::position(ObstacleHandle obstacle) const {
+    return centre_of(bodies_->obstacle(obstacle).shape);
+}
+
 void World::set_obstacle_velocity(ObstacleHandle obstacle, const Vec3& velocity) {
     change("set_obstacle_velocity", obstacle,
            [&] { bodies_->set_obstacle_velocity(obstacle, velocity); });
@@ -395,6 +399,8 @@ LinkHandle World::link_to_point(Entity entity, const Vec3& point, const Link& li
 }
 
 bool World::alive(LinkHandle link) const { return bodies_->alive(link); }
+
+Link World::link(LinkHandle link) const { return bodies_->link(link); }
 
 void World::unlink(LinkHandle link) { bodies_->unlink(link); }
 

@@ -179,6 +179,8 @@ public:
     /// Moves the fixed point of such a spring at once, m, as when a hand drags a pin.
     void move_point(LinkHandle link, const Vec3& point);
     [[nodiscard]] bool alive(LinkHandle link) const;
+    /// The numbers of a spring that is alive.
+    [[nodiscard]] Link link(LinkHandle link) const;
     /// Removes a spring that is alive.
     void unlink(LinkHandle link);
     void remove_body(Entity entity);
@@ -228,6 +230,8 @@ public:
     [[nodiscard]] bool alive(ObstacleHandle obstacle) const;
     /// The obstacle where it is after the last step.
     [[nodiscard]] Obstacle obstacle(ObstacleHandle obstacle) const;
+    /// Its centre after the last step, m; see centre_of.
+    [[nodiscard]] Vec3 position(ObstacleHandle obstacle) const;
     /// Changes its velocity, m/s, from the next step on.
     void set_obstacle_velocity(ObstacleHandle obstacle, const Vec3& velocity);
     /// Lets it arrive at a place, m, at the end of the next step. See Bodies::move_obstacle.
@@ -240,7 +244,8 @@ public:
     [[nodiscard]] std::optional<Touch> ground(Entity entity) const;
     /// Lets the body pass the one-way obstacles that it touches.
     void drop_through(Entity entity);
-    /// The first obstacle that a ball meets on a straight way. See Bodies::raycast.
+    /// The first obstacle that a ball meets on a straight way, no area; one-way obstacles from
+    /// their own side only. See Bodies::raycast.
     [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
                                              const Contact& ball = {}) const;
     /// The obstacles and areas that a ball overlaps.
