@@ -38,6 +38,23 @@ TEST(Look, DrawsAGameWithoutAPicture) {
     EXPECT_EQ(square.layer, 3);
 }
 
+TEST(Look, ObstaclesHaveTheColoursThatAreGiven) {
+    World world(2, Settings{});
+    const auto disc = world.add_obstacle({.shape = CircleShape{{1, 2}, 0.5}});
+    const auto wall = world.add_obstacle({.shape = SegmentShape{{0, 0}, {1, 0}}});
+    (void)world.add_obstacle({.shape = CircleShape{{5, 2}, 0.5}});
+    const Picture picture =
+        draw_looks(world, {}, {{disc, palette::orange}, {wall, palette::green}});
+    ASSERT_EQ(picture.discs.size(), 4U) << "two outlines, each below its disc";
+    EXPECT_EQ(picture.discs[0].colour, palette::grey);
+    EXPECT_EQ(picture.discs[1].colour, palette::orange);
+    EXPECT_EQ(picture.discs[3].colour, palette::pale);
+    const auto line = std::ranges::find(picture.polylines, 2U,
+                                        [](const Polyline& one) { return one.points.size(); });
+    ASSERT_NE(line, picture.polylines.end());
+    EXPECT_EQ(line->colour, palette::green);
+}
+
 struct Unframed {
     static constexpr About about{.name = "unframed", .title = "Unframed"};
     World world;
@@ -87,17 +104,21 @@ TEST(Look, ObstaclesAreDrawnWhereTheyAre) {
     world.step(25);  // a quarter of a second
     const Picture after = draw_looks(world, {});
     const Picture half = between(before, after, 0.5F);
-    ASSERT_EQ(after.discs.size(), 1U);
-    EXPECT_EQ(after.discs[0].centre, (Point{1.75F, 1}));
+    ASSERT_EQ(after.discs.size(), 2U) << "the rim, and inside of it the circle";
     EXPECT_EQ(after.discs[0].radius, 0.5F);
-    EXPECT_EQ(half.discs[0].centre, (Point{1.375F, 1.5F}));
+    const float rim = 1.5F / 360 * 10;  // m, of 1.5 units of a picture of 10 m
+    EXPECT_NEAR(after.discs[1].radius, 0.5F - rim, 1e-6F);
+    for (const std::size_t i : {0, 1}) {
+        EXPECT_EQ(after.discs[i].centre, (Point{1.75F, 1}));
+        EXPECT_EQ(half.discs[i].centre, (Point{1.375F, 1.5F}));
+    }
     ASSERT_EQ(after.polygons.size(), 1U);
     EXPECT_EQ(after.polygons[0].points,
               (std::vector<Point>{{3.75F, 0.5F}, {5.75F, 0.5F}, {5.75F, 1.5F}, {3.75F, 1.5F}}));
     EXPECT_EQ(half.polygons[0].points[0], (Point{3.375F, 1}));
-    ASSERT_EQ(after.polylines.size(), 2U) << "the rim of the circle, and the segment";
-    EXPECT_EQ(after.polylines[1].points, (std::vector<Point>{{0.75F, 4}, {2.75F, 5}}));
-    EXPECT_EQ(half.polylines[1].points[0], (Point{0.375F, 4.5F}));
+    ASSERT_EQ(after.polylines.size(), 1U);
+    EXPECT_EQ(after.polylines[0].points, (std::vector<Point>{{0.75F, 4}, {2.75F, 5}}));
+    EXPECT_EQ(half.polylines[0].points[0], (Point{0.375F, 4.5F}));
 }
 
 // The line is on the sides within 60° of the direction: of a box two, if it is diagonal.

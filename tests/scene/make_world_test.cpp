@@ -425,6 +425,20 @@ TEST(DrawScene, ShowsObstacles) {
     EXPECT_FLOAT_EQ(picture.camera.centre.x, 6) << "the camera sees the obstacles from 0 to 12 m";
 }
 
+// Rows that are equal and solid are one block: a wall of 3 m, and a floor of two widths. One-way
+// tiles keep a line in each row.
+TEST(DrawScene, JoinsEqualRunsOfTiles) {
+    const Picture picture =
+        drawn(parsed(obstacle_scene +
+                     "[[tiles]]\norigin = [8, 0]\ntile = 1\nrows = [\"#.==\", \"#.==\", \"#.##\", "
+                     "\"..##\", \".###\"]\none_way = '='\n"));
+    EXPECT_TRUE(holds_polygon(picture, {{8, 2}, {9, 2}, {9, 5}, {8, 5}}, palette::grey));
+    EXPECT_TRUE(holds_polygon(picture, {{10, 1}, {12, 1}, {12, 3}, {10, 3}}, palette::grey));
+    EXPECT_TRUE(holds_polygon(picture, {{9, 0}, {12, 0}, {12, 1}, {9, 1}}, palette::grey));
+    EXPECT_EQ(picture.polygons.size(), 3U + 2);
+    EXPECT_EQ(picture.polylines.size(), 2U);
+}
+
 TEST(DrawScene, ShowsTheSideFromWhichOneWayObstaclesAreMet) {
     const Picture picture = drawn(
         parsed(obstacle_scene +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/picture/solids.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -73,13 +74,18 @@ void add_shade(const Solid& solid, std::size_t number, Point from, Point to, Poi
 }  // namespace
 
 void draw_circle(const Solid& solid, Point centre, float radius, Picture& picture) {
-    picture.discs.push_back({part(solid, 0), centre, radius, fill_of(solid)});
+    const float width = solid.outline * picture.camera.height / canvas_height;
+    float inner = radius;
     if (solid.one_way) {
         add_line(solid, 1, arc(centre, radius, *solid.one_way), picture);
-    } else if (solid.outline > 0) {  // the disc hides its inner half
-        add_line(solid, 1, circle(centre, radius), picture);
-        picture.polylines.back().width = 2 * solid.outline;
+    } else if (solid.outline > 0 && solid.fill.a == 0xff) {
+        picture.discs.push_back({part(solid, 1), centre, radius, solid.line});
+        inner = std::max(radius - width, 0.0F);
+    } else if (solid.outline > 0) {  // seen through the disc
+        add_line(solid, 1, circle(centre, std::max(radius - width / 2, 0.0F)), picture);
+        picture.polylines.back().width = solid.outline;
     }
+    picture.discs.push_back({part(solid, 0), centre, inner, fill_of(solid)});
 }
 
 void draw_block(const Solid& solid, std::vector<Point> corners, Picture& picture) {

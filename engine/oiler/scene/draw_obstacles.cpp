@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oiler/scene/draw_obstacles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "oiler/picture/shapes.hpp"
 #include "oiler/picture/solids.hpp"
@@ -86,38 +88,52 @@ private:
         draw_wall(solid, std::move(points), shade(), picture_);
     }
 
-    /// Tiles stand. They are drawn from the text, as runs of equal ones.
-    void draw_tiles(const SceneTiles& tiles) {
-        for (std::size_t row = 0; row < tiles.rows.size(); ++row) {
-            const std::string& text = tiles.rows[row];
-            std::size_t end = 0;
-            for (std::size_t begin = 0; begin < text.size(); begin = end) {
-                end = begin + 1;
-                if (!is_tile(text[begin])) continue;
-                const bool one_way = is_one_way(tiles, text[begin]);
-                while (end < text.size() && is_tile(text[end]) &&
-                       is_one_way(tiles, text[end]) == one_way)
-                    ++end;
-                draw_run(tiles, tiles.rows.size() - 1 - row, begin, end);
-                next_ += end - begin;
-            }
+    /// Equal tiles side by side.
+    struct Run {
+        std::size_t begin;
+        std::size_t end;
+        bool one_way;
+        friend bool operator==(const Run&, const Run&) = default;
+    };
+
+    static std::vector<Run> runs_of(const SceneTiles& tiles, const std::string& row) {
+        std::vector<Run> runs;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (!is_tile(row[i])) continue;
+            const bool one_way = tiles.one_way.find(row[i]) != std::string::npos;
+            if (runs.empty() || runs.back() != Run{runs.back().begin, i, one_way})
+                runs.push_back({i, i, one_way});
+            runs.back().end = i + 1;
         }
+        return runs;
     }
-    void draw_run(const SceneTiles& tiles, std::size_t up, std::size_t begin, std::size_t end) {
+
+    /// Tiles stand. They are drawn from the text. Equal runs below each other are one block, as
+    /// outlines that cross an edge show; one-way tiles have a line in each row.
+    void draw_tiles(const SceneTiles& tiles) {
+        std::vector<std::vector<Run>> rows;
+        for (const std::string& row : tiles.rows) rows.push_back(runs_of(tiles, row));
+        const auto has = [&](std::size_t row, const Run& run) {
+            return row < rows.size() && !run.one_way && std::ranges::count(rows[row], run) > 0;
+        };
+        for (std::size_t row = 0; row < rows.size(); ++row)
+            for (const Run& run : rows[row]) {
+                if (row > 0 && has(row - 1, run)) continue;
+                std::size_t end = row + 1;
+                while (has(end, run)) ++end;
+                draw_run(tiles, run, row, end);
+            }
+    }
+    void draw_run(const SceneTiles& tiles, const Run& run, std::size_t top, std::size_t bottom) {
         // The outline hides the seam between the polygons of two rows.
         Solid solid{.fill = tiles.colour, .line = tiles.colour, .outline = 0.75F};
-        if (is_one_way(tiles, tiles.rows[tiles.rows.size() - 1 - up][begin]))
-            solid.one_way = {0, 1};
-        const auto across = static_cast<double>(begin + end) / 2;
-        const auto height = static_cast<double>(up) + 0.5;
-        const Vec3 centre = tiles.origin + Vec3{across, height} * tiles.tile;
-        const auto side = static_cast<float>(tiles.tile);
-        draw_block(solid,
-                   rectangle(point_of(centre), {static_cast<float>(end - begin) * side, side}),
+        if (run.one_way) solid.one_way = {0, 1};
+        const Vec3 low = tiles.tile * Vec3{static_cast<double>(run.begin),
+                                           static_cast<double>(tiles.rows.size() - bottom)};
+        const Vec3 size = tiles.tile * Vec3{static_cast<double>(run.end - run.begin),
+                                            static_cast<double>(bottom - top)};
+        draw_block(solid, rectangle(point_of(tiles.origin + low + size / 2.0), point_of(size)),
                    picture_);
-    }
-    static bool is_one_way(const SceneTiles& tiles, char c) {
-        return tiles.one_way.find(c) != std::string::npos;
     }
 
     const Bodies& bodies_;
