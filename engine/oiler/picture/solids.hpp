@@ -24,7 +24,7 @@ struct Solid {
     return {.object = std::uint64_t{1} << 63U | std::uint64_t{generation} << 32U | slot};
 }
 
-/// Draws a disc. Its outline is inside of it, so that bodies that touch it do not cover the outline.
+/// Draws a disc. Its outline is inside of it, so that bodies that touch it do not cover that.
 void draw_circle(const Solid& solid, Point centre, float radius, Picture& picture);
 /// Draws a convex polygon with its corners in anticlockwise order.
 void draw_block(const Solid& solid, std::vector<Point> corners, Picture& picture);

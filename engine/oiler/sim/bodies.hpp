@@ -135,8 +135,8 @@ public:
     [[nodiscard]] std::optional<Touch> ground(std::size_t row) const;
     /// Lets the body pass the one-way obstacles that it touches.
     void drop_through(std::size_t row);
-    /// The first obstacle that a ball meets on a straight way, m; no area. One-way obstacles
-    /// stop it from their own side only, and segments also a ball of radius 0. At equal distances the lower slot is first.
+    /// The first obstacle that a ball meets on a way, m; no area; one-way ones from their own side
+    /// only. A ball of radius 0 meets segments, too. At equal distances the lower slot is first.
     [[nodiscard]] std::optional<Hit> raycast(const Vec3& from, const Vec3& to,
                                              const Contact& ball = {}) const;
     /// The obstacles and areas that a ball overlaps, in the order of their slots.
