@@ -103,8 +103,8 @@ private:
         return {kind, near.index, after_start, state.x, near.normal, before, state.v};
     }
 
-    /// Moves a body that is in obstacles out of them. If there is no room beside a moving one, the
-    /// body stays, and that one passes.
+    /// Moves a body that is in obstacles out of them. If they leave no room, the body stays, and
+    /// moving ones pass, or that bounded one in which it is deepest.
     void lift(State& state) {
         for (Near& near : nears_) {
             near.lifted = false;
@@ -122,33 +122,46 @@ private:
                 near.lifted = true;
                 for (Near& one : nears_) renew_normal(one, state.x, start_);
             });
-        } while (any_moves_ && pass_if_caught(state, before, gap, noise));
+        } while (any_renewed_ && pass_if_caught(state, before, gap, noise));
         for (const Near& near : nears_)
             if (near.lifted && !squeezed_) report(Meeting::lifted, near, start_, state, state.v);
     }
-    /// Whether a lifted body is back where it was `before`, because moving obstacles that it is in
-    /// leave no room beside them, and now pass.
+    /// Whether a lifted body is back where it was `before`, because obstacles that it is in leave
+    /// no room beside them, and now pass.
     template <class Gap, class Noise>
     bool pass_if_caught(State& state, const Vec& before, Gap gap, Noise noise) {
-        const auto is_out = [&](const Near& near) {
-            return gap(near, state.x) >= -4 * noise(near);
-        };
-        const auto pushes = [](const Near& near) {
-            return near.lifted && near.obstacle.course.moves();
-        };
-        const bool has_room =
-            largest(state.x - before) <= radius_ || std::ranges::none_of(nears_, pushes);
-        if (has_room && std::ranges::all_of(nears_, is_out)) return false;
+        if (state.x == before || has_room(state.x, before, gap, noise)) return false;
         state.x = before;
         bool any = false;
+        Near* deepest = nullptr;
+        T least = -radius_ / 16;
         for (Near& near : nears_) {
             near.lifted = false;
             renew_normal(near, state.x, start_);
-            const bool is_in = near.obstacle.course.moves() && gap_of(near, state.x) < -noise(near);
-            any |= is_in && !near.passed;
-            near.passed |= is_in;
+            const T distance = gap(near, state.x);
+            if (distance >= -noise(near)) continue;
+            if (near.obstacle.course.moves()) {
+                near.passed = any = true;
+            } else if (near.obstacle.bounded && distance < least) {
+                deepest = &near;
+                least = distance;
+            }
         }
-        return any;
+        if (any || !deepest) return any;
+        return deepest->passed = true;
+    }
+    /// Whether a body at x, lifted from `before`, is out of all obstacles: not far from one that
+    /// moves, and on its side of each segment.
+    template <class Gap, class Noise>
+    [[nodiscard]] bool has_room(const Vec& x, const Vec& before, Gap gap, Noise noise) const {
+        const bool is_far = largest(x - before) > radius_;
+        return std::ranges::all_of(nears_, [&](const Near& near) {
+            if (is_far && near.lifted && near.obstacle.course.moves()) return false;
+            const T least = any_moves_ ? 4 * noise(near) : std::max(4 * noise(near), radius_ / 16);
+            if (gap(near, x) < -least) return false;
+            return !near.obstacle.is_thin() || near.passed || gap(near, before) < -noise(near) ||
+                   dot(near.normal, normal(near.obstacle, place(near, before))) >= 0;
+        });
     }
 
     /// Moves the body to the end of a leg, and returns its time.
@@ -197,8 +210,7 @@ private:
             take_off(near);
             if (++bounces_at_once_ > most_bounces_at_once) {
                 ++crowded_;
-                const auto touched = [&](const Near& one) { return touches(one, state); };
-                state.v = Support::against_velocity(before, nears_, touched).following(before);
+                if (!give_way(state)) return true;
                 report(Meeting::bounce, near, start_, state, before);
                 return true;
             }
@@ -230,12 +242,34 @@ private:
             return !touched(near) || leaving(near, v) >= -noise;
         };
         if (std::ranges::all_of(nears_, is_left)) return false;
-        const Vec before = state.v;
-        state.v = slowest->velocity;
-        report(Meeting::crushed, *moving, start_, state, before);
-        for (Near& near : nears_)
-            if (near.obstacle.course.moves() && touched(near)) near.passed = true;
+        crush_by(*moving, slowest->velocity, state);
         return true;
+    }
+    /// Lets the moving obstacles that the body touches pass.
+    void crush_by(const Near& moving, const Vec& v, State& state) {
+        const Vec before = std::exchange(state.v, v);
+        report(Meeting::crushed, moving, start_, state, before);
+        for (Near& near : nears_)
+            if (near.obstacle.course.moves() && touches(near, state)) near.passed = true;
+    }
+    /// Gives a body the velocity along all obstacles that it touches. Returns false if friction
+    /// holds it between them: then moving ones pass.
+    bool give_way(State& state) {
+        const auto touched = [&](const Near& near) { return touches(near, state); };
+        const auto support = Support::against_velocity(state.v, nears_, touched);
+        const Vec along = support.following(state.v);
+        const Near* const moving = any_moves_ ? moving_of(support) : nullptr;
+        if (moving && support.jams(state.v, along)) {
+            crush_by(*moving, support.slowest().velocity, state);
+            return false;
+        }
+        state.v = along;
+        return true;
+    }
+    [[nodiscard]] static const Near* moving_of(const Support& support) {
+        for (std::size_t i = 0; i < support.size(); ++i)
+            if (near_of(support, i).obstacle.course.moves()) return &near_of(support, i);
+        return nullptr;
     }
     /// Bounces off all obstacles that the body goes into at this instant with one solve, which
     /// keeps mirror symmetry: off the velocity along all of them, with the least restitution.
@@ -261,14 +295,14 @@ private:
             Support::against(a, nears_, [](const Near& near) { return near.met && !near.hidden; });
         if (corner.size() >= 2) rest_on(corner, state);
     }
-    /// Moves a body by a part of the step in which it does not bounce and does not rub, where its
-    /// impacts between obstacles that move have no end. This has order 1.
+    /// Moves a body by a part of the step in which it does not bounce, where its impacts between
+    /// obstacles that move have no end. This has order 1.
     void squeeze(State& state) {
         const T tau = std::min(left_, duration_ / squeezed_parts);
         const Vec a = body_.accelerate(state, start_);
-        const Vec v = state.v + a * tau;
+        state.v += a * tau;
+        if (!give_way(state)) return;
         const auto touched = [&](const Near& near) { return touches(near, state); };
-        state.v = Support::against_velocity(v, nears_, touched).following(v);
         const auto move = [&](T part) { return State{state.x + state.v * part, state.v}; };
         Leg leg{move(tau), tau};
         for (Near& near : nears_)
@@ -361,7 +395,10 @@ private:
         rest_on(support, state);
         const Vec a = pressing(support, state);
         const bool on_curve = support.size() == 1 && is_round(near_of(support).sides);
-        const auto leg = sticks(support, state, a) ? stick(state, support, a)
+        const bool is_held = sticks(support, state, a);
+        const auto leg = is_held && on_curve && near_of(support).obstacle.belt != 0
+                             ? ride_curve(state, near_of(support), support)
+                         : is_held  ? stick(state, support, a)
                          : on_curve ? follow_curve(state, near_of(support), support, a)
                                     : slide(state, support, a);
         return leg ? advance(state, *leg) : T(0);
@@ -420,6 +457,7 @@ private:
     using Base::radius_;
     using Base::renew;
     using Base::settled_;
+    using Base::ride_curve;
     using Base::slide;
     using Base::speed_noise;
     using Base::start_;

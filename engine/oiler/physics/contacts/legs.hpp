@@ -84,7 +84,9 @@ protected:
             for (T tau = from.speed / (2 * most); from.gap <= noise && tau < leg.tau; tau *= 2)
                 if (const auto clear = at(tau); clear.gap > noise) from = clear;
         // A body that does not leave an obstacle that it touches may be in it as far as round-off.
-        const T hidden = from.gap > noise ? T(0) : noise;
+        // A point does not fall between two that are joined.
+        const bool falls_as_point = radius_ == 0 && from.gap > noise;
+        const T hidden = falls_as_point ? -noise / 2 : from.gap > noise ? T(0) : noise;
         const auto above = [&](T tau) {
             GapAt<T> one = at(tau);
             one.gap += hidden;
@@ -92,7 +94,7 @@ protected:
         };
         from.gap += hidden;
         to.gap += hidden;
-        const auto found = FirstCrossing<T, decltype(above)>(above, most, noise).between(from, to);
+        const auto found = FirstCrossing(above, most, falls_as_point ? noise / 4 : noise).between(from, to);
         // The longer steps of a method of order 1 may enter what their own speeds leave.
         near.dips = found && hidden > 0 && at(found->before).speed >= 0;
         if (near.dips) return std::nullopt;

@@ -82,6 +82,55 @@ template <std::floating_point T, int Axes>
            (obstacle.is_one_way() && !bears_from(obstacle, normal(obstacle, seen)));
 }
 
+/// Turns boxes to a face that is not joined to another obstacle, where a point at x touches both.
+/// Hides those that have none.
+template <std::floating_point T, int Axes, class Touches>
+void turn_to_open_faces(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
+                        Touches touches) {
+    for (Near<T, Axes>& near : nears) near.bears = touches(near);
+    const auto touched = [](const Near<T, Axes>& near) { return near.bears; };
+    if (std::ranges::count_if(nears, touched) < 2) return;
+    for (Near<T, Axes>& near : nears) {
+        if (!near.obstacle.bounded || near.obstacle.rounding > 0 || !touched(near)) continue;
+        const Vec<T, Axes> seen = place_beside(near.obstacle, x, start);
+        const T noise = 2 * hidden_distance(near.obstacle, State<T, Axes>{x, {}}, T(0), T(0));
+        const auto [place, past] = beside(near.obstacle, seen);
+        /// From x past one face, and behind the others on whose borders it is.
+        const auto way = [&](std::size_t face) {
+            Vec<T, Axes> sum{};
+            for (std::size_t i = 0; i < Axes; ++i) {
+                if (i != face && past.axis[i] < -noise) continue;
+                const bool outwards = (i == face) == (place.axis[i] >= 0);
+                sum += near.obstacle.frame.row[i] * (outwards ? 4 * noise : -4 * noise);
+            }
+            return sum;
+        };
+        const auto is_open = [&](std::size_t face) {
+            if (past.axis[face] < -noise) return false;
+            
+            const Vec<T, Axes> there = x + way(face);
+            return std::ranges::none_of(nears, [&](const Near<T, Axes>& other) {
+                return &other != &near && touched(other) && gap(other, there, start, T(0)) <= noise;
+            });
+        };
+        const auto turn = [&](std::size_t face) {
+            near.sides = Feature{1} << face;
+            near.normal = near.obstacle.frame.row[face] * (place.axis[face] < 0 ? T(-1) : T(1));
+        };
+        std::size_t open = 0;
+        std::size_t last = 0;
+        bool stays = false;
+        for (std::size_t face = 0; face < Axes; ++face)
+            if (is_open(face)) {
+                ++open;
+                last = face;
+                stays |= near.sides == Feature{1} << face;
+            }
+        near.hidden = open == 0;
+        if (open > 0 && !stays) turn(last);
+    }
+}
+
 /// Hides obstacles whose nearest point to a body lies in another one that the body touches: that
 /// one is as near, so that a body does not notice the joints between boxes. Of two that have the
 /// nearest points of each other, a face hides a corner, else the lower index the higher one. No
@@ -104,7 +153,7 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
     };
     for (One& near : nears) near.hidden = false;
     // The nearest point of all that a point touches is the point itself.
-    if (radius == 0) return;
+    if (radius == 0) return turn_to_open_faces(nears, x, start, touches);
     for (One& near : nears) {
         if (!near.obstacle.bounded || !touches(near)) continue;
         near.hidden = std::ranges::any_of(nears, [&](const One& other) {

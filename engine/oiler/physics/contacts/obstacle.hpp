@@ -31,6 +31,10 @@ struct ObstacleOf {
     std::uint32_t layers = 1;  ///< one per bit; none for a removed obstacle
 
     [[nodiscard]] bool is_one_way() const { return one_way != Vec<T, Axes>{}; }
+    /// A segment, or a plate in three axes.
+    [[nodiscard]] bool is_thin() const {
+        return bounded && std::ranges::count(half.axis, T(0)) == 1;
+    }
 };
 
 /// Whether a one-way obstacle is met from the side of `normal`: within 60° of its direction.

@@ -52,9 +52,13 @@ protected:
     }
     /// The acceleration of a body that is not held by friction, relative to the surface, m/s².
     [[nodiscard]] Vec pull_along(const Support& support, const Vec& a, T tau = 0) const {
-        const Vec pull = support.without_push(as_of_now(support, a, tau));
-        const Course<T, Axes>& course = near_of(support).obstacle.course;
-        return course.accelerates() ? pull - course.acceleration_at(start_) : pull;
+        Vec pull = support.without_push(as_of_now(support, a, tau));
+        const Near& first = near_of(support);
+        const Course<T, Axes>& course = first.obstacle.course;
+        if (course.accelerates()) pull -= course.acceleration_at(start_);
+        // A belt turns the body round a curve.
+        const bool turns = first.obstacle.belt != 0 && support.size() == 1;
+        return turns ? pull - first.normal * dot(first.normal, pull) : pull;
     }
     /// Grip minus the pull along the obstacles, m/s²; negative if friction does not hold the body.
     [[nodiscard]] T surplus_of_grip(const Support& support, const Vec& a, T tau = 0) const {
@@ -88,6 +92,42 @@ protected:
             const Vec pull = pressing(support, there, tau);
             return std::min(surplus_of_grip(support, pull, tau),
                             least_reaction(support, pull, tau));
+        };
+        end_where_negative(held, std::max(held(state, T(0)), T(0)), leg, move);
+        return leg;
+    }
+
+    /// Carries a body that is at rest on a belt round the curve of its obstacle.
+    [[nodiscard]] Leg ride_curve(const State& state, const Near& near, const Support& support) {
+        const T radius = near.obstacle.rounding + radius_;
+        const T turn = near.obstacle.belt / radius;
+        const Course<T, Axes>& course = near.obstacle.course;
+        const auto surface = [&](const Vec& x, T tau) {
+            const Vec out = normal(near.obstacle, place_beside(near.obstacle, x, start_ + tau));
+            return std::pair{out, surface_velocity(near.obstacle, out, start_ + tau)};
+        };
+        const auto move = [&](T tau) {
+            // The normal turns as clockwise as the belt runs.
+            const Vec along = belt_velocity(near.obstacle, near.normal) / near.obstacle.belt;
+            const Vec out = near.normal * std::cos(turn * tau) + along * std::sin(turn * tau);
+            const Vec way = course.way(start_ + tau) - course.way(start_);
+            const Vec x = state.x + way + (out - near.normal) * radius;
+            return State{x, surface(x, tau).second};
+        };
+        const T tau = std::min(left_, most_turn / std::abs(turn));
+        Leg leg{move(tau), tau};
+        const Vec a = body_.accelerate(state, start_);
+        end_at_others(state, support, a, leg, move);
+        end_at_features(state, support, leg, move);
+        const auto held = [&](const State& at, T later) {
+            const Vec out = surface(at.x, later).first;
+            const Vec a_there =
+                body_.accelerate(at, start_ + later) - course.acceleration_at(start_ + later);
+            const T away = dot(out, a_there);
+            const T reaction = -(away + turn * turn * radius);
+            const T noise = 4 * epsilon * largest(a_there);
+            return std::min(reaction,
+                            near.friction * reaction + noise - length(a_there - out * away));
         };
         end_where_negative(held, std::max(held(state, T(0)), T(0)), leg, move);
         return leg;

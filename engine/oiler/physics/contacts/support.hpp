@@ -111,6 +111,31 @@ public:
     [[nodiscard]] Vector following(const Vector& v) const {
         return without(v, OfVelocity<T, Axes>{});
     }
+    /// Whether friction against the slips of a velocity `along` all touches leaves no pushes N_j ≥ 0
+    /// that change v to it: ΣN_j·n_i·(n_j − μ_j·s_j) = n_i·(along − v), with directions s of slips.
+    [[nodiscard]] bool jams(const Vector& v, const Vector& along) const {
+        if (count_ < 2) return false;
+        auto with_friction = Matrix<T, Axes>::scalar(T(1));
+        Vector needed{};
+        for (std::size_t j = 0; j < count_; ++j) {
+            const Vector slip = along - planes_[j]->velocity;
+            const T noise = 64 * std::numeric_limits<T>::epsilon() * largest(along);
+            const Vector rubbed = largest(slip) <= noise ? Vector{} : normalised(slip);
+            const Vector push = planes_[j]->normal - rubbed * planes_[j]->friction;
+            needed.axis[j] = dot(planes_[j]->normal, along - v);
+            for (std::size_t i = 0; i < count_; ++i)
+                with_friction.row[i].axis[j] = dot(planes_[i]->normal, push);
+        }
+        const Vector pushes = solve(with_friction, needed);
+        const auto first = pushes.axis.begin();
+        return !std::all_of(first, first + count_, [&](T one) { return one >= -largest(v) / 1024; });
+    }
+    /// The touch that moves least.
+    [[nodiscard]] const Touch& slowest() const {
+        return **std::min_element(planes_.begin(), planes_.begin() + count_, [](auto* a, auto* b) {
+            return length(a->velocity) < length(b->velocity);
+        });
+    }
     /// The nearest place to x where the body touches all of them; gap_of(touch) is the gap at x, m.
     template <class Gap>
     [[nodiscard]] Vector onto(const Vector& x, Gap gap_of) const {

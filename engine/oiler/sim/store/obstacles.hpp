@@ -241,7 +241,7 @@ private:
                               std::int64_t tick) const {
         const Vec way = move.to - from.centre;
         const T dt = rate_.template dt<T>();
-        const Vec straight = way / dt;
+        const Vec straight = straight_velocity(from, move, dt);
         const Vec arrival = move.arrival.value_or(straight);
         if (!move.tick || tick < *move.tick) return from;
         if (tick > *move.tick) {
@@ -260,6 +260,15 @@ private:
                              .jerk = (v + arrival - straight * T(2)) * T(6) / (dt * dt)};
         }
         return moving;
+    }
+    /// The velocity of a straight way, m/s. Round-off of the places does not change the velocity of
+    /// an obstacle that goes on as before.
+    [[nodiscard]] static Vec straight_velocity(const Obstacle& from,
+                                               const typename Motion::Move& move, T dt) {
+        const Vec straight = (move.to - from.centre) / dt;
+        const T noise = 4 * std::numeric_limits<T>::epsilon() *
+                        (largest(from.centre) + largest(move.to)) / dt;
+        return largest(straight - move.departure) <= noise ? move.departure : straight;
     }
     /// The obstacle where it is, without its motion.
     [[nodiscard]] Obstacle at_rest(std::size_t slot) const {
