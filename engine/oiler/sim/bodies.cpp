@@ -288,6 +288,7 @@ void Bodies::set_position(std::size_t row, const Vec3& position) {
     Limits(precision(), axes()).check(position, "a position");
     columns_->visit([&](auto& columns) {
         assign(columns.motion.x, row, position);
+        columns.contacts.set_crushed(row, false);
         columns.state_changed(row);
     });
 }

@@ -77,6 +77,14 @@ public:
         return largest(state.x - from) > way_ ? Landed::strayed : Landed::moving;
     }
 
+/// Whether the body is in an obstacle that it passes, because that one left it no room.
+    [[nodiscard]] bool is_crushed(const State& state) const {
+        return std::ranges::any_of(nears_, [&](const Near& near) {
+            if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
+            return -gap_of(near, state.x) > (near.passed ? gap_noise(near, state) : radius_ / 16);
+        });
+    }
+
 private:
     /// After this many events in a step, a body that bounces in a corner stops there.
     static constexpr int most_events = 4096;

@@ -24,6 +24,7 @@ struct Near : TouchOf<T, Axes> {
     int bounces = 0;      ///< in this step
     bool lifted = false;  ///< the body has just been lifted out of it
     bool passed = false;  ///< the body went through it from a side from which it is not met
+    bool yields = obstacle.course.moves();  ///< bodies that are deep in it pass
     bool bears = false;   ///< it may bear the body: touched, and not left
     bool leaves = false;  ///< touched, and left
 
@@ -31,8 +32,7 @@ struct Near : TouchOf<T, Axes> {
     /// from a side from which it does not meet the obstacle, or was crushed.
     [[nodiscard]] T deepest(T noise, T radius) const {
         if (obstacle.is_one_way()) return noise;
-        return obstacle.course.moves() ? std::max(noise, radius / 16)
-                                       : std::numeric_limits<T>::infinity();
+        return yields ? std::max(noise, radius / 16) : std::numeric_limits<T>::infinity();
     }
     [[nodiscard]] bool is_moved() const { return obstacle.course.moves() || obstacle.belt != 0; }
 

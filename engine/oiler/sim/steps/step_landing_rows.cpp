@@ -218,9 +218,13 @@ private:
                 impacts_.push_back({step.first, row, index++, impact});
             };
             state = start;
+            if (columns_.contacts.is_crushed(row))
+                for (Near<T, Axes>& near : nears_) near.yields = true;
             Landing landing(std::span<Near<T, Axes>>(nears_), way, radius()[row], body, report);
             const Landed landed = landing.step(state, dt);
-            if (landed != Landed::strayed) return landed;
+            if (landed == Landed::strayed) continue;
+            columns_.contacts.set_crushed(row, landing.is_crushed(state));
+            return landed;
         }
     }
     [[nodiscard]] Damping damping() const { return steps_.damping.value_or(call_.method.damping); }
@@ -248,6 +252,7 @@ template <std::floating_point T, int Axes>
 std::optional<Divergence> step_landing_rows(const StepCall<T, Axes>& call) {
     auto& contacts = call.columns.contacts;
     contacts.settled.resize(call.columns.size);
+    contacts.crushed.resize(call.columns.size);
     contacts.impacts_of_parts.resize(call.team ? call.team->size() : 1);
     contacts.nears_of_parts.resize(contacts.impacts_of_parts.size());
     contacts.moving_of_parts.resize(contacts.impacts_of_parts.size());

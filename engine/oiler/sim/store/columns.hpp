@@ -145,6 +145,8 @@ struct Contacts {
     std::vector<std::uint32_t> layers_met;
     std::size_t rows = 0;               ///< the number of rows with a contact
     std::vector<std::uint8_t> settled;  ///< per row, see Landed; rows at the end may be missing
+    /// Per row; whether obstacles that crushed the body still pass. Rows at the end may be missing.
+    std::vector<std::uint8_t> crushed;
     std::vector<Clearing<T, Axes>> clearings;                       ///< per row
     std::vector<Clearing<T, Axes>> area_clearings;                  ///< per row
     std::vector<RowImpact<T, Axes>> impacts;                        ///< of the last call, in order
@@ -189,6 +191,8 @@ struct Contacts {
         if (last < layers_met.size()) layers_met.resize(last);
         if (row < settled.size()) settled[row] = last < settled.size() ? settled[last] : 0;
         if (last < settled.size()) settled.resize(last);
+        set_crushed(row, is_crushed(last));
+        if (last < crushed.size()) crushed.resize(last);
         for (const std::size_t one : {row, last}) forget_clearings(one);
     }
     void set_meets(std::size_t row, const std::optional<Contact>& contact) {
@@ -200,6 +204,12 @@ struct Contacts {
     void forget_clearings(std::size_t row) {
         for (auto* const known : {&clearings, &area_clearings})
             if (row < known->size()) (*known)[row] = {};
+    }
+    [[nodiscard]] bool is_crushed(std::size_t row) const {
+        return row < crushed.size() && crushed[row] != 0;
+    }
+    void set_crushed(std::size_t row, bool to) {
+        if (row < crushed.size()) crushed[row] = to;
     }
     void wake(std::size_t row) {
         if (row < settled.size()) settled[row] = 0;
