@@ -314,7 +314,7 @@ private:
         const auto move = [&](T part) { return State{state.x + state.v * part, state.v}; };
         Leg leg{move(tau), tau};
         for (Near& near : nears_)
-            if (!touched(near)) end_at_impact(near, state, a, leg, move);
+            if (!touched(near) && !near.hidden) end_at_impact(near, state, a, leg, move);
         advance(state, leg);
     }
     /// Ends bounces if all further flights are over within the step or hidden by round-off: with
