@@ -23,7 +23,8 @@ TEST(Presses, ThatStayClosedLeaveTheBallOnItsFloor) {
                             world.add_plane({.normal = {side, 0}, .offset = -3});
                     const ObstacleHandle press =
                         world.add_obstacle({.shape = BoxShape{{0, 2.5}, {5.9, 1}}});
-                    const Entity ball = world.spawn({.position = {x, 0.3}, .contact = Contact{0.3}});
+                    const Entity ball =
+                        world.spawn({.position = {x, 0.3}, .contact = Contact{0.3}});
                     int crushed = 0;
                     for (int tick = 1; tick <= 240; ++tick) {
                         world.move_obstacle(press, {0, std::max(end + 0.5, 2.5 - tick / 60.0)});
@@ -99,9 +100,8 @@ TEST(Belts, CarryRoundACurve) {
                 World world = world_of(method, rate, 2, {0, -g});
                 world.add_obstacle(
                     {.shape = CircleShape{{1, -2}, 2}, .friction = friction, .belt = side * v});
-                const Entity ball = world.spawn({.position = {1, R - 2},
-                                                 .velocity = {side * v, 0},
-                                                 .contact = Contact{R - 2}});
+                const Entity ball = world.spawn(
+                    {.position = {1, R - 2}, .velocity = {side * v, 0}, .contact = Contact{R - 2}});
                 const auto steps = static_cast<int>(held * R / v * rate);
                 world.step(steps);
                 const double angle = v / R * steps / rate;

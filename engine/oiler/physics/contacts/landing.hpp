@@ -77,7 +77,7 @@ public:
         return largest(state.x - from) > way_ ? Landed::strayed : Landed::moving;
     }
 
-/// Whether the body is in an obstacle that it passes, because that one left it no room.
+    /// Whether the body is in an obstacle that it passes, because that one left it no room.
     [[nodiscard]] bool is_crushed(const State& state) const {
         return std::ranges::any_of(nears_, [&](const Near& near) {
             if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
@@ -464,8 +464,8 @@ private:
     using Base::pressing;
     using Base::radius_;
     using Base::renew;
-    using Base::settled_;
     using Base::ride_curve;
+    using Base::settled_;
     using Base::slide;
     using Base::speed_noise;
     using Base::start_;

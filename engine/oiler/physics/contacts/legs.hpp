@@ -94,7 +94,8 @@ protected:
         };
         from.gap += hidden;
         to.gap += hidden;
-        const auto found = FirstCrossing(above, most, falls_as_point ? noise / 4 : noise).between(from, to);
+        const auto found =
+            FirstCrossing(above, most, falls_as_point ? noise / 4 : noise).between(from, to);
         // The longer steps of a method of order 1 may enter what their own speeds leave.
         near.dips = found && hidden > 0 && at(found->before).speed >= 0;
         if (near.dips) return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -25,8 +26,8 @@ struct Near : TouchOf<T, Axes> {
     bool lifted = false;  ///< the body has just been lifted out of it
     bool passed = false;  ///< the body went through it from a side from which it is not met
     bool yields = obstacle.course.moves();  ///< bodies that are deep in it pass
-    bool bears = false;   ///< it may bear the body: touched, and not left
-    bool leaves = false;  ///< touched, and left
+    bool bears = false;                     ///< it may bear the body: touched, and not left
+    bool leaves = false;                    ///< touched, and left
 
     /// The depth, m, from which on a body of `radius` m passes, instead of being lifted: it came
     /// from a side from which it does not meet the obstacle, or was crushed.
@@ -82,53 +83,38 @@ template <std::floating_point T, int Axes>
            (obstacle.is_one_way() && !bears_from(obstacle, normal(obstacle, seen)));
 }
 
-/// Turns boxes to a face that is not joined to another obstacle, where a point at x touches both.
-/// Hides those that have none.
-template <std::floating_point T, int Axes, class Touches>
-void turn_to_open_faces(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
-                        Touches touches) {
-    for (Near<T, Axes>& near : nears) near.bears = touches(near);
-    const auto touched = [](const Near<T, Axes>& near) { return near.bears; };
-    if (std::ranges::count_if(nears, touched) < 2) return;
-    for (Near<T, Axes>& near : nears) {
-        if (!near.obstacle.bounded || near.obstacle.rounding > 0 || !touched(near)) continue;
-        const Vec<T, Axes> seen = place_beside(near.obstacle, x, start);
-        const T noise = 2 * hidden_distance(near.obstacle, State<T, Axes>{x, {}}, T(0), T(0));
-        const auto [place, past] = beside(near.obstacle, seen);
-        /// From x past one face, and behind the others on whose borders it is.
-        const auto way = [&](std::size_t face) {
-            Vec<T, Axes> sum{};
-            for (std::size_t i = 0; i < Axes; ++i) {
-                if (i != face && past.axis[i] < -noise) continue;
-                const bool outwards = (i == face) == (place.axis[i] >= 0);
-                sum += near.obstacle.frame.row[i] * (outwards ? 4 * noise : -4 * noise);
-            }
-            return sum;
-        };
-        const auto is_open = [&](std::size_t face) {
-            if (past.axis[face] < -noise) return false;
-            
-            const Vec<T, Axes> there = x + way(face);
-            return std::ranges::none_of(nears, [&](const Near<T, Axes>& other) {
-                return &other != &near && touched(other) && gap(other, there, start, T(0)) <= noise;
-            });
-        };
-        const auto turn = [&](std::size_t face) {
-            near.sides = Feature{1} << face;
-            near.normal = near.obstacle.frame.row[face] * (place.axis[face] < 0 ? T(-1) : T(1));
-        };
-        std::size_t open = 0;
-        std::size_t last = 0;
-        bool stays = false;
-        for (std::size_t face = 0; face < Axes; ++face)
-            if (is_open(face)) {
-                ++open;
-                last = face;
-                stays |= near.sides == Feature{1} << face;
-            }
-        near.hidden = open == 0;
-        if (open > 0 && !stays) turn(last);
+/// Turns a box to a face that no other obstacle covers, where a point at x is on the borders of
+/// several of its faces: a step through a covered one, behind the others, ends in another obstacle
+/// of those that the point touches. A box whose faces there are all covered is hidden.
+template <std::floating_point T, int Axes>
+void turn_to_open_face(Near<T, Axes>& near, std::span<const Near<T, Axes>> nears,
+                       const Vec<T, Axes>& x, T start) {
+    const T noise = 2 * hidden_distance(near.obstacle, State<T, Axes>{x, {}}, T(0), T(0));
+    const auto [place, past] = beside(near.obstacle, place_beside(near.obstacle, x, start));
+    Vec<T, Axes> behind{};
+    std::array<Vec<T, Axes>, Axes> out{};
+    Feature borders = 0;
+    for (std::size_t i = 0; i < Axes; ++i) {
+        if (past.axis[i] < -noise) continue;
+        borders |= Feature{1} << i;
+        out[i] = near.obstacle.frame.row[i] * (place.axis[i] < 0 ? T(-1) : T(1));
+        behind -= out[i] * (4 * noise);
     }
+    if (!is_round(borders)) return;
+    Feature open = 0;
+    for (std::size_t i = 0; i < Axes; ++i) {
+        if ((borders >> i & 1U) == 0) continue;
+        const Vec<T, Axes> there = x + behind + out[i] * (8 * noise);
+        const bool is_covered = std::ranges::any_of(nears, [&](const Near<T, Axes>& other) {
+            return &other != &near && other.bears && gap(other, there, start, T(0)) < -noise;
+        });
+        if (!is_covered) open |= Feature{1} << i;
+    }
+    near.hidden = open == 0;
+    if (near.hidden || (near.sides & open) != 0) return;
+    near.sides = open & ~(open - 1);
+    for (std::size_t i = 0; i < Axes; ++i)
+        if (near.sides == Feature{1} << i) near.normal = out[i];
 }
 
 /// Hides obstacles whose nearest point to a body lies in another one that the body touches: that
@@ -153,7 +139,13 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
     };
     for (One& near : nears) near.hidden = false;
     // The nearest point of all that a point touches is the point itself.
-    if (radius == 0) return turn_to_open_faces(nears, x, start, touches);
+    if (radius == 0) {
+        for (One& near : nears) near.bears = touches(near);
+        for (One& near : nears)
+            if (near.bears && near.obstacle.bounded && near.obstacle.rounding == 0)
+                turn_to_open_face(near, std::span<const One>(nears), x, start);
+        return;
+    }
     for (One& near : nears) {
         if (!near.obstacle.bounded || !touches(near)) continue;
         near.hidden = std::ranges::any_of(nears, [&](const One& other) {

@@ -111,8 +111,9 @@ public:
     [[nodiscard]] Vector following(const Vector& v) const {
         return without(v, OfVelocity<T, Axes>{});
     }
-    /// Whether friction against the slips of a velocity `along` all touches leaves no pushes N_j ≥ 0
-    /// that change v to it: ΣN_j·n_i·(n_j − μ_j·s_j) = n_i·(along − v), with directions s of slips.
+    /// Whether friction against the slips of a velocity `along` all touches leaves no pushes N_j ≥
+    /// 0 that change v to it: ΣN_j·n_i·(n_j − μ_j·s_j) = n_i·(along − v), with directions s of
+    /// slips.
     [[nodiscard]] bool jams(const Vector& v, const Vector& along) const {
         if (count_ < 2) return false;
         auto with_friction = Matrix<T, Axes>::scalar(T(1));
@@ -128,7 +129,8 @@ public:
         }
         const Vector pushes = solve(with_friction, needed);
         const auto first = pushes.axis.begin();
-        return !std::all_of(first, first + count_, [&](T one) { return one >= -largest(v) / 1024; });
+        return !std::all_of(first, first + count_,
+                            [&](T one) { return one >= -largest(v) / 1024; });
     }
     /// The touch that moves least.
     [[nodiscard]] const Touch& slowest() const {

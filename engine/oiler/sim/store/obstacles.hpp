@@ -266,8 +266,8 @@ private:
     [[nodiscard]] static Vec straight_velocity(const Obstacle& from,
                                                const typename Motion::Move& move, T dt) {
         const Vec straight = (move.to - from.centre) / dt;
-        const T noise = std::numeric_limits<T>::epsilon() *
-                        (largest(from.centre) + largest(move.to)) / dt;
+        const T noise =
+            std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
         return largest(straight - move.departure) <= noise ? move.departure : straight;
     }
     /// The obstacle where it is, without its motion.
