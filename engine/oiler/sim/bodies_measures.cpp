@@ -173,6 +173,8 @@ void Bodies::hash_into(StateHash& hash) const {
             for (const Column<T>& column : *vector) hash_column(column, hash);
         columns.contacts.obstacles.hash_into(hash);
         columns.contacts.areas.hash_into(hash);
+        for (std::size_t row = 0; row < columns.size; ++row)
+            if (columns.contacts.is_crushed(row)) hash.add(row);
         if (columns.applied.empty()) return;
         for (const Column<T>& column : columns.applied.acceleration) hash_column(column, hash);
     });

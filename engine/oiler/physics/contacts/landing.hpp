@@ -41,6 +41,16 @@ public:
     Landing(std::span<oiler::Near<T, Axes>> nears, T way, T radius, Body& body, Report report)
         : Base(nears, radius, body), way_(way), report_(report) {}
 
+    /// Lets the obstacles pass, in the next step, that have crushed the body and still overlap it.
+    void stay_crushed(const State& state, T duration) {
+        this->begin(state, duration);
+        for (Near& near : nears_) {
+            near.yields = true;
+            const T noise = gap_noise(near, state);
+            const T least = near.obstacle.course.moves() ? noise : -16 * noise;
+            near.passed = gap_of(near, state.x) <= least;
+        }
+    }
     /// Steps the state by `duration` s.
     [[nodiscard]] Landed step(State& state, T duration) {
         this->begin(state, duration);
@@ -79,9 +89,10 @@ public:
 
     /// Whether the body is in an obstacle that it passes, because that one left it no room.
     [[nodiscard]] bool is_crushed(const State& state) const {
-        return std::ranges::any_of(nears_, [&](const Near& near) {
+        return crushed_ || std::ranges::any_of(nears_, [&](const Near& near) {
             if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
-            return -gap_of(near, state.x) > (near.passed ? gap_noise(near, state) : radius_ / 16);
+            const T most = near.passed ? gap_noise(near, state) : -radius_ / 16;
+            return gap_of(near, state.x) <= most;
         });
     }
 
@@ -250,11 +261,13 @@ private:
             return !touched(near) || leaving(near, v) >= -noise;
         };
         if (std::ranges::all_of(nears_, is_left)) return false;
+        
         crush_by(*moving, slowest->velocity, state);
         return true;
     }
     /// Lets the moving obstacles that the body touches pass.
     void crush_by(const Near& moving, const Vec& v, State& state) {
+        crushed_ = true;
         const Vec before = std::exchange(state.v, v);
         report(Meeting::crushed, moving, start_, state, before);
         for (Near& near : nears_)
@@ -478,6 +491,7 @@ private:
     int bounces_at_once_ = 0;
     int followed_ = 0;
     int crowded_ = 0;                        ///< instants of the step with too many impacts
+    bool crushed_ = false;                   ///< in this step
     bool squeezed_ = false;                  ///< the body moves by parts of the step
     std::optional<ImpactOf<T, Axes>> rest_;  ///< predicted, unless an event comes before
     std::size_t resting_on_ = 0;             ///< the index in `nears_` of the predicted rest

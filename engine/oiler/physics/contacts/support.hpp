@@ -115,12 +115,12 @@ public:
     /// 0 that change v to it: ΣN_j·n_i·(n_j − μ_j·s_j) = n_i·(along − v), with directions s of
     /// slips.
     [[nodiscard]] bool jams(const Vector& v, const Vector& along) const {
-        if (count_ < 2) return false;
+        const T noise = 64 * std::numeric_limits<T>::epsilon() * largest(along);
+        if (count_ < 2 || largest(along - v) <= noise) return false;
         auto with_friction = Matrix<T, Axes>::scalar(T(1));
         Vector needed{};
         for (std::size_t j = 0; j < count_; ++j) {
             const Vector slip = along - planes_[j]->velocity;
-            const T noise = 64 * std::numeric_limits<T>::epsilon() * largest(along);
             const Vector rubbed = largest(slip) <= noise ? Vector{} : normalised(slip);
             const Vector push = planes_[j]->normal - rubbed * planes_[j]->friction;
             needed.axis[j] = dot(planes_[j]->normal, along - v);
@@ -129,8 +129,8 @@ public:
         }
         const Vector pushes = solve(with_friction, needed);
         const auto first = pushes.axis.begin();
-        return !std::all_of(first, first + count_,
-                            [&](T one) { return one >= -largest(v) / 1024; });
+        const T least = -largest(pushes) / 1024;
+        return !std::all_of(first, first + count_, [&](T one) { return one >= least; });
     }
     /// The touch that moves least.
     [[nodiscard]] const Touch& slowest() const {

@@ -218,9 +218,8 @@ private:
                 impacts_.push_back({step.first, row, index++, impact});
             };
             state = start;
-            if (columns_.contacts.is_crushed(row))
-                for (Near<T, Axes>& near : nears_) near.yields = true;
             Landing landing(std::span<Near<T, Axes>>(nears_), way, radius()[row], body, report);
+            if (columns_.contacts.is_crushed(row)) landing.stay_crushed(state, dt);
             const Landed landed = landing.step(state, dt);
             if (landed == Landed::strayed) continue;
             columns_.contacts.set_crushed(row, landing.is_crushed(state));
