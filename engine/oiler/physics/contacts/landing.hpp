@@ -90,10 +90,10 @@ public:
     /// Whether the body is in an obstacle that it passes, because that one left it no room.
     [[nodiscard]] bool is_crushed(const State& state) const {
         return crushed_ || std::ranges::any_of(nears_, [&](const Near& near) {
-            if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
-            const T most = near.passed ? gap_noise(near, state) : -radius_ / 16;
-            return gap_of(near, state.x) <= most;
-        });
+                   if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
+                   const T most = near.passed ? gap_noise(near, state) : -radius_ / 16;
+                   return gap_of(near, state.x) <= most;
+               });
     }
 
 private:
@@ -261,7 +261,7 @@ private:
             return !touched(near) || leaving(near, v) >= -noise;
         };
         if (std::ranges::all_of(nears_, is_left)) return false;
-        
+
         crush_by(*moving, slowest->velocity, state);
         return true;
     }
@@ -417,11 +417,13 @@ private:
         const Vec a = pressing(support, state);
         const bool on_curve = support.size() == 1 && is_round(near_of(support).sides);
         const bool is_held = sticks(support, state, a);
-        const auto leg = is_held && on_curve && near_of(support).obstacle.belt != 0
-                             ? ride_curve(state, near_of(support), support)
-                         : is_held  ? stick(state, support, a)
-                         : on_curve ? follow_curve(state, near_of(support), support, a)
-                                    : slide(state, support, a);
+        const bool rides = on_curve && near_of(support).obstacle.belt != 0;
+        std::optional<Leg> leg;
+        if (is_held)
+            leg = rides ? ride_curve(state, near_of(support), support) : stick(state, support, a);
+        if (!leg)
+            leg = on_curve ? follow_curve(state, near_of(support), support, a)
+                           : slide(state, support, a);
         return leg ? advance(state, *leg) : T(0);
     }
     void rest_on(const Support& support, State& state) const {

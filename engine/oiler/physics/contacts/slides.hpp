@@ -84,6 +84,7 @@ protected:
         };
         Leg leg{move(left_), left_};
         if (any_renewed_) end_at_others(state, support, a, leg, move);
+        if (near_of(support).obstacle.belt != 0) end_at_features(state, support, leg, move);
         if (!body_.forces_change() && !near_of(support).obstacle.course.accelerates()) {
             settled_ = stays && leg.tau == left_;
             return leg;
@@ -97,8 +98,10 @@ protected:
         return leg;
     }
 
-    /// Carries a body that is at rest on a belt round the curve of its obstacle.
-    [[nodiscard]] Leg ride_curve(const State& state, const Near& near, const Support& support) {
+    /// Carries a body that is at rest on a belt round the curve of its obstacle, unless it slips at
+    /// once.
+    [[nodiscard]] std::optional<Leg> ride_curve(const State& state, const Near& near,
+                                                const Support& support) {
         const T radius = near.obstacle.rounding + radius_;
         const T turn = near.obstacle.belt / radius;
         const Course<T, Axes>& course = near.obstacle.course;
@@ -130,7 +133,7 @@ protected:
                             near.friction * reaction + noise - length(a_there - out * away));
         };
         end_where_negative(held, std::max(held(state, T(0)), T(0)), leg, move);
-        return leg;
+        return leg.tau > epsilon * left_ ? std::optional(leg) : std::nullopt;
     }
 
     [[nodiscard]] T least_reaction(const Support& support, const Vec& a, T tau = 0) const {
@@ -283,8 +286,9 @@ protected:
         const auto forwards = [&](const State& at, T later) {
             return dot(at.v - surface(at, later), direction);
         };
-        if (near.friction > 0 &&
-            end_where_negative(forwards, length(state.v - near.velocity), leg, move))
+        const T slip = length(state.v - near.velocity);
+        if (near.friction > 0 && slip > 4 * speed_noise(state) &&
+            end_where_negative(forwards, slip, leg, move))
             leg.end.v = surface(leg.end, leg.tau);
         return leg;
     }
