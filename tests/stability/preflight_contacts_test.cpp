@@ -191,6 +191,32 @@ TEST(StartWarning, KnowsTheDepthInEveryShape) {
         "body 0 starts 1.5 m inside ");
 }
 
+// A body that meets the layer of the floor alone starts in a box and below a plane of another
+// layer, which it passes: the room between both planes is no room of its own.
+TEST(StartWarning, IsNotGivenOfLayersThatTheBodyDoesNotMeet) {
+    const auto lines = [](std::uint32_t meets) {
+        Bodies bodies(2, Precision::double_);
+        bodies.set_gravity({0, -9.81});
+        bodies.add_obstacle({.shape = BoxShape{{0, 3}, {2, 2}}, .layers = 2});
+        bodies.add_obstacle({.shape = HalfSpaceShape{{0, -1}, -1}, .layers = 2});
+        bodies.add_obstacle({.shape = HalfSpaceShape{{0, 1}, 0}, .layers = 1});
+        bodies.add({.position = {0, 3}, .contact = Contact{0.6, meets}});
+        return lines_of(bodies).size();
+    };
+    EXPECT_EQ(lines(1), 0U);
+    EXPECT_EQ(lines(3), 2U) << "the planes leave no room, and it starts in the box";
+}
+
+// Two bodies that start inside are lifted each to its own place.
+TEST(StartWarning, NamesThePlaceOfEachBody) {
+    Bodies bodies = ball_at({0, 0.9}, 0.5, {.shape = BoxShape{{}, {4, 2}}});
+    bodies.add({.position = {1.5, -0.9}, .contact = Contact{0.25}});
+    const auto lines = lines_of(bodies);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_NE(lines[0].find("by 0.6 m to (0, 1.5)"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[1].find("by 0.35 m to (1.5, -1.25)"), std::string::npos) << lines[1];
+}
+
 // 0.3 m above the second plane of offset 0.4/2 the ball of 0.5 m is 0.4 m too low.
 TEST(StartWarning, IsGivenBelowAPlane) {
     Bodies bodies = ball_at({-5, 0.3}, 0.5, {.shape = HalfSpaceShape{{1, 0}, -10}});

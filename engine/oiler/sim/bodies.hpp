@@ -142,8 +142,8 @@ public:
     /// The obstacles and areas that a ball overlaps, in the order of their slots.
     [[nodiscard]] std::vector<ObstacleHandle> overlaps(const Vec3& centre,
                                                        const Contact& ball) const;
-    /// The half-spaces among the obstacles, as they were added, without areas.
-    [[nodiscard]] std::vector<Plane> planes() const;
+    /// The half-spaces among the obstacles of these layers, as they were added, without areas.
+    [[nodiscard]] std::vector<Plane> planes(std::uint32_t layers = ~0U) const;
     /// Lets the body meet obstacles, or pass through them. Throws Error{usage} for a negative
     /// radius.
     void set_contact(std::size_t row, const std::optional<Contact>& contact);

@@ -235,11 +235,11 @@ void Bodies::teleport_obstacle(ObstacleHandle handle, const Vec3& to) {
     });
 }
 
-std::vector<Plane> Bodies::planes() const {
+std::vector<Plane> Bodies::planes(std::uint32_t layers) const {
     std::vector<Plane> planes;
     for (const std::optional<Obstacle>& one : *obstacles_)
         if (const auto* const shape = one ? std::get_if<HalfSpaceShape>(&one->shape) : nullptr;
-            shape && one->solid)
+            shape && one->solid && (one->layers & layers) != 0)
             planes.push_back({shape->normal, shape->offset, one->restitution, one->friction});
     return planes;
 }

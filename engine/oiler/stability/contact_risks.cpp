@@ -104,13 +104,18 @@ std::string start_below(const std::vector<Plane>& planes, const Vec3& x, double 
     return {};
 }
 
+/// Whether a body meets all planes. Of one that does not, nothing is told.
+bool meets_all(const Bodies& bodies, const std::vector<Plane>& planes, const Contact& contact) {
+    return contact.meets == ~0U || bodies.planes(contact.meets).size() == planes.size();
+}
+
 void add_room_risks(const Bodies& bodies, std::vector<Risk>& risks) {
     const std::vector<Plane> planes = bodies.planes();
     const Room room = RoomSearch(planes, bodies.axes()).room();
     const double hidden = bodies.precision() == Precision::single ? 1e-6 : 1e-9;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         const auto contact = bodies.contact(row);
-        if (!contact) continue;
+        if (!contact || !meets_all(bodies, planes, *contact)) continue;
         const bool fits = contact->radius <= room.radius + 1e-9 * std::abs(room.radius);
         std::string message =
             fits ? start_below(planes, bodies.position(row), contact->radius, hidden)
@@ -190,7 +195,7 @@ void add_bounce_risks(const Bodies& bodies, const Method& method, const Steps& s
     const std::vector<bool> linked = bodies.linked_rows();
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         const auto contact = bodies.contact(row);
-        if (!contact || linked[row]) continue;
+        if (!contact || linked[row] || !meets_all(bodies, planes, *contact)) continue;
         for (std::size_t i = 0; i < planes.size(); ++i) {
             const Plane& plane = planes[i];
             const Bounce bounce = bounce_of(bodies, row, plane, contact->radius);

@@ -20,11 +20,6 @@ std::string_view name_of(const SegmentShape&) { return "segment"; }
 std::string_view name_of(const BoxShape&) { return "box"; }
 std::string_view name_of(const HalfSpaceShape&) { return "plane"; }
 
-Vec3 centre_of(const CircleShape& circle) { return circle.centre; }
-Vec3 centre_of(const SegmentShape& segment) { return (segment.from + segment.to) / 2; }
-Vec3 centre_of(const BoxShape& box) { return box.centre; }
-Vec3 centre_of(const HalfSpaceShape&) { return {}; }
-
 /// "(1, 2.5)".
 std::string place(const Vec3& x, int axes) {
     std::string at;
@@ -34,11 +29,8 @@ std::string place(const Vec3& x, int axes) {
 
 /// "the box at (1, 2.5)".
 std::string describe(const Shape& shape, int axes) {
-    return std::visit(
-        [&](const auto& one) {
-            return fmt::format("the {} at {}", name_of(one), place(centre_of(one), axes));
-        },
-        shape);
+    const auto name = std::visit([](const auto& one) { return name_of(one); }, shape);
+    return fmt::format("the {} at {}", name, place(centre_of(shape), axes));
 }
 
 std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
@@ -51,25 +43,32 @@ std::vector<Obstacle> met_from_all_sides(const Bodies& bodies) {
     return met;
 }
 
-/// The place to which a first step lifts a body at rest out of all obstacles, m.
-Vec3 lifted(const Bodies& bodies, std::size_t row) {
+/// A body that starts in an obstacle.
+struct Inside {
+    std::size_t row;
+    const Obstacle* obstacle;
+    double depth;  ///< m
+};
+
+/// The bodies after a first step from rest, which lifts them out of the obstacles. Where it
+/// diverges, they are in place.
+Bodies lifted(const Bodies& bodies, const std::vector<Inside>& all) {
     Bodies copy(bodies.axes(), bodies.precision());
-    copy.add({.position = bodies.position(row), .contact = bodies.contact(row)});
+    for (const Inside& one : all)
+        copy.add({.position = bodies.position(one.row), .contact = bodies.contact(one.row)});
+    const Bodies in_place = copy;
     for (const ObstacleHandle handle : bodies.obstacles())
         copy.add_obstacle(bodies.obstacle(handle));
     const auto diverged =
         copy.try_step(find_method("velocity_verlet"), {.rate = {StepClock::largest_rate}});
-    return diverged ? bodies.position(row) : copy.position(0);
+    return diverged ? in_place : copy;
 }
 
-std::string start_inside(const Bodies& bodies, std::size_t row, const Obstacle& obstacle,
-                         double depth) {
-    const Vec3 to = lifted(bodies, row);
+std::string describe(const Inside& one, const Vec3& from, const Vec3& to, int axes) {
     return fmt::format(
         "body {{}} starts {:.3g} m inside {}, and is lifted out at once, by {:.3g} m to {}: move "
         "it",
-        depth, describe(obstacle.shape, bodies.axes()), length(to - bodies.position(row)),
-        place(to, bodies.axes()));
+        one.depth, describe(one.obstacle->shape, axes), length(to - from), place(to, axes));
 }
 
 bool is_segment(const Obstacle& obstacle) {
@@ -112,6 +111,7 @@ void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk
     const auto tell = [&](std::size_t row, std::string message) {
         risks.push_back({.row = row, .of = Risk::Of::told, .message = std::move(message)});
     };
+    std::vector<Inside> all;
     const std::size_t rows = std::min(bodies.size(), most_pairs / obstacles.size());
     for (std::size_t row = 0; row < rows; ++row) {
         const auto contact = bodies.contact(row);
@@ -121,12 +121,18 @@ void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk
                  "body {} is a point, which passes segments: give its contact a radius above 0");
         const Vec3 x = bodies.position(row);
         for (const Obstacle& obstacle : obstacles) {
-            const double inside = -gap(obstacle.shape, x, contact->radius, bodies.axes());
-            if (!(inside > hidden * (largest(x) + contact->radius))) continue;
-            tell(row, start_inside(bodies, row, obstacle, inside));
+            if ((contact->meets & obstacle.layers) == 0) continue;
+            const double depth = -gap(obstacle.shape, x, contact->radius, bodies.axes());
+            if (!(depth > hidden * (largest(x) + contact->radius))) continue;
+            all.push_back({row, &obstacle, depth});
             break;
         }
     }
+    if (all.empty()) return;
+    const Bodies there = lifted(bodies, all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        tell(all[i].row,
+             describe(all[i], bodies.position(all[i].row), there.position(i), bodies.axes()));
 }
 
 }  // namespace oiler

@@ -51,7 +51,7 @@ std::vector<Obstacle> bounded_obstacles(const Bodies& bodies) {
 void keep_on_planes(const Bodies& bodies, std::size_t row, State<double, 3>& state) {
     const auto contact = bodies.contact(row);
     if (!contact) return;
-    for (const Plane& plane : bodies.planes()) {
+    for (const Plane& plane : bodies.planes(contact->meets)) {
         const double size = length(plane.normal);
         const Vec3 normal = plane.normal * (1 / size);
         const double least = plane.offset / size + contact->radius;
