@@ -56,6 +56,17 @@ std::vector<std::string_view> names_missing_in(const StatesByName<State>& there,
     return names;
 }
 
+/// "body 'bob' is missing", "obstacle 'lift' and 2 more are new"; empty if both have all names.
+template <class State>
+std::string describe_others(std::string_view kind, const StatesByName<State>& before,
+                            const StatesByName<State>& after) {
+    if (const auto gone = names_missing_in(before, after); !gone.empty())
+        return list_of(kind, gone) + (gone.size() == 1 ? " is missing" : " are missing");
+    if (const auto added = names_missing_in(after, before); !added.empty())
+        return list_of(kind, added) + (added.size() == 1 ? " is new" : " are new");
+    return {};
+}
+
 /// "bodies 'a' and 'b' are swapped" if each has the other's state.
 std::string describe_swap(const ByName& golden, const ByName& actual) {
     std::vector<std::string_view> changed;
@@ -363,10 +374,7 @@ std::string describe_state_change(const std::vector<BodyState>& golden,
                                   std::string_view precision) {
     const ByName before = by_name(golden);
     const ByName after = by_name(actual);
-    if (const auto gone = names_missing_in(before, after); !gone.empty())
-        return list_of("body", gone) + (gone.size() == 1 ? " is missing" : " are missing");
-    if (const auto added = names_missing_in(after, before); !added.empty())
-        return list_of("body", added) + (added.size() == 1 ? " is new" : " are new");
+    if (std::string others = describe_others("body", before, after); !others.empty()) return others;
     if (const std::string swap = describe_swap(before, after); !swap.empty()) return swap;
     const bool single = precision == "float";
     const Change change = largest_change(before, after, single);
@@ -388,10 +396,8 @@ std::string describe_obstacle_change(const std::vector<ObstacleState>& golden,
                                      const std::vector<ObstacleState>& actual) {
     const auto before = by_name(golden);
     const auto after = by_name(actual);
-    if (const auto gone = names_missing_in(before, after); !gone.empty())
-        return list_of("obstacle", gone) + (gone.size() == 1 ? " is missing" : " are missing");
-    if (const auto added = names_missing_in(after, before); !added.empty())
-        return list_of("obstacle", added) + (added.size() == 1 ? " is new" : " are new");
+    if (std::string others = describe_others("obstacle", before, after); !others.empty())
+        return others;
     std::string first;
     std::size_t changed = 0;
     for (const ObstacleState& one : golden) {
