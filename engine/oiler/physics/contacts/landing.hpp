@@ -261,7 +261,6 @@ private:
             return !touched(near) || leaving(near, v) >= -noise;
         };
         if (std::ranges::all_of(nears_, is_left)) return false;
-
         crush_by(*moving, slowest->velocity, state);
         return true;
     }
@@ -316,8 +315,8 @@ private:
             Support::against(a, nears_, [](const Near& near) { return near.met && !near.hidden; });
         if (corner.size() >= 2) rest_on(corner, state);
     }
-    /// Moves a body by a part of the step in which it does not bounce, where its impacts between
-    /// obstacles that move have no end. This has order 1.
+    /// Moves a body by a part of the step in which it does not bounce and slips without friction,
+    /// where its impacts between obstacles that move have no end. This has order 1.
     void squeeze(State& state) {
         const T tau = std::min(left_, duration_ / squeezed_parts);
         const Vec a = body_.accelerate(state, start_);
