@@ -153,6 +153,45 @@ TEST(DriveWarning, NamesTheTrueReachBetweenSteps) {
         }
 }
 
+// F·sin(ωt + φ), sampled at one end of each step, adds F·sin(φ)·dt/2 to the speed: 2 Hz at 60 Hz
+// changes the drift by tan(φ)·ω·dt/2, 24 % at φ = 1.151, and all of it at π/2.
+TEST(DriveWarning, OfSlowDrivesIsGivenForMethodsOfOrderOne) {
+    for (const Method& method : methods())
+        for (const double phase : {0.0, 0.3, 1.151, std::numbers::pi / 2}) {
+            if (method.order == exact_order) continue;
+            Bodies bodies(1, Precision::double_);
+            bodies.add({}, Drive{.amplitude = {100}, .frequency = 2, .phase = phase});
+            const double truth = free_reach(2, phase, 512 / 60.0);
+            const bool is_wrong = std::abs(reach(bodies, method, 512) / truth - 1) > 0.1;
+            EXPECT_EQ(is_wrong, method.order == 1 && phase > 1) << method.name << phase;
+            const auto lines = warnings(bodies, method, {60});
+            ASSERT_EQ(lines.size(), is_wrong ? 1U : 0U) << method.name << phase;
+            if (!is_wrong) continue;
+            EXPECT_NEAR(number_after(lines[0], "instead of ") / truth, 1, 0.015) << lines[0];
+            EXPECT_TRUE(lines[0].ends_with(is_implicit(method) ? ": take implicit_midpoint"
+                                                               : ": take velocity_verlet"))
+                << lines[0];
+        }
+}
+
+// A drive at the frequency of the spring moves the body by F/(2ω²)·(sin ωt − ωt·cos ωt).
+// velocity_verlet detunes it by h²/24, which loses a tenth of the amplitude from 15 steps per
+// period on.
+TEST(DriveWarning, IsGivenIfTheMethodLeavesAResonance) {
+    const Method& verlet = find_method("velocity_verlet");
+    for (const double hertz : {1.0, 2.0, 3.0, 5.0, 6.0, 7.0}) {
+        const double omega = turn * hertz;
+        double truth = 0;
+        for (double t = 0; t < 512 / 60.0; t += 0.01 / hertz)
+            truth = std::max(truth,
+                             5 / (omega * omega) *
+                                 std::abs(std::sin(omega * t) - omega * t * std::cos(omega * t)));
+        const double ratio = reach(driven(hertz, hertz), verlet, 512) / truth;
+        EXPECT_EQ(std::abs(ratio - 1) > 0.1, hertz > 4) << hertz << " " << ratio;
+        EXPECT_EQ(!warnings(driven(hertz, hertz), verlet, {60}).empty(), hertz > 4) << hertz;
+    }
+}
+
 // Other bodies change neither the line of a driven body nor its length.
 TEST(DriveWarning, DependsOnNoOtherBodies) {
     const auto line_among = [](std::size_t others) {
