@@ -314,6 +314,41 @@ TEST(BounceWarning, IsNotGivenIfTheMethodTakesLittle) {
     EXPECT_TRUE(warnings(between_walls, euler, rate).empty());
 }
 
+/// The energy of true bounces after a time: each flight of the speed v takes 2v/g.
+double true_energy(double restitution, double speed, double time) {
+    double v = speed;
+    for (double t = 2 * v / g; t <= time && v > 1e-3 * speed; t += 2 * v / g) v *= restitution;
+    return v > 1e-3 * speed ? v * v / 2 : 0;
+}
+
+/// Whether a ball has less than a quarter of the energy of bounces that have a quarter of the
+/// first one's, or bounces of eight steps when the true ones have ended for long.
+bool is_spoiled(double restitution, double speed, const Method& method) {
+    Bodies ball = thrown_up(restitution, speed);
+    const double end = 4 * speed / (g * (1 - restitution));
+    for (std::int64_t tick = 1; static_cast<double>(tick) < end * 60; ++tick) {
+        EXPECT_FALSE(ball.try_step(method, {rate, tick - 1}));
+        const double truth = true_energy(restitution, speed, static_cast<double>(tick) / 60);
+        const double energy = ball.energy().total() - 0.5;
+        if (truth > speed * speed / 8 && energy < truth / 4) return true;
+    }
+    return ball.energy().total() - 0.5 > std::pow(4 * g / 60, 2) / 2;
+}
+
+// c = g·dt = 0.16 m/s per bounce ends bounces early if c/(1 − e) > 0.286 of the first speed. A gain
+// keeps up bounces of c/(1 − e), however fast the first one is.
+TEST(BounceWarning, IsGivenIfBouncesEndEarlyOrNeverEnd) {
+    for (const char* name : {"semi_implicit_euler", "semi_implicit_euler_drift_kick",
+                             "implicit_euler", "velocity_verlet"})
+        for (const double restitution : {0.7, 0.9, 0.95})
+            for (const double speed : {3.0, 5.0, 8.0, 10.0, 15.0}) {
+                const Method& method = find_method(name);
+                EXPECT_EQ(!warnings(thrown_up(restitution, speed), method, rate).empty(),
+                          is_spoiled(restitution, speed, method))
+                    << name << restitution << " " << speed;
+            }
+}
+
 // ---- springs without a direction
 
 TEST(PointWarning, IsGivenIfTheSpringStaysWithoutDirection) {

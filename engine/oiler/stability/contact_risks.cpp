@@ -163,12 +163,17 @@ Bounce bounce_of(const Bodies& bodies, std::size_t row, const Plane& plane, doub
     return {pull, std::sqrt(std::max(away * away + 2 * pull * std::max(gap, 0.0), 0.0))};
 }
 
-/// Whether the method's error takes or gives at least half as much of the speed as restitution
-/// takes, in bounces of eight steps and more, and changes the speed within a hundred bounces.
+/// Whether the method's error c spoils bounces of eight steps and more, and changes the speed
+/// within a hundred of them. With restitution e each bounce has the speed e·v + c, which tends to
+/// c/(1 − e) = w: a gain never lets it fall below. After a loss, the speed u falls to v until
+/// u − v − w·ln((u + w)/(v + w)) is u/2, the time in which restitution alone halves it; then v is
+/// less than u/4 if w > 0.286u.
 bool spoils(const Bounce& bounce, double restitution, double gain) {
     const double change = std::abs(gain);
-    return change > 0 && restitution * bounce.speed >= 4 * change && bounce.speed <= 100 * change &&
-           change >= (1 - restitution) * bounce.speed / 2;
+    const double lost = (1 - restitution) * bounce.speed;
+    const double speed = gain > 0 && change < lost ? change / (1 - restitution) : bounce.speed;
+    return change > 0 && restitution * speed >= 4 * change && speed <= 100 * change &&
+           (gain > 0 || change >= 0.286 * lost);
 }
 
 std::string describe(const Bounce& bounce, std::size_t plane, double gain, const Method& method) {
