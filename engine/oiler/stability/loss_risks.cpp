@@ -33,21 +33,35 @@ std::vector<double> losses_of(const std::vector<Part>& parts, const Method& meth
     return losses;
 }
 
-/// The time in which the method takes half of the energy that damping leaves, if damping takes less
-/// until then.
+/// The least part of the energy at the start whose loss is told.
+constexpr double least_part = 0.05;
+
+/// The oscillations of which the method takes more than half as much as damping does.
+std::vector<bool> taken_by_method(const std::vector<Part>& parts,
+                                  const std::vector<double>& losses) {
+    std::vector<bool> taken;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        taken.push_back(losses[i] > parts[i].damping / 2);
+    return taken;
+}
+
+/// The time in which the method takes half of the energy that damping leaves of these oscillations,
+/// if they are a twentieth of all: those that damping ends sooner hide no loss of the others.
 std::optional<double> half_time(const std::vector<Part>& parts, const std::vector<double>& losses) {
+    const std::vector<bool> taken = taken_by_method(parts, losses);
+    double all = 0;
+    for (const Part& part : parts) all += part.energy;
     const auto left = [&](double time, bool by_method) {
         double sum = 0;
         for (std::size_t i = 0; i < parts.size(); ++i)
-            sum += parts[i].energy *
-                   std::exp(-time * (parts[i].damping + (by_method ? losses[i] : 0)));
+            if (taken[i])
+                sum += parts[i].energy *
+                       std::exp(-time * (parts[i].damping + (by_method ? losses[i] : 0)));
         return sum;
     };
-    const auto is_taken = [&](double time) { return left(time, true) <= left(time, false) / 2; };
-    if (!is_taken(longest)) return std::nullopt;
-    const double time =
-        edge_between(0, longest, 1e-6, [&](double earlier) { return !is_taken(earlier); });
-    return left(time, false) >= left(0, false) / 2 ? std::optional(time) : std::nullopt;
+    const auto lasts = [&](double time) { return left(time, true) > left(time, false) / 2; };
+    if (!(left(0, false) > least_part * all) || lasts(longest)) return std::nullopt;
+    return edge_between(0, longest, 1e-6, lasts);
 }
 
 class LossTest {
@@ -70,8 +84,9 @@ public:
         const auto time = half_time(parts, losses);
         if (!time) return std::nullopt;
         std::size_t most = 0;
+        const std::vector<bool> is_taken = taken_by_method(parts, losses);
         const auto taken = [&](std::size_t i) {
-            return parts[i].energy * -std::expm1(-*time * losses[i]);
+            return is_taken[i] ? parts[i].energy * -std::expm1(-*time * losses[i]) : 0;
         };
         for (std::size_t i = 1; i < parts.size(); ++i)
             if (taken(i) > taken(most)) most = i;
@@ -165,8 +180,25 @@ bool has_springs(const Bodies& bodies) {
 struct Energies {
     std::vector<double> run{};
     std::vector<double> fine{};
-    double motion = 0;  ///< of the finer run: the range of its kinetic energy, or a quarter of it
+    /// Of the finer run from a step to the end: the range of its kinetic energy, or a quarter of
+    /// it. The last quarter of the run counts as a whole.
+    std::vector<double> motion{};
+
+    [[nodiscard]] double loss(std::size_t tick) const { return fine[tick] - run[tick]; }
 };
+
+std::vector<double> motions_of(std::vector<double> kinetic) {
+    double least = INFINITY;
+    double most = 0;
+    for (std::size_t i = kinetic.size(); i-- > 0;) {
+        least = std::min(least, kinetic[i]);
+        most = std::max(most, kinetic[i]);
+        kinetic[i] = std::max(most - least, most / 4);
+    }
+    const std::size_t last = kinetic.size() * 3 / 4;
+    std::fill(kinetic.begin() + static_cast<std::ptrdiff_t>(last), kinetic.end(), kinetic[last]);
+    return kinetic;
+}
 
 /// Steps for 20 s, or as long as takes some tens of milliseconds; empty if a run diverges.
 Energies energies_of(const Bodies& bodies, const Method& method, const Steps& steps) {
@@ -178,42 +210,50 @@ Energies energies_of(const Bodies& bodies, const Method& method, const Steps& st
     Bodies run = bodies;
     Bodies fine = bodies;
     Energies all;
-    double least = INFINITY;
-    double most = 0;
+    std::vector<double> kinetic;
     for (std::int64_t tick = 0; static_cast<double>(tick) <= count; ++tick) {
         const Energy energy = fine.energy();
         all.run.push_back(run.energy().total());
         all.fine.push_back(energy.total());
-        least = std::min(least, energy.kinetic);
-        most = std::max(most, energy.kinetic);
+        kinetic.push_back(energy.kinetic);
         if (run.try_step(method, {steps.rate, tick, 1, steps.damping}) ||
             fine.try_step(find_method("pefrl"),
                           {{steps.rate.steps * finer, steps.rate.seconds}, tick * finer, finer}))
             return {};
     }
-    all.motion = std::max(most - least, most / 4);
+    all.motion = motions_of(std::move(kinetic));
     return all;
 }
 
-/// Adds a loss by half of the energy of the motion, by more than damping takes, in a trial of
-/// bodies whose forces are not linear.
+/// The first and the last of the steps in which the method takes half of the energy of a motion of
+/// which damping leaves a quarter or more. Motions that damping ended before do not count.
+std::optional<std::pair<std::size_t, std::size_t>> steps_of_loss(const Energies& of) {
+    std::size_t from = 0;
+    for (std::size_t tick = 0; tick < of.run.size(); ++tick) {
+        const double half = of.motion[tick] / 2;
+        if (!(half > least_part * of.motion.front() / 2)) return std::nullopt;
+        while (of.motion[from] > 8 * half) ++from;
+        const double loss = std::min(of.loss(tick), of.loss(tick) - of.loss(from));
+        if (loss >= half && loss > 1e-9 * std::abs(of.fine[tick])) return std::pair(from, tick);
+    }
+    return std::nullopt;
+}
+
+/// Adds a loss by half of the energy of the motion, by more than half of what damping takes, in a
+/// trial of bodies whose forces are not linear.
 void add_loss_of_trial(const Bodies& bodies, const Method& method, const Steps& steps,
                        std::vector<Risk>& risks) {
-    const Energies all = energies_of(bodies, method, steps);
-    for (std::size_t tick = 0; tick < all.run.size(); ++tick) {
-        const double loss = all.fine[tick] - all.run[tick];
-        if (!(loss >= all.motion / 2) || !(loss > 1e-9 * std::abs(all.fine[tick]))) continue;
-        if (loss < all.fine.front() - all.fine[tick]) return;
-        const bool may_verlet = holds(bodies, find_method("velocity_verlet"), {steps.rate});
-        risks.push_back({.row = 0,
-                         .of = Risk::Of::told,
-                         .message = fmt::format(
-                             "{}: {} takes half of the energy of the motion in {:.3g} s: take {}",
-                             bodies.size() == 1 ? "spring of body {}" : "springs of all bodies",
-                             method.name, static_cast<double>(tick) * steps.rate.dt(),
-                             may_verlet ? "velocity_verlet" : "a higher rate")});
-        return;
-    }
+    const auto loss = steps_of_loss(energies_of(bodies, method, steps));
+    if (!loss) return;
+    const bool may_verlet = holds(bodies, find_method("velocity_verlet"), {steps.rate});
+    risks.push_back(
+        {.row = 0,
+         .of = Risk::Of::told,
+         .message = fmt::format(
+             "{}: {} takes half of the energy of the motion in {:.3g} s: take {}",
+             bodies.size() == 1 ? "spring of body {}" : "springs of all bodies", method.name,
+             static_cast<double>(loss->second - loss->first) * steps.rate.dt(),
+             may_verlet ? "velocity_verlet" : "a higher rate")});
 }
 
 }  // namespace
