@@ -152,8 +152,9 @@ void add_contact_risks(const Bodies& bodies, const Method& method, const Steps& 
 /// obstacles that swing with two steps or less per period.
 void add_obstacle_risks(const Bodies& bodies, const Rate& rate, std::vector<Risk>& risks);
 
-/// Adds bodies that a drive of more than an eighth of the rate moves otherwise than with finer
-/// steps: by 10 % of its effect and 5 % of the motion, within 512 steps.
+/// Adds bodies that a drive of more than a 24th of the rate, or any drive with a method of order 1,
+/// moves otherwise than with finer steps: by 10 % of its effect and 5 % of the motion, within 512
+/// steps.
 void add_drive_risks(const Bodies& bodies, const Method& method, const Steps& steps,
                      std::vector<Risk>& risks);
 
@@ -171,8 +172,9 @@ void add_trial_risks(const Bodies& bodies, Region& region, const Steps& steps,
 /// The most distortions of a kind.
 inline constexpr std::size_t most_distortions = 5;
 
-/// Adds the oscillations whose energy the method halves. The energy is that of the modes at the
-/// present positions, in components of up to 100 freedoms whose bodies meet no obstacles.
+/// Adds the oscillations whose energy the method halves, by more than half of what damping takes.
+/// The energy is that of the modes at the present positions, in components of up to 100 freedoms
+/// whose bodies meet no obstacles.
 void add_oscillation_losses(const Bodies& bodies, const Method& method, const Steps& steps,
                             std::vector<Risk>& risks);
 
