@@ -8,24 +8,28 @@ Dormand and Prince with an error of 1e-9; bouncing balls have a closed form. A r
 - it explodes: it ends with exit code 5, or moves ten times as far as the true motion;
 - it grows: it moves four times as far; a driven body, ten per cent farther or less far; an orbit's
   energy changes by half;
-- it reverses: a step turns the velocity relative to the air, and the true motion does not; bodies
-  on overdamped springs move against their true velocity in 2 % of the first 64 steps;
-- it freezes: it rests although the true motion moves on, or a body lies inside a plane;
+- it reverses: a step turns the velocity relative to the air, and the true motion from the same
+  state does not in two steps; bodies on overdamped springs move against their true velocity in 2 %
+  of the first 64 steps;
+- it freezes: it rests although the true motion moves on, a body lies inside a plane, or a ball has
+  less than a quarter of the energy of the next bounce while one has a quarter of the first one's;
 - it dies: in the last quarter of a run of springs, its kinetic energy is less than a third;
 - an orbit's farthest point is wrong by 30 %;
 - rounding changes its motion by 2 %, or an oscillation by a fifth of its extent.
 
 A bad run without a warning is missed. A warning of a run that is not bad, nor in ten times as many
 steps and 10,000 more, is a false alarm, unless a driven body is 5 % of its reach away from its
-place, springs have lost 30 % of their kinetic energy, an orbit's farthest point is wrong by 15 % or
-an oscillation in float by 5 %. Exits with 1 if more than 1 % are missed or more than 5 % are
-false."""
+place, springs have lost 30 % of their kinetic energy, or half of their energy as the warning says,
+springs have gained more than their largest kinetic energy, an orbit's farthest point is wrong by
+15 % or an oscillation in float by 5 %. Exits with 1 if more than 1 % are missed or more than 5 %
+are false."""
 
 import argparse
 import collections
-import json
 import math
+import operator
 import random
+import re
 import struct
 import subprocess
 import sys
@@ -511,7 +515,15 @@ def true_states(scene):
     return states
 
 
-def reversal(scene, run, truth):
+def true_velocity(scene, tick, state, ticks):
+    """The velocities so many ticks after a state at a tick."""
+    truth = Truth(scene)
+    truth.t, truth.y = tick / scene.rate, state[0] + state[1]
+    truth.k = truth.slope(truth.t, truth.y)
+    return truth.advance(truth.t + ticks / scene.rate)[truth.size:]
+
+
+def reversal(scene, run):
     n = scene.axes
     for i, (_, _, _, linear, quadratic, _) in enumerate(scene.bodies):
         air = [0.0] * n
@@ -520,13 +532,18 @@ def reversal(scene, run, truth):
                 air = velocity
         if not linear and not quadratic and not any(air):
             continue
-        part = slice(n * i, n * i + n)
-        first = math.hypot(*[a - b for a, b in zip(run.states[0][1][part], air)])
-        for (_, before), (_, after), (_, t0), (_, t1) in zip(run.states, run.states[1:], truth,
-                                                             truth[1:]):
-            u = [[a - b for a, b in zip(v[part], air)] for v in (before, after, t0, t1)]
-            dots = [sum(a * b for a, b in zip(u[j], u[j + 1])) for j in (0, 2)]
-            if dots[0] < 0 <= dots[1] and min(math.hypot(*u[0]), math.hypot(*u[1])) > 0.01 * first:
+
+        def relative(v):
+            return [a - b for a, b in zip(v[n * i: n * i + n], air)]
+
+        def turns(u, w):
+            return sum(a * b for a, b in zip(u, w)) < 0
+
+        first = math.hypot(*relative(run.states[0][1]))
+        for tick, (before, after) in enumerate(zip(run.states, run.states[1:])):
+            u, w = relative(before[1]), relative(after[1])
+            if turns(u, w) and min(math.hypot(*u), math.hypot(*w)) > 0.01 * first and \
+                    not turns(u, relative(true_velocity(scene, tick, before, 2))):
                 return f"reverses body {i}"
     return ""
 
@@ -552,27 +569,32 @@ def is_overdamped(scene):
         for body, end, k, b, _ in scene.springs)
 
 
-def judge_bounce(scene, run):
-    """The closed form of a ball over a floor: it is at rest, or its bounces are lower or higher."""
+def bounce_energies(scene, count):
+    """The true energies of a ball over a floor at the first ticks, by the closed form."""
     g, e = -scene.gravity[1], scene.planes[0][2]
     height, speed = scene.bodies[0][0][1], scene.bodies[0][1][1]
-    impact = math.sqrt(speed * speed + 2 * g * height)
-    # The energy left after the last bounce of the run, without and with restitution.
-    t, now = (speed + impact) / g, impact * e
-    end = scene.ticks / scene.rate
-    while now > 0 and t + 2 * now / g < end and now > 1e-3 * impact:
-        t, now = t + 2 * now / g, now * e
-    x, v = run.states[-1]
-    energy = v[1] * v[1] / 2 + g * x[1]
-    true_energy = now * now / 2 if t <= end and now > 1e-3 * impact else 0.0
-    if now == impact and e < 1:
-        true_energy = energy
+    now = impact = math.sqrt(speed * speed + 2 * g * height)
+    t = (speed + impact) / g  # of the next impact, at the speed `now`
+    energies = []
+    for tick in range(count):
+        while now > 1e-3 * impact and tick / scene.rate >= t:
+            now *= e
+            t += 2 * now / g
+        energies.append(now * now / 2 if now > 1e-3 * impact else 0.0)
+    return energies
+
+
+def judge_bounce(scene, run):
+    """Whether a ball is at rest, or has lower bounces than the true one, or higher ones at last."""
+    g, e = -scene.gravity[1], scene.planes[0][2]
+    energies = bounce_energies(scene, len(run.states))
     visible = (g / scene.rate * 4) ** 2 / 2  # bounces of eight steps
-    if energy > 2 * true_energy + visible:
-        return "grows"
-    if true_energy > visible and energy < true_energy / 4:
-        return "freezes"
-    return ""
+    for (x, v), true in zip(run.states, energies):
+        energy = v[1] * v[1] / 2 + g * x[1]
+        # Of the next bounce, because a run may be one bounce ahead.
+        if true > max(visible, energies[0] / 4) and energy < true * e * e / 4:
+            return "freezes"
+    return "grows" if energy > 2 * true + visible else ""
 
 
 def orbital_energy(scene, state):
@@ -580,21 +602,82 @@ def orbital_energy(scene, state):
     return (v[0] * v[0] + v[1] * v[1]) / 2 - gm / math.hypot(*x)
 
 
-def kinetic(scene, states):
-    """The mean kinetic energy, J."""
-    masses = [body[2] for body in scene.bodies for _ in range(scene.axes)]
+def kinetic(scene, states, bodies=None):
+    """The mean kinetic energy of some bodies, or of all, J."""
+    masses = [body[2] * (bodies is None or i in bodies)
+              for i, body in enumerate(scene.bodies) for _ in range(scene.axes)]
     return sum(m * v * v for _, vs in states for m, v in zip(masses, vs)) / (2 * len(states))
 
 
-def judge_loss(scene, run, truth):
-    """The kinetic energy that is left in the last quarter, relative to the first and the truth."""
+def potential(scene, x):
+    """The energy of springs and gravity, J."""
+    n = scene.axes
+    places = [x[i: i + n] for i in range(0, len(x), n)]
+    energy = -sum(body[2] * sum(map(operator.mul, scene.gravity, at))
+                  for body, at in zip(scene.bodies, places))
+    for body, end, k, _, length in scene.springs:
+        far = math.dist(places[body], places[end] if isinstance(end, int) else end)
+        energy += k * (far - length) ** 2 / 2
+    return energy
+
+
+def gains_energy(scene, run):
+    """Whether springs and gravity alone add energy, by more than the motion has at first."""
+    if scene.drives or scene.winds or scene.attractors or scene.planes:
+        return False
+    energies = [(kinetic(scene, [state]), potential(scene, state[0])) for state in run.states]
+    largest = max(moving for moving, _ in energies[: scene.ticks])
+    return max(map(sum, energies)) - sum(energies[0]) > largest
+
+
+def energy_of_one(scene, state, body):
+    """The energy of a body alone on a spring, above that of its rest."""
+    n = scene.axes
+    _, anchor, k, _, _ = next(one for one in scene.springs if one[0] == body)
+    mass = scene.bodies[body][2]
+    rest = [at + mass * g / k for at, g in zip(anchor, scene.gravity)]
+    x, v = (part[n * body: n * body + n] for part in state)
+    return mass * sum(one * one for one in v) / 2 + k * math.dist(x, rest) ** 2 / 2
+
+
+def halves_energy(run, truth, energy):
+    """Whether a motion has half of its true energy or less, while that is a fifth of its start."""
+    first = energy(truth[0])
+    return any(energy(true) > first / 5 and energy(state) <= 0.55 * energy(true)
+               for state, true in zip(run.states, truth))
+
+
+def energy_left(scene, run, truth, bodies):
+    """The kinetic energy in the last quarter, relative to the first and the truth; 1 if the truth
+    has little."""
     quarter = len(truth) // 4
-    last, first = kinetic(scene, truth[-quarter:]), kinetic(scene, truth[:quarter])
+    last, first = (kinetic(scene, part, bodies) for part in (truth[-quarter:], truth[:quarter]))
     if not last > 0.05 * first:
-        return ""
-    before = kinetic(scene, run.states[:quarter])
-    scene.left = kinetic(scene, run.states[-quarter:]) / before * first / last if before else 0.0
+        return 1.0
+    before = kinetic(scene, run.states[:quarter], bodies)
+    return kinetic(scene, run.states[-quarter:], bodies) / before * first / last if before else 0.0
+
+
+def judge_loss(scene, run, truth):
+    """Whether bodies lose their energy: each by itself, or all that links connect."""
+    rows = range(len(scene.bodies))
+    groups = [[i] for i in rows] if scene.kind == "springs" else [rows]
+    scene.left = min(energy_left(scene, run, truth, group) for group in groups)
     return f"dies: {scene.left:.2g} of the energy is left" if scene.left < 1 / 3 else ""
+
+
+def is_true_loss(scene, run, told):
+    """Whether half of the energy is lost as the warning says. Links without lengths rest at 0."""
+    said = re.match(r"(spring|link) of .*?(\d+).*: \S+ takes half of the energy of its", told)
+    if not said or scene.kind not in ("springs", "linked"):
+        return False
+
+    def energy(state):
+        if scene.kind == "springs":
+            return energy_of_one(scene, state, int(said[2]))
+        return kinetic(scene, [state]) + potential(scene, state[0])
+
+    return halves_energy(run, true_states(scene), energy)
 
 
 def departure(oiler, path, scene, run):
@@ -641,6 +724,9 @@ def judge(scene, run):
     if scene.kind == "point":
         return "freezes" if scene.stays and reach(run.states, start) == 0 else ""
     if scene.kind == "far" and scene.springs:
+        scene.reach = 2 * (start[0] - scene.springs[0][1][0])
+        if reach(run.states, start) > 4 * scene.reach:
+            return "grows"
         return f"departs by {100 * scene.departure:.2g} %" if scene.departure > 0.2 else ""
     if scene.kind == "far":
         moved = run.states[-1][0][0] - start[0]
@@ -662,7 +748,7 @@ def judge(scene, run):
     if scene.kind == "drive" and not 0.9 < ratio < 1.1:
         return f"follows its drive {ratio:.3g} times as far"
     if scene.kind in ("linear drag", "quadratic drag", "wind"):
-        return reversal(scene, run, truth)
+        return reversal(scene, run)
     if scene.kind in ("springs", "linked", "net"):
         scene.turned = turned_back(scene, run, truth)
         if is_overdamped(scene) and scene.turned > 0.02:
@@ -676,8 +762,6 @@ def is_bad_later(oiler, path, scene):
     """Whether ten times as many steps explode, or move farther than the true motion did."""
     if scene.left < 0.7 or scene.wrong > 0.15 or scene.departure > 0.05:
         return True
-    if scene.kind in ("linear drag", "quadratic drag", "wind", "room", "far", "bounce"):
-        return False
     if scene.kind == "point":
         scene.reach = reach(true_states(scene), scene.bodies[0][0] * len(scene.bodies))
     if scene.kind == "drive" and scene.error > 0.05 * scene.reach:
@@ -685,8 +769,16 @@ def is_bad_later(oiler, path, scene):
     later = Run(oiler, path, scene, min(10 * scene.ticks, 50_000) + 10_000)
     if later.exit == 5:
         return True
+    if scene.kind in ("linear drag", "quadratic drag", "wind", "room"):
+        return False
+    if scene.kind == "far" and not scene.springs:
+        return False
     if scene.kind == "orbit":
         return bool(judge_orbit(scene, later))
+    if scene.kind == "bounce":
+        return bool(judge_bounce(scene, later))
+    if gains_energy(scene, later):
+        return True
     return reach(later.states, later.states[0][0]) > 2 * scene.reach
 
 
@@ -713,7 +805,8 @@ def examine(oiler, folder, seed):
     if not told:
         return scene.kind, "quiet", words
     try:
-        later = "turns it back" in told and scene.turned > 0 or is_bad_later(oiler, path, scene)
+        later = "turns it back" in told and scene.turned > 0 or \
+            is_true_loss(scene, run, told) or is_bad_later(oiler, path, scene)
     except TooLong:
         return scene.kind, "no truth", words
     return scene.kind, "warned" if later else "false", f"{words}: {told}"
