@@ -80,7 +80,7 @@ bool System::is_linear() const {
 }
 
 bool System::has_contacts() const {
-    return !floors.empty() &&
+    return !surfaces.empty() &&
            std::ranges::any_of(bodies, [](const auto& one) { return one.contact.has_value(); });
 }
 

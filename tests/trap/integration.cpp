@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "trap/truth.hpp"
+#include "trap/integration.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,27 +8,6 @@
 #include <stdexcept>
 
 namespace oiler::trap {
-
-/// Collocation at the nodes −cos(i·π/degree) of [−1, 1].
-struct Chebyshev {
-    static constexpr std::size_t degree = 20;
-    static constexpr std::size_t nodes = degree + 1;
-    /// The integrals of values at the nodes have one coefficient more, twice integrated two more.
-    static constexpr std::size_t coefficients = nodes + 2;
-    using Row = std::array<Real, nodes>;
-
-    Row at{};                                  ///< the nodes
-    std::array<Row, nodes> once{};             ///< from −1 to each node
-    std::array<Row, nodes> twice{};            ///< integrated twice
-    std::array<Row, nodes> transform{};        ///< coefficients of the values
-    std::array<Row, coefficients> position{};  ///< coefficients of the double integral
-
-    Chebyshev();
-    [[nodiscard]] static const Chebyshev& get();
-    /// The sum of the series at `x` in [−1, 1], by Clenshaw's recurrence.
-    [[nodiscard]] static Real sum(const Real* series, Real x);
-};
-
 namespace {
 
 using Series = std::array<Real, Chebyshev::coefficients>;
@@ -96,21 +75,6 @@ Real length(const Real* d) { return std::sqrt(dot(d, d)); }
 
 }  // namespace
 
-/// The motion in a segment: node by node, three coordinates per body.
-struct Integration::Nodes {
-    explicit Nodes(std::size_t coordinates) : width(coordinates), x(nodes * width), v(x), a(x) {}
-    std::size_t width;
-    Numbers x, v, a;
-};
-
-/// A root inside a segment.
-struct Integration::Event {
-    Real after = 0;  ///< s, from the start of the segment
-    std::size_t body = 0;
-    const Floor* floor = nullptr;
-    enum class Of { impact, lift, stop } of = Of::impact;
-};
-
 Integration::Integration(const System& system, Real duration, Real tolerance,
                          std::size_t most_segments)
     : system_(system), bearings_(system.bodies.size()), duration_(duration), shortest_(duration) {
@@ -120,9 +84,11 @@ Integration::Integration(const System& system, Real duration, Real tolerance,
         at.v[i] = system.bodies[i / 3].v[i % 3];
     }
     if (system.has_contacts())
-        for (std::size_t i = 0; i < system.bodies.size(); ++i) start_on_floor(i, at);
+        for (std::size_t i = 0; i < system.bodies.size(); ++i) start_on_surface(i, at);
     Real h = std::min(duration, system.shortest_spring_period() / 2);
     if (system.has_contacts()) h = std::min(h, duration / 64);
+    for (const Surface& one : system.surfaces)
+        if (one.omega > 0) h = std::min(h, 1 / one.omega);
     const Real longest = h;
     while (now_ < duration) {
         const bool converged = converge(h, at);
@@ -130,13 +96,8 @@ Integration::Integration(const System& system, Real duration, Real tolerance,
         const Real factor =
             error > 0 ? std::pow(error, Real(-1) / static_cast<Real>(Chebyshev::degree)) : 2;
         if (error <= 1) {
-            const std::optional<Event> event =
-                system.has_contacts() ? first_event(h, at) : std::nullopt;
             append(h, at);
-            if (event)
-                meet(*event, h, at);
-            else
-                go_on(h, at);
+            if (!system.has_contacts() || !meet_first(h, at)) go_on(h, at);
             shortest_ = std::min(shortest_, 1.5L * h);
         }
         // The last segment may end after the duration.
@@ -171,7 +132,7 @@ Real Integration::update(Real h, Nodes& at) const {
     Numbers a(at.width);
     for (std::size_t i = 1; i < nodes; ++i) {
         const Real t = now_ + h * (1 + Chebyshev::get().at[i]) / 2;
-        accelerate_on_floors(&at.x[i * at.width], &at.v[i * at.width], t, a.data());
+        accelerate_on_surfaces(&at.x[i * at.width], &at.v[i * at.width], t, a.data());
         for (std::size_t c = 0; c < at.width; ++c) {
             change = std::max(change, std::abs(a[c] - at.a[i * at.width + c]));
             size = std::max(size, std::abs(a[c]));
@@ -184,7 +145,7 @@ Real Integration::update(Real h, Nodes& at) const {
 
 /// Iterates from the state at the first node to the accelerations at all nodes.
 bool Integration::converge(Real h, Nodes& at) const {
-    accelerate_on_floors(at.x.data(), at.v.data(), now_, at.a.data());
+    accelerate_on_surfaces(at.x.data(), at.v.data(), now_, at.a.data());
     for (std::size_t i = 1; i < nodes; ++i) std::copy_n(at.a.data(), at.width, &at.a[i * at.width]);
     Real last = std::numeric_limits<Real>::infinity();
     for (int round = 0; round < 60; ++round) {
@@ -259,22 +220,6 @@ void Integration::accelerate(const Real* x, const Real* v, Real t, Real* a) cons
     for (const CoupledSpring& spring : system_.springs) pull(spring, x, v, a);
 }
 
-/// The accelerations with what the floors do to bodies that they bear.
-void Integration::accelerate_on_floors(const Real* x, const Real* v, Real t, Real* a) const {
-    accelerate(x, v, t, a);
-    for (std::size_t i = 0; i < bearings_.size(); ++i) {
-        const Bearing& bearing = bearings_[i];
-        if (!bearing.floor) continue;
-        Real* const of = a + 3 * i;
-        const Real press = -dot(bearing.floor->normal.data(), of);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            of[axis] = bearing.rests
-                           ? 0
-                           : of[axis] + press * bearing.floor->normal[axis] -
-                                 bearing.floor->friction * press * bearing.direction[axis];
-    }
-}
-
 void Integration::blow(const Wind& wind, Real mass, const Real* v, Real* a) {
     Point u;
     for (std::size_t axis = 0; axis < 3; ++axis) u[axis] = v[axis] - wind.velocity[axis];
@@ -306,155 +251,6 @@ void Integration::pull(const CoupledSpring& spring, const Real* x, const Real* v
                     spring.damping * along * d[axis];
         a[i + axis] += force / system_.bodies[spring.body].mass;
         if (spring.to) a[3 * *spring.to + axis] -= force / system_.bodies[*spring.to].mass;
-    }
-}
-
-/// The state inside a segment: positions of the last one, velocities from the nodes.
-void Integration::state_at(Real after, Real h, const Nodes& at, Numbers& x, Numbers& v) const {
-    const Chebyshev& rule = Chebyshev::get();
-    const Real share = 2 * after / h - 1;
-    for (std::size_t c = 0; c < at.width; ++c) {
-        Real series[2][Chebyshev::coefficients]{};
-        for (std::size_t n = 0; n < nodes; ++n)
-            for (std::size_t j = 0; j < nodes; ++j) {
-                series[0][n] += rule.transform[n][j] * at.x[j * at.width + c];
-                series[1][n] += rule.transform[n][j] * at.v[j * at.width + c];
-            }
-        x[c] = Chebyshev::sum(series[0], share);
-        v[c] = Chebyshev::sum(series[1], share);
-    }
-}
-
-/// A number that is negative after the event: the height over a floor, the force onto it, or the
-/// speed in the direction of a slide.
-Real Integration::before(const Event& event, const Numbers& x, const Numbers& v, Real t) const {
-    const std::size_t i = 3 * event.body;
-    if (event.of == Event::Of::impact)
-        return dot(event.floor->normal.data(), &x[i]) - event.floor->offset -
-               *system_.bodies[event.body].contact;
-    if (event.of == Event::Of::stop) return dot(bearings_[event.body].direction.data(), &v[i]);
-    Numbers a(x.size());
-    accelerate(x.data(), v.data(), t, a.data());
-    return -dot(event.floor->normal.data(), &a[i]);
-}
-
-/// The events that may happen to a body in its present state.
-std::vector<Integration::Event> Integration::possible_events(std::size_t body) const {
-    std::vector<Event> events;
-    if (!system_.bodies[body].contact) return events;
-    const Bearing& bearing = bearings_[body];
-    for (const Floor& floor : system_.floors)
-        events.push_back(
-            {0, body, &floor, &floor == bearing.floor ? Event::Of::lift : Event::Of::impact});
-    if (bearing.floor && !bearing.rests && length(bearing.direction.data()) > 0)
-        events.push_back({0, body, bearing.floor, Event::Of::stop});
-    return events;
-}
-
-std::optional<Integration::Event> Integration::first_event(Real h, const Nodes& at) const {
-    constexpr int parts = 32;
-    std::optional<Event> first;
-    Numbers x(at.width);
-    Numbers v(at.width);
-    for (std::size_t body = 0; body < bearings_.size(); ++body)
-        for (Event event : possible_events(body)) {
-            const auto is_after = [&](Real after) {
-                state_at(after, h, at, x, v);
-                return before(event, x, v, now_ + after) < 0;
-            };
-            int part = 1;
-            while (part <= parts && !is_after(h * static_cast<Real>(part) / parts)) ++part;
-            if (part > parts) continue;
-            Real low = h * static_cast<Real>(part - 1) / parts;
-            Real high = h * static_cast<Real>(part) / parts;
-            for (int i = 0; i < 90; ++i) {
-                const Real middle = (low + high) / 2;
-                (is_after(middle) ? high : low) = middle;
-            }
-            event.after = low;
-            if (!first || low < first->after) first = event;
-        }
-    return first;
-}
-
-/// Moves the start to the event and changes what it changes.
-void Integration::meet(const Event& event, Real h, Nodes& at) {
-    Numbers x(at.width);
-    Numbers v(at.width);
-    state_at(event.after, h, at, x, v);
-    std::ranges::copy(x, at.x.begin());
-    std::ranges::copy(v, at.v.begin());
-    now_ += event.after;
-    if (event.of == Event::Of::lift) bearings_[event.body] = {};
-    if (event.of == Event::Of::impact) land(event.body, *event.floor, at);
-    if (event.of == Event::Of::stop) {
-        for (std::size_t axis = 0; axis < 3; ++axis) at.v[3 * event.body + axis] = 0;
-        slide(event.body, *event.floor, at);
-    }
-}
-
-/// An impact with Coulomb's friction. Bounces that are over within a picosecond leave the body on
-/// the floor.
-void Integration::land(std::size_t body, const Floor& floor, Nodes& at) {
-    constexpr Real shortest = 1e-12L;  // s
-    if (bearings_[body].floor) throw std::domain_error("two floors bear a body");
-    Real* const x = &at.x[3 * body];
-    Real* const v = &at.v[3 * body];
-    const Real* const n = floor.normal.data();
-    const Real gap = dot(n, x) - floor.offset - *system_.bodies[body].contact;
-    const Real speed = -dot(n, v);
-    Numbers a(at.width);
-    accelerate(at.x.data(), at.v.data(), now_, a.data());
-    const Real pull = -dot(n, &a[3 * body]);
-    const Real kept = floor.restitution * speed;
-    const bool over = pull > 0 && 2 * kept <= shortest * pull * (1 - floor.restitution);
-    Point along;
-    for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = v[axis] + speed * n[axis];
-    const Real glide = length(along.data());
-    const Real lost = floor.friction * (speed + (over ? 0 : kept));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        x[axis] -= gap * n[axis];
-        v[axis] =
-            (lost < glide ? along[axis] * (1 - lost / glide) : 0) + (over ? 0 : kept) * n[axis];
-    }
-    if (over) slide(body, floor, at);
-}
-
-/// Puts a body on a floor: it rests, or slides in the direction of its velocity or of the pull.
-void Integration::slide(std::size_t body, const Floor& floor, Nodes& at) {
-    const Real* const v = &at.v[3 * body];
-    const Real* const n = floor.normal.data();
-    Numbers a(at.width);
-    accelerate(at.x.data(), at.v.data(), now_, a.data());
-    const Real press = -dot(n, &a[3 * body]);
-    Point pull;
-    for (std::size_t axis = 0; axis < 3; ++axis) pull[axis] = a[3 * body + axis] + press * n[axis];
-    Bearing bearing{.floor = &floor};
-    const Real speed = length(v);
-    const Real strength = length(pull.data());
-    if (speed == 0 && strength <= floor.friction * press) {
-        if (!system_.bodies[body].drives.empty() || system_.bodies.size() > 1)
-            throw std::domain_error("forces on a body at rest change");
-        bearing.rests = true;
-    } else if (floor.friction > 0) {
-        const Real* const way = speed > 0 ? v : pull.data();
-        const Real size = speed > 0 ? speed : strength;
-        for (std::size_t axis = 0; axis < 3; ++axis) bearing.direction[axis] = way[axis] / size;
-    }
-    bearings_[body] = bearing;
-}
-
-/// A body that starts on a floor and does not leave it slides or rests.
-void Integration::start_on_floor(std::size_t body, Nodes& at) {
-    if (!system_.bodies[body].contact) return;
-    Numbers a(at.width);
-    accelerate(at.x.data(), at.v.data(), now_, a.data());
-    for (const Floor& floor : system_.floors) {
-        const Real* const n = floor.normal.data();
-        const Real gap = dot(n, &at.x[3 * body]) - floor.offset - *system_.bodies[body].contact;
-        const bool touches = std::abs(gap) < 1e-15L;
-        if (touches && dot(n, &at.v[3 * body]) == 0 && dot(n, &a[3 * body]) < 0)
-            slide(body, floor, at);
     }
 }
 

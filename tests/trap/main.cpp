@@ -9,8 +9,8 @@
 #include <map>
 
 #include "oiler/core/error.hpp"
-#include "trap/truth.hpp"
 #include "trap/traps.hpp"
+#include "trap/truth.hpp"
 
 using namespace oiler;
 using namespace oiler::trap;
@@ -24,6 +24,7 @@ struct Options {
     Program program{};
     bool shows = false;  ///< prints the scene files
     bool self_check = false;
+    bool obstacles = false;
 };
 
 /// The verdicts of each kind of scene, and the slowest answer.
@@ -49,7 +50,9 @@ struct Tally {
 };
 
 void run(std::uint64_t seed, const Options& options, Tally& tally) {
-    const Trap trap = make_trap(seed, options.program.plain);
+    const auto kinds = obstacle_kinds();
+    const Kind& kind = options.obstacles ? kinds[seed % kinds.size()] : trap::kind_of(seed);
+    const Trap trap = make_trap(seed, kind, options.program.plain);
     if (options.shows) fmt::print("{}", trap.text);
     fmt::print("{:>5} {:<14} {} bodies {:.3g} s  extent {:.3g} m  {}\n", seed, trap.kind,
                trap.truth->size(), trap.scene.duration, trap.extent, trap.question.options());
@@ -86,6 +89,7 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--patience", options.program.patience, "longest wait for an advice, s");
     app.add_flag("--plain", options.program.plain,
                  "without --at-steps and --display; step_error and damping may be missing");
+    app.add_flag("--obstacles", options.obstacles, "scenes with obstacles alone");
     app.add_flag("--self-check", options.self_check, "check the true motions alone");
 }
 

@@ -493,13 +493,12 @@ const Kind& kind_of(std::uint64_t seed) {
     return seed % 4 == 3 ? all[others + seed / 4 % last] : all[seed % others];
 }
 
-Trap make_trap(std::uint64_t seed, bool plain) {
-    const Kind& kind = kind_of(seed);
+Trap make_trap(std::uint64_t seed, const Kind& kind, bool plain) {
     Dice dice(seed);
     Draft draft;
     kind.make(dice, draft);
     // Longer runs than the truth can follow become as long as it can.
-    double duration = dice.log_uniform(1e-3, 100);
+    double duration = dice.log_uniform(draft.shortest, 100);
     if (duration > draft.longest) duration = draft.longest * dice.uniform(0.3, 1);
     const bool keeps_rate = dice.chance(0.15);
     Trap trap{.kind = kind.name};

@@ -20,6 +20,7 @@ using test::Dice;
 /// A scene file in the making.
 struct Draft {
     int axes = 1;
+    double shortest = 1e-3;  ///< s, the least duration at first
     /// The largest useful duration, s: the run then has enough periods.
     double longest = 100;
     std::string text{};  ///< the tables after [scene]
@@ -53,6 +54,8 @@ struct Kind {
 
 /// The kind of a seed. One in four has wind, a drive or a floor.
 [[nodiscard]] const Kind& kind_of(std::uint64_t seed);
+/// Scenes with obstacles.
+[[nodiscard]] std::span<const Kind> obstacle_kinds();
 
 /// One question to `oiler advise`.
 struct Question {
@@ -98,8 +101,8 @@ struct Trap {
     Question question{};
 };
 
-/// The same trap for the same seed. `plain` asks without --at-steps and --display.
-[[nodiscard]] Trap make_trap(std::uint64_t seed, bool plain);
+/// The same trap for the same seed and kind. `plain` asks without --at-steps and --display.
+[[nodiscard]] Trap make_trap(std::uint64_t seed, const Kind& kind, bool plain);
 
 enum class Verdict {
     honest,        ///< the advice holds

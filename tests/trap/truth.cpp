@@ -26,14 +26,6 @@ void add_force(const SceneForce& force, CoupledBody& body) {
         force.force);
 }
 
-Floor floor_of(const Plane& plane) {
-    Floor floor{point_of(plane.normal), plane.offset, plane.restitution, plane.friction};
-    const Real size = std::hypot(floor.normal[0], floor.normal[1], floor.normal[2]);
-    for (Real& number : floor.normal) number /= size;
-    floor.offset /= size;
-    return floor;
-}
-
 /// All bodies of the scene at their start, in the order of its rows.
 System system_of(const Scene& scene) {
     System system;
@@ -57,7 +49,7 @@ System system_of(const Scene& scene) {
     for (const SceneAttractor& one : scene.attractors)
         system.attractors.push_back({point_of(one.position), one.gm});
     for (const SceneForce& one : scene.forces) add_force(one, system.bodies[one.body]);
-    for (const ScenePlane& one : scene.planes) system.floors.push_back(floor_of(one.plane));
+    system.surfaces = surfaces_of(scene);
     if (scene.gravity) system.gravity = point_of(*scene.gravity);
     return system;
 }
@@ -82,7 +74,8 @@ std::vector<std::vector<std::size_t>> groups_of(const System& system) {
 /// The bodies of `rows` alone, with the springs given by `of`, the springs of each body.
 System part_of(const System& whole, const std::vector<std::size_t>& rows,
                const std::vector<std::vector<std::size_t>>& springs_of) {
-    System part{.attractors = whole.attractors, .gravity = whole.gravity, .floors = whole.floors};
+    System part{
+        .attractors = whole.attractors, .gravity = whole.gravity, .surfaces = whole.surfaces};
     const auto local = [&](std::size_t row) {
         return static_cast<std::size_t>(std::ranges::lower_bound(rows, row) - rows.begin());
     };

@@ -13,11 +13,9 @@
 
 #include "oiler/scene/scene.hpp"
 #include "oiler/sim/bodies.hpp"
+#include "trap/surfaces.hpp"
 
 namespace oiler::trap {
-
-using Real = long double;
-using Point = std::array<Real, 3>;
 
 /// Where the first sample inside a step lies, as a share of the distance between samples. It is
 /// irrational, so that no oscillation meets all samples at the same phase.
@@ -70,15 +68,7 @@ struct CoupledBody {
     Point v{};                ///< m/s, at the start
     std::vector<Wind> winds{};
     std::vector<Drive> drives{};
-    std::optional<Real> contact{};  ///< m, the radius that meets planes
-};
-
-/// A plane with a normal of length 1.
-struct Floor {
-    Point normal{};
-    Real offset = 0;  ///< m
-    Real restitution = 0;
-    Real friction = 0;
+    std::optional<Real> contact{};  ///< m, the radius that meets surfaces
 };
 
 struct CoupledSpring {
@@ -101,10 +91,10 @@ struct System {
     std::vector<CoupledSpring> springs{};
     std::vector<Attractor> attractors{};
     Point gravity{};  ///< m/s²
-    std::vector<Floor> floors{};
+    std::vector<Surface> surfaces{};
 
     [[nodiscard]] bool is_linear() const;
-    /// Whether a body meets a plane.
+    /// Whether a body may meet a surface.
     [[nodiscard]] bool has_contacts() const;
     /// At most the shortest period of the springs without damping, s.
     [[nodiscard]] Real shortest_spring_period() const;
@@ -229,7 +219,7 @@ private:
 
 /// Integrates a system by collocation at Chebyshev's nodes, in segments whose length follows the
 /// last coefficients of the accelerations. The positions are polynomials in each segment. Impacts,
-/// lift-offs and stops are roots of these polynomials, at which a segment ends.
+/// lift-offs, stops and slips are roots of these polynomials, at which a segment ends.
 class Integration : public Motion {
 public:
     /// `tolerance` is relative to the distance travelled in a segment. Throws std::domain_error if
@@ -259,14 +249,25 @@ private:
 
     /// What bears a body.
     struct Bearing {
-        const Floor* floor = nullptr;
-        Point direction{};  ///< of a slide with friction
+        const Surface* surface = nullptr;
+        Point direction{};  ///< of a slide with friction, at its start
         bool rests = false;
+
+        [[nodiscard]] Point direction_at(const Point& normal) const;
+    };
+    /// A body on a surface.
+    struct Touch {
+        Point normal{};
+        Point along{};   ///< m/s, the velocity relative to the surface, along it
+        Real speed = 0;  ///< m/s, into the surface
+        Real press = 0;  ///< m/s², what keeps the body on the surface
+        Point pull{};    ///< m/s², along the surface
     };
     struct Event;
+    struct Course;
 
     void accelerate(const Real* x, const Real* v, Real t, Real* a) const;
-    void accelerate_on_floors(const Real* x, const Real* v, Real t, Real* a) const;
+    void accelerate_on_surfaces(const Real* x, const Real* v, Real t, Real* a) const;
     void pull(const CoupledSpring& spring, const Real* x, const Real* v, Real* a) const;
     static void attract(const Attractor& one, const Real* x, Real* a);
     static void blow(const Wind& wind, Real mass, const Real* v, Real* a);
@@ -276,14 +277,22 @@ private:
     [[nodiscard]] Real error_of(Real h, const Nodes& at) const;
     void append(Real h, const Nodes& at);
     void go_on(Real h, Nodes& at);
-    void state_at(Real after, Real h, const Nodes& at, Numbers& x, Numbers& v) const;
+    [[nodiscard]] Touch touch_of(std::size_t body, const Surface& surface, const Numbers& x,
+                                 const Numbers& v, Real t) const;
+    [[nodiscard]] Touch touch_of(std::size_t body, const Surface& surface, const Real* x,
+                                 const Real* v, const Real* a, Real t) const;
     [[nodiscard]] Real before(const Event& event, const Numbers& x, const Numbers& v, Real t) const;
     [[nodiscard]] std::vector<Event> possible_events(std::size_t body) const;
-    [[nodiscard]] std::optional<Event> first_event(Real h, const Nodes& at) const;
-    void meet(const Event& event, Real h, Nodes& at);
-    void land(std::size_t body, const Floor& floor, Nodes& at);
-    void slide(std::size_t body, const Floor& floor, Nodes& at);
-    void start_on_floor(std::size_t body, Nodes& at);
+    [[nodiscard]] std::optional<Real> time_of(const Event& event, const Course& course) const;
+    [[nodiscard]] std::optional<Real> dip(const Event& event, const Course& course,
+                                          std::size_t part) const;
+    [[nodiscard]] std::optional<Event> first_event(const Course& course) const;
+    [[nodiscard]] bool meet_first(Real h, Nodes& at);
+    void meet(const Event& event, const Course& course, Nodes& at);
+    void land(std::size_t body, const Surface& surface, Nodes& at);
+    void cross_edge(std::size_t body, Nodes& at);
+    void slide(std::size_t body, const Surface& surface, Nodes& at, bool slips = false);
+    void start_on_surface(std::size_t body, Nodes& at);
 
     System system_;
     std::vector<Bearing> bearings_;
