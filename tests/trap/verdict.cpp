@@ -114,17 +114,18 @@ std::vector<const Method*> candidates(const Question& question) {
 }
 
 /// Whether a setting clearly meets the tolerance. Methods that cannot step the scene do not.
-bool meets(const Trap& trap, const Stepping& stepping) {
+bool meets(const Trap& trap, const Stepping& stepping, Real samples) {
     const Real enough = clearly_met * static_cast<Real>(trap.question.tolerance);
     try {
         return error_of(trap.scene, stepping, *trap.truth, trap.question.meaning,
-                        {.samples = 3e6L, .enough = enough}) <= enough;
+                        {.samples = samples, .enough = enough}) <= enough;
     } catch (const Error&) {
         return false;
     }
 }
 
-/// A setting that meets the tolerance, from the lowest rates to the highest.
+/// A setting that meets the tolerance, from the lowest rates to the highest. Few samples may miss
+/// the steps with impacts.
 std::optional<Stepping> find_setting(const Trap& trap) {
     const Real most = most_body_steps / static_cast<Real>(trap.scene.duration) /
                       static_cast<Real>(trap.truth->size());
@@ -135,7 +136,7 @@ std::optional<Stepping> find_setting(const Trap& trap) {
     for (const std::int64_t rate : rates)
         for (const Method* method : candidates(trap.question))
             if (const Stepping stepping{.method = method, .rate = Rate{rate}};
-                meets(trap, stepping))
+                meets(trap, stepping, 3e6L) && meets(trap, stepping, 1e9L))
                 return stepping;
     return {};
 }

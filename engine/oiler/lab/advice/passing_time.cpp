@@ -24,7 +24,8 @@ double distance(const World& one, const World& other) {
 double passing_time(const Scene& scene, const Stepping& stepping, const Growth& growth,
                     double tolerance) {
     constexpr std::int64_t finer = 8;
-    constexpr double most_work = 2e6;
+    // A step that may land takes as long as some 20 others.
+    const double most_work = scene.has_obstacles() ? 1e5 : 2e6;
     constexpr double most_samples = 4096;
     if (std::holds_alternative<ExactFlow>(stepping.method->rule)) return never;
     Stepping finer_stepping = stepping;

@@ -97,10 +97,10 @@ std::vector<Uncertainty> differences(const Trajectory& a, const Trajectory& b, B
 }
 
 /// Adds the round-off of positions, and of the elapsed time, because dt and the method's
-/// coefficients are rounded alike in all runs.
+/// coefficients are rounded alike in all runs. Kinks are in double.
 void add_rounding(std::vector<Uncertainty>& uncertainties, const Trajectory& trajectory,
                   const SampleTimes& samples, Precision precision) {
-    const auto epsilon = precision == Precision::extended
+    const auto epsilon = precision == Precision::extended && trajectory.kinks.empty()
                              ? static_cast<double>(std::numeric_limits<Real>::epsilon())
                              : std::numeric_limits<double>::epsilon();
     double x = 0;

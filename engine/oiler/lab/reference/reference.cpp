@@ -156,10 +156,11 @@ private:
     /// reach and the steps themselves meet it.
     [[nodiscard]] std::optional<SampleTimes> finer_samples(
         const FineSteps& fine, const std::vector<double>& between) const {
-        constexpr std::int64_t most_times = 8;
         // Of polynomials of degree 7; less where a linked body lands and changes the forces on
-        // others.
-        const double order = fine.first_order ? 2 : 8;
+        // others, or a body stops, slips or leaves a face within an interval.
+        const bool jumps = scene_.has_obstacles();
+        const double order = fine.first_order || jumps ? 2 : 8;
+        const double most_times = jumps && !fine.first_order ? 16 : 8;
         const double own = fine.sufficient_error;
         const double wanted = fine.first_order ? own / 2 : own;
         const bool may_refine = effort_.wanted > 0 || fine.first_order;

@@ -96,8 +96,9 @@ class SmoothNodes {
 public:
     SmoothNodes(const Trajectory& trajectory, std::size_t row, const Window& window,
                 std::span<const Kink> kinks) {
-        // A node so close to a kink would be multiplied by large weights.
-        constexpr Real close = 1e-3L;
+        // A node so close to a kink multiplies the round-off of the kink to double by up to
+        // 1/close³.
+        constexpr Real close = 0.125L;
         const auto later = std::ranges::find_if(
             kinks, [&](const Kink& kink) { return window.place_of(kink) > window.place; });
         Real from = -1;
