@@ -61,11 +61,11 @@ public:
             if (near.obstacle.course.jump != Vec{}) follow_jump(near, state);
         for (Near& near : nears_)
             near.resting = touches(near, state) && leaving(near, state.v) <= speed_noise(state);
-        for (int events = 0; left_ > 0; ++events) {
-            if (events == 2 * most_events) return Landed::unresolved;
+        for (events_ = 0; left_ > 0; ++events_) {
+            if (events_ == 2 * most_events) return Landed::unresolved;
             if (largest(state.x - from) > way_) return Landed::strayed;
-            squeezed_ = any_moved_ && (events >= most_moved_events || crowded_ > most_crowded);
-            if (events >= most_events && !any_moved_) stop_in_corner(state);
+            squeezed_ = any_moved_ && (events_ >= most_moved_events || crowded_ > most_crowded);
+            if (events_ >= most_events && !any_moved_) stop_in_corner(state);
             renew(state);
             if (any_renewed_ && crush(state)) continue;
             if (squeezed_) {
@@ -350,7 +350,7 @@ private:
         } else if (flight <= lost * left_) {
             state.v = along;
             report_rest(near, state, support, a, lost > 0 ? flight / lost : T(0));
-        } else if (kept * kept <= 2 * pull * gap_noise(near, state)) {
+        } else if (kept * kept <= 2 * pull * hidden_height(near, state)) {
             state.v = along;
             report_rest(near, state, support, a, T(0));
         } else if (flight < shortest_flight * left_) {
@@ -402,10 +402,11 @@ private:
         for (Near& near : nears_) end_at_impact(near, state, a, leg, move);
         for (Near& near : nears_)
             if (std::exchange(near.dips, false)) {
-                const T depth = -std::min(gap_at(near, leg.end.x, leg.tau), T(0));
-                leg.end.x += normal(near.obstacle,
-                                    place_beside(near.obstacle, leg.end.x, start_ + leg.tau)) *
-                             depth;
+                const T gap = gap_on_side(near, state.x, leg.end.x, leg.tau);
+                const Vec out =
+                    normal(near.obstacle, place_beside(near.obstacle, leg.end.x, start_ + leg.tau));
+                const bool is_past = dot(out, near.normal) < 0;
+                leg.end.x -= (is_past ? near.normal : out) * std::min(gap, T(0));
             }
         advance(state, leg);
     }
@@ -413,6 +414,8 @@ private:
     /// Steps a body on the obstacles that bear it, and returns the time until that ends, s.
     T stay_on(State& state, const Support& support) {
         rest_on(support, state);
+        if (is_pinned(support))
+            if (const auto leg = ride_between(state, support)) return advance(state, *leg);
         const Vec a = pressing(support, state);
         const bool on_curve = support.size() == 1 && is_round(near_of(support).sides);
         const bool is_held = sticks(support, state, a);
@@ -464,12 +467,16 @@ private:
     using Base::duration_;
     using Base::end_at_impact;
     using Base::enters_other;
+    using Base::events_;
     using Base::follow_curve;
     using Base::gap_at;
     using Base::gap_noise;
     using Base::gap_of;
+    using Base::gap_on_side;
     using Base::goes_into;
+    using Base::hidden_height;
     using Base::index_of;
+    using Base::is_pinned;
     using Base::leaving;
     using Base::left_;
     using Base::near_of;
@@ -478,6 +485,7 @@ private:
     using Base::pressing;
     using Base::radius_;
     using Base::renew;
+    using Base::ride_between;
     using Base::ride_curve;
     using Base::settled_;
     using Base::slide;

@@ -120,7 +120,7 @@ void turn_to_open_face(Near<T, Axes>& near, std::span<const Near<T, Axes>> nears
 /// Hides obstacles whose nearest point to a body lies in another one that the body touches: that
 /// one is as near, so that a body does not notice the joints between boxes. Of two that have the
 /// nearest points of each other, a face hides a corner, else the lower index the higher one. No
-/// half-space is hidden.
+/// half-space is hidden, and none that moves out of the other one.
 ///
 /// The features are known. `touches(near)` tells whether the body at x, `start` s after the start
 /// of the step, touches it.
@@ -137,6 +137,11 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
         const bool corner = is_round(one.sides);
         return corner == is_round(other.sides) ? one.index < other.index : !corner;
     };
+    const auto moves_out_of = [](const One& near, const One& other) {
+        const Vec<T, Axes> relative = near.velocity - other.velocity;
+        const T noise = 1024 * std::numeric_limits<T>::epsilon() * largest(near.velocity);
+        return dot(near.normal, relative) > noise;
+    };
     for (One& near : nears) near.hidden = false;
     // The nearest point of all that a point touches is the point itself.
     if (radius == 0) {
@@ -150,7 +155,7 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
         if (!near.obstacle.bounded || !touches(near)) continue;
         near.hidden = std::ranges::any_of(nears, [&](const One& other) {
             return &other != &near && !other.hidden && touches(other) && contains(other, near) &&
-                   !(contains(near, other) && precedes(near, other));
+                   !moves_out_of(near, other) && !(contains(near, other) && precedes(near, other));
         });
     }
 }

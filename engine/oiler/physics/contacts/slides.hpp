@@ -5,16 +5,16 @@
 #include <cmath>
 #include <optional>
 
-#include "oiler/physics/contacts/legs.hpp"
+#include "oiler/physics/contacts/pinned.hpp"
 
 namespace oiler {
 
 /// The motions of a body on the obstacles that bear it: held by friction, along them, or round a
 /// curve.
 template <std::floating_point T, int Axes, class Body>
-class Slides : public Legs<T, Axes, Body> {
+class Slides : public Pinned<T, Axes, Body> {
 public:
-    using Base = Legs<T, Axes, Body>;
+    using Base = Pinned<T, Axes, Body>;
     using typename Base::Leg;
     using typename Base::Near;
     using typename Base::State;
@@ -23,9 +23,6 @@ public:
 
 protected:
     using Base::Base;
-
-    /// The largest angle of one step on a curve.
-    static constexpr T most_turn = T(0.25);
 
     /// The velocity of a body that is at rest on the obstacles that bear it, `tau` s from now.
     [[nodiscard]] Vec carrier(const Support& support, T tau = 0) const {
@@ -68,12 +65,6 @@ protected:
     [[nodiscard]] bool sticks(const Support& support, const State& state, const Vec& a) const {
         return state.v == carrier(support) && surplus_of_grip(support, a) >= 0;
     }
-    [[nodiscard]] static bool stands(const Support& support) {
-        for (std::size_t i = 0; i < support.size(); ++i)
-            if (near_of(support, i).is_moved()) return false;
-        return true;
-    }
-
     /// Holds a body at rest, or where its obstacle carries it, until the forces let it slide or
     /// take it off.
     [[nodiscard]] std::optional<Leg> stick(const State& state, const Support& support,
@@ -160,7 +151,7 @@ protected:
         const Friction<T, Axes> friction{direction, rest, free_to_turn && is_across(v, pull)};
         const auto move = [&](T tau) {
             State end = body_.slide(state, start_, tau, support, friction);
-            if (!stands(support)) stay_beside(support, tau, end);
+            if (!stands(support)) stay_beside(support, state.x, tau, end);
             return end;
         };
         if (free_to_turn && v != Vec{} && dot(pull, pull) < grip * grip)
@@ -190,41 +181,14 @@ protected:
     }
 
     /// Moves the end of a slide of `tau` s onto the moving obstacles, with their normal speeds.
-    void stay_beside(const Support& support, T tau, State& end) const {
+    void stay_beside(const Support& support, const Vec& from, T tau, State& end) const {
         for (std::size_t i = 0; i < support.size(); ++i) {
             const Near& near = near_of(support, i);
-            end.x -= near.normal * gap_at(near, end.x, tau);
+            end.x -= near.normal * gap_on_side(near, from, end.x, tau);
             const Vec surface = surface_velocity(near.obstacle, near.normal, start_ + tau);
             end.v -= near.normal * dot(near.normal, end.v - surface);
         }
     }
-    template <class Move>
-    void end_at_others(const State& state, const Support& support, const Vec& a, Leg& leg,
-                       Move move) {
-        for (Near& near : nears_)
-            if (!support.has(near)) end_at_impact(near, state, a, leg, move);
-    }
-    /// Ends the leg where the body gets past the end of a face, or from a corner onto a face.
-    template <class Move>
-    void end_at_features(const State& state, const Support& support, Leg& leg, Move move) {
-        for (std::size_t i = 0; i < support.size(); ++i) {
-            const Near& near = near_of(support, i);
-            if (!near.obstacle.bounded) continue;
-            const Feature sides = feature(near.obstacle, place(near, state.x), leg.end.x - state.x,
-                                          gap_noise(near, state));
-            const T noise = gap_noise(near, state);
-            const auto left = [&](const State& at, T tau) {
-                return left_of_feature(near.obstacle,
-                                       place_beside(near.obstacle, at.x, start_ + tau), sides);
-            };
-            const T at_start = left(state, T(0));
-            // A body that has just come to a feature may be beside it as far as round-off.
-            const T hidden = at_start > noise ? T(0) : noise;
-            const auto shown = [&](const State& at, T tau) { return left(at, tau) + hidden; };
-            end_where_negative(shown, std::max(at_start + hidden, T(0)), leg, move);
-        }
-    }
-
     /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that
     /// lets a free step end on the curve, then the rest of the normal speed is taken away. This is
     /// RATTLE (Andersen, 1983) with any method for its free step, and has order min(order, 2).
@@ -297,20 +261,24 @@ protected:
 
     using Base::any_renewed_;
     using Base::body_;
-    using Base::end_at_impact;
+    using Base::end_at_features;
+    using Base::end_at_others;
     using Base::end_where_negative;
     using Base::enters_other;
     using Base::epsilon;
     using Base::gap_at;
     using Base::gap_noise;
+    using Base::gap_on_side;
     using Base::leaving;
     using Base::left_;
+    using Base::most_turn;
     using Base::near_of;
     using Base::nears_;
     using Base::place;
     using Base::pressing;
     using Base::radius_;
     using Base::speed_noise;
+    using Base::stands;
     using Base::start_;
     using Base::touches;
 };

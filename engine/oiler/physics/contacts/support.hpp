@@ -111,23 +111,40 @@ public:
     [[nodiscard]] Vector following(const Vector& v) const {
         return without(v, OfVelocity<T, Axes>{});
     }
+    /// The pushes of all touches, with friction against the slips of a velocity `along` them, that
+    /// change the motion towards each by needed(touch).
+    template <class Needed>
+    [[nodiscard]] Vector pushes(const Vector& along, Needed needed) const {
+        T fastest = largest(along);
+        for (std::size_t j = 0; j < count_; ++j)
+            fastest = std::max(fastest, largest(planes_[j]->velocity));
+        const T noise = 64 * std::numeric_limits<T>::epsilon() * fastest;
+        auto with_friction = Matrix<T, Axes>::scalar(T(1));
+        Vector wanted{};
+        for (std::size_t j = 0; j < count_; ++j) {
+            const Vector slip = along - planes_[j]->velocity;
+            const Vector rubbed = largest(slip) <= noise ? Vector{} : normalised(slip);
+            const Vector push = planes_[j]->normal - rubbed * planes_[j]->friction;
+            wanted.axis[j] = needed(*planes_[j]);
+            for (std::size_t i = 0; i < count_; ++i)
+                with_friction.row[i].axis[j] = dot(planes_[i]->normal, push);
+        }
+        return solve(with_friction, wanted);
+    }
+    /// The same touches at another instant.
+    [[nodiscard]] Support with(std::span<const Touch> touches) const {
+        Support then = *this;
+        for (std::size_t i = 0; i < count_; ++i) then.planes_[i] = &touches[i];
+        return then;
+    }
     /// Whether friction against the slips of a velocity `along` all touches leaves no pushes N_j ≥
     /// 0 that change v to it: ΣN_j·n_i·(n_j − μ_j·s_j) = n_i·(along − v), with directions s of
     /// slips.
     [[nodiscard]] bool jams(const Vector& v, const Vector& along) const {
         const T noise = 64 * std::numeric_limits<T>::epsilon() * largest(along);
         if (count_ < 2 || largest(along - v) <= noise) return false;
-        auto with_friction = Matrix<T, Axes>::scalar(T(1));
-        Vector needed{};
-        for (std::size_t j = 0; j < count_; ++j) {
-            const Vector slip = along - planes_[j]->velocity;
-            const Vector rubbed = largest(slip) <= noise ? Vector{} : normalised(slip);
-            const Vector push = planes_[j]->normal - rubbed * planes_[j]->friction;
-            needed.axis[j] = dot(planes_[j]->normal, along - v);
-            for (std::size_t i = 0; i < count_; ++i)
-                with_friction.row[i].axis[j] = dot(planes_[i]->normal, push);
-        }
-        const Vector pushes = solve(with_friction, needed);
+        const Vector pushes =
+            this->pushes(along, [&](const Touch& touch) { return dot(touch.normal, along - v); });
         const auto first = pushes.axis.begin();
         const T least = -largest(pushes) / 1024;
         return !std::all_of(first, first + count_, [&](T one) { return one >= least; });

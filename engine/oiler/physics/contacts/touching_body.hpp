@@ -53,6 +53,16 @@ protected:
     [[nodiscard]] T gap_at(const Near& near, const Vec& x, T tau) const {
         return gap(near, x, start_ + tau, radius_);
     }
+    /// The gap `tau` s from now of a body that was at `from` and touched an obstacle there: below
+    /// its surface there if it got past the middle.
+    [[nodiscard]] T gap_on_side(const Near& near, const Vec& from, const Vec& x, T tau) const {
+        const auto& obstacle = near.obstacle;
+        const T then = start_ + tau;
+        if (dot(near.normal, normal(obstacle, place_beside(obstacle, x, then))) >= 0)
+            return gap_at(near, x, tau);
+        const Vec way = obstacle.course.way(then) - obstacle.course.way(start_);
+        return dot(near.normal, x - from - way);
+    }
     [[nodiscard]] static T leaving(const Near& near, const Vec& v) {
         return leaving_speed(near, v - near.velocity);
     }
@@ -138,11 +148,15 @@ protected:
         const Vec a = body_.accelerate(state, start_ + tau);
         return support.size() > 1 ? a + drag(state, a) : a;
     }
+    /// The height, m, that round-off hides, also that of many events in the step.
+    [[nodiscard]] T hidden_height(const Near& near, const State& state) const {
+        return gap_noise(near, state) * static_cast<T>(std::max(events_ / 64, 1));
+    }
     /// Whether round-off hides the height of a flight off an obstacle under an acceleration.
     [[nodiscard]] bool is_hidden_flight(const Near& near, const State& state, const Vec& a) const {
         const T u = leaving(near, state.v);
         const T pull = -OfPull<T, Axes>{}(near, a);
-        return pull > 0 && u * u <= 2 * pull * gap_noise(near, state);
+        return pull > 0 && u * u <= 2 * pull * hidden_height(near, state);
     }
     [[nodiscard]] bool goes_into(const Near& near, const State& state) const {
         return -leaving(near, state.v) > speed_noise(state) && touches(near, state);
@@ -163,6 +177,7 @@ protected:
     T duration_ = 0;          ///< s, of the step
     T start_ = 0;             ///< s, from the start of the step
     T left_ = 0;              ///< s
+    int events_ = 0;          ///< in the step so far
     /// The speed and the distance that round-off hides in a step from rest.
     struct {
         T speed = 0;     ///< m/s

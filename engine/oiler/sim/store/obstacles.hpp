@@ -241,34 +241,33 @@ private:
                               std::int64_t tick) const {
         const Vec way = move.to - from.centre;
         const T dt = rate_.template dt<T>();
-        const Vec straight = straight_velocity(from, move, dt);
-        const Vec arrival = move.arrival.value_or(straight);
+        const Vec& v = move.departure;
+        const Vec mean = way / dt;
+        // Round-off of the places does not change the velocity of an obstacle that goes on evenly.
+        const T noise =
+            4 * std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
+        const auto is_as_before = [&](const Vec& one) { return largest(one - v) <= noise; };
+        const bool goes_on = is_as_before(mean) && is_as_before(move.arrival.value_or(mean));
+        const Vec straight = goes_on ? v : mean;
+        const bool is_straight = goes_on || !move.arrival;
         if (!move.tick || tick < *move.tick) return from;
         if (tick > *move.tick) {
             Obstacle there = displaced(from, way);
-            if (tick == *move.tick + 1) there.course.jump = -arrival;
+            if (tick == *move.tick + 1)
+                there.course.jump = -(is_straight ? straight : *move.arrival);
             return there;
         }
         Obstacle moving = from;
-        if (!move.arrival) {
-            moving.course = {.velocity = straight, .jump = straight - move.departure};
+        if (is_straight) {
+            moving.course = {.velocity = straight, .jump = straight - v};
         } else {
             // The cubic through both places with both velocities.
-            const Vec& v = move.departure;
+            const Vec& arrival = *move.arrival;
             moving.course = {.velocity = v,
                              .acceleration = (straight * T(6) - v * T(4) - arrival * T(2)) / dt,
                              .jerk = (v + arrival - straight * T(2)) * T(6) / (dt * dt)};
         }
         return moving;
-    }
-    /// The velocity of a straight way, m/s. Round-off of the places does not change the velocity of
-    /// an obstacle that goes on as before.
-    [[nodiscard]] static Vec straight_velocity(const Obstacle& from,
-                                               const typename Motion::Move& move, T dt) {
-        const Vec straight = (move.to - from.centre) / dt;
-        const T noise =
-            std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
-        return largest(straight - move.departure) <= noise ? move.departure : straight;
     }
     /// The obstacle where it is, without its motion.
     [[nodiscard]] Obstacle at_rest(std::size_t slot) const {

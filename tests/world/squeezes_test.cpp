@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Bodies that obstacles hold between them or meet together, some of which move.
+#include "oiler/sim/bodies.hpp"
+#include "world/contacts.hpp"
+
+namespace oiler::test {
+namespace {
+
+/// A ball of 0.3 m between a wall on the left and one on the right that leans back by `angle`.
+struct Squeeze {
+    Squeeze(const char* method, int rate, double angle, double friction, const Obstacle& right = {})
+        : world(world_of(method, rate, 2, {0, -10}, {{.normal = {1, 0}, .friction = friction}})) {
+        Obstacle leaning = right;
+        const Vec3 normal{-std::cos(angle), std::sin(angle)};
+        leaning.shape = HalfSpaceShape{normal, dot(normal, {0.3, 0}) - 0.3};
+        leaning.friction = friction;
+        world.add_obstacle(leaning);
+    }
+    World world;
+};
+
+// A wall that closes with u presses the ball up with u/tan(angle), in one leg per step: both walls
+// alone determine its way.
+TEST(Squeezes, TakeOneLegPerStep) {
+    for (const double angle : {0.01, 0.05, 0.2}) {
+        Squeeze squeeze("rk4", 60, angle, angle / 4, {.velocity = {-3, 0}});
+        World& world = squeeze.world;
+        const double up = 3 / std::tan(angle);
+        const Entity ball =
+            world.spawn({.position = {0.3, 0}, .velocity = {0, up}, .contact = Contact{0.3}});
+        const std::int64_t before = world.bodies().evaluations();
+        world.step(10);
+        EXPECT_LE(world.bodies().evaluations() - before, 10 * 64) << angle;
+        // The reactions of the walls are ill-conditioned by 1/angle².
+        EXPECT_NEAR(world.position(ball)[1] / (up / 6), 1, 64 * epsilon / (angle * angle));
+        EXPECT_NEAR(world.velocity(ball)[1] / up, 1, 64 * epsilon / (angle * angle));
+    }
+}
+
+// A wall that oscillates moves the ball up and down by its way over tan(angle), as long as that
+// needs less than gravity downwards: 1.37/0.546 < 10 m/s². No method and rate changes that.
+TEST(Squeezes, FollowAnOscillationExactly) {
+    const double angle = 0.5;
+    const double omega = 2 * std::acos(-1.0) / 1.2;
+    for (const char* method : {"semi_implicit_euler", "velocity_verlet", "rk4"})
+        for (const double friction : {0.0, 0.1}) {
+            Squeeze squeeze(method, 20, angle, friction, {.swing = Swing{{-0.05, 0}, 1.2, 0}});
+            World& world = squeeze.world;
+            const double up = 1 / std::tan(angle);
+            const Entity ball = world.spawn({.position = {0.3, 0},
+                                             .velocity = {0, 0.05 * omega * up},
+                                             .contact = Contact{0.3}});
+            for (int tick = 1; tick <= 48; ++tick) {
+                world.step();
+                const double y = 0.05 * std::sin(omega * tick / 20) * up;
+                EXPECT_NEAR(world.position(ball)[1], y, 1e-13) << method << ' ' << tick;
+                EXPECT_NEAR(world.position(ball)[0], 0.3, 1e-13) << method << ' ' << tick;
+            }
+        }
+}
+
+// A ball comes to rest between two slopes. Round-off keeps it bouncing on and on where its flights
+// are as low as that, which takes few events nevertheless.
+TEST(Squeezes, EndBouncesInAValley) {
+    for (const double x : {-0.2, 0.0, 0.1, 0.3}) {
+        World world = world_of("exact", 60, 2, {0, -10});
+        world.add_chain(std::vector<Vec3>{{-7.18, -2.22}, {-0.06, -4.9}, {6.6, -2.98}}, false,
+                        {.restitution = 0.5});
+        const Entity ball = world.spawn({.position = {x, -4.0}, .contact = Contact{0.27}});
+        std::int64_t most = 0;
+        for (int tick = 0; tick < 900; ++tick) {
+            const std::int64_t before = world.bodies().evaluations();
+            world.step();
+            most = std::max(most, world.bodies().evaluations() - before);
+        }
+        EXPECT_LE(most, 4096) << x;
+        EXPECT_EQ(world.velocity(ball), Vec3{}) << x;
+    }
+}
+
+// A box that the game moves evenly, with its velocity, does what one with a velocity does: the same
+// impacts at the same instants.
+TEST(MovedObstacles, DoWhatEvenlyMovingOnesDo) {
+    for (const int rate : {60, 240})
+        for (const double speed : {-1.29, -1.85, -1.9})
+            for (const double restitution : {0.0, 0.5, 0.8}) {
+                const auto run = [&](bool moved) {
+                    World world =
+                        world_of("rk4", rate, 2, {0, -10}, {{.normal = {0, 1}, .friction = 0.3}});
+                    const ObstacleHandle box =
+                        world.add_obstacle({.shape = BoxShape{{2, 0.8}, {1, 1.5}},
+                                            .restitution = restitution,
+                                            .friction = 0.3});
+                    if (!moved) world.set_obstacle_velocity(box, {speed, 0});
+                    world.spawn({.position = {0.5, 0.15}, .contact = Contact{0.15}});
+                    std::vector<Impact> all;
+                    for (int tick = 1; tick <= 2 * rate; ++tick) {
+                        const Vec3 to{2 + speed * (double(tick) / rate), 0.8};
+                        if (moved) world.move_obstacle(box, to, {{speed, 0}});
+                        for (const Impact& impact : impacts(world, 1)) all.push_back(impact);
+                    }
+                    return all;
+                };
+                const auto even = run(false);
+                const auto moved = run(true);
+                ASSERT_EQ(moved.size(), even.size()) << rate << ' ' << speed << ' ' << restitution;
+                for (std::size_t i = 0; i < even.size(); ++i) {
+                    EXPECT_EQ(moved[i].kind, even[i].kind);
+                    EXPECT_NEAR(moved[i].time, even[i].time, 1e-9);
+                }
+            }
+}
+
+// In a step of semi_implicit_euler, a ball of 1 mm that slides on a segment gets below it by 2.3
+// mm, past its middle. It stays on the side where it was.
+TEST(MovedObstacles, KeepSmallBodiesOnTheirSide) {
+    const double omega = 2 * std::acos(-1.0) / 1.2;
+    for (const double friction : {0.0, 0.3, 1.0}) {
+        World world = world_of("semi_implicit_euler", 30, 2, {0, -10});
+        world.add_obstacle({.shape = SegmentShape{{-20, 0}, {20, 0}},
+                            .friction = friction,
+                            .swing = Swing{{0, 0.15}, 1.2, 0}});
+        const Entity ball = world.spawn(
+            {.position = {0, 0.001}, .velocity = {3, 0.15 * omega}, .contact = Contact{0.001}});
+        for (int tick = 1; tick <= 90; ++tick) {
+            world.step();
+            const double surface = 0.15 * std::sin(omega * tick / 30);
+            EXPECT_NEAR(world.position(ball)[1], surface + 0.001, 1e-12) << friction;
+        }
+    }
+}
+
+// A segment that comes up through the floor of a ball takes it along with its own speed, and lists
+// that where it leaves the floor.
+TEST(MovedObstacles, TakeABodyOffAnotherFace) {
+    for (const bool first : {false, true})
+        for (const double below : {0.3, 0.425}) {
+            World world = world_of("velocity_verlet", 120, 2, {0, -10});
+            const Obstacle press{.shape = SegmentShape{{-3, -below}, {3, -below}},
+                                 .velocity = {0, 3}};
+            if (first) world.add_obstacle(press);
+            world.add_obstacle({.shape = BoxShape{{0, -1}, {20, 2}}});
+            if (!first) world.add_obstacle(press);
+            const Entity ball = world.spawn({.position = {0, 0.1}, .contact = Contact{0.1}});
+            std::vector<Impact> all = impacts(world, 60);
+            std::erase_if(all, [](const Impact& impact) { return impact.time == 0; });
+            ASSERT_EQ(all.size(), 2U) << first << ' ' << below;
+            EXPECT_EQ(all[0].kind, Meeting::bounce);
+            EXPECT_NEAR(all[0].time, below / 3, 1e-14);
+            EXPECT_NEAR(all[0].after[1], 3, 1e-14);
+            EXPECT_NEAR(world.position(ball)[1], 3 * 0.5 - below + 0.1, 1e-13);
+        }
+}
+
+}  // namespace
+}  // namespace oiler::test
