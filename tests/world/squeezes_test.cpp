@@ -130,6 +130,21 @@ TEST(MovedObstacles, KeepSmallBodiesOnTheirSide) {
     }
 }
 
+// In a step of semi_implicit_euler, a point that leaves a floor of boxes gets below it, at the
+// joint of two of them on the sides of both. It stays on the floor.
+TEST(Joints, KeepPointsAboveInLongSteps) {
+    World world = world_of("semi_implicit_euler", 60, 2, {0, -10});
+    for (const double x : {-0.5, 0.5})
+        world.add_obstacle({.shape = BoxShape{{x, -0.5}, {1, 1}}, .restitution = 0.5});
+    const Entity point =
+        world.spawn({.position = {0, 1}, .velocity = {0, -3}, .contact = Contact{0}});
+    for (int tick = 0; tick < 120; ++tick) {
+        world.step();
+        ASSERT_GE(world.position(point)[1], -1e-14) << tick;
+    }
+    EXPECT_EQ(world.velocity(point), Vec3{});
+}
+
 // A segment that comes up through the floor of a ball takes it along with its own speed, and lists
 // that where it leaves the floor.
 TEST(MovedObstacles, TakeABodyOffAnotherFace) {

@@ -67,6 +67,9 @@ protected:
             return GapAt<T>{tau, gap(near.obstacle, seen, radius_), speed};
         };
         GapAt<T> from = sample(state, T(0));
+        // A point on the border of a face has turned to an open one.
+        if (radius_ == 0)
+            from.speed = dot(near.normal, state.v - near.obstacle.course.velocity_at(start_));
         GapAt<T> to = sample(leg.end, leg.tau);
         if (near.passed && from.gap > noise) near.passed = false;
         const bool is_inside = from.gap < -near.deepest(2 * noise, radius_);

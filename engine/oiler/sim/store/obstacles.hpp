@@ -245,7 +245,7 @@ private:
         const Vec mean = way / dt;
         // Round-off of the places does not change the velocity of an obstacle that goes on evenly.
         const T noise =
-            4 * std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
+            2 * std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
         const auto is_as_before = [&](const Vec& one) { return largest(one - v) <= noise; };
         const bool goes_on = is_as_before(mean) && is_as_before(move.arrival.value_or(mean));
         const Vec straight = goes_on ? v : mean;
