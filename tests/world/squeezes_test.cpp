@@ -145,6 +145,17 @@ TEST(Joints, KeepPointsAboveInLongSteps) {
     EXPECT_EQ(world.velocity(point), Vec3{});
 }
 
+// The belt of a moving chain carries a ball over its joints, without an impact.
+TEST(Joints, OfAMovingBeltAreNotFelt) {
+    World world = world_of("rk4", 60, 2, {0, -10});
+    std::vector<Vec3> points;
+    for (int i = -8; i <= 8; ++i) points.push_back(Vec3{std::cos(0.3), std::sin(0.3)} * i);
+    world.add_chain(points, false, {.friction = 1, .belt = 3, .velocity = {0, 1}});
+    const Vec3 start = Vec3{-std::sin(0.3), std::cos(0.3)} * 0.2;
+    world.spawn({.position = start, .velocity = {0, 1}, .contact = Contact{0.2}});
+    EXPECT_LE(count(world, 120), 1);
+}
+
 // A segment that comes up through the floor of a ball takes it along with its own speed, and lists
 // that where it leaves the floor.
 TEST(MovedObstacles, TakeABodyOffAnotherFace) {

@@ -137,10 +137,10 @@ void hide_joints(std::span<Near<T, Axes>> nears, const Vec<T, Axes>& x, T start,
         const bool corner = is_round(one.sides);
         return corner == is_round(other.sides) ? one.index < other.index : !corner;
     };
-    const auto moves_out_of = [](const One& near, const One& other) {
-        const Vec<T, Axes> relative = near.velocity - other.velocity;
-        const T noise = 1024 * std::numeric_limits<T>::epsilon() * largest(near.velocity);
-        return dot(near.normal, relative) > noise;
+    const auto moves_out_of = [&](const One& near, const One& other) {
+        const Vec<T, Axes> v = near.obstacle.course.velocity_at(start);
+        const T noise = 1024 * std::numeric_limits<T>::epsilon() * largest(v);
+        return dot(near.normal, v - other.obstacle.course.velocity_at(start)) > noise;
     };
     for (One& near : nears) near.hidden = false;
     // The nearest point of all that a point touches is the point itself.

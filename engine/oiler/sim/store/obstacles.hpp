@@ -243,9 +243,11 @@ private:
         const T dt = rate_.template dt<T>();
         const Vec& v = move.departure;
         const Vec mean = way / dt;
-        // Round-off of the places does not change the velocity of an obstacle that goes on evenly.
-        const T noise =
-            2 * std::numeric_limits<T>::epsilon() * (largest(from.centre) + largest(move.to)) / dt;
+        // Round-off of the places, and of a game that computes them in double, does not change the
+        // velocity of an obstacle that goes on evenly.
+        constexpr T round_off =
+            std::numeric_limits<T>::epsilon() + 3 * T(std::numeric_limits<double>::epsilon());
+        const T noise = round_off * (largest(from.centre) + largest(move.to)) / dt;
         const auto is_as_before = [&](const Vec& one) { return largest(one - v) <= noise; };
         const bool goes_on = is_as_before(mean) && is_as_before(move.arrival.value_or(mean));
         const Vec straight = goes_on ? v : mean;
