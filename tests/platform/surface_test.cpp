@@ -4,6 +4,8 @@
 #include <cfenv>
 #include <cstdlib>
 #include <filesystem>
+
+#include <sys/resource.h>
 #ifdef __SSE__
 #include <xmmintrin.h>
 #endif
@@ -96,6 +98,16 @@ TEST(Window, WithoutADisplayNamesHeadless) {
     expect_no_window();
     unsetenv("XDG_RUNTIME_DIR");
     expect_no_window();
+}
+
+TEST_P(Provider, IsRefusedWhereMesaWouldCrashForLackOfMemory) {
+    const auto is_refused = [] {
+        const rlimit limit{440 << 20, 440 << 20};
+        setrlimit(RLIMIT_AS, &limit);
+        return holds(line_of_error(Exit::no_display, [] { (void)open_offscreen(GetParam()); }),
+                     "see `ulimit -v`");
+    };
+    EXPECT_EXIT(_exit(is_refused() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 TEST(Library, NamesThePackageToInstall) {

@@ -2,6 +2,7 @@
 #include "oiler/platform/providers.hpp"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -36,6 +37,18 @@ void refuse_narrow_vectors() {
              "LP_NATIVE_VECTOR_WIDTH is {}; unset it, or set it to 128, 256 or 512", given);
 }
 
+/// Mesa crashes where a limit such as `ulimit -v` leaves it less than this, in bytes: its libraries
+/// and the stacks of its threads.
+void refuse_little_memory() {
+    constexpr std::size_t needed = std::size_t{768} << 20;
+    void* const room =
+        mmap(nullptr, needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED)
+        fail(Exit::no_display, "OpenGL needs {} MB of address space; {}", needed >> 20,
+             more_memory);
+    munmap(room, needed);
+}
+
 }  // namespace
 
 // RTLD_NODELETE: a driver has threads of its own, which crash if it is unmapped.
@@ -61,6 +74,7 @@ Library::Symbol Library::operator[](const char* name) const {
 
 void limit_llvmpipe() {
     refuse_narrow_vectors();
+    refuse_little_memory();
     setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
     if (!gives_threads()) setenv("LP_NUM_THREADS", "0", 0);
 }

@@ -45,7 +45,8 @@ private:
 /// Limits llvmpipe to vectors of 256 bits: Mesa 22.3 crashes with 512, and pixels must be the same
 /// on every machine. If the machine does not give the threads that llvmpipe wants, it gets none:
 /// it would wait for them for ever. Call it before a GL driver is loaded. LP_NATIVE_VECTOR_WIDTH
-/// and LP_NUM_THREADS of the user override it. Throws Error{no_display} for a width below a float.
+/// and LP_NUM_THREADS of the user override it. Throws Error{no_display} for a width below a float,
+/// or if the program may not have the memory that Mesa needs.
 void limit_llvmpipe();
 
 }  // namespace oiler
