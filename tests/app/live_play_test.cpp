@@ -278,7 +278,7 @@ TEST(GameClocks, CatchUpTwoStepsUntilStepsAreTimed) {
 }
 
 TEST_F(LivePlayTest, AQuietRunMeasuresNothing) {
-    EXPECT_EQ(play.what_if(), nullptr);
+    EXPECT_EQ(play.figures(), nullptr);
     EXPECT_EQ(play.no_verdict(), "what the timestep costs is not measured with --quiet");
     EXPECT_TRUE(play.ghosts().empty());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which rate is right: the lowest that was measured to be, or what the order of the errors
 // promises.
-#include "oiler/whatif/verdict.hpp"
+#include "oiler/whatif/rate_advice.hpp"
 
 #include "support/test.hpp"
 

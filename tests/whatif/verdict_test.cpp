@@ -24,7 +24,7 @@ WhatIfRun run_of(const char* method, int rate, double distance, double nanosecon
 /// A pixel is 1 cm. Euler at 60 Hz is off by `distance`; velocity Verlet and 120 Hz are rivals.
 WhatIf measured(double distance, double of_verlet, double of_twice) {
     WhatIf result;
-    result.duration = result.certain_until = 4;
+    result.duration = result.measured_until = result.certain_until = 4;
     result.uncertainty = 1e-6;
     result.pixel = 0.01;
     result.runs = {run_of("semi_implicit_euler", 60, distance, 1'000'000),
@@ -59,9 +59,7 @@ TEST(Verdict, ClaimsNothingThatTheReferenceDoesNotKnow) {
     EXPECT_TRUE(holds(judge(result).text, "velocity_verlet: less than 2 cm off,"));
     result.uncertainty = 0.005;
     EXPECT_EQ(judge(result).grade, Grade::unknown);
-    EXPECT_EQ(judge(result).text,
-              "Off by less than 5 cm at 60 Hz semi_implicit_euler. The true motion is not known "
-              "better.");
+    EXPECT_EQ(judge(result).text, "Right to 5 cm so far at 60 Hz semi_implicit_euler.");
     result = measured(0.04, 5e-6, 0.02);
     result.uncertainty = 1.1e-5;
     EXPECT_TRUE(holds(judge(result).text, "less than 0.11 mm off,")) << "a pixel is 1 cm";
@@ -97,9 +95,10 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     WhatIf unsure = measured(0.001, 0, 0);
     unsure.uncertainty = 0.003;
     EXPECT_EQ(judge(unsure).grade, Grade::unknown) << "it may be off by three pixels";
+    EXPECT_EQ(judge(unsure).text, "Right to 3 cm so far at 60 Hz semi_implicit_euler.");
+    unsure.pixel_until = 1.25;
     EXPECT_EQ(judge(unsure).text,
-              "Off by less than 3 cm at 60 Hz semi_implicit_euler. The true motion is not known "
-              "better.");
+              "Right to a pixel until 1.2 s at 60 Hz semi_implicit_euler, to 3 cm since.");
     WhatIf still = measured(0, 0, 0);
     still.uncertainty = 0;
     EXPECT_EQ(judge(still).text, "No error so far at 60 Hz semi_implicit_euler.");
@@ -107,19 +106,33 @@ TEST(Verdict, IsGoodBelowAPixelAndUnknownWithoutAReference) {
     unknown.certain_until = 0;
     EXPECT_EQ(judge(unknown).grade, Grade::unknown);
     EXPECT_FALSE(holds(judge(unknown).text, "1 m")) << "never a guess";
-    WhatIf early = measured(0.009, 0, 0);
-    early.certain_until = 2.25;
-    EXPECT_TRUE(judge(early).text.ends_with(" After 2.2 s the true motion is not known."));
+}
+
+// A figure of an earlier moment is not green, whatever it was then.
+TEST(Verdict, IsGreyWhereThePresentMomentIsNotKnown) {
+    for (const double error : {0.0, 0.009, 0.04, 0.4}) {
+        WhatIf early = measured(error, 0, 0);
+        early.certain_until = 2.25;
+        EXPECT_EQ(judge(early).grade, Grade::unknown) << error;
+        EXPECT_TRUE(judge(early).text.ends_with(" After 2.2 s the true motion is not known."));
+        early.tenfold = 0.31;
+        EXPECT_TRUE(judge(early).text.ends_with(
+            " After 2.2 s nobody knows the true motion: the least error grows tenfold in 0.31 s."));
+        early.measured_until = 2.5;
+        EXPECT_TRUE(judge(early).text.ends_with(" Measured until 2.2 s so far.")) << "it lags";
+        early.certain_until = 3.75;
+        EXPECT_NE(judge(early).grade, Grade::unknown) << "a difference may be a delay of 0.25 s";
+    }
 }
 
 TEST(Verdict, NamesTheBestSettingIfNoneIsBelowAPixel) {
     EXPECT_TRUE(
-        judge(measured(0.9, 0.5, 0.3)).text.ends_with(" 120 Hz: 30 cm off, +1000 µs a frame."));
-    EXPECT_TRUE(judge(measured(0.9, 0.5, 0.6)).text.ends_with(" semi_implicit_euler."))
+        judge(measured(0.9, 0.05, 0.03)).text.ends_with(" 120 Hz: 3 cm off, +1000 µs a frame."));
+    EXPECT_TRUE(judge(measured(0.09, 0.05, 0.06)).text.ends_with(" semi_implicit_euler."))
         << "less than half is no cure";
-    EXPECT_TRUE(judge(measured(900, 7.1, 8)).text.ends_with(" 7.1 m off, +300 µs a frame."));
-    EXPECT_TRUE(judge(measured(900, 7.3, 8)).text.ends_with(" semi_implicit_euler."))
-        << "beyond the 720 lines of the picture";
+    EXPECT_TRUE(judge(measured(9, 0.071, 8)).text.ends_with(" 7.1 cm off, +300 µs a frame."));
+    EXPECT_TRUE(judge(measured(9, 0.073, 8)).text.ends_with(" semi_implicit_euler."))
+        << "beyond a hundredth of the 720 lines of the picture";
     WhatIf cheap = measured(0.9, 0.001, 0.002);
     cheap.runs[0].costs.step = 500;
     cheap.runs[1].costs.step = 10'000;

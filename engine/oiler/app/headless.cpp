@@ -17,6 +17,7 @@
 #include "oiler/process/console.hpp"
 #include "oiler/process/interrupt.hpp"
 #include "oiler/render/renderer.hpp"
+#include "oiler/whatif/live_what_if.hpp"
 
 namespace oiler {
 namespace {
@@ -78,7 +79,7 @@ public:
         const Span span(profile_, "inspector");
         const double alpha = steps == at.step ? 1 : at.alpha;
         inspector_.add_overlays(picture, what_if_.ghosts(steps, alpha), alpha, 1);
-        (void)inspector_.show(&what_if_, {}, header.size, Inspector::view(header.size),
+        (void)inspector_.show(&what_if_.figures(), {}, header.size, Inspector::view(header.size),
                               {.seconds = 1.0 / header.fps, .waits = true});
     }
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }

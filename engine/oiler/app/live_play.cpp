@@ -272,9 +272,9 @@ std::string LivePlay::no_verdict() const {
                : "what the timestep costs is not measured when you play on from here";
 }
 
-Verdict LivePlay::verdict() {
+Verdict LivePlay::verdict() const {
     const std::string reason = no_verdict();
-    return reason.empty() ? what_if_->verdict() : Verdict{.text = reason};
+    return reason.empty() ? what_if_->figures().verdict : Verdict{.text = reason};
 }
 
 std::vector<Ghost> LivePlay::ghosts() const {

@@ -118,10 +118,12 @@ public:
     [[nodiscard]] double alpha() const;
 
     /// Null in a quiet run, which measures no errors of the timestep.
-    [[nodiscard]] LiveWhatIf* what_if() { return what_if_ ? &*what_if_ : nullptr; }
+    [[nodiscard]] const LiveFigures* figures() const {
+        return what_if_ ? &what_if_->figures() : nullptr;
+    }
     /// Why there is no verdict on the shown step; empty: there is one.
     [[nodiscard]] std::string no_verdict() const;
-    [[nodiscard]] Verdict verdict();
+    [[nodiscard]] Verdict verdict() const;
     /// The true positions of the bodies in the last picture; empty if unknown.
     [[nodiscard]] std::vector<Ghost> ghosts() const;
 

@@ -137,6 +137,8 @@ void GameWindow::take_from_shelf() {
 
 void GameWindow::draw(const Requests& requests, const Input& keys, std::chrono::nanoseconds now) {
     Picture& picture = play_.play(now);
+    const std::size_t bodies = run_.playback.world().body_count();
+    is_measured_ = bodies <= most_measured_bodies && (is_measured_ || bodies > 0);
     if (panels_.inspector) add_game_overlays(picture, keys, now);
     window_->take_text(run_.playback.loop().takes_text());
     run_.live.shown = picture.camera;
@@ -205,7 +207,7 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const Input& 
     }
     if (parts.has_inspector) {
         const Span span(run_.profile, "inspector");
-        requests_ = inspector_.show(play_.what_if(), keys, parts.window, parts.view(),
+        requests_ = inspector_.show(play_.figures(), keys, parts.window, parts.view(),
                                     {.seconds = in_seconds(now - last_frame_),
                                      .dropped = in_seconds(play_.clock().dropped_time()),
                                      .is_paused = play_.clock().is_paused(),
@@ -220,7 +222,9 @@ void GameWindow::present(Picture& picture, const Picture& overlay, const Input& 
 }
 
 GameWindow::Layout GameWindow::layout() const {
-    return {window_->size(), panels_.inspector, !run_.options.quiet && !panels_.inspector};
+    const bool has_verdict = is_measured_ && !run_.options.quiet && !panels_.inspector &&
+                             run_.about.fixed_setting.empty();
+    return {window_->size(), panels_.inspector, has_verdict};
 }
 
 Size GameWindow::Layout::beside_inspector() const {

@@ -69,6 +69,7 @@ private:
     Requests requests_;  ///< through the inspector, for the next frame
     InputQueue keys_;    ///< of the loop
     std::int64_t frames_ = 0;
+    bool is_measured_ = false;  ///< whether there is anything to measure
     std::chrono::nanoseconds last_frame_;
     bool is_lost_ = false;  ///< the display has ended
 };

@@ -156,8 +156,9 @@ std::optional<Shelf::Taken> SceneShelf::take(const AnyGame& shown,
 /// A scene keeps the setting that the player chose, unless its file now has another one.
 Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping>& kept) {
     Scene scene = read_scene(file.string());
+    const std::shared_ptr<const Scene> shown = this->scene();
     const bool keeps =
-        kept && scene.stepping == scene_->stepping && lab::why_not(scene, Settings{*kept}).empty();
+        kept && scene.stepping == shown->stepping && lab::why_not(scene, Settings{*kept}).empty();
     const Stepping stepping = keeps ? *kept : scene.stepping;
     make_world(scene, Settings{.stepping = stepping}).require_applicable();
     places_ = 0;
@@ -169,7 +170,8 @@ Shelf::Taken SceneShelf::read(const fs::path& file, const std::optional<Stepping
 
 std::string SceneShelf::title() const {
     const std::string file = file_.filename().string();
-    return scene_->title.empty() ? file : scene_->title + " – " + file;
+    const std::string name = scene()->title;
+    return name.empty() ? file : name + " – " + file;
 }
 
 fs::path SceneShelf::neighbour(int places) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -81,7 +82,8 @@ public:
 
     [[nodiscard]] std::optional<Taken> take(const AnyGame& shown,
                                             const std::optional<std::string>& dropped) override;
-    [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+    /// Any thread may ask.
+    [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
     /// The scene's title and its file.
     [[nodiscard]] std::string title() const;
 
@@ -94,7 +96,7 @@ private:
     [[nodiscard]] bool has_changed();
 
     std::filesystem::path file_;
-    std::shared_ptr<const Scene> scene_;
+    std::atomic<std::shared_ptr<const Scene>> scene_;
     std::filesystem::file_time_type written_{};
     int places_ = 0;  ///< of the last request
     Clock::time_point next_look_{};

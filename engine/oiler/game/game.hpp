@@ -169,6 +169,8 @@ public:
     /// The number of times that the world was replaced: no picture between two worlds is drawn.
     [[nodiscard]] std::int64_t cuts() const { return cuts_; }
     [[nodiscard]] const Loop& loop() const { return loop_; }
+    /// Makes it a rehearsal, see Loop.
+    void rehearse() { loop_.rehearse(); }
     [[nodiscard]] virtual const World& world() const = 0;
     [[nodiscard]] virtual Picture picture() const = 0;
     /// The game's results so far; empty if it offers none.

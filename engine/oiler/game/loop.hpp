@@ -24,7 +24,12 @@ public:
     void text_input(bool on) { takes_text_ = on; }
     /// Ends the program after this update.
     void quit() { quits_ = true; }
+    /// Whether this is a copy of the game that plays along to measure what the timestep costs. Such
+    /// copies play in another thread: whatever leaves the game, such as a sound, a line of a log or
+    /// a saved file, is for the game alone.
+    [[nodiscard]] bool is_rehearsal() const { return is_rehearsal_; }
 
+    void rehearse() { is_rehearsal_ = true; }
     [[nodiscard]] bool restarts() const { return restarts_; }
     [[nodiscard]] bool holds() const { return holds_; }
     [[nodiscard]] bool takes_text() const { return takes_text_; }
@@ -37,6 +42,7 @@ private:
     bool holds_ = false;
     bool takes_text_ = false;
     bool quits_ = false;
+    bool is_rehearsal_ = false;
 };
 
 /// The source of the input that the steps of a game see.

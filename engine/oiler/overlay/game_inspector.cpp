@@ -13,6 +13,7 @@
 #include "oiler/overlay/overlays.hpp"
 #include "oiler/sim/bodies.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
+#include "oiler/whatif/rate_advice.hpp"
 
 namespace oiler {
 namespace {
@@ -70,6 +71,21 @@ Inspected::Setting inspected(const WhatIfRun& run, const WhatIf& measured) {
             .grade = colour_of(run.is_sound() ? error.grade(measured.pixel) : Grade::bad),
             .cost = cost < least_cost ? "< 10 µs" : time_text(cost),
             .forces = std::isfinite(times) && times > 0 ? fmt::format("×{:.2g}", times) : ""};
+}
+
+/// The errors and costs of this setting and of others.
+void add_measured(Inspected& run, const LiveFigures& figures) {
+    run.errors = figures.errors;
+    if (!figures.measured || !has_figures(*figures.measured)) return;
+    const WhatIf& measured = *figures.measured;
+    // The errors are newer than the result.
+    WhatIfRun played = measured.runs.front();
+    if (!run.errors.empty()) played.distance = std::max(played.distance, double{run.errors.back()});
+    run.settings.push_back(inspected(played, measured));
+    for (const WhatIfRun& other : std::span(measured.runs).subspan(1))
+        run.settings.push_back(inspected(other, measured));
+    run.is_of_round = figures.repeats;
+    run.rate_advice = rate_advice_text(measured);
 }
 
 }  // namespace
@@ -154,7 +170,7 @@ std::string GameInspector::figures_of(Entity body) const {
                        std::hypot(v[0], v[1], v[2]), place);
 }
 
-Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
+Requests GameInspector::show(const LiveFigures* figures, const Input& mouse, Size size, Size view,
                              const Frame& frame) {
     const World& world = game_.world();
     if (methods_.empty()) methods_ = applicable_methods(world);
@@ -175,29 +191,17 @@ Requests GameInspector::show(LiveWhatIf* what_if, const Input& mouse, Size size,
                   .past = frame.past,
                   .pace = frame.pace,
                   .scales = motion_.scales()};
-    if (what_if && what_if->begin()) {
-        run.begin = what_if->begin()->time;
-        run.first_energy = what_if->begin()->energy;
-        run.energy_scale = what_if->energy_scale();
+    const bool is_measured = figures && frame.no_verdict.empty();
+    if (figures && figures->begin) {
+        run.begin = figures->begin->time;
+        run.first_energy = figures->begin->energy;
+        run.energy_scale = figures->energy_scale.joules();
     }
     if (follower_.followed()) run.followed = figures_of(*follower_.followed());
-    const bool is_measured = what_if && frame.no_verdict.empty();
-    const Verdict verdict = is_measured ? what_if->verdict() : Verdict{.text = frame.no_verdict};
+    const Verdict verdict = is_measured ? figures->verdict : Verdict{.text = frame.no_verdict};
     run.verdict = verdict.text;
     run.grade = colour_of(verdict.grade);
-    if (is_measured) run.errors = what_if->errors();
-    if (is_measured && what_if->measured() && has_figures(*what_if->measured())) {
-        const WhatIf& measured = *what_if->measured();
-        // The errors are newer than the result.
-        WhatIfRun played = measured.runs.front();
-        if (!run.errors.empty())
-            played.distance = std::max(played.distance, double{run.errors.back()});
-        run.settings.push_back(inspected(played, measured));
-        for (const WhatIfRun& other : std::span(measured.runs).subspan(1))
-            run.settings.push_back(inspected(other, measured));
-        run.is_of_round = what_if->repeats();
-        run.rate_advice = rate_advice_text(measured);
-    }
+    if (is_measured) add_measured(run, *figures);
     const Requests requests =
         inspector_.show(run, mouse_in_pixels(mouse, view), size, frame.seconds);
     shown_ = requests.shown;

@@ -12,7 +12,7 @@
 #include "oiler/overlay/follower.hpp"
 #include "oiler/overlay/motion_overlay.hpp"
 #include "oiler/stability/stiffest.hpp"
-#include "oiler/whatif/live_what_if.hpp"
+#include "oiler/whatif/play_along.hpp"
 
 namespace oiler {
 
@@ -45,10 +45,10 @@ public:
     /// between the game's last two steps. Errors are drawn `factor` times as long.
     void add_overlays(Picture& picture, const std::vector<Ghost>& ghosts, double alpha,
                       double factor);
-    /// Lays out the panel and returns the user's requests. `what_if` is null if the error of the
-    /// timestep is not measured.
-    [[nodiscard]] Requests show(LiveWhatIf* what_if, const Input& mouse, Size size, Size view,
-                                const Frame& frame);
+    /// Lays out the panel and returns the user's requests. `figures` are null if the error of
+    /// the timestep is not measured.
+    [[nodiscard]] Requests show(const LiveFigures* figures, const Input& mouse, Size size,
+                                Size view, const Frame& frame);
     [[nodiscard]] const Overlay& overlay() const { return inspector_.overlay(); }
     [[nodiscard]] bool has_mouse() const { return inspector_.has_mouse(); }
     [[nodiscard]] bool has_menu() const { return inspector_.has_menu(); }

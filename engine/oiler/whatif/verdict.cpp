@@ -4,9 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 namespace oiler {
@@ -17,11 +15,11 @@ constexpr double most_pixels = 99'999;
 
 double cost(const WhatIfRun& run) { return run.costs.of_steps(); }
 
-/// The largest error of a cure, pixels: the height of a picture.
-constexpr double most_cured = 720;
+/// The largest error of a cure, pixels: a hundredth of the picture's height.
+constexpr double most_cured = 7.2;
 
 /// The other run with the smallest error; null if that is above half of the played run's error or
-/// above the height of the picture.
+/// above a hundredth of the picture's height.
 const WhatIfRun* best(const WhatIf& measured) {
     const WhatIfRun* best = nullptr;
     double least = std::min(measured.runs.front().distance / 2, most_cured * measured.pixel);
@@ -112,74 +110,54 @@ std::string reading_text(const WhatIf& measured, const Reading& played) {
                        short_text(measured.runs.front().stepping));
 }
 
-/// Rounds to two digits.
-std::int64_t to_two_digits(double rate) {
-    const double unit = std::pow(10, std::floor(std::log10(rate)) - 1);
-    return std::llround(std::round(rate / unit) * unit);
+/// s: whether a difference is a delay is known that much later, and a verdict is a tenth of a
+/// second old.
+constexpr double of_now = 0.5;
+
+/// Whether the true motion is known at the moment that the game has come to.
+bool is_known_now(const WhatIf& measured) {
+    return measured.duration - measured.certain_until < of_now;
 }
 
-bool has_certain_error(const WhatIfRun& run, const WhatIf& measured) {
-    return run.is_sound() && run.distance > 0 && measured.error_of(run).is_certain();
+/// Why and when the knowledge of the true motion ends, if that is before now.
+std::string end_text(const WhatIf& measured, double begin) {
+    const double until = begin + measured.certain_until;
+    if (is_known_now(measured)) return "";
+    if (measured.measured_until - measured.certain_until < of_now)
+        return fmt::format(" Measured until {:.1f} s so far.", until);
+    if (measured.tenfold)
+        return fmt::format(
+            " After {:.1f} s nobody knows the true motion: the least error grows tenfold in {:.2g} "
+            "s.",
+            until, *measured.tenfold);
+    return fmt::format(" After {:.1f} s the true motion is not known.", until);
 }
 
-/// The run of the played method, precision and damping at a rate; null if there is none.
-const WhatIfRun* run_at(std::int64_t rate, const WhatIf& measured) {
-    Stepping stepping = measured.runs.front().stepping;
-    stepping.rate = {rate};
-    const auto found = std::ranges::find(measured.runs, stepping, &WhatIfRun::stepping);
-    return found == measured.runs.end() ? nullptr : &*found;
+/// What is known of a distance that may be more than a pixel, or less.
+std::string limit_text(const WhatIf& measured, double begin, const std::string& setting) {
+    const std::string limit = length_text(measured.error_of(measured.runs.front()).limit());
+    if (!(measured.pixel_until > 0))
+        return fmt::format("Right to {} so far at {}.", limit, setting);
+    return fmt::format("Right to a pixel until {:.1f} s at {}, to {} since.",
+                       begin + measured.pixel_until, setting, limit);
 }
 
-/// The lowest rate of the played method that is measured and within a pixel.
-std::optional<std::int64_t> lowest_measured(const WhatIf& measured) {
-    std::optional<std::int64_t> lowest;
-    for (const WhatIfRun& run : measured.runs) {
-        const std::int64_t rate = run.stepping.rate.steps;
-        if (run_at(rate, measured) != &run || !run.is_sound()) continue;
-        if (measured.error_of(run).most() <= measured.pixel && (!lowest || rate < *lowest))
-            lowest = rate;
-    }
-    return lowest;
-}
-
-/// The convergence of the error up to a rate.
-struct Trend {
-    std::int64_t rate;  ///< Hz
-    double error;       ///< m
-    double order;       ///< of the error, between half the rate and the rate
-};
-
-/// The trend up to the highest rate whose half and quarter are measured, too; empty if the order is
-/// low or not the same at both halvings.
-std::optional<Trend> trend_of(const WhatIf& measured) {
-    constexpr double least_order = 0.7;
-    constexpr double most_apart = 0.3;  // of orders
-    std::array<const WhatIfRun*, 3> last{};
-    for (const WhatIfRun& run : measured.runs) {
-        const std::int64_t rate = run.stepping.rate.steps;
-        if (run_at(rate, measured) != &run || rate % 4 != 0) continue;
-        const std::array on_the_way{run_at(rate / 4, measured), run_at(rate / 2, measured), &run};
-        if (std::ranges::count(on_the_way, nullptr) > 0) continue;
-        if (!last[2] || rate > last[2]->stepping.rate.steps) last = on_the_way;
-    }
-    if (!last[2] || !std::ranges::all_of(last, [&](const WhatIfRun* run) {
-            return has_certain_error(*run, measured);
-        }))
-        return std::nullopt;
-    const double order_before = std::log2(last[0]->distance / last[1]->distance);
-    const double order = std::log2(last[1]->distance / last[2]->distance);
-    if (order < least_order || std::abs(order - order_before) > most_apart) return std::nullopt;
-    return Trend{last[2]->stepping.rate.steps, last[2]->distance, order};
-}
-
-/// The rate at which the error would be `wanted`, Hz. The extrapolation uses no higher order than
-/// the method's.
-std::optional<double> promised_rate(const WhatIf& measured, double wanted) {
-    const auto trend = trend_of(measured);
-    if (!trend) return std::nullopt;
-    const int most = measured.runs.front().stepping.method->order;
-    const double order = std::min(trend->order, static_cast<double>(most));
-    return static_cast<double>(trend->rate) * std::pow(trend->error / wanted, 1 / order);
+/// The largest distance of a body as drawn.
+std::string distance_text(const WhatIf& measured, double begin,
+                          const std::function<std::string(Entity)>& name_of) {
+    const WhatIfRun& played = measured.runs.front();
+    const std::string setting = short_text(played.stepping);
+    const KnownError error = measured.error_of(played);
+    const Grade grade = error.grade(measured.pixel);
+    if (error.most() == 0) return fmt::format("No error so far at {}.", setting);
+    if (grade == Grade::good)
+        return fmt::format("Drawn within {} of the true motion, less than a pixel, at {}.",
+                           length_text(error.most()), setting);
+    if (grade == Grade::unknown) return limit_text(measured, begin, setting);
+    const double pixels = played.distance / measured.pixel;
+    return fmt::format("{} up to {} off, {}{:.0f} px, at {}.{}", name_of(played.furthest),
+                       length_text(played.distance), pixels > most_pixels ? "more than " : "",
+                       std::min(pixels, most_pixels), setting, cure_text(measured));
 }
 
 }  // namespace
@@ -191,85 +169,18 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
     if (!played.failure.empty()) return {Grade::bad, played.failure + cure_text(measured)};
     if (!(measured.certain_until > 0) || (std::isnan(played.distance) && !played.other_play_from))
         return {Grade::unknown, fmt::format("What {} costs is not known yet.", setting)};
-    const std::string limit = measured.certain_until < measured.duration - 1
-                                  ? fmt::format(" After {:.1f} s the true motion is not known.",
-                                                begin + measured.certain_until)
-                                  : "";
+    const std::string end = end_text(measured, begin);
     if (played.other_play_from)
         return {
             Grade::bad,
             fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
-                        begin + *played.other_play_from, setting, cure_text(measured), limit)};
-    const double pixels = played.distance / measured.pixel;
+                        begin + *played.other_play_from, setting, cure_text(measured), end)};
     const KnownError error = measured.error_of(played);
-    const double known = error.most();
-    const Grade grade = error.grade(measured.pixel);
+    const Grade grade = is_known_now(measured) ? error.grade(measured.pixel) : Grade::unknown;
     if (const Reading* const reading = worst_reading(measured, before))
         return {std::max(grade, Grade::visible),
-                reading_text(measured, *reading) + cure_text(measured) + limit};
-    if (known == 0) return {grade, fmt::format("No error so far at {}.{}", setting, limit)};
-    if (grade == Grade::good)
-        return {grade,
-                fmt::format("Drawn within {} of the true motion, less than a pixel, at {}.{}",
-                            length_text(known), setting, limit)};
-    if (grade == Grade::unknown)
-        return {grade,
-                fmt::format("Off by less than {} at {}. The true motion is not known better.{}",
-                            length_text(known), setting, limit)};
-    return {grade,
-            fmt::format("{} up to {} off, {}{:.0f} px, at {}.{}{}", name_of(played.furthest),
-                        length_text(played.distance), pixels > most_pixels ? "more than " : "",
-                        std::min(pixels, most_pixels), setting, cure_text(measured), limit)};
-}
-
-std::optional<RateAdvice> advise_rate(const WhatIf& measured) {
-    if (const auto lowest = lowest_measured(measured)) return RateAdvice{*lowest, true};
-    const auto promised = promised_rate(measured, measured.pixel / 2);
-    if (!promised) return std::nullopt;
-    const std::int64_t played = measured.runs.front().stepping.rate.steps;
-    const auto found = std::ranges::find_if(offered_rates, [&](std::int64_t rate) {
-        return rate % played == 0 && static_cast<double>(rate) >= *promised;
-    });
-    // A measured rate with an error beyond a pixel refutes the extrapolation.
-    if (found == offered_rates.end() || run_at(*found, measured)) return std::nullopt;
-    return RateAdvice{*found, false};
-}
-
-std::vector<std::int64_t> rates_to_try(const WhatIf& measured) {
-    constexpr std::int64_t most_tried = 4000;  // Hz
-    constexpr double most_time = 300'000;      // ns of a frame
-    const WhatIfRun& played = measured.runs.front();
-    const std::int64_t played_rate = played.stepping.rate.steps;
-    std::vector<std::int64_t> rates;
-    if (const auto advice = advise_rate(measured))
-        rates = {advice->rate};
-    else
-        for (const std::int64_t factor : {8, 16, 32})
-            if (factor * played_rate <= most_tried) rates.push_back(factor * played_rate);
-    const double time_per_rate = played.costs.of_steps() / static_cast<double>(played_rate);
-    const auto sum = std::accumulate(rates.begin(), rates.end(), std::int64_t{0});
-    if (time_per_rate * static_cast<double>(sum) > most_time) return {};
-    return rates;
-}
-
-std::string rate_advice_text(const WhatIf& measured) {
-    const WhatIfRun& played = measured.runs.front();
-    const auto advice = advise_rate(measured);
-    if (advice && advice->is_measured)
-        return advice->rate == played.stepping.rate.steps
-                   ? "This rate is within a pixel so far."
-                   : fmt::format("{} Hz of this method is within a pixel so far.", advice->rate);
-    if (advice)
-        return fmt::format("About {} Hz of this method would be within a pixel so far.",
-                           advice->rate);
-    constexpr int most_named = 100'000;  // Hz
-    if (const auto promised = promised_rate(measured, measured.pixel))
-        return fmt::format("To be within a pixel so far, this method would need {}.",
-                           *promised > most_named
-                               ? fmt::format("more than {} Hz", most_named)
-                               : fmt::format("about {} Hz", to_two_digits(*promised)));
-    return std::isnan(played.distance) ? ""
-                                       : "No rate within a pixel is known yet for this method.";
+                reading_text(measured, *reading) + cure_text(measured) + end};
+    return {grade, distance_text(measured, begin, name_of) + end};
 }
 
 }  // namespace oiler

@@ -57,8 +57,13 @@ struct WhatIfRun {
 
 /// The result of --what-if.
 struct WhatIf {
-    double duration = 0;            ///< s
-    double certain_until = 0;       ///< s, the time until which distances are counted
+    double duration = 0;        ///< s
+    double measured_until = 0;  ///< s, the time that all runs have come to
+    double certain_until = 0;   ///< s, the time until which distances are counted
+    double pixel_until = 0;     ///< s, the time until which the played run is within a pixel
+    /// The time in which the uncertainty grew tenfold, up to a pixel, where the true motion was
+    /// lost; empty if it is known until the end, or was lost by other events.
+    std::optional<double> tenfold{};
     double uncertainty = 0;         ///< m, the distance of `check` from the reference until then
     double pixel = 0;               ///< m, at the end
     WhatIfRun reference;            ///< the finest run

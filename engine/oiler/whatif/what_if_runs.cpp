@@ -16,6 +16,7 @@ namespace {
 using Times = std::vector<std::chrono::nanoseconds>;
 
 constexpr double lasting_difference = 0.25;  // s
+constexpr double small = 1e-3;               // of a pixel
 constexpr double frames_per_second = 60;
 
 Rate rate_of_instants(Rate recorded) {
@@ -62,28 +63,27 @@ double time_of_stopwatch() {
     return middle_mean(times);
 }
 
-constexpr std::int64_t least_rate = 960;  // Hz
 constexpr double pixels_of_height = 720;
 
 /// The number of steps of the reference in a recorded step: the least multiple of the compared
 /// instants at which its rate is at least `least_rate`.
-std::int64_t reference_factor(const RecordedPlay& play) {
+std::int64_t reference_factor(const RecordedPlay& play, std::int64_t least_rate) {
     const std::int64_t recorded = play.recording.header.stepping.rate.steps;
     const std::int64_t factor = (least_rate + recorded - 1) / recorded;
     return (factor + instants_per_step - 1) / instants_per_step * instants_per_step;
 }
-Stepping reference_stepping(const RecordedPlay& play) {
+Stepping reference_stepping(const RecordedPlay& play, std::int64_t least_rate) {
     Rate rate = play.recording.header.stepping.rate;
-    rate.steps *= reference_factor(play);
+    rate.steps *= reference_factor(play, least_rate);
     return {.method = &find_method("rk4"), .rate = rate};
 }
 /// Slightly less than half the rate of the reference: both begin a step at the same time only where
 /// a recorded step begins. So events in a game's updates, such as bounces, are late by different
 /// times.
-Stepping check_stepping(const RecordedPlay& play) {
-    Stepping stepping = reference_stepping(play);
+Stepping check_stepping(const RecordedPlay& play, std::int64_t least_rate) {
+    Stepping stepping = reference_stepping(play, least_rate);
     stepping.rate = play.recording.header.stepping.rate;
-    stepping.rate.steps *= reference_factor(play) / 2 - 1;
+    stepping.rate.steps *= reference_factor(play, least_rate) / 2 - 1;
     return stepping;
 }
 
@@ -99,6 +99,7 @@ SettingRun::SettingRun(const Stepping& stepping, const RecordedPlay& play, const
     settings.stepping = stepping;
     game_ = make(settings);
     game_->world().require_applicable();
+    game_->rehearse();
     game_->measure(times_);
 }
 
@@ -122,10 +123,10 @@ void SettingRun::add_impacts(std::deque<TrueImpact>& impacts) const {
         const std::size_t row = world.row(impact.entity);
         const double radius = world.bodies().contact(row)->radius;
         const double step = static_cast<double>(steps_) + rate * (impact.time - world.time());
-        impacts.push_back({instants_.other_step(step),
-                           game_->cuts(),
-                           {impact.entity, world.jumps(impact.entity),
-                            impact.point + impact.normal * radius}});
+        impacts.push_back(
+            {instants_.other_step(step),
+             game_->cuts(),
+             {impact.entity, world.jumps(impact.entity), impact.point + impact.normal * radius}});
     }
 }
 
@@ -255,11 +256,11 @@ WhatIfRun SettingRun::finish() const {
 }
 
 WhatIfRuns::WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& steppings,
-                       const MakeGame& make)
+                       const MakeGame& make, std::int64_t least_rate)
     : recording_(play.recording),
       replay_(recording_, play.name, {}, play.plays_on),
-      reference_(reference_stepping(play), play, make),
-      check_(check_stepping(play), play, make) {
+      reference_(reference_stepping(play, least_rate), play, make),
+      check_(check_stepping(play, least_rate), play, make) {
     runs_.push_back(std::make_unique<SettingRun>(recording_.header.stepping, play, make));
     for (const Stepping& stepping : steppings)
         runs_.push_back(std::make_unique<SettingRun>(stepping, play, make));
@@ -283,6 +284,7 @@ void WhatIfRuns::play_until(std::int64_t step) {
     if (!is_known) return;
     const double time = recording_.header.stepping.rate.time(step);
     for (const auto& run : runs_) run->compare(step, time, truth_.moments.back().moment, visible());
+    if (KnownError(recorded().distance, uncertainty_).most() <= pixel_) pixel_until_ = time;
 }
 
 void WhatIfRuns::compare_end() {
@@ -297,7 +299,9 @@ bool WhatIfRuns::play_reference(std::int64_t step) {
     std::vector<TrueMoment> moments;
     std::deque<TrueImpact> impacts;
     const std::int64_t last = step * instants_per_step;
-    for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + 1; i <= last; ++i) {
+    const std::int64_t stride = reference_.game().world().body_count() > 2000 ? 8 : 1;
+    for (std::int64_t i = step == 0 ? 0 : last - instants_per_step + stride; i <= last;
+         i += stride) {
         reference_.play_until_instant(i, &impacts);
         if (certain_) moments.push_back({i, moment_of(reference_.game())});
     }
@@ -324,25 +328,33 @@ bool WhatIfRuns::check(std::int64_t step, const Moment& moment) {
     pixel_ = static_cast<double>(reference_.game().picture().camera.height) / pixels_of_height;
     check_.compare(step, time, moment, pixel_);
     certain_ = !check_.result().other_play_from && !check_.result().visible_from;
+    if (check_.result().visible_from && small_until_)
+        tenfold_ = (*check_.result().visible_from - *small_until_) / std::log10(1 / small);
     if (!certain_ || check_.differs()) return false;
     certain_until_ = time;
     if (const double distance = check_.result().distance; !std::isnan(distance))
         uncertainty_ = distance;
+    if (uncertainty_ <= small * pixel_) small_until_ = time;
     return true;
 }
 
-std::optional<WhatIfRuns::Drawn> WhatIfRuns::drawn(double alpha) const {
+std::shared_ptr<const DrawnStep> WhatIfRuns::drawn() const {
     const Moment& after = runs_.front()->moment();
     const std::int64_t first = (step_ - 1) * instants_per_step;
     const auto truth = std::ranges::find(truth_.moments, first, &TrueMoment::index);
     const bool is_known =
         truth != truth_.moments.end() && truth_.moments.end() - truth > instants_per_step;
-    if (!is_known || before_.cuts != after.cuts) return std::nullopt;
+    if (!is_known || before_.cuts != after.cuts) return nullptr;
+    auto drawn = std::make_shared<DrawnStep>(DrawnStep{before_, after});
+    for (std::int64_t i = 0; i <= instants_per_step; ++i) drawn->truth.push_back(truth[i].moment);
+    return drawn;
+}
+
+DrawnStep::Places DrawnStep::at(double alpha) const {
     const double place = alpha * static_cast<double>(instants_per_step);
-    const auto instant = std::min(static_cast<std::int64_t>(place), instants_per_step - 1);
-    return Drawn{between(before_, after, alpha),
-                 between(truth[instant].moment, truth[instant + 1].moment,
-                         place - static_cast<double>(instant))};
+    const auto instant = std::min(static_cast<std::size_t>(place), truth.size() - 2);
+    return {between(before, after, alpha),
+            between(truth[instant], truth[instant + 1], place - static_cast<double>(instant))};
 }
 
 void WhatIfRuns::time_pictures(DrawTimer* draw) {
@@ -353,7 +365,10 @@ void WhatIfRuns::time_pictures(DrawTimer* draw) {
 
 WhatIf WhatIfRuns::result() const {
     WhatIf result{.duration = recording_.header.stepping.rate.time(recording_.steps),
+                  .measured_until = recording_.header.stepping.rate.time(step_),
                   .certain_until = certain_until_,
+                  .pixel_until = pixel_until_,
+                  .tenfold = tenfold_,
                   .uncertainty = uncertainty_,
                   .pixel = pixel_,
                   .reference = reference_.finish(),

@@ -41,7 +41,8 @@ private:
     Pixels pixels_;
 };
 
-/// The number of moments of a recorded step that are compared.
+/// The number of moments of a recorded step that are compared; of more than 2000 bodies, only every
+/// eighth one is.
 inline constexpr std::int64_t instants_per_step = 16;
 
 /// The true motion at the instant `index`, of which each recorded step has instants_per_step.
@@ -61,6 +62,20 @@ struct TrueImpact {
 struct TrueMotion {
     std::deque<TrueMoment> moments{};
     std::deque<TrueImpact> impacts{};
+};
+
+/// A step of the recorded setting as it is drawn, and the true motion meanwhile.
+struct DrawnStep {
+    Moment before;
+    Moment after;
+    std::vector<Moment> truth{};  ///< at instants_per_step + 1 instants
+
+    struct Places {
+        Moment run;
+        Moment truth;
+    };
+    /// At `alpha` of the step, 0 to 1.
+    [[nodiscard]] Places at(double alpha) const;
 };
 
 /// The run of a recording with one setting.
@@ -127,9 +142,10 @@ private:
 /// trajectory is kept. The recording may grow meanwhile.
 class WhatIfRuns {
 public:
-    /// The play must outlive it. Throws as SettingRun does.
+    /// The play must outlive it. The reference has 16 times the recorded rate or a multiple of
+    /// that, at least `least_rate`, Hz. Throws as SettingRun does.
     WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& steppings,
-               const MakeGame& make);
+               const MakeGame& make, std::int64_t least_rate = 960);
 
     /// Plays all runs until a recorded step begins, and compares them until there. Throws
     /// Error{diverged} if the reference fails, and Error{comparison_failed} if the recorded states
@@ -144,13 +160,8 @@ public:
     [[nodiscard]] const AnyGame& recorded_game() const { return runs_.front()->game(); }
     /// The recorded setting, without its costs.
     [[nodiscard]] const WhatIfRun& recorded() const { return runs_.front()->result(); }
-    /// The recorded setting as it is drawn, and the true motion then.
-    struct Drawn {
-        Moment run;
-        Moment truth;
-    };
-    /// At `alpha` between the last two steps; empty if the true motion is unknown or another play.
-    [[nodiscard]] std::optional<Drawn> drawn(double alpha) const;
+    /// The last recorded step; null if its true motion is unknown or another play.
+    [[nodiscard]] std::shared_ptr<const DrawnStep> drawn() const;
     /// Whether later steps are compared, too.
     [[nodiscard]] bool certain() const { return certain_; }
 
@@ -172,9 +183,12 @@ private:
     std::int64_t step_ = 0;     ///< the last that was played
     std::int64_t longest_ = 1;  ///< the recorded steps that a step of the slowest run takes
     bool certain_ = true;
-    double certain_until_ = 0;  ///< s
-    double uncertainty_ = 0;    ///< m
-    double pixel_ = 0;          ///< m, at the last comparison
+    double certain_until_ = 0;             ///< s
+    double pixel_until_ = 0;               ///< s
+    std::optional<double> small_until_{};  ///< s, the time until which the uncertainty was small
+    std::optional<double> tenfold_{};      ///< s
+    double uncertainty_ = 0;               ///< m
+    double pixel_ = 0;                     ///< m, at the last comparison
 };
 
 }  // namespace oiler

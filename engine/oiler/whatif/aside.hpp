@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "oiler/whatif/play_along.hpp"
+
+namespace oiler {
+
+/// A thread that plays along. A call never waits for its steps, but for those of a frame's time
+/// that the caller grants; the thread lags behind if they take longer.
+class Aside {
+public:
+    /// Throws std::system_error if the machine gives no thread.
+    Aside();
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+
+    /// Begins anew, after the step that is being played. What was known is dropped.
+    void begin(AlongFrom from);
+    void add(const Recording::Event& event);
+    /// The game has taken that many steps. Waits until all are played along, but not longer than
+    /// `time`. Returns what is known then.
+    [[nodiscard]] LiveFigures play_until(std::int64_t steps, std::chrono::nanoseconds time);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    /// What the game's thread has posted.
+    struct Posted {
+        std::optional<AlongFrom> from{};  ///< to begin with
+        std::vector<Recording::Event> events{};
+        std::int64_t steps = 0;
+    };
+
+    void run(const std::stop_token& stop);
+    /// Waits for what to do next; returns whether there is anything.
+    bool wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+    /// Plays a step along, or begins.
+    void work(Posted posted);
+
+    std::mutex mutex_;
+    std::condition_variable_any posted_;
+    std::condition_variable published_;
+    Posted mail_;
+    LiveFigures figures_;
+
+    std::unique_ptr<PlayAlong> along_;  ///< of the thread alone
+    Clock::time_point next_verdict_{};  ///< of the thread alone
+    std::jthread thread_;
+};
+
+}  // namespace oiler

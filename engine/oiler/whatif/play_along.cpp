@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "oiler/whatif/play_along.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "oiler/core/error.hpp"
+#include "oiler/whatif/rate_advice.hpp"
+
+namespace oiler {
+namespace {
+
+constexpr std::size_t most_errors = 600;
+
+// The reference's least rates, Hz: what a game does in its updates comes late by its step.
+constexpr std::size_t few_bodies = 64;
+constexpr std::int64_t rate_of_few = 7680;
+constexpr std::int64_t rate_of_many = 960;
+
+/// Whether a player did more than move the mouse, after the restart that began the round.
+bool has_input(const Recording& recording) {
+    using What = InputEvent::What;
+    return std::ranges::any_of(recording.events, [](const Recording::Event& one) {
+        const What what = one.event.what;
+        const bool begins = what == What::restart && one.step == 0;
+        return !begins && what != What::pointer && what != What::no_pointer && what != What::camera;
+    });
+}
+
+}  // namespace
+
+PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
+    : play_(std::move(from.play)), is_start_(from.is_start) {
+    play_.recording.header.stepping = play_.settings.stepping;
+    const bool is_same_round = from.may_repeat && before && before->runs_ && before->is_start_ &&
+                               !has_input(before->play_.recording);
+    if (is_same_round) before->judge();
+    if (is_same_round && before->figures_.measured) {
+        figures_ = before->figures_;
+        figures_.repeats = true;
+        figures_.played = 0;
+        figures_.errors.clear();
+        figures_.last.reset();
+    }
+    try {
+        const std::unique_ptr<AnyGame> game = from.make(play_.settings);
+        begin(*game);
+        const std::size_t bodies = game->world().body_count();
+        if (bodies > most_measured_bodies)
+            stop("");
+        else
+            runs_.emplace(play_, other_settings(from.make), from.make,
+                          bodies <= few_bodies ? rate_of_few : rate_of_many);
+    } catch (const Error& error) {
+        stop(error.what());
+    }
+}
+
+void PlayAlong::begin(const AnyGame& game) {
+    figures_.begin = LiveFigures::Begin{game.world().time(), game.world().energy().total()};
+}
+
+std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make) const {
+    std::vector<Stepping> others = usual_what_if(play_.settings, make);
+    if (!figures_.repeats) return others;
+    for (const std::int64_t rate : rates_to_try(*figures_.measured)) {
+        Stepping tried = play_.settings.stepping;
+        tried.rate = {rate};
+        if (tried != play_.settings.stepping && std::ranges::count(others, tried) == 0)
+            others.push_back(tried);
+    }
+    return others;
+}
+
+void PlayAlong::take_step() {
+    try {
+        runs_->play_until(figures_.played++);
+    } catch (const Error& error) {
+        return stop(error.what());
+    }
+    figures_.energy_scale.add(runs_->recorded_game().world().energy());
+    figures_.last = runs_->drawn();
+    if (!runs_->certain()) return;
+    if (figures_.errors.size() >= most_errors) figures_.errors.erase(figures_.errors.begin());
+    figures_.errors.push_back(static_cast<float>(runs_->recorded().distance_now));
+}
+
+void PlayAlong::stop(std::string reason) {
+    runs_.reset();
+    figures_ = {
+        .begin = figures_.begin, .verdict = {.text = std::move(reason)}, .has_stopped = true};
+}
+
+void PlayAlong::judge() {
+    if (is_judged()) return;
+    judged_ = figures_.played;
+    WhatIf measured = runs_->result();
+    if (has_input(play_.recording)) figures_.repeats = false;
+    if (figures_.repeats && measured.certain_until < figures_.measured->certain_until) return;
+    figures_.repeats = false;
+    const AnyGame& game = runs_->recorded_game();
+    figures_.verdict = judge_setting(measured, readings_, figures_.begin->time,
+                                     [&](Entity body) { return game.name_of(body); });
+    if (std::isnan(measured.runs.front().distance) && game.world().body_count() == 0)
+        figures_.verdict = {};
+    readings_ = measured.runs.front().readings;
+    figures_.measured = std::move(measured);
+}
+
+}  // namespace oiler
