@@ -86,6 +86,7 @@ struct Cannon {
             const Vec3 hook = place - force / spring.stiffness + Vec3{0, spring.rest_length};
             world.link_to_point(target, hook, spring);
             world.add(target, Target{hook});
+            world.add(target, Name{"target"});
             world.add(target, Look{.size = 0.8F, .colour = palette::vermilion});
         }
     }
@@ -121,6 +122,7 @@ struct Cannon {
         ++shots;
         const Entity ball = launch(world);
         world.add(ball, Ball{});
+        world.add(ball, Name{"ball"});
         world.add(ball, Look{.size = 0.3F, .colour = palette::ink});
         world.schedule(8, Expire{ball});
     }

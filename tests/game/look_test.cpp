@@ -22,6 +22,26 @@ struct Plain {
     }
 };
 
+struct Named : Plain {
+    Entity planet = world.create(), moon = world.spawn({}), gone = world.spawn({});
+    Entity first = world.create(), second = world.create();
+    explicit Named(const Settings& settings) : Plain(settings) {
+        world.add(planet, Name{"planet"});
+        world.add(gone, Name{"comet"});
+        for (const Entity comet : {first, second}) world.add(comet, Name{"comet"});
+        world.destroy(gone);
+    }
+};
+
+TEST(Name, IsWhatAnEntityIsCalled) {
+    const AnyGameOf<Named> game(Settings{});
+    const Named same(Settings{});
+    EXPECT_EQ(game.name_of(same.planet), "planet");
+    EXPECT_EQ(game.name_of(same.moon), "body " + std::to_string(same.moon.index));
+    EXPECT_EQ(game.name_of(same.second), "comet " + std::to_string(same.second.index));
+    EXPECT_EQ(game.name_of(same.gone), "body " + std::to_string(same.gone.index));
+}
+
 TEST(Look, DrawsAGameWithoutAPicture) {
     const AnyGameOf<Plain> game(Settings{});
     const Picture picture = game.picture();

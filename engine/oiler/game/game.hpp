@@ -181,7 +181,7 @@ public:
     void measure(StepTimes& times) { times_ = &times; }
     /// Name of a body in comparisons.
     [[nodiscard]] virtual std::string name_of(Entity entity) const {
-        return "body " + std::to_string(entity.index);
+        return name_in(world(), entity);
     }
     /// Name of an obstacle in comparisons.
     [[nodiscard]] virtual std::string name_of(ObstacleHandle obstacle) const {

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 
 #include "oiler/core/state_hash.hpp"
@@ -24,6 +25,17 @@ struct Look {
 
     void hash(StateHash& hash) const;
 };
+
+/// A component: what the window and differences call an entity with a body. It is no state of the
+/// play.
+struct Name {
+    std::string text;
+    void hash(StateHash& /*hash*/) const {}
+};
+
+/// "hero", "target 5" if several are named "target", or "body 5" without a Name; the number is the
+/// entity's index.
+[[nodiscard]] std::string name_in(const World& world, Entity entity);
 
 /// The key of an entity's element in a picture. `part` distinguishes several elements of one
 /// entity. Motion by `world.teleport` is not interpolated.
