@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 namespace oiler {
 
-/// A value whose copies share its memory until one of them is written.
+/// A value whose copies share its memory until one of them is written, whatever thread they are on.
 template <class T>
 class CopyOnWrite {
 public:
@@ -13,7 +14,10 @@ public:
     [[nodiscard]] const T* operator->() const { return value_.get(); }
     /// The value for this copy alone.
     [[nodiscard]] T& write() {
-        if (value_.use_count() > 1) value_ = std::make_shared<T>(*value_);
+        if (value_.use_count() > 1)
+            value_ = std::make_shared<T>(*value_);
+        else  // the reads of copies that are gone came before
+            std::atomic_thread_fence(std::memory_order_acquire);
         return *value_;
     }
 
