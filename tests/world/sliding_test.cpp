@@ -180,6 +180,54 @@ std::array<double, 2> stop_of_puck(double vx, double vy, double pull, double gri
     return {x, y};
 }
 
+// A circle holds a ball up to v² = g·L at its top, so that a faster belt with much friction gives
+// it that speed at once, in the belt's direction. Friction beyond 2²⁰ of what stops it in the step
+// is taken as that, in which the reaction is resolved to some thousandths.
+TEST(Sliding, ABeltGivesNoMoreSpeedThanTheCurveHolds) {
+    for (const double friction : {1e3, 1e5, 1e10, 1e20, 1e300})
+        for (const double belt : {-3.0, 3.0}) {
+            World world = world_of("velocity_verlet", 30, 2, {0, -g});
+            world.add_obstacle({.shape = CircleShape{{}, 0.5}, .friction = friction, .belt = belt});
+            const Entity ball = world.spawn({.position = {0, 0.501}, .contact = Contact{0.001}});
+            world.step(3);
+            const double held = std::sqrt(g * 0.501);
+            EXPECT_NEAR(std::abs(world.velocity(ball)[0]), held, 0.003 * held) << friction;
+            EXPECT_GT(belt * world.velocity(ball)[0], 0) << friction;
+        }
+}
+
+// Friction stops a ball on a circle: the square w of its angular speed obeys
+// dw/dθ = 2 g/R (sin θ − μ cos θ) + 2 μ w, which A cos θ + B sin θ + C exp(2 μ θ) solves. A step on
+// a curve has order 2; wherever in a step the stop falls, the ball rests there from then on.
+TEST(Sliding, StopsOnACircleWhereFrictionEndsIt) {
+    constexpr double radius = 0.625;
+    constexpr double mu = 0.9806;
+    constexpr double speed = 0.98;
+    const double a = g / radius * (4 * mu * mu - 2) / (1 + 4 * mu * mu);
+    const double b = 2 * mu * (a - g / radius);
+    const double c = speed * speed / (radius * radius) - a;
+    double end = 0;
+    double beyond = 0.5;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = (end + beyond) / 2;
+        const double w = a * std::cos(angle) + b * std::sin(angle) + c * std::exp(2 * mu * angle);
+        (w > 0 ? end : beyond) = angle;
+    }
+    EXPECT_NEAR(radius * std::sin(end), 0.05711567027634, 1e-13) << "an integration in 40 digits";
+    for (const int rate : {60, 100, 120, 150, 180, 200, 240, 300, 480, 720, 960, 1440})
+        for (const double sense : {-1.0, 1.0}) {
+            World world = world_of("velocity_verlet", rate, 2, {0, -g});
+            world.add_obstacle({.shape = CircleShape{{}, 0.5}, .friction = mu});
+            const Entity ball = world.spawn({.position = {0, radius},
+                                             .velocity = {sense * speed, 0},
+                                             .contact = Contact{radius - 0.5}});
+            world.step(rate / 5);
+            EXPECT_NEAR(world.position(ball)[0], sense * radius * std::sin(end), 1.0 / rate / rate)
+                << rate;
+            EXPECT_EQ(world.velocity(ball), Vec3{}) << rate;
+        }
+}
+
 TEST(Sliding, AcrossASlopeStops) {
     const double w = std::atan(0.1);
     const double pull = g * std::sin(w);

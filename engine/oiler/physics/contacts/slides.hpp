@@ -192,11 +192,13 @@ protected:
     /// One step of `tau` s on the curve of an obstacle: a push along its normal, of a size that
     /// lets a free step end on the curve, then the rest of the normal speed is taken away. This is
     /// RATTLE (Andersen, 1983) with any method for its free step, and has order min(order, 2).
-    /// Friction is not limited in each of both parts, because only their sum is positive.
+    /// Friction is not limited in each of both parts, because only their sum is positive, and keeps
+    /// its sense in a step beyond the stop, so that the speed passes 0 there.
     [[nodiscard]] State hop(const State& state, const Near& near, T reaction, T tau) {
-        const Vec back = normalised(state.v - near.velocity) * near.friction;
+        const Vec slip = normalised(state.v - near.velocity);
         const auto pushed = [&](T push) {
-            return body_.fly({state.x, state.v + (near.normal - back) * push}, start_, tau);
+            const Vec by = near.normal - slip * near.friction;
+            return body_.fly({state.x, state.v + by * push}, start_, tau);
         };
         T push = reaction * tau / 2;
         State end = pushed(push);
@@ -216,19 +218,28 @@ protected:
         there.velocity = surface_velocity(near.obstacle, there.normal, start_ + tau);
         const T last = -leaving(there, end.v);
         const Vec along = end.v + there.normal * last;
-        end.v = along - normalised(along - there.velocity) * (near.friction * last);
+        const Vec slip_there = normalised(along - there.velocity);
+        const T sense = dot(slip_there, slip) < 0 ? T(-1) : T(1);
+        end.v = along - slip_there * (sense * near.friction * last);
         return end;
     }
-    [[nodiscard]] std::optional<Leg> follow_curve(State& state, const Near& near,
-                                                  const Support& support, const Vec& a) {
+    [[nodiscard]] std::optional<Leg> follow_curve(State& state, Near near, const Support& support,
+                                                  const Vec& a) {
         if (enters_other(state, support)) return std::nullopt;
         const Vec pull = pull_along(support, a);
         if (state.v == near.velocity) state.v += normalised(pull) * speed_noise(state);
         const T reaction = support.reactions(a).axis[0];
+        const T slip = length(state.v - near.velocity);
+        // Friction that stops the body at once does so in a millionth of the time that is left, so
+        // that its impulses are no round-off.
+        const T most_braking = T(1 << 20) * slip / left_;
+        const T braking = std::min(near.friction * reaction - length(pull), most_braking);
+        if (braking == most_braking) near.friction = (braking + length(pull)) / reaction;
         const auto move = [&](T tau) { return hop(state, near, reaction, tau); };
-        const T speed = length(state.v - near.velocity) + length(pull) * left_;
+        const T speed = slip + length(pull) * left_;
         const T most = most_turn * (near.obstacle.rounding + radius_) / speed;
-        const T tau = std::min(left_, most);
+        const T tau =
+            braking > 0 ? std::min({left_, most, 4 * slip / braking}) : std::min(left_, most);
         Leg leg{move(tau), tau};
         end_at_others(state, support, a, leg, move);
         end_at_features(state, support, leg, move);
@@ -250,7 +261,6 @@ protected:
         const auto forwards = [&](const State& at, T later) {
             return dot(at.v - surface(at, later), direction);
         };
-        const T slip = length(state.v - near.velocity);
         if (near.friction > 0 && slip > 4 * speed_noise(state) &&
             end_where_negative(forwards, slip, leg, move))
             leg.end.v = surface(leg.end, leg.tau);
