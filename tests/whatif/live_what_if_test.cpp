@@ -7,6 +7,7 @@
 #include "support/test.hpp"
 
 #include <atomic>
+#include <stdexcept>
 
 namespace oiler::test {
 namespace {
@@ -303,6 +304,16 @@ TEST(LiveWhatIf, AGameNeverWaitsForTheRunsThatLagBehind) {
            along.figures().measured->measured_until < 0.5)
         along.play_until(30);
     EXPECT_NEAR(along.figures().measured->runs[0].distance, 20 * 0.5 / 60 / 2, 1e-12);
+}
+
+TEST(LiveWhatIf, ACopyThatFailsEndsTheMeasuringAlone) {
+    const MakeGame make = [](const Settings&) -> std::unique_ptr<AnyGame> {
+        throw std::length_error("too long");
+    };
+    LiveWhatIf along({Settings{.stepping = euler}}, make);
+    while (!along.figures().has_stopped) along.play_until(1);
+    EXPECT_EQ(along.figures().verdict.text, "too long");
+    EXPECT_EQ(along.figures().verdict.grade, Grade::unknown);
 }
 
 // A game that counts what leaves it, on its own thread.

@@ -13,7 +13,7 @@ constexpr std::chrono::microseconds time_of_frame{300};
 }  // namespace
 
 LiveWhatIf::LiveWhatIf(RecordedPlay play, const MakeGame& make, Pace pace)
-    : make_(make), play_(std::move(play)) {
+    : make_(make), pace_(pace), play_(std::move(play)) {
     play_.settings.threads = 1;
     try {
         if (pace == Pace::aside) aside_ = std::make_unique<Aside>();
@@ -55,11 +55,11 @@ void LiveWhatIf::start_from(const AnyGame& game, std::int64_t first) {
 void LiveWhatIf::measure(std::int64_t first, AlongFrom from) {
     first_ = first;
     before_ = {};
-    is_measuring_ = true;
+    is_measuring_ = pace_ == Pace::own || aside_;
     if (aside_) {
         aside_->begin(std::move(from));
         figures_ = aside_->play_until(0, time_of_frame);
-    } else {
+    } else if (is_measuring_) {
         own_ = std::make_unique<PlayAlong>(std::move(from), own_.get());
         figures_ = own_->figures();
     }

@@ -57,13 +57,14 @@ private:
     [[nodiscard]] AlongFrom start_of_game() const;
 
     const MakeGame& make_;
+    Pace pace_;
     RecordedPlay play_;  ///< without events
     bool is_measuring_ = false;
     std::int64_t first_ = 0;
     Input before_{};
     LiveFigures figures_;
     std::unique_ptr<PlayAlong> own_;
-    std::unique_ptr<Aside> aside_;
+    std::unique_ptr<Aside> aside_;  ///< null at its own pace, and if the machine gives no thread
 };
 
 /// Hands on the input of each step, and records it for the runs that play along.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
-#include "oiler/core/error.hpp"
 #include "oiler/whatif/rate_advice.hpp"
 
 namespace oiler {
@@ -52,7 +52,7 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
         else
             runs_.emplace(play_, other_settings(from.make), from.make,
                           bodies <= few_bodies ? rate_of_few : rate_of_many);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         stop(error.what());
     }
 }
@@ -76,7 +76,7 @@ std::vector<Stepping> PlayAlong::other_settings(const MakeGame& make) const {
 void PlayAlong::take_step() {
     try {
         runs_->play_until(figures_.played++);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         return stop(error.what());
     }
     figures_.energy_scale.add(runs_->recorded_game().world().energy());
