@@ -91,7 +91,8 @@ public:
     [[nodiscard]] bool is_crushed(const State& state) const {
         return crushed_ || std::ranges::any_of(nears_, [&](const Near& near) {
                    if (near.obstacle.is_one_way() || !(near.passed || near.yields)) return false;
-                   const T most = near.passed ? gap_noise(near, state) : -radius_ / 16;
+                   const T noise = gap_noise(near, state);
+                   const T most = near.passed ? noise : -near.deepest(noise, radius_);
                    return gap_of(near, state.x) <= most;
                });
     }
@@ -129,12 +130,12 @@ private:
             near.lifted = false;
             renew_normal(near, state.x, start_);
         }
+        const auto noise = [&](const Near& near) { return gap_noise(near, state); };
         const auto gap = [&](const Near& near, const Vec& x) {
             const T distance = gap_of(near, x);
-            const bool is_passed = near.passed || distance < -near.deepest(T(0), radius_);
+            const bool is_passed = near.passed || distance < -near.deepest(noise(near), radius_);
             return is_passed ? std::numeric_limits<T>::infinity() : distance;
         };
-        const auto noise = [&](const Near& near) { return gap_noise(near, state); };
         const Vec before = state.x;
         do {
             lift_onto<T, Axes>(nears_, state.x, gap, noise, [&](Near& near) {
