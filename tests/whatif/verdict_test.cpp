@@ -122,6 +122,11 @@ TEST(Verdict, IsGreyWhereThePresentMomentIsNotKnown) {
         EXPECT_TRUE(judge(early).text.ends_with(" Measured until 2.2 s so far.")) << "it lags";
         early.certain_until = 3.75;
         EXPECT_NE(judge(early).grade, Grade::unknown) << "a difference may be a delay of 0.25 s";
+        early.runs[0].readings = {{"apex", 1.95, "m"}};
+        early.reference.readings = early.check.readings = {{"apex", 2.025, "m"}};
+        EXPECT_GE(judge(early, early.runs[0].readings).grade, Grade::visible);
+        early.certain_until = 2.25;
+        EXPECT_EQ(judge(early, early.runs[0].readings).grade, Grade::unknown);
     }
 }
 

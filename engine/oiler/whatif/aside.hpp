@@ -14,8 +14,8 @@
 
 namespace oiler {
 
-/// A thread that plays along. A call never waits for its steps, but for those of a frame's time
-/// that the caller grants; the thread lags behind if they take longer.
+/// A thread on which runs play along with a game. It lags behind if they take longer than the time
+/// that the game waits for them.
 class Aside {
 public:
     /// Throws std::system_error if the machine gives no thread.

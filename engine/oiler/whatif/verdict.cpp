@@ -175,12 +175,12 @@ Verdict judge_setting(const WhatIf& measured, const std::vector<Reading>& before
             Grade::bad,
             fmt::format("From {:.1f} s on, other things happen at {} than in the true motion.{}{}",
                         begin + *played.other_play_from, setting, cure_text(measured), end)};
-    const KnownError error = measured.error_of(played);
-    const Grade grade = is_known_now(measured) ? error.grade(measured.pixel) : Grade::unknown;
+    const auto now = [&](Grade grade) { return is_known_now(measured) ? grade : Grade::unknown; };
+    const Grade grade = measured.error_of(played).grade(measured.pixel);
     if (const Reading* const reading = worst_reading(measured, before))
-        return {std::max(grade, Grade::visible),
+        return {now(std::max(grade, Grade::visible)),
                 reading_text(measured, *reading) + cure_text(measured) + end};
-    return {grade, distance_text(measured, begin, name_of) + end};
+    return {now(grade), distance_text(measured, begin, name_of) + end};
 }
 
 }  // namespace oiler
