@@ -79,6 +79,7 @@ struct Answer {
     double seconds = 0;
     std::string message{};       ///< the last line on standard error
     std::optional<Told> told{};  ///< with exit 0
+    bool ended_early = false;    ///< with exit 1: before all settings were tried
 };
 
 struct Program {

@@ -50,8 +50,12 @@ std::string last_line(std::string text) {
 void read(const std::string& text, bool plain, Answer& answer) {
     try {
         const Json json = Json::parse(text);
-        if (!json.at("meets").get<bool>()) throw std::runtime_error("exit 0 without an advice");
-        answer.told = told_by(json, plain);
+        if (json.at("meets").get<bool>() != (answer.exit == 0))
+            throw std::runtime_error("the exit code and the advice differ");
+        if (answer.exit == 0)
+            answer.told = told_by(json, plain);
+        else
+            answer.ended_early = json.at("ended_early").get<bool>();
     } catch (const std::exception& error) {
         answer.exit = -1;
         answer.message = error.what();
@@ -166,9 +170,9 @@ Answer ask(const Program& program, const std::string& scene, const Question& que
         fmt::format("cd '{}' && timeout {} '{}' advise scene.toml {} --quiet --json advice.json",
                     folder.path().string(), program.patience, program.path, question.options()));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    Answer answer{outcome.exit, time.count(), last_line(outcome.err), {}};
+    Answer answer{outcome.exit, time.count(), last_line(outcome.err)};
     if (answer.exit == 124) answer.message = "no answer in time";
-    if (answer.exit == 0) read(test::text_of(folder / "advice.json"), program.plain, answer);
+    if (answer.exit <= 1) read(test::text_of(folder / "advice.json"), program.plain, answer);
     return answer;
 }
 
@@ -185,6 +189,8 @@ bool is_failure(Verdict verdict) {
 Judgement judge(const Trap& trap, const Answer& answer) {
     try {
         if (answer.exit == 0) return judge_advice(trap, *answer.told);
+        if (answer.exit == 1 && answer.ended_early)
+            return {Verdict::refused, "the search ended before it had tried all settings"};
         if (answer.exit == 1) return judge_cannot(trap);
     } catch (const Error& error) {
         return {Verdict::crash, fmt::format("the advice cannot be stepped: {}", error.what())};
