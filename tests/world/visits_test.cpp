@@ -232,9 +232,33 @@ TEST(Timers, AreCopiedAndMayBeSetAgainWhenDue) {
     EXPECT_EQ(count(world), 1) << "the new one";
 }
 
+/// How often a message that schedules itself each 0.08 s comes in [0 s, 8 s], and its largest
+/// delay.
+std::pair<int, double> beats_in_8_s(Rate rate) {
+    World world(1, {.rate = rate});
+    world.schedule(0, Health{0});
+    int count = 0;
+    double late = 0;
+    for (; world.time() <= 8; world.step())
+        world.due<Health>([&](const Health&) {
+            late = std::max(late, world.time() - 0.08 * count++);
+            world.schedule(0.08, Health{});
+        });
+    return {count, late};
+}
+
+// 8 s are 100 times 0.08 s: 101 beats. At 5 Hz several are due at one tick.
+TEST(Timers, ThatRepeatComeAsOftenAtAnyRate) {
+    for (const int rate : {5, 20, 50, 60, 100, 144, 240, 1000}) {
+        const auto [count, late] = beats_in_8_s({rate});
+        EXPECT_EQ(count, 101) << rate;
+        EXPECT_LT(late, 1.0 / rate) << rate;
+    }
+}
+
 TEST(Timers, RefuseTimesThatAreNone) {
     World world(1);
-    for (const double seconds : {-0.1, std::nan(""), 1e300})
+    for (const double seconds : {-0.1, std::nan(""), HUGE_VAL})
         EXPECT_THROW(world.schedule(seconds, Health{}), Error);
 }
 

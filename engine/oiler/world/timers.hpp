@@ -2,8 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -23,15 +24,13 @@ public:
 
     [[nodiscard]] virtual std::unique_ptr<AnyTimers> clone() const = 0;
     virtual bool hash_into(StateHash& hash) const = 0;
-    /// Moves each message from its tick t to the tick `moved(t)`.
-    virtual void move(const std::function<std::int64_t(std::int64_t)>& moved) = 0;
     [[nodiscard]] virtual std::string_view type() const = 0;
 
 protected:
     AnyTimers(const AnyTimers&) = default;
 };
 
-/// Messages of one type to a later tick. They are data, so that a copy of the world has them, too.
+/// Messages of one type to a later time. They are data, so that a copy of the world has them, too.
 template <class T>
 class Timers final : public AnyTimers {
 public:
@@ -41,36 +40,33 @@ public:
     bool hash_into(StateHash& hash) const override {
         if constexpr (Hashed<T>)
             for (const Entry& entry : entries_) {
-                hash.add(static_cast<std::uint64_t>(entry.tick));
+                hash.add(std::bit_cast<std::uint64_t>(entry.time));
                 hash.add(entry.message);
             }
         return Hashed<T>;
     }
-    void move(const std::function<std::int64_t(std::int64_t)>& moved) override {
-        for (Entry& entry : entries_) entry.tick = moved(entry.tick);
-    }
     [[nodiscard]] std::string_view type() const override { return type_name<T>(); }
 
-    void add(std::int64_t tick, T message) { entries_.push_back({tick, std::move(message)}); }
-    /// Removes and returns the messages due at a tick: earliest first, then in order of adding.
-    [[nodiscard]] std::vector<T> take_due(std::int64_t tick) {
-        const auto due =
-            std::stable_partition(entries_.begin(), entries_.end(),
-                                  [&](const Entry& entry) { return entry.tick > tick; });
-        std::stable_sort(due, entries_.end(),
-                         [](const Entry& a, const Entry& b) { return a.tick < b.tick; });
-        std::vector<T> messages;
-        for (auto entry = due; entry != entries_.end(); ++entry)
-            messages.push_back(std::move(entry->message));
+    struct Entry {
+        double time;  ///< s
+        T message;
+    };
+
+    void add(double time, T message) { entries_.push_back({time, std::move(message)}); }
+    /// Removes and returns the messages of after < time <= until: earliest first, then in order of
+    /// adding.
+    [[nodiscard]] std::vector<Entry> take(double after, double until) {
+        const auto due = std::stable_partition(
+            entries_.begin(), entries_.end(),
+            [&](const Entry& entry) { return entry.time <= after || entry.time > until; });
+        std::vector<Entry> taken(std::make_move_iterator(due),
+                                 std::make_move_iterator(entries_.end()));
         entries_.erase(due, entries_.end());
-        return messages;
+        std::ranges::stable_sort(taken, {}, &Entry::time);
+        return taken;
     }
 
 private:
-    struct Entry {
-        std::int64_t tick;
-        T message;
-    };
     std::vector<Entry> entries_;
 };
 

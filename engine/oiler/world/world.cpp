@@ -434,14 +434,8 @@ void World::set_stepping(const Stepping& stepping) {
         if (stepping.precision != settings_.stepping.precision)
             fail(Exit::usage, "another precision needs a new world");
         bodies_->require_applicable(*stepping.method, {stepping.rate, *tick, 1, stepping.damping});
-        const std::int64_t old_tick = tick_;
-        const Rate old_rate = settings_.stepping.rate;
         settings_.stepping = stepping;
         tick_ = *tick;
-        for (const TaggedTimers& entry : timers_)
-            entry.timers->move([&](std::int64_t due) {
-                return tick_ + ticks_in(old_rate.time(std::max<std::int64_t>(0, due - old_tick)));
-            });
     });
 }
 
@@ -453,15 +447,11 @@ NameOfRow World::name_of_row() const {
     return [this](std::size_t row) { return std::size_t{entity_of_row(row).index}; };
 }
 
-std::int64_t World::ticks_in(double seconds) const {
-    const Rate& rate = settings_.stepping.rate;
-    const double steps =
-        seconds * static_cast<double>(rate.steps) / static_cast<double>(rate.seconds);
-    if (!(steps >= 0 && steps < 0x1p62))
+double World::time_in(double seconds) const {
+    if (!(seconds >= 0) || std::isinf(seconds))
         fail(std::isfinite(seconds) ? Exit::usage : Exit::diverged,
              "schedule of {} s at tick {}: give a finite time, 0 or more", seconds, tick_);
-    // 0.14 s at 50 Hz are 7 ticks, though the product is a little more.
-    return static_cast<std::int64_t>(std::ceil(steps * (1 - 0x1p-50)));
+    return counted_from_.value_or(time()) + seconds;
 }
 
 std::uint64_t World::state_hash() const {

@@ -143,24 +143,24 @@ public:
     }
 
     /// Gives the entity a moving body with at most one force of each kind.
-    template <BodyForce... Force>
+    template <class... Force>
     void add_body(Entity entity, const Body& body, const Force&... force) {
         add_body(entity, body, given(force...));
     }
     void add_body(Entity entity, const Body& body, const GivenForces& forces);
     /// Creates an entity with a moving body. The line of an error names call and tick.
-    template <BodyForce... Force>
+    template <class... Force>
     Entity spawn(const Body& body, const Force&... force) {
         return spawn(body, given(force...));
     }
     Entity spawn(const Body& body, const GivenForces& forces);
     /// Adds a force to the body, or replaces the numbers of the one that it has.
-    template <BodyForce... Force>
+    template <class... Force>
     void attach(Entity entity, const Force&... force) {
         attach_given("attach", 0, entity, given(force...));
     }
     /// Adds or replaces the force of that index among several of one kind, counted from 0.
-    template <BodyForce... Force>
+    template <class... Force>
     void attach_at(std::size_t index, Entity entity, const Force&... force) {
         attach_given("attach_at", index, entity, given(force...));
     }
@@ -268,17 +268,26 @@ public:
     [[nodiscard]] Energy energy() const;
     void set_gravity(const Vec3& acceleration);
 
-    /// Hands a message to `due` of its type, `seconds` from now, rounded up to a tick.
+    /// Hands a message to `due` of its type, `seconds` from now, rounded up to a tick. Inside `due`
+    /// they count from the time of the message that is due, not from the tick that noticed it: what
+    /// repeats comes as often at any rate.
     template <std::copyable T>
     void schedule(double seconds, T message) {
-        timers<T>().add(tick_ + ticks_in(seconds), std::move(message));
+        timers<T>().add(time_in(seconds), std::move(message));
     }
-    /// Calls f(message) for the messages of this type that are due, the earliest first. Like
-    /// `each`, it is a visit.
+    /// Calls f(message) for the messages of this type that are due, the earliest first, also for
+    /// later ones that f schedules and that are due by now. Like `each`, it is a visit.
     template <class T, class F>
     void due(F&& f) {
         const Visit visit(*this);
-        for (T& message : timers<T>().take_due(tick_)) f(message);
+        const double until = time() + round_off_in_steps * settings_.stepping.rate.dt();
+        double last = -1;
+        for (auto taken = timers<T>().take(last, until); !taken.empty();
+             taken = timers<T>().take(last, until))
+            for (auto& [at, message] : taken) {
+                counted_from_ = last = at;
+                f(message);
+            }
     }
     /// The random numbers of the world, from the seed of its settings.
     [[nodiscard]] Random& random() { return random_; }
@@ -362,13 +371,18 @@ private:
         timers_.push_back({&tag<T>, std::make_unique<Timers<T>>()});
         return static_cast<Timers<T>&>(*timers_.back().timers);
     }
-    [[nodiscard]] std::int64_t ticks_in(double seconds) const;
+    /// Sums of times differ from ticks by round-off.
+    static constexpr double round_off_in_steps = 1e-6;
+    [[nodiscard]] double time_in(double seconds) const;
 
     /// While a Visit lives, erasing leaves holes. The last Visit fills them.
     class Visit {
     public:
-        explicit Visit(World& world) : world_(world) { ++world_.visits_; }
+        explicit Visit(World& world) : world_(world), counted_from_(world.counted_from_) {
+            ++world_.visits_;
+        }
         ~Visit() {
+            world_.counted_from_ = counted_from_;
             if (--world_.visits_ == 0) world_.fill_holes();
         }
         Visit(const Visit&) = delete;
@@ -376,6 +390,7 @@ private:
 
     private:
         World& world_;
+        std::optional<double> counted_from_;
     };
     void erase(AnyPool& pool, std::uint32_t slot) {
         visits_ > 0 ? pool.hide(slot) : pool.erase(slot);
@@ -423,6 +438,7 @@ private:
     std::vector<TaggedTimers> timers_;
     Random random_;
     int visits_ = 0;
+    std::optional<double> counted_from_;  ///< by `schedule` inside `due`, s
 };
 
 }  // namespace oiler
