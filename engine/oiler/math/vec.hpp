@@ -65,7 +65,7 @@ template <class F>
 /// A position, velocity or acceleration: one Number per axis.
 template <Number V, int Axes>
 struct Vec {
-    std::array<V, Axes> axis;
+    std::array<V, Axes> axis{};
 
     /// Not for temporaries: `world.velocity(mass)[0] += 1` would have no effect.
     constexpr V& operator[](int i) & { return axis[static_cast<std::size_t>(i)]; }

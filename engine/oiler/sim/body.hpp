@@ -105,13 +105,20 @@ template <class Wanted, class... Force>
 
 /// The forces as GivenForces. Each is constructed in place: g++ would write zeros to all of an
 /// empty one that is assigned to later.
-template <BodyForce... Force>
+template <class... Force>
 [[nodiscard]] GivenForces given(const Force&... force) {
-    static_assert(((count_of<Force, Force...> == 1) && ...),
-                  "a body has at most one force of each kind");
-    return [&]<class... Kind>(const std::tuple<std::optional<Kind>...>*) {
-        return GivenForces(force_or_none<Kind>(force...)...);
-    }(static_cast<const GivenForces*>(nullptr));
+    if constexpr (!(BodyForce<Force> && ...)) {
+        static_assert((BodyForce<Force> && ...),
+                      "a body is given forces such as Spring and LinearDrag; a Link joins two "
+                      "bodies: world.link(a, b, Link{...})");
+        return {};
+    } else {
+        static_assert(((count_of<Force, Force...> == 1) && ...),
+                      "a body has at most one force of each kind");
+        return [&]<class... Kind>(const std::tuple<std::optional<Kind>...>*) {
+            return GivenForces(force_or_none<Kind>(force...)...);
+        }(static_cast<const GivenForces*>(nullptr));
+    }
 }
 
 /// The index of a kind of force among GivenForces.
