@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::size_t most_errors = 600;
 
-// The reference's least rates, Hz: what a game does in its updates comes late by its step.
-constexpr std::size_t few_bodies = 64;
-constexpr std::int64_t rate_of_few = 7680;
-constexpr std::int64_t rate_of_many = 960;
-
 /// Whether a player did more than move the mouse, after the restart that began the round.
 bool has_input(const Recording& recording) {
     using What = InputEvent::What;
@@ -46,12 +41,10 @@ PlayAlong::PlayAlong(AlongFrom from, PlayAlong* before)
     try {
         const std::unique_ptr<AnyGame> game = from.make(play_.settings);
         begin(*game);
-        const std::size_t bodies = game->world().body_count();
-        if (bodies > most_measured_bodies)
+        if (game->world().body_count() > most_measured_bodies)
             stop("");
         else
-            runs_.emplace(play_, other_settings(from.make), from.make,
-                          bodies <= few_bodies ? rate_of_few : rate_of_many);
+            runs_.emplace(play_, other_settings(from.make), from.make);
     } catch (const std::exception& error) {
         stop(error.what());
     }

@@ -114,6 +114,10 @@ const Reading* find_reading(const std::vector<Reading>& readings, const std::str
     return found == readings.end() ? nullptr : &*found;
 }
 
+bool is_count(const Reading& reading) {
+    return reading.unit.empty() && reading.value == std::round(reading.value);
+}
+
 /// The error of a reading, NaN if the reference lacks it.
 double error_of(const Reading& reading, const WhatIfRun& run) {
     const Reading* const truth = find_reading(run.true_readings, reading.name);
@@ -149,7 +153,24 @@ std::string table_of_runs(const WhatIf& result) {
     return text;
 }
 
+std::string reading_error_cell(const Reading& own, const WhatIfRun& run, const WhatIf& result) {
+    const KnownError error(error_of(own, run), uncertainty_of(own.name, result));
+    return is_count(own) && !error.is_certain() ? "unknown" : error_cell(error, true);
+}
+
+/// Whether all runs end with the reading of the reference, which is certain.
+bool is_the_same_everywhere(const Reading& reading, const WhatIf& result) {
+    return uncertainty_of(reading.name, result) == 0 &&
+           std::ranges::all_of(result.runs, [&](const WhatIfRun& run) {
+               const Reading* const own = find_reading(run.readings, reading.name);
+               return own && own->value == reading.value;
+           });
+}
+
 std::string table_of_reading(const Reading& reading, const WhatIf& result) {
+    if (is_the_same_everywhere(reading, result))
+        return fmt::format("\n{} at the end: {:.6g} {}at each setting\n", reading.name,
+                           reading.value, reading.unit.empty() ? "" : reading.unit + " ");
     std::string text = fmt::format(
         "\n{}{}{} at the end{}: {:.6g}\n", reading.name, reading.unit.empty() ? "" : ", ",
         reading.unit,
@@ -157,9 +178,7 @@ std::string table_of_reading(const Reading& reading, const WhatIf& result) {
         reading.value);
     for (const WhatIfRun& run : result.runs) {
         const Reading* const own = find_reading(run.readings, reading.name);
-        const std::string error =
-            own ? error_cell({error_of(*own, run), uncertainty_of(reading.name, result)}, true)
-                : "-";
+        const std::string error = own ? reading_error_cell(*own, run, result) : "-";
         text += fmt::format(
             "  {:<38} {:>10} {:>10}{}\n", setting_cell(run, result),
             own ? fmt::format("{:.6g}", own->value) : "-", error,

@@ -64,27 +64,42 @@ double time_of_stopwatch() {
 }
 
 constexpr double pixels_of_height = 720;
+constexpr std::size_t few_bodies = 64;
 
+/// The least rate of the reference, Hz: what a game does in its updates comes late by its step.
+std::int64_t least_rate(const AnyGame& recorded) {
+    return recorded.world().body_count() <= few_bodies ? 7680 : 960;
+}
 /// The number of steps of the reference in a recorded step: the least multiple of the compared
-/// instants at which its rate is at least `least_rate`.
-std::int64_t reference_factor(const RecordedPlay& play, std::int64_t least_rate) {
-    const std::int64_t recorded = play.recording.header.stepping.rate.steps;
-    const std::int64_t factor = (least_rate + recorded - 1) / recorded;
+/// instants at which its rate is high enough.
+std::int64_t reference_factor(const SettingRun& recorded) {
+    const std::int64_t rate = recorded.result().stepping.rate.steps;
+    const std::int64_t factor = (least_rate(recorded.game()) + rate - 1) / rate;
     return (factor + instants_per_step - 1) / instants_per_step * instants_per_step;
 }
-Stepping reference_stepping(const RecordedPlay& play, std::int64_t least_rate) {
-    Rate rate = play.recording.header.stepping.rate;
-    rate.steps *= reference_factor(play, least_rate);
+Stepping reference_stepping(const SettingRun& recorded) {
+    Rate rate = recorded.result().stepping.rate;
+    rate.steps *= reference_factor(recorded);
     return {.method = &find_method("rk4"), .rate = rate};
 }
 /// Slightly less than half the rate of the reference: both begin a step at the same time only where
 /// a recorded step begins. So events in a game's updates, such as bounces, are late by different
 /// times.
-Stepping check_stepping(const RecordedPlay& play, std::int64_t least_rate) {
-    Stepping stepping = reference_stepping(play, least_rate);
-    stepping.rate = play.recording.header.stepping.rate;
-    stepping.rate.steps *= reference_factor(play, least_rate) / 2 - 1;
+Stepping check_stepping(const SettingRun& recorded) {
+    Stepping stepping = reference_stepping(recorded);
+    stepping.rate = recorded.result().stepping.rate;
+    stepping.rate.steps *= reference_factor(recorded) / 2 - 1;
     return stepping;
+}
+
+std::vector<std::unique_ptr<SettingRun>> runs_of(const RecordedPlay& play,
+                                                 const std::vector<Stepping>& steppings,
+                                                 const MakeGame& make) {
+    std::vector<std::unique_ptr<SettingRun>> runs;
+    runs.push_back(std::make_unique<SettingRun>(play.recording.header.stepping, play, make));
+    for (const Stepping& stepping : steppings)
+        runs.push_back(std::make_unique<SettingRun>(stepping, play, make));
+    return runs;
 }
 
 }  // namespace
@@ -256,14 +271,12 @@ WhatIfRun SettingRun::finish() const {
 }
 
 WhatIfRuns::WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& steppings,
-                       const MakeGame& make, std::int64_t least_rate)
+                       const MakeGame& make)
     : recording_(play.recording),
       replay_(recording_, play.name, {}, play.plays_on),
-      reference_(reference_stepping(play, least_rate), play, make),
-      check_(check_stepping(play, least_rate), play, make) {
-    runs_.push_back(std::make_unique<SettingRun>(recording_.header.stepping, play, make));
-    for (const Stepping& stepping : steppings)
-        runs_.push_back(std::make_unique<SettingRun>(stepping, play, make));
+      runs_(runs_of(play, steppings, make)),
+      reference_(reference_stepping(*runs_.front()), play, make),
+      check_(check_stepping(*runs_.front()), play, make) {
     const double dt = recording_.header.stepping.rate.dt();
     for (const Stepping& stepping : steppings)
         longest_ =

@@ -142,10 +142,9 @@ private:
 /// trajectory is kept. The recording may grow meanwhile.
 class WhatIfRuns {
 public:
-    /// The play must outlive it. The reference has 16 times the recorded rate or a multiple of
-    /// that, at least `least_rate`, Hz. Throws as SettingRun does.
+    /// The play must outlive it. Throws as SettingRun does.
     WhatIfRuns(const RecordedPlay& play, const std::vector<Stepping>& steppings,
-               const MakeGame& make, std::int64_t least_rate = 960);
+               const MakeGame& make);
 
     /// Plays all runs until a recorded step begins, and compares them until there. Throws
     /// Error{diverged} if the reference fails, and Error{comparison_failed} if the recorded states
@@ -175,9 +174,9 @@ private:
 
     const Recording& recording_;
     Replay replay_;
+    std::vector<std::unique_ptr<SettingRun>> runs_;  ///< the recorded setting and the others
     SettingRun reference_;
-    SettingRun check_;  ///< the check run: the reference at another rate
-    std::vector<std::unique_ptr<SettingRun>> runs_;
+    SettingRun check_;          ///< the check run: the reference at another rate
     Moment before_;             ///< of the recorded setting, one step ago
     TrueMotion truth_;          ///< since the slowest run's last step
     std::int64_t step_ = 0;     ///< the last that was played
