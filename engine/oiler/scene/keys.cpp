@@ -218,7 +218,7 @@ constexpr std::array other_keys{
              "anchored springs: none, at both ends of the top row, at the whole top row",
              hang_words},
     SceneKey{"grid", "contact", number, "m", not_negative, "0.5", "passes through obstacles",
-             "per body; linked bodies bounce at the end of a step, with order 1"},
+             "per body; linked bodies land with order 1"},
     SceneKey{"grid", "meets", lines, "", any, "[\"solid\"]", all_layers, of_meets},
     SceneKey{"grid", "radius", number, "m", positive, "0.1",
              "`contact` above 0, else 1/200 of the camera's height", ""},

@@ -73,16 +73,6 @@ template <std::floating_point T, int Axes>
 [[nodiscard]] Vec<T, Axes> with_surface(const TouchOf<T, Axes>& touch, const Vec<T, Axes>& v) {
     return touch.velocity == Vec<T, Axes>{} ? v : v + touch.velocity;
 }
-/// Whether a body that was at x, a step of `dt` s ago, passes a one-way obstacle.
-template <std::floating_point T, int Axes>
-[[nodiscard]] bool passes(const Near<T, Axes>& near, const Vec<T, Axes>& x, T dt, T radius) {
-    const ObstacleOf<T, Axes>& obstacle = near.obstacle;
-    const Vec<T, Axes> seen = place_beside(obstacle, x, -dt);
-    const T noise = hidden_distance(obstacle, State<T, Axes>{x, {}}, radius, T(0));
-    return gap(obstacle, seen, radius) < -near.deepest(2 * noise, radius) ||
-           (obstacle.is_one_way() && !bears_from(obstacle, normal(obstacle, seen)));
-}
-
 /// Turns a box to a face that no other obstacle covers, where a point at x is on the borders of
 /// several of its faces: a step through a covered one, behind the others, ends in another obstacle
 /// of those that the point touches. A box whose faces there are all covered is hidden.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "oiler/physics/contacts/landing.hpp"
 #include "oiler/sim/steps/area_crossings.hpp"
+#include "oiler/sim/steps/land_row.hpp"
 #include "oiler/sim/steps/short_steps.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 
@@ -199,32 +199,16 @@ private:
         store(state, columns_.motion, row);
         return std::nullopt;
     }
-    /// Steps a row among the obstacles near it. The first search goes twice as far as the free
-    /// step; a body that gets farther is stepped again, with a wider search.
+    /// The first search goes twice as far as the free step.
     Landed land(State<T, Axes>& state, std::size_t row, const Steps& step,
                 ShortSteps<T, Axes>& body) {
-        const State<T, Axes> start = state;
-        const std::size_t known = impacts_.size();
         const T dt = step.rate.template dt<T>();
         const State<T, Axes> end = load<T>(columns_.motion, row);
-        T way = obstacles().any_bounded() ? (length(start.v) + length(end.v - start.v)) * 2 * dt
-                                          : std::numeric_limits<T>::infinity();
-        for (;; way = 2 * (way + length(state.x - start.x))) {
-            obstacles().find_near(start.x, way, radius()[row], columns_.contacts.meets(row),
-                                  step.first, dt, nears_);
-            impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(known), impacts_.end());
-            std::size_t index = 0;
-            const auto report = [&](const ImpactOf<T, Axes>& impact) {
-                impacts_.push_back({step.first, row, index++, impact});
-            };
-            state = start;
-            Landing landing(std::span<Near<T, Axes>>(nears_), way, radius()[row], body, report);
-            if (columns_.contacts.is_crushed(row)) landing.stay_crushed(state, dt);
-            const Landed landed = landing.step(state, dt);
-            if (landed == Landed::strayed) continue;
-            columns_.contacts.set_crushed(row, landing.is_crushed(state));
-            return landed;
-        }
+        const T way = obstacles().any_bounded()
+                          ? (length(state.v) + length(end.v - state.v)) * 2 * dt
+                          : std::numeric_limits<T>::infinity();
+        return land_row<T, Axes>(columns_.contacts, state, row, {step.first, dt}, way, body,
+                                 impacts_, nears_);
     }
     [[nodiscard]] Damping damping() const { return steps_.damping.value_or(call_.method.damping); }
     void put_to_sleep(State<T, Axes>& state, std::size_t row, std::int64_t tick) {

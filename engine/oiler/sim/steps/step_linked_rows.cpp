@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "oiler/physics/advance.hpp"
-#include "oiler/physics/contacts/landing.hpp"
 #include "oiler/physics/response.hpp"
 #include "oiler/sim/kernels/kernels.hpp"
 #include "oiler/sim/links/held_dampers.hpp"
@@ -15,6 +14,7 @@
 #include "oiler/sim/links/link_solver.hpp"
 #include "oiler/sim/links/point_links.hpp"
 #include "oiler/sim/steps/area_crossings.hpp"
+#include "oiler/sim/steps/land_row.hpp"
 #include "oiler/sim/steps/step_rows.hpp"
 #include "oiler/sim/store/columns.hpp"
 #include "oiler/sim/store/links.hpp"
@@ -22,90 +22,93 @@
 namespace oiler {
 namespace {
 
-/// The landing of a linked row at the end of a step of `dt` s from tick `tick`: a row in an
-/// obstacle is moved out of it, and bounces with the normal speed that it had at the start of the
-/// step. `before` is the state at the start of the step. Returns whether the state changed.
+/// The motion of a linked row in a step: the links act on it by the mean acceleration of the step
+/// without obstacles, because the motions of rows depend on each other.
 template <std::floating_point T, int Axes>
-bool land_linked_row(Columns<T, Axes>& columns, const State<T, Axes>& before, std::size_t row,
-                     std::int64_t tick, T dt, std::vector<Near<T, Axes>>& nears) {
-    auto& contacts = columns.contacts;
-    const T radius = contacts.radius[row];
-    State<T, Axes> state = load<T>(columns.motion, row);
-    contacts.obstacles.find_near(state.x, length(state.x - before.x), radius, contacts.meets(row),
-                                 tick + 1, dt, nears);
-    const auto gap_of = [&](const Near<T, Axes>& near, const Vec<T, Axes>& x) {
-        return gap(near, x, T(0), radius);
-    };
-    bool any = false;
-    std::size_t index = 0;
-    for (Near<T, Axes>& near : nears) {
-        renew_normal(near, state.x, T(0));
-        const T below = -gap_of(near, state.x);
-        if (!(below > 0) || passes(near, before.x, dt, radius)) continue;
-        any = near.met = true;
-        state.x += near.normal * below;
-        const Vec<T, Axes> v = state.v - near.velocity;
-        const T speed = -leaving_speed(near, v);
-        if (!(speed > 0)) continue;
-        const T fallen = -leaving_speed(near, before.v - near.velocity);
-        const T kept = near.restitution * std::max(fallen, T(0));
-        // Whether all later flights would end within a step.
-        const bool rests = 2 * kept <= (1 - near.restitution) * (speed - fallen);
-        const Vec<T, Axes> into = state.v;
-        state.v = with_surface(near, pushed_off(near, landed(near, v, speed), rests ? T(0) : kept));
-        if (fallen > hidden_speed(v))
-            contacts.impacts.push_back(
-                {tick,
-                 row,
-                 index++,
-                 {Meeting::bounce, near.index, dt, state.x, near.normal, into, state.v}});
+class MeanMotion {
+public:
+    using Vector = Vec<T, Axes>;
+    using Motion = State<T, Axes>;
+
+    MeanMotion(const Motion& from, const Motion& to, T dt)
+        : a_((to.v - from.v) * (1 / dt)),
+          shift_((to.x - from.x) * (1 / dt) - (from.v + to.v) * T(0.5)) {}
+
+    [[nodiscard]] Motion fly(const Motion& from, T, T tau) const { return move(from, a_, tau); }
+    /// With the shift that the method gives the row along the obstacles, so that long slides on
+    /// springs keep the method's stability.
+    [[nodiscard]] Motion slide(const Motion& from, T, T tau, const Support<T, Axes>& support,
+                               const Friction<T, Axes>& friction) const {
+        const Vector change = friction.change(tau / 2);
+        const T grip = support.grip(a_ - change);
+        const Vector free = support.without_push(a_ - change) + change;
+        Motion end = move(from, grip == 0 ? free : free + friction.against(from.v) * grip, tau);
+        end.x += support.change_without_push(shift_) * tau;
+        return end;
     }
-    if (!any) return false;
-    if (nears.size() > 1) {
-        // A bounce or a move off one obstacle may go into another.
-        state.v = Support<T, Axes>::against_velocity(state.v, nears, [](const auto& near) {
-                      return near.met;
-                  }).following(state.v);
-        lift_onto<T, Axes>(
-            nears, state.x,
-            [&](const Near<T, Axes>& near, const Vec<T, Axes>& x) {
-                return passes(near, before.x, dt, radius) ? std::numeric_limits<T>::infinity()
-                                                          : gap_of(near, x);
-            },
-            [&](const Near<T, Axes>& near) {
-                return hidden_distance(near.obstacle, state, radius, dt);
-            },
-            [&](Near<T, Axes>&) {
-                for (Near<T, Axes>& near : nears) renew_normal(near, state.x, T(0));
-            });
+    [[nodiscard]] Vector accelerate(const Motion&, T) const { return a_; }
+    [[nodiscard]] static constexpr bool forces_change() { return false; }
+
+private:
+    [[nodiscard]] static Motion move(const Motion& from, const Vector& a, T tau) {
+        return {from.x + (from.v + a * (tau / 2)) * tau, from.v + a * tau};
     }
-    // Friction holds a body at rest where it is.
-    if (before.v == Vec<T, Axes>{} && state.v == Vec<T, Axes>{}) state.x = before.x;
-    store(state, columns.motion, row);
-    return true;
+
+    Vector a_;      ///< m/s²
+    Vector shift_;  ///< m/s
+};
+
+/// Whether a row may meet one of the obstacles near it in a step.
+template <std::floating_point T, int Axes>
+bool may_meet_any(const std::vector<Near<T, Axes>>& nears, const State<T, Axes>& from, T way,
+                  T radius) {
+    return std::ranges::any_of(nears, [&](const Near<T, Axes>& near) {
+        return near.obstacle.bounded || near.obstacle.course.moves() ||
+               gap(near, from.x, T(0), radius) <= way;
+    });
 }
 
-/// Lets linked rows land at the end of a step, because their motions depend on each other. This has
-/// order 1 with every method. Returns whether any state changed.
+/// Lets linked rows land, and tells whether any state `changed`. This has order 1 with every
+/// method. Returns the first row whose impacts have no end.
 template <std::floating_point T, int Axes>
-bool land_linked_rows(Columns<T, Axes>& columns, const MotionColumns<T, Axes>& before,
-                      std::int64_t tick, T dt) {
-    bool any = false;
-    std::vector<Near<T, Axes>>& nears = columns.contacts.nears_of_parts.front();
+std::optional<Divergence> land_linked_rows(Columns<T, Axes>& columns,
+                                           const MotionColumns<T, Axes>& before, std::int64_t tick,
+                                           T dt, bool& changed) {
     auto& contacts = columns.contacts;
     const auto earlier = static_cast<std::ptrdiff_t>(contacts.impacts.size());
+    std::vector<Near<T, Axes>>& nears = contacts.nears_of_parts.front();
     for (std::size_t row = 0; row < columns.size; ++row) {
         if (contacts.radius[row] == Contacts<T, Axes>::no_contact) continue;
         const State<T, Axes> start = load<T>(before, row);
+        const State<T, Axes> end = load<T>(columns.motion, row);
         const std::size_t known = contacts.impacts.size();
-        any |= land_linked_row(columns, start, row, tick, dt, nears);
+        const T way = largest_way(start, end, dt) +
+                      contacts.obstacles.hidden_way(start.x, contacts.radius[row]);
+        contacts.obstacles.find_near(start.x, way, contacts.radius[row], contacts.meets(row), tick,
+                                     dt, nears);
+        if (may_meet_any(nears, start, way, contacts.radius[row])) {
+            MeanMotion<T, Axes> body(start, end, dt);
+            State<T, Axes> state = start;
+            const Landed landed = land_row<T, Axes>(contacts, state, row, {tick, dt}, way, body,
+                                                    contacts.impacts, nears);
+            if (landed == Landed::unresolved)
+                return Divergence{tick + 1, row, 0, Divergence::Of::impacts};
+            const State<T, Axes> free = body.fly(start, T(0), dt);
+            const bool is_in_any = std::ranges::any_of(nears, [&](const Near<T, Axes>& near) {
+                return gap(near, end.x, dt, contacts.radius[row]) < 0;
+            });
+            if (is_in_any || state.x != free.x || state.v != free.v) {
+                store(state, columns.motion, row);
+                changed = true;
+            }
+        }
         if (!contacts.areas.empty())
             AreaCrossings(contacts, row, tick, dt)
                 .list(start, load<T>(columns.motion, row), contacts.impacts, known,
                       contacts.impacts.size(), nears);
     }
     std::sort(contacts.impacts.begin() + earlier, contacts.impacts.end());
-    return any;
+    return std::nullopt;
 }
 
 /// The physics that a method steps: all rows and the links between them.
@@ -184,9 +187,11 @@ public:
             });
     }
 
-    void land(std::int64_t tick, T dt) {
-        if (land_linked_rows<T, Axes>(columns_, cache_.before, tick, dt))
-            cache_.field_valid = false;
+    [[nodiscard]] std::optional<Divergence> land(std::int64_t tick, T dt) {
+        bool changed = false;
+        const auto lost = land_linked_rows<T, Axes>(columns_, cache_.before, tick, dt, changed);
+        if (changed) cache_.field_valid = false;
+        return lost;
     }
 
     /// Puts rows to sleep by the rule of rows without links.
@@ -399,6 +404,7 @@ std::optional<Divergence> step_linked_rows(const StepCall<T, Axes>& call) {
     const Steps& steps = call.steps;
     LinkedRows<T, Axes> physics(call);
     const bool lands = columns.contacts.possible();
+    if (lands) columns.contacts.crushed.resize(columns.size);
     return std::visit(
         [&]<class Rule>(const Rule& rule) -> std::optional<Divergence> {
             for (std::int64_t j = 0; j < steps.count; ++j) {
@@ -408,7 +414,9 @@ std::optional<Divergence> step_linked_rows(const StepCall<T, Axes>& call) {
                 if constexpr (!std::is_same_v<Rule, ExactPlan<T>>)
                     if (!advance(rule, columns.motion, physics, steps.rate.time(tick - 1)))
                         return Divergence{tick, 0, 0, Divergence::Of::solution};
-                if (lands) physics.land(tick - 1, steps.rate.template dt<T>());
+                if (lands)
+                    if (const auto lost = physics.land(tick - 1, steps.rate.template dt<T>()))
+                        return lost;
                 if (is_sleep_tick(tick))
                     physics.put_to_sleep(columns.motion, steps.rate.time(tick));
                 if (const auto found = physics.find_divergence(tick)) return found;
